@@ -42,6 +42,10 @@ struct OptionNames {
   OptionName dark{"dark"};
   OptionName inlierRate{"inlier-rate"};
   OptionName noiseMargin{"noise-margin"};
+  // fitting
+  OptionName kernel{"kernel"};
+  OptionName cohesionWeight{"cohesion-weight"};
+  OptionName seamSweeps{"seam-sweeps"};
   // surfaces and meshes that are written
   OptionName edge{"edge"};
   OptionName maxError{"max-error"};

@@ -31,10 +31,6 @@ std::optional<Number> numberIn(const std::string& text) {
   return value;
 }
 
-std::string foundText(const std::string& text, const std::string& expected) {
-  return "found " + (text.empty() ? "nothing" : text) + ", expected " + expected;
-}
-
 std::vector<std::string> textsOf(const std::vector<std::int64_t>& numbers) {
   std::vector<std::string> texts;
   for (const std::int64_t number : numbers) texts.push_back(std::to_string(number));
@@ -152,41 +148,6 @@ void take(const OptionRow& row, const formats::ParameterValue& found) {
 
 }  // namespace
 
-bool NumberRange::holds(double value) const {
-  return std::isfinite(value) && (openLow ? value > low : value >= low) &&
-         (openHigh ? value < high : value <= high);
-}
-
-std::string NumberRange::text() const {
-  const bool bounded = high != std::numeric_limits<double>::max();
-  if (bounded && !openLow && !openHigh)
-    return "a number from " + numberText(low) + " to " + numberText(high);
-  std::string text =
-      "a number " + (openLow ? "above " : std::string("of at least ")) + numberText(low);
-  if (bounded) text += (openHigh ? " and below " : " and at most ") + numberText(high);
-  return text;
-}
-
-std::string WholeRange::text() const {
-  return "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
-}
-
-ValueCheck oneOf(std::vector<std::string> words) {
-  return [words = std::move(words)](const std::string& text) -> std::string {
-    if (contains(words, text)) return {};
-    return foundText(text, alternatives(words)) + didYouMean(text, words);
-  };
-}
-
-ValueCheck fileName() {
-  return [](const std::string& text) -> std::string {
-    if (text.empty()) return "the name of a file is empty; is a variable of the shell not set?";
-    if (text != "-") return {};
-    return "found -, expected the name of a file; lumen neither reads standard input nor writes "
-           "files to standard output (./- is a file of that name)";
-  };
-}
-
 std::string OptionRow::faultOf(const std::string& text) const {
   if (!words.empty()) return oneOf(words)(text);
   if (!numbers.empty()) {
@@ -279,8 +240,16 @@ OptionRow& OptionRow::alsoCalled(std::string other) {
   alias = std::move(other);
   return *this;
 }
-OptionRow& OptionRow::onlyWith(std::string other) {
-  needs = std::move(other);
+OptionRow& OptionRow::onlyWith(std::string other, std::string value) {
+  needs.push_back({std::move(other), std::move(value)});
+  return *this;
+}
+OptionRow& OptionRow::notBeside(std::string other) {
+  idleWith.push_back(std::move(other));
+  return *this;
+}
+OptionRow& OptionRow::idleIf(std::function<std::string()> reason) {
+  idle = std::move(reason);
   return *this;
 }
 OptionRow& OptionRow::forInputs(ContentMask mask) {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,43 +14,10 @@
 #include <variant>
 #include <vector>
 
+#include "converters/base/option_value.h"
 #include "formats/case/case.h"
 
 namespace lumen {
-
-/// Range of an option's number, ends included unless they are open.
-struct NumberRange {
-  double low = -std::numeric_limits<double>::max();
-  double high = std::numeric_limits<double>::max();
-  bool openLow = false, openHigh = false;
-
-  [[nodiscard]] bool holds(double value) const;
-  /// "a number from 0 to 1", "a number above 0 and at most 2", "a number of at least 0".
-  [[nodiscard]] std::string text() const;
-};
-
-/// Range of an option's whole number, ends included.
-struct WholeRange {
-  std::int64_t low = 0;
-  std::int64_t high = std::numeric_limits<std::int32_t>::max();
-
-  /// "a whole number from 0 to 100".
-  [[nodiscard]] std::string text() const;
-};
-
-/// A kilometre in mm: no length in a body is as great.
-constexpr double kLongest = 1e6;
-constexpr NumberRange kPositive{0, kLongest, true};
-constexpr NumberRange kNotNegative{0, kLongest};
-
-/// A fault of one value as the end of a sentence, "found 2, expected a number from 0 to 1", or
-/// empty.
-using ValueCheck = std::function<std::string(const std::string&)>;
-
-/// One of the given words. A misspelt word gets a "did you mean".
-ValueCheck oneOf(std::vector<std::string> words);
-/// A name of a file or folder: not empty, and not "-", which other programs take for a stream.
-ValueCheck fileName();
 
 /// Variable of an option's value. A function receives the texts of all values.
 using OptionTarget =
@@ -62,6 +28,12 @@ using OptionTarget =
 /// Kinds of inputs and outputs as sets of bits, defined by the caller of operations.
 using ContentMask = std::uint32_t;
 constexpr ContentMask kAnyContent = ~ContentMask{0};
+
+/// Another option that a row needs.
+struct OptionNeed {
+  std::string option;
+  std::string word;  ///< the value of it that counts; empty: any
+};
 
 /// One option or argument. Texts are for people: help, messages, manual page.
 struct OptionRow {
@@ -91,13 +63,22 @@ struct OptionRow {
 
   ContentMask inputs = kAnyContent;   ///< inputs for which it counts
   ContentMask outputs = kAnyContent;  ///< outputs for which it counts
-  std::string needs;                  ///< the option without which it does nothing
+  std::vector<OptionNeed> needs;      ///< without any of these options it does nothing
+  std::vector<std::string> idleWith;  ///< names of options beside which it does nothing
+  /// The reason why its value does nothing beside the values of other rows, as the end of a
+  /// sentence; empty if it counts.
+  std::function<std::string()> idle;
 
   bool isGiven = false;                  ///< set() was called
   bool isPreference = false;             ///< a configuration file states the value
   std::vector<std::string> givenValues;  ///< values of the last set()
 
   [[nodiscard]] bool isFlag() const { return !isArgument && count == 0; }
+  /// It is given, and is no flag that is switched off.
+  [[nodiscard]] bool isOn() const {
+    const auto flag = std::get_if<bool*>(&target);
+    return isGiven && (flag == nullptr || **flag);
+  }
   /// The name as people write it: "--inlier-rate", "CASE".
   [[nodiscard]] std::string shownName() const { return isArgument ? name : "--" + name; }
   /// The given values with spaces between them, or the default.
@@ -120,7 +101,10 @@ struct OptionRow {
   OptionRow& without(std::string other);
   OptionRow& inGroup(std::string title);
   OptionRow& alsoCalled(std::string other);
-  OptionRow& onlyWith(std::string other);
+  /// Where it is called several times, one of the options is enough.
+  OptionRow& onlyWith(std::string other, std::string value = {});
+  OptionRow& notBeside(std::string other);
+  OptionRow& idleIf(std::function<std::string()> reason);
   OptionRow& forInputs(ContentMask mask);
   OptionRow& forOutputs(ContentMask mask);
 };

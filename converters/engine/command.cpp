@@ -32,14 +32,9 @@ void setArguments(OptionTable& table, const std::vector<std::string>& arguments)
 }
 
 void requireGiven(const OptionTable& table) {
-  for (const OptionRow& row : table.rows()) {
+  for (const OptionRow& row : table.rows())
     if (row.isRequired && !row.isGiven)
       throw Error(ErrorKind::Usage, row.shownName() + " is missing");
-    for (const std::string& other : row.excludes)
-      if (const OptionRow* found = table.find(other); row.isGiven && found && found->isGiven)
-        throw Error(ErrorKind::Usage,
-                    row.shownName() + " and " + found->shownName() + " exclude one another");
-  }
 }
 
 }  // namespace
@@ -48,6 +43,15 @@ void setRows(OptionTable& table, const Operation& operation) {
   setArguments(table, operation.arguments);
   for (const auto& [name, values] : operation.options) table.set(name, values);
   requireGiven(table);
+  requireCompatible(table);
+}
+
+void requireCompatible(const OptionTable& table) {
+  for (const OptionRow& row : table.rows())
+    for (const std::string& other : row.excludes)
+      if (const OptionRow* found = table.find(other); row.isGiven && found && found->isGiven)
+        throw Error(ErrorKind::Usage,
+                    row.shownName() + " and " + found->shownName() + " exclude one another");
 }
 
 std::vector<BoundCommand> Engine::commands() const {

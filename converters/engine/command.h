@@ -91,6 +91,9 @@ Engine makeEngine();
 /// Sets the rows by the operation. Throws Error(Usage).
 void setRows(OptionTable& table, const Operation& operation);
 
+/// Throws Error(Usage) for options that are given and exclude one another.
+void requireCompatible(const OptionTable& table);
+
 /// The first word of a command's name.
 inline std::string firstWord(const std::string& name) {
   return name.substr(0, name.find(' '));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/scope.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ const std::vector<NamedContent> kInputNames = {
     {kImage, "volumes of grey values"},
     {kLabels, "volumes of labels"},
     {kDicom, "folders of DICOM"},
+    {kFileVolumes, "files of volumes"},
     {kFileImage, "volumes of grey values"},
     {kFileLabels, "volumes of labels"},
     {kDicomImage, "folders of DICOM"},
@@ -48,6 +50,13 @@ std::string namesIn(ContentMask mask, const std::vector<NamedContent>& names) {
   return alternatives(found);
 }
 
+bool isMet(const OptionTable& table, const OptionNeed& need) {
+  const OptionRow* const row = table.find(need.option);
+  if (row == nullptr || !row->isOn()) return false;
+  const std::vector<std::string>& given = row->givenValues;
+  return need.word.empty() || std::find(given.begin(), given.end(), need.word) != given.end();
+}
+
 /// The reason why an option would do nothing, as the end of a sentence; empty if it counts.
 std::string idleReason(const OptionTable& table, const OptionRow& row, const Situation& situation) {
   if ((row.inputs & situation.input) == 0)
@@ -56,9 +65,11 @@ std::string idleReason(const OptionTable& table, const OptionRow& row, const Sit
   if ((row.outputs & situation.output) == 0)
     return "is for writing " + namesIn(row.outputs, kOutputNames) + ", and " +
            formats::printable(situation.outputName) + " is none of these";
-  const OptionRow* const needed = row.needs.empty() ? nullptr : table.find(row.needs);
-  if (needed != nullptr && !needed->isGiven) return "does nothing without " + needed->shownName();
-  return {};
+  for (const std::string& other : row.idleWith)
+    if (const OptionRow* const found = table.find(other); found != nullptr && found->isOn())
+      return "does nothing with " + found->shownName();
+  if (std::string reason = missingNeed(table, row.needs); !reason.empty()) return reason;
+  return row.idle ? row.idle() : std::string();
 }
 
 }  // namespace
@@ -85,13 +96,25 @@ ContentMask outputContent(const FileFormat& format) {
   return format.name == "stl" ? kStl : kOtherMesh;
 }
 
+std::string missingNeed(const OptionTable& table, const std::vector<OptionNeed>& needs) {
+  std::vector<std::string> names;
+  for (const OptionNeed& need : needs) {
+    if (isMet(table, need)) return {};
+    names.push_back("--" + need.option + (need.word.empty() ? "" : " " + need.word));
+  }
+  return names.empty() ? "" : "does nothing without " + alternatives(names);
+}
+
+void refuseIdle(const OptionRow& row, const std::string& reason, Progress& progress) {
+  if (!row.isPreference) throw Error(ErrorKind::Usage, row.shownName() + " " + reason);
+  progress.warn(row.shownName() + " of the configuration file is left out: it " + reason);
+}
+
 void requireInScope(const OptionTable& table, const Situation& situation, Progress& progress) {
   for (const OptionRow& row : table.rows()) {
     if (!row.isGiven || row.isArgument) continue;
     const std::string reason = idleReason(table, row, situation);
-    if (reason.empty()) continue;
-    if (!row.isPreference) throw Error(ErrorKind::Usage, row.shownName() + " " + reason);
-    progress.warn(row.shownName() + " of the configuration file is left out: it " + reason);
+    if (!reason.empty()) refuseIdle(row, reason, progress);
   }
 }
 

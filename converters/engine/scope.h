@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "converters/base/option_table.h"
 #include "converters/base/progress.h"
@@ -19,6 +20,7 @@ constexpr ContentMask kImage = kFileImage | kDicomImage;
 constexpr ContentMask kLabels = kFileLabels | kDicomLabels;
 constexpr ContentMask kDicom = kDicomImage | kDicomLabels;
 constexpr ContentMask kVolumes = kImage | kLabels;
+constexpr ContentMask kFileVolumes = kFileImage | kFileLabels;
 constexpr ContentMask kPlainMesh = 1 << 4;  ///< a mesh of a file that holds nothing else
 constexpr ContentMask kScene = 1 << 5;      ///< a mesh of a scene
 constexpr ContentMask kMeshes = kPlainMesh | kScene;
@@ -35,7 +37,8 @@ constexpr ContentMask kGltf = 1 << 2;
 constexpr ContentMask kStl = 1 << 3;
 constexpr ContentMask kOtherMesh = 1 << 4;
 constexpr ContentMask kAllMeshes = kGltf | kStl | kOtherMesh;
-constexpr ContentMask kTree = 1 << 5;  ///< a centerline
+constexpr ContentMask kTree = 1 << 5;                                    ///< a centerline
+constexpr ContentMask kModelled = kBinaryCase | kJsonCase | kAllMeshes;  ///< models show in them
 
 /// Contents of the files that are read and written; any where they do not matter.
 struct Situation {
@@ -49,10 +52,17 @@ ContentMask inputContent(const FileFormat& format, bool holdsLabels);
 /// One bit: the content of an output of this format.
 ContentMask outputContent(const FileFormat& format);
 
-/// Throws Error(Usage) for an option that is given and would do nothing: --stl-solids when a .glb
-/// is written. The message states for which inputs or outputs the option is, or which other option
-/// it needs. A preference of a configuration file is warned of instead, as such a file serves
-/// several runs.
+/// "does nothing without --seeds or --root", if the options of the table meet none of the needs; empty
+/// if they meet one, or there are none.
+std::string missingNeed(const OptionTable& table, const std::vector<OptionNeed>& needs);
+
+/// Throws Error(Usage) for the option of a row that would do nothing; `reason` ends the sentence. A
+/// preference of a configuration file is warned of instead, as such a file serves several runs.
+void refuseIdle(const OptionRow& row, const std::string& reason, Progress& progress);
+
+/// Refuses, as refuseIdle(), an option that is given and would do nothing: --stl-solids when a .glb
+/// is written. The message states for which inputs or outputs the option is, which other option it
+/// needs, or beside which one it does nothing.
 void requireInScope(const OptionTable& table, const Situation& situation, Progress& progress);
 
 }  // namespace lumen::engine

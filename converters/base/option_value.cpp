@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/base/option_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "converters/base/number_text.h"
+#include "converters/base/suggestion.h"
+
+namespace lumen {
+
+std::string foundText(const std::string& text, const std::string& expected) {
+  return "found " + (text.empty() ? "nothing" : text) + ", expected " + expected;
+}
+
+bool NumberRange::holds(double value) const {
+  return std::isfinite(value) && (openLow ? value > low : value >= low) &&
+         (openHigh ? value < high : value <= high);
+}
+
+std::string NumberRange::text() const {
+  const bool bounded = high != std::numeric_limits<double>::max();
+  if (bounded && !openLow && !openHigh)
+    return "a number from " + numberText(low) + " to " + numberText(high);
+  std::string text =
+      "a number " + (openLow ? "above " : std::string("of at least ")) + numberText(low);
+  if (bounded) text += (openHigh ? " and below " : " and at most ") + numberText(high);
+  return text;
+}
+
+std::string WholeRange::text() const {
+  return "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+}
+
+ValueCheck oneOf(std::vector<std::string> words) {
+  return [words = std::move(words)](const std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    return foundText(text, alternatives(words)) + didYouMean(text, words);
+  };
+}
+
+ValueCheck fileName() {
+  return [](const std::string& text) -> std::string {
+    if (text.empty()) return "the name of a file is empty; is a variable of the shell not set?";
+    if (text != "-") return {};
+    return "found -, expected the name of a file; lumen neither reads standard input nor writes "
+           "files to standard output (./- is a file of that name)";
+  };
+}
+
+}  // namespace lumen
