@@ -50,7 +50,7 @@ std::set<std::string> rootLabels(const formats::Case& value, const TrackArgument
 
 /// Leaves out what the user does not want. `named`: branches of seeds.
 void select(formats::Case& value, std::set<std::string> named, const TrackArguments& track) {
-  if (!track.isOnlyConnected) return;
+  if (!track.isOnlyConnected || (track.seeds.empty() && track.roots.empty())) return;
   named.merge(rootLabels(value, track));
   convert::leaveOutBranches(value, convert::unconnectedWith(value.tree, named));
 }
@@ -185,13 +185,6 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
 
 void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track) {
   apply(target, file, {}, track);
-}
-
-void requireHints(const TrackArguments& track) {
-  if (track.isOnlyConnected && track.seeds.empty() && track.roots.empty())
-    throw Error(ErrorKind::Usage, kOption.onlyConnected.shown() + " does nothing without " +
-                                      kOption.seeds.shown() + " or " + kOption.root.shown() +
-                                      ", which state the trees to keep");
 }
 
 }  // namespace lumen::engine

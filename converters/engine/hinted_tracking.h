@@ -35,7 +35,4 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
 /// Roots and selection of `track` for a case without seeds.
 void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track);
 
-/// Throws Error(Usage) for --only-connected with neither seeds nor roots.
-void requireHints(const TrackArguments& track);
-
 }  // namespace lumen::engine

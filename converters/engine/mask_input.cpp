@@ -11,6 +11,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/file_format.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
@@ -88,12 +89,6 @@ convert::LabelNames MaskArguments::table(const std::filesystem::path& file) cons
   if (std::find(known.begin(), known.end(), labelTable) == known.end())
     requireInput(labelTable, "table of labels");
   return convert::readLabelTable(labelTable);
-}
-
-formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat& format,
-                             const VolumeArguments& volume, const MaskArguments& arguments,
-                             Progress& progress) {
-  return caseOfMask(readVolumeFile(file, format, volume, progress), file, arguments, progress);
 }
 
 formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::path& file,

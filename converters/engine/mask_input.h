@@ -7,13 +7,10 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "converters/engine/file_format.h"
 #include "converters/stages/tracking/track_case.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 
 namespace lumen::engine {
-
-struct VolumeArguments;
 
 /// The user's statements about a volume of labels.
 struct MaskArguments {
@@ -33,16 +30,11 @@ struct MaskArguments {
   [[nodiscard]] convert::LabelNames table(const std::filesystem::path& file) const;
 };
 
-/// Tree and wall points of the labels in `volume`, which was read from `file`; as caseOfMaskFile().
+/// Tree and wall points of the labels in `volume`, which was read from `file`; a branch has the name
+/// of its label where there are several, or names were given. Throws Error(InvalidInput) for a
+/// volume without labels, and for labels that are no vessels.
 formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::path& file,
                          const MaskArguments& arguments, Progress& progress);
-
-/// Tree and wall points of the labels in `file`; a branch has the name of its label where there are
-/// several, or names were given. Throws Error(InvalidInput) for a file without labels, and for
-/// labels that are no vessels.
-formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat& format,
-                             const VolumeArguments& volume, const MaskArguments& arguments,
-                             Progress& progress);
 
 /// Names the branches of a case that was tracked in `volume`, read from `file`, by --label-map, and
 /// gives the remarks on `ends` the names that their branches have then. Warns if no branch lies on a

@@ -6,6 +6,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/parsed_number.h"
 #include "converters/engine/scope.h"
 
 namespace lumen::engine {
@@ -24,6 +25,17 @@ void setEdge(convert::EdgeLength& edge, const std::string& text) {
   const convert::Length length = convert::parseLength(text, kOption.edge.shown());
   edge.share = length.radii;
   if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
+}
+
+/// A bound of edges that are shares of the radius; `bound` is a member of `edge`.
+OptionRow& addBound(OptionTable& table, const std::string& name, convert::EdgeLength& edge,
+                    double& bound, const std::string& help) {
+  const auto store = [&edge, &bound](const std::vector<std::string>& texts) {
+    if (edge.share > 0) bound = parsedNumber(texts.back()).value_or(bound);
+  };
+  return table.add(name, OptionTarget(store), "MM", help).without("patches").idleIf([&edge] {
+    return edge.share > 0 ? "" : "does nothing with " + kOption.edge.shown() + " in mm";
+  });
 }
 
 /// "0.25r"
@@ -105,6 +117,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
            "Drop triangles while the surface stays within this distance of the full one, both "
            "ways; 0: none")
       .in(kNotNegative)
+      .defaults("0")
       .without("patches");
 }
 
@@ -113,13 +126,11 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
   table.group("Mesh");
   table.scope(kAnyContent, kAllMeshes);
   addSurfaceRows(table, surface);
-  table.add("edge-min", &surface.edge.minimum, "MM", "Least length of edges")
+  convert::EdgeLength& edge = surface.edge;
+  addBound(table, "edge-min", edge, edge.minimum, "Least length of edges")
       .in(kNotNegative)
-      .without("patches");
-  table.add("edge-max", &surface.edge.maximum, "MM", "Greatest length of edges")
-      .in(kPositive)
-      .defaults("")
-      .without("patches");
+      .defaults("0");
+  addBound(table, "edge-max", edge, edge.maximum, "Greatest length of edges").in(kPositive);
   table
       .scaled(kOption.gap.name, surface.gap, "Distance that touching vessels keep",
               "0.1 voxels, or 0.05 of the least radius")

@@ -119,7 +119,7 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
       .add(kOption.volumeIndex.name, &volume.volumeIndex, "N",
            "Volume of a file that holds several, such as a 4-D NIfTI; the first is 0")
       .in(WholeRange{})
-      .forInputs(kFileImage | kFileLabels);
+      .forInputs(kFileVolumes);
   OptionRow& crop = table.add(kOption.crop.name, &volume.crop, "I0,I1,J0,J1,K0,K1",
                               "Keep this box of voxel indices only, ends included");
   crop.in(WholeRange{});
@@ -134,14 +134,14 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
            "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
            "whatever the file states")
       .among(wordsOf(millimetresByUnit()))
-      .forInputs(kVolumes | kMeshes | kCenterline);
+      .forInputs(kFileVolumes | kMeshes | kCenterline);
   table
       .add(kOption.allowDetached.name, &volume.allowDetached, "PATH",
            "Allow a header to take its voxels, or a scene its mesh, from this file, or from below "
            "this folder; otherwise only from its own folder. May be given several times")
       .checkedBy(fileName())
       .many()
-      .forInputs(kVolumes | kScene);
+      .forInputs(kFileVolumes | kScene);
   table.scope(kAnyContent);
   table.group("");
 }
@@ -181,7 +181,9 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
   table
       .flag(kOption.onlyConnected.name, track.isOnlyConnected,
             "Leave out trees in which no seed and no root lies")
-      .forInputs(kImage | kLabels);
+      .forInputs(kImage | kLabels)
+      .onlyWith(kOption.seeds.name)
+      .onlyWith(kOption.root.name);
   table
       .flag("seeds-only", track.isSeedsOnly,
             "Track from the seeds alone, instead of taking them as hints on the vessels that are "
@@ -229,8 +231,9 @@ void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
           kOption.labelMap.name, mask.labelMap,
           "Volume of labels by which the branches that are found get their names; its grid may be "
           "another")
-      .forInputs(kImage)
-      .without(kOption.seeds.name);
+      .forInputs(kVolumes)
+      .without(kOption.seeds.name)
+      .without(kOption.labels.name);
   table
       .file(
           kOption.labelTable.name, mask.labelTable,
@@ -260,7 +263,7 @@ void addMaskRows(OptionTable& table, MaskArguments& mask) {
 }
 
 void addFitRows(OptionTable& table, convert::FitOptions& fit) {
-  table.scope(kFitted);
+  table.scope(kFitted, kModelled);
   fit.addRows(table);
   table.scope(kAnyContent);
   table.group("");
@@ -276,6 +279,7 @@ void addEncodingRows(OptionTable& table, formats::EncodeOptions& encoding) {
            "Round wall points to N bits in their bounding box, 1 to 30 [exact]")
       .in(WholeRange{1, 30})
       .defaults("")
+      .forInputs(kVolumes | kMeshes | kCases)
       .forOutputs(kBinaryCase | kJsonCase);
   table.scope(kAnyContent);
   table.group("");

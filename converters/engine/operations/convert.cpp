@@ -2,6 +2,7 @@
 // lumen convert: a volume, tracked and fitted, a centerline, fitted, or a case, as a case, a mesh
 // or a centerline.
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
@@ -17,6 +18,7 @@
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/surface/patches/cell_size.h"
+#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
@@ -66,12 +68,12 @@ public:
     const FileFormat& from = inputFormat(m_input, m_from);
     m_situation = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
     if (from.kind != FormatKind::Case) requireInScope(*around.table, m_situation, around.progress);
-    if (from.kind == FormatKind::Volume) requireHints(m_track);
     if (from.kind == FormatKind::Volume && !m_track.seeds.empty()) m_seeds = loadSeeds(m_track);
     requireWritable(m_output, contentKind(to));
     around.willWrite(m_output);
 
-    formats::Case value = load(from, around.progress);
+    formats::Case value = load(from, around);
+    requirePoints(value, around);
     complete(value, from, to, around);
     around.progress.check();
     const std::optional<convert::Reach> reach = convert::reachOf(value, around.progress);
@@ -81,7 +83,8 @@ public:
   }
 
 private:
-  formats::Case load(const FileFormat& from, Progress& progress) {
+  formats::Case load(const FileFormat& from, Surroundings& around) {
+    Progress& progress = around.progress;
     if (from.kind == FormatKind::Mesh) {
       CaseOfMeshFile made = caseOfMeshFile(m_input, from, meshArguments(), progress);
       m_meshFrame = std::move(made.frame);
@@ -100,19 +103,13 @@ private:
       if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
       return convert::caseOfCenterline(loaded.file, m_input);
     }
-    if (m_mask.isGiven()) {
-      formats::Case made = caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
-      applyRoots(made, m_input, m_track);
-      return made;
-    }
     const convert::Volume volume = readVolumeFile(m_input, from, m_volume, progress);
+    if (m_mask.isGiven()) return caseOfLabels(volume, progress);
     if (m_seeds.empty() && convert::holdsLabels(volume)) {
       progress.detail(m_input + ": its voxels are labels, and all but 0 are taken for vessels");
-      formats::Case made = caseOfMask(volume, m_input, m_mask, progress);
-      if (!m_mask.labelMap.empty())
-        nameByLabelMap(volume, m_input, m_mask, made, m_remarks.ends, progress);
-      applyRoots(made, m_input, m_track);
-      return made;
+      m_situation.input = inputContent(from, true);
+      requireInScope(*around.table, m_situation, progress);
+      return caseOfLabels(volume, progress);
     }
     if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
     convert::TrackResult tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
@@ -121,6 +118,23 @@ private:
     m_repetition = repeatTracks(volume, m_input, m_seeds, m_track, tracked.result, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);
+  }
+
+  [[nodiscard]] formats::Case caseOfLabels(const convert::Volume& volume, Progress& progress) {
+    formats::Case made = caseOfMask(volume, m_input, m_mask, progress);
+    if (!m_mask.labelMap.empty())
+      nameByLabelMap(volume, m_input, m_mask, made, m_remarks.ends, progress);
+    applyRoots(made, m_input, m_track);
+    return made;
+  }
+
+  /// Refuses to round wall points that a case does not have.
+  void requirePoints(const formats::Case& value, Surroundings& around) const {
+    const OptionRow& row = *around.table->find("point-bits");
+    if (row.isGiven && (!value.points || value.points->position.empty()))
+      refuseIdle(row,
+                 "is for cases with wall points, and " + formats::printable(m_input) + " has none",
+                 around.progress);
   }
 
   [[nodiscard]] MeshArguments meshArguments() const {
@@ -144,7 +158,20 @@ private:
       if (meshNeedsModels) m_situation.input = kUnfittedCase;
       requireInScope(*around.table, m_situation, around.progress);
     }
-    if (isNew || meshNeedsModels) convert::fit(value, fitOptionsFor(value, m_fit), around.progress);
+    if (isNew || meshNeedsModels) fit(value, around);
+  }
+
+  void fit(formats::Case& value, Surroundings& around) const {
+    convert::FitOptions options = fitOptionsFor(value, m_fit);
+    if (around.table->find(kOption.cohesionWeight.name)->isGiven)
+      options.cohesionWeight = m_fit.cohesionWeight;
+    const OptionRow& scale = *around.table->find("cohesion-scale");
+    if (scale.isGiven && !(options.cohesionWeight > 0))
+      refuseIdle(scale,
+                 "does nothing without " + kOption.cohesionWeight.shown() +
+                     ", which is 0 for a case without voxels",
+                 around.progress);
+    convert::fit(value, options, around.progress);
   }
 
   [[nodiscard]] Answer report(const formats::Case& value,

@@ -6,6 +6,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/reachable_answer.h"
+#include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 
 namespace lumen::engine {
@@ -34,6 +35,7 @@ public:
     requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the fitted tree");
     requireInput(m_input, "case file");
+    requireInScope(*around.table, {}, around.progress);
     requireWritable(m_output, convert::ContentKind::Case);
     around.willWrite(m_output);
 

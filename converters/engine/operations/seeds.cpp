@@ -63,7 +63,7 @@ public:
     addVolumeRows(table, m_volume);
     table.scope(kImage);
     table.group("Tracking");
-    m_options.addRows(table);
+    m_options.addFoundRows(table);
     table.scope(kAnyContent);
     table.group("");
     addFormatRow(table, "from", m_from, "VOLUME");

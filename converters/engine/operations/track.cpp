@@ -47,7 +47,6 @@ public:
     }
     requireInScope(*around.table, {inputContent(from, false), outputContent(to), m_input, m_output},
                    around.progress);
-    requireHints(m_track);
     std::vector<convert::SeedBranch> seeds;
     if (!m_track.seeds.empty()) seeds = loadSeeds(m_track);
     requireWritable(m_output, convert::ContentKind::Case);

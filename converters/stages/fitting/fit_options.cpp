@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "formats/field/kernel.h"
 #include "formats/view/text_rules.h"
 
@@ -50,14 +51,22 @@ void scaleWithVoxel(const char* name, std::optional<double>& value, double voxel
 void FitOptions::addRows(OptionTable& table) {
   table.group("Fitting");
   OptionRow& kernelRow =
-      table.choice("kernel", kernel, kernelsByName(), "Radial kernel").recorded();
+      table.choice(kOption.kernel.name, kernel, kernelsByName(), "Radial kernel").recorded();
   kernelRow.type = "NAME";
   table
       .add("kernel-parameter", &kernelParameter, "X",
            "Cauchy's s^2 [0.2] or the Gaussian's a^2 [0.5]")
       .in(kScale)
-      .recorded();
-  table.add("cohesion-weight", &cohesionWeight, "W", "Weight alpha of the Lennard-Jones energy")
+      .recorded()
+      .idleIf([this] {
+        const std::string name(field::kKernelNames.at(static_cast<std::size_t>(kernel)));
+        return field::hasParameter(kernel) ? ""
+                                           : "does nothing with " + kOption.kernel.shown() + " " +
+                                                 name + ", which has no parameter";
+      });
+  table
+      .add(kOption.cohesionWeight.name, &cohesionWeight, "W",
+           "Weight alpha of the Lennard-Jones energy")
       .in(kWeight)
       .recorded();
   table.add("curvature-weight", &curvatureWeight, "W", "Weight beta of the curvature energy")
@@ -65,7 +74,11 @@ void FitOptions::addRows(OptionTable& table) {
       .recorded();
   table.add("cohesion-scale", &cohesionScale, "S", "Scale s of the Lennard-Jones energy")
       .in(kScale)
-      .recorded();
+      .recorded()
+      .idleIf([this] {
+        return cohesionWeight > 0 ? ""
+                                  : "does nothing with " + kOption.cohesionWeight.shown() + " 0";
+      });
   table.add("max-subdivisions", &maxSubdivisions, "N", "Most blob subdivisions in one node")
       .in(WholeRange{0, 1000})
       .recorded();
@@ -74,12 +87,17 @@ void FitOptions::addRows(OptionTable& table) {
            "Topological distance of the nodes whose points a node is fitted to")
       .in(WholeRange{0, 100})
       .recorded();
-  table.add("seam-sweeps", &seamSweeps, "N", "Sweeps that tie adjacent models to one another")
+  table
+      .add(kOption.seamSweeps.name, &seamSweeps, "N",
+           "Sweeps that tie adjacent models to one another")
       .in(WholeRange{0, 100})
       .recorded();
   table.add("seam-weight", &seamWeight, "W", "Weight of a tie, in wall points")
       .in(kWeight)
-      .recorded();
+      .recorded()
+      .idleIf([this] {
+        return seamSweeps > 0 ? "" : "does nothing with " + kOption.seamSweeps.shown() + " 0";
+      });
   table.scaled("iso-level", isoLevel, "Iso-level T", "half a voxel").recorded();
   table.scaled("accuracy", accuracy, "Subdivide until no point is farther than this", "1.5 voxels")
       .recorded();

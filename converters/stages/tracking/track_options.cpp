@@ -36,24 +36,36 @@ void addSearchRows(TrackOptions& o, OptionTable& table) {
       .recorded();
 }
 
+/// Rows of tracks that advance from a seed. A vessel that is found has its course, and takes no steps.
 void addAdvanceRows(TrackOptions& o, OptionTable& table) {
-  table.add("step", &o.step, "S", "Prediction step, in cylinder heights")
+  const char* const seeds = kOption.seeds.name;
+  table.add("step", &o.step, "S", "Prediction step from a seed on, in cylinder heights")
       .in(NumberRange{0, 2, true})
-      .recorded();
-  table
-      .add(kOption.noiseMargin.name, &o.noiseMargin, "X",
-           "A node below the inlier rate needs a wall this many times as strong as noise")
-      .in(NumberRange{0, 100})
-      .recorded();
+      .recorded()
+      .onlyWith(seeds);
   table
       .add("look-ahead", &o.lookAhead, "N",
            "Steps to look beyond a place where nothing fits; 0: stop there")
       .in(WholeRange{0, 100})
-      .recorded();
+      .recorded()
+      .onlyWith(seeds);
   table
       .add("branch-offset", &o.branchOffset, "S",
-           "A child starts this many parent radii from its parent's centerline")
+           "The track of a child's seed starts this many parent radii from its parent's centerline")
       .in(NumberRange{0, 10, true})
+      .recorded()
+      .onlyWith(seeds);
+  table.add("max-nodes", &o.maxNodes, "N", "Bound on the nodes of one track from a seed")
+      .in(WholeRange{2})
+      .recorded()
+      .onlyWith(seeds);
+}
+
+void addWallRows(TrackOptions& o, OptionTable& table) {
+  table
+      .add(kOption.noiseMargin.name, &o.noiseMargin, "X",
+           "A node below the inlier rate needs a wall this many times as strong as noise")
+      .in(NumberRange{0, 100})
       .recorded();
   table
       .add("aneurysm-gradient", &o.aneurysmGradient, "SHARE",
@@ -85,15 +97,17 @@ void addVolumeRows(TrackOptions& o, OptionTable& table) {
 }  // namespace
 
 void TrackOptions::addRows(OptionTable& table) {
+  addFoundRows(table);
+  addAdvanceRows(*this, table);
+}
+
+void TrackOptions::addFoundRows(OptionTable& table) {
   table.group("Volume");
   table.flag(kOption.dark.name, dark, "Vessels are darker than their background").recorded();
   table.group("Tracking");
   addSearchRows(*this, table);
-  addAdvanceRows(*this, table);
+  addWallRows(*this, table);
   addVolumeRows(*this, table);
-  table.add("max-nodes", &maxNodes, "N", "Bound on the nodes of one branch")
-      .in(WholeRange{2})
-      .recorded();
   table.add("random-seed", &seed, "K", "Seed of the random numbers")
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
       .recorded();

@@ -41,6 +41,8 @@ struct TrackOptions {
 
   /// Adds a row for each value above, stored in this object.
   void addRows(OptionTable& table);
+  /// Adds the rows of the values that count for vessels that are found without seeds.
+  void addFoundRows(OptionTable& table);
   /// Throws Error(InvalidInput) if a value is out of range for a volume whose voxels' smallest edge
   /// is `smallestEdge` mm.
   void check(double smallestEdge) const;
