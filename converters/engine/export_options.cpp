@@ -11,6 +11,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/suggestion.h"
 #include "converters/engine/mesh_options.h"
+#include "converters/engine/scope.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -84,7 +85,8 @@ void addGridRows(OptionTable& table, convert::ExportOptions& options) {
            "Distance from the wall beyond which values are clamped, or left out [everywhere; vdb: "
            "3 samples]")
       .in(kPositive);
-  table.flag(kOption.half.name, grid.half, "vdb: distances of 16 bits");
+  table.flag(kOption.half.name, grid.half, "vdb: distances of 16 bits")
+      .onlyWith(kOption.format.name, "vdb");
   table.flag(kOption.perBranch.name, grid.perBranch,
              "A grid for each branch and its neighbourhood along the tree, instead of one, in "
              "which vessels that touch are merged");
@@ -108,9 +110,24 @@ void addOptionalChoice(OptionTable& table, const std::string& name, std::optiona
       .among(names);
 }
 
-bool hasOption(const convert::ExportTarget& target, const OptionRow& row) {
-  return std::any_of(target.options.begin(), target.options.end(),
-                     [&row](const OptionName& option) { return row.name == option.name; });
+/// The row's option as the target takes it; null if it does not.
+const convert::TakenOption* takenBy(const convert::ExportTarget& target, const OptionRow& row) {
+  const auto found = std::find_if(
+      target.options.begin(), target.options.end(),
+      [&row](const convert::TakenOption& taken) { return row.name == taken.option.name; });
+  return found == target.options.end() ? nullptr : &*found;
+}
+
+/// The reason why the target does nothing with an option that others take; empty if it counts.
+std::string idleReason(const OptionTable& table, const OptionRow& row,
+                       const convert::ExportTarget& target) {
+  if (const convert::TakenOption* const taken = takenBy(target, row))
+    return missingNeed(table, taken->needs);
+  std::string takers;
+  for (const convert::ExportTarget& other : convert::exportTargets())
+    if (takenBy(other, row) != nullptr)
+      takers += (takers.empty() ? "" : ", ") + std::string(other.name);
+  return takers.empty() ? "" : "is for " + takers + ", not for " + std::string(target.name);
 }
 
 }  // namespace
@@ -132,21 +149,19 @@ convert::OptionTexts exportOptionTexts(const OptionTable& table,
                                        const convert::ExportTarget& target) {
   convert::OptionTexts texts;
   for (const OptionRow& row : table.rows())
-    if (hasOption(target, row))
+    if (takenBy(target, row) != nullptr)
       if (std::string text = row.valueText(); !text.empty()) texts[row.shownName()] = text;
   return texts;
 }
 
-void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target) {
+void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target,
+                          Progress& progress) {
   for (const OptionRow& row : table.rows()) {
-    if (!row.isGiven || row.isArgument || hasOption(target, row)) continue;
-    std::string takers;
-    for (const convert::ExportTarget& other : convert::exportTargets())
-      if (hasOption(other, row)) takers += (takers.empty() ? "" : ", ") + std::string(other.name);
-    if (!takers.empty())
-      throw Error(ErrorKind::Usage,
-                  row.shownName() + " is for " + takers + ", not for " + std::string(target.name));
+    if (!row.isGiven || row.isArgument) continue;
+    const std::string reason = idleReason(table, row, target);
+    if (!reason.empty()) refuseIdle(row, reason, progress);
   }
+  requireInScope(table, {}, progress);
 }
 
 std::vector<std::string> exportTargetNames() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "converters/base/option_table.h"
+#include "converters/base/progress.h"
 #include "converters/export/export_case.h"
 
 namespace lumen::engine {
@@ -18,8 +19,10 @@ void addExportRows(OptionTable& table, convert::ExportOptions& options);
 convert::OptionTexts exportOptionTexts(const OptionTable& table,
                                        const convert::ExportTarget& target);
 
-/// Throws Error(Usage) for an option that is given and that this target does not take.
-void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target);
+/// Refuses, as refuseIdle(), an option that is given and does nothing for this target: the target does
+/// not take it, or takes it beside another that is missing.
+void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target,
+                          Progress& progress);
 
 std::vector<std::string> exportTargetNames();
 

@@ -13,6 +13,7 @@
 #include "converters/engine/export_options.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
+#include "converters/engine/scope.h"
 #include "converters/engine/surface_answer.h"
 #include "converters/export/export_case.h"
 #include "converters/judge/facts/reachable.h"
@@ -34,9 +35,9 @@ std::string joined(const std::vector<Word>& words) {
   return text;
 }
 
-std::vector<std::string> shownNames(const std::vector<OptionName>& options) {
+std::vector<std::string> shownNames(const std::vector<convert::TakenOption>& options) {
   std::vector<std::string> names;
-  for (const OptionName& option : options) names.push_back(option.shown());
+  for (const convert::TakenOption& taken : options) names.push_back(taken.option.shown());
   return names;
 }
 
@@ -83,17 +84,22 @@ public:
       row->without("list");
     }
     addExportRows(table, m_options);
+    for (OptionRow& row : table.rows())
+      if (!row.isArgument && row.name != "list") row.notBeside("list");
   }
 
   Answer run(Surroundings& around) override {
-    if (m_list) return list();
+    if (m_list) {
+      requireInScope(*around.table, {}, around.progress);
+      return list();
+    }
     if (m_output.empty())
       throw Error(ErrorKind::Usage, std::string(m_target.empty()  ? "TARGET"
                                                 : m_input.empty() ? "CASE"
                                                                   : "FOLDER") +
                                         " is missing; usage: lumen export TARGET CASE FOLDER");
     const ExportTarget& target = exportTarget(m_target);
-    requireTargetOptions(*around.table, target);
+    requireTargetOptions(*around.table, target, around.progress);
     requireRoom();
     const formats::Case value = readCase(m_input);
     auto folder =

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "converters/base/option_name.h"
+#include "converters/base/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/export/shared/common_options.h"
 #include "converters/export/shared/named_end.h"
@@ -47,6 +48,16 @@ struct ExportResult {
   std::vector<std::array<std::string, 2>> others;
 };
 
+/// An option that a target takes, and the value of another without which it does nothing there.
+struct TakenOption {
+  TakenOption(OptionName taken) : option(taken) {}
+  TakenOption(OptionName taken, OptionName other, const char* word)
+      : option(taken), needs{{other.name, word}} {}
+
+  OptionName option;
+  std::vector<OptionNeed> needs;  ///< none or one
+};
+
 /// The description of a target; targets.cpp joins it with the function that writes the folder.
 struct TargetRow {
   std::string_view name;   ///< as the command takes it
@@ -57,7 +68,7 @@ struct TargetRow {
   std::vector<Axes> axes;         ///< axes that may be chosen, the usual ones first
   std::string_view holds;         ///< parts of a case
   std::string lacks;
-  std::vector<OptionName> options;  ///< options that it takes, besides --unit and --up
+  std::vector<TakenOption> options;  ///< options that it takes, besides --unit and --up
   bool needsModels = true;
   bool needsVessel = true;  ///< one with a length
 };

@@ -156,10 +156,10 @@ private:
   std::vector<DetailLevel> leveled(CaseSurface surface) {
     std::optional<CaseSurface> whole;
     std::vector<DetailLevel> levels{{std::move(surface), -1}};
-    if (m_options.maxError > 0) {
+    if (const double most = m_options.maxError.value_or(0); most > 0) {
       whole = levels[0].surface;
-      levels[0].error = decimate(levels[0].surface, m_field, {m_options.maxError, 0}, m_progress);
-      if (levels[0].error > m_options.maxError)
+      levels[0].error = decimate(levels[0].surface, m_field, {most, 0}, m_progress);
+      if (levels[0].error > most)
         throw failed("with fewer triangles the surface would lie " +
                      formats::shortText(static_cast<float>(levels[0].error)) +
                      " mm off, which is more than max-error");

@@ -27,7 +27,7 @@ struct ClosedSurfaceOptions {
   bool open = false;                ///< flat ends are left out
   std::vector<EndLength> extend;    ///< flow extensions
   std::optional<Length> thickness;  ///< thickness of a wall around the lumen: the solid is the wall
-  double maxError = 0;              ///< mm: above 0, triangles are dropped within this distance
+  std::optional<double> maxError;   ///< mm: above 0, triangles are dropped within this distance
   int levels = 1;                   ///< number of levels of detail
 };
 

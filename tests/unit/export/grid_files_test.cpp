@@ -177,7 +177,6 @@ TEST_F(GridFiles, RefuseWhatTheirFormatsCannotHold) {
     return ErrorKind::Failed;
   };
   EXPECT_EQ(kindOf(0.5, {}, LengthUnit::Metre), ErrorKind::Usage);
-  EXPECT_EQ(kindOf(0.5, {.half = true}, LengthUnit::Millimetre), ErrorKind::Usage);
   EXPECT_EQ(kindOf(0.001, {}, LengthUnit::Millimetre), ErrorKind::Usage);
 }
 

@@ -32,7 +32,7 @@ ExportedSurface coarseSurface(const ExportInput& input) {
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
                    radii.end());
   CommonOptions options = input.options;
-  if (options.surface.maxError == 0) options.surface.maxError = kShare * radii[radii.size() / 2];
+  if (!options.surface.maxError) options.surface.maxError = kShare * radii[radii.size() / 2];
   return lumenSurface({input.source, options, input.frame, input.progress});
 }
 

@@ -58,9 +58,6 @@ void requireSound(const ExportInput& input, const GridOptions& options) {
                 kOption.unit.shown() +
                     " m: readers of nrrd, nifti and mhd take their lengths for mm; " +
                     kOption.format.shown() + " vdb or cdf can be in m");
-  if (options.half && !wants(options, GridFormat::Vdb))
-    throw Error(ErrorKind::Usage, kOption.half.shown() + ": only " + kOption.format.shown() +
-                                      " vdb holds distances of 16 bits");
   if (input.source.tree.branches.size() > kMostBranches)
     throw unsupported("a grid distinguishes 65535 branches, and this case has " +
                       std::to_string(input.source.tree.branches.size()));

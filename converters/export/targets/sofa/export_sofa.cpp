@@ -137,8 +137,14 @@ TargetRow sofaRow() {
           .axes = {Axes::Lps},
           .holds = "the case; the surface; an instrument at the root, with friction contact",
           .lacks = "nothing: the case lies beside the scene",
-          .options = {kOption.edge, kOption.maxError, kOption.instrument, kOption.wall,
-                      kOption.dialect, kOption.step, kOption.insert, kOption.grid}};
+          .options = {kOption.edge,
+                      kOption.maxError,
+                      kOption.instrument,
+                      kOption.wall,
+                      kOption.dialect,
+                      kOption.step,
+                      kOption.insert,
+                      {kOption.grid, kOption.wall, "grid"}}};
 }
 
 }  // namespace lumen::convert
