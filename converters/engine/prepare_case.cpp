@@ -99,6 +99,7 @@ void requireModels(const CaseWishes& wishes, const std::string& file) {
   };
   for (const std::string& target : wishes.targets)
     if (exportTarget(target).needsModels) refuse("--export " + target);
+  if (wishes.areViewsAsked) refuse("--picture");
   if (wishes.turntable > 0) refuse("--turntable");
   if (wishes.viewer) refuse("--viewer");
 }

@@ -20,6 +20,7 @@ struct CaseWishes {
   bool replace = false;              ///< a case of this id may be there
   bool surface = true;               ///< surface.glb
   std::vector<std::string> views;    ///< picture-VIEW.png each; thumbnail.png with any
+  bool areViewsAsked = false;        ///< the user names views, and gets all of them
   int turntable = 0;                 ///< pictures around the case
   std::vector<std::string> targets;  ///< targets of lumen export
   bool report = false;               ///< report.html

@@ -34,7 +34,8 @@ public:
               "Read the voxels of a volume too, not its header only: range and digest")
         .forInputs(kVolumes);
     addVolumeRows(table, m_volume);
-    addCenterlineRows(table, m_centerline);
+    for (OptionRow& row : table.rows())
+      if (!row.isArgument && row.name != "chunks") row.notBeside("chunks");
   }
 
   Answer run(Surroundings& around) override {
@@ -52,13 +53,11 @@ public:
       return {volumeInfoJson(info), volumeInfoText(info), 0, true};
     }
     if (from.kind == FormatKind::Mesh) {
-      const MeshInfo info =
-          describeMesh(from.readMesh(m_input), m_input, m_volume.unit, around.progress);
+      const MeshInfo info = describeMesh(readMesh(from), m_input, m_volume.unit, around.progress);
       return {meshInfoJson(info), meshInfoText(info), 0, true};
     }
     if (from.kind == FormatKind::Centerline) {
-      const LoadedCenterline loaded =
-          loadCenterline(m_input, from, m_volume, m_centerline, around.progress);
+      const LoadedCenterline loaded = loadCenterline(m_input, from, m_volume, {}, around.progress);
       return {centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true};
     }
     const formats::Case value = from.readCase(m_input);
@@ -67,6 +66,11 @@ public:
   }
 
 private:
+  [[nodiscard]] convert::MeshFile readMesh(const FileFormat& from) const {
+    return from.readScene != nullptr ? from.readScene(m_input, {{}, m_volume.allowDetached})
+                                     : from.readMesh(m_input);
+  }
+
   [[nodiscard]] VolumeInfo describe(const FileFormat& from, Progress& progress) const {
     if (!m_voxels) return {loadVolumeHeader(m_input, from, m_volume, progress), {}};
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
@@ -78,7 +82,6 @@ private:
   bool m_chunks = false;
   bool m_voxels = false;
   VolumeArguments m_volume;
-  CenterlineArguments m_centerline;
 };
 
 }  // namespace

@@ -116,7 +116,11 @@ private:
                                     const OptionTable& table) {
     m_wishes.surface = !m_noSurface;
     const bool hasViews = m_views != std::vector<std::string>{"none"};
+    if (hasViews && std::find(m_views.begin(), m_views.end(), "none") != m_views.end())
+      throw Error(ErrorKind::Usage,
+                  "--picture: found none and another word, expected none alone, or sides");
     if (hasViews) m_wishes.views = m_views;
+    m_wishes.areViewsAsked = !m_wishes.views.empty();
     std::optional<convert::CaseRecord> before;
     if (m_wishes.replace && m_wishes.id.empty()) m_wishes.id = idOfCase(m_case);
     if (m_wishes.replace && !m_isOnly) before = replacedVersion(library, m_wishes.id);

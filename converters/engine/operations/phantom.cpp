@@ -11,6 +11,7 @@
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
+#include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "converters/io/seeds/seeds.h"
 
@@ -42,12 +43,13 @@ public:
     table.file(kOption.tree.name, m_tree,
                "Draw the arteries of this SWC file, lengths in mm, instead of a named phantom");
     table.file("truth", m_truth, "Also write the true tree, as a case");
-    table.file("seeds", m_seeds, "Also write the seeds that a user would click");
+    table.file(kOption.seeds.name, m_seeds, "Also write the seeds that a user would click");
     m_options.addRows(table);
   }
 
   Answer run(Surroundings& around) override {
     sortArguments();
+    requireInScope(*around.table, {}, around.progress);
     const Outputs outputs = checkOutputs(around);
     const convert::Phantom phantom = convert::makePhantom(m_options, around.progress);
     around.progress.begin("writing", 0);

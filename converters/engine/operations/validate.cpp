@@ -16,12 +16,12 @@ namespace {
 
 constexpr int kSurface = 652;  // not a rule of the format: see spec/errors.md
 
-/// A warning about the closed surface of a case.
-convert::Remark surfaceRemark(const std::string& sentence) {
+/// A remark on the closed surface of a case.
+convert::Remark surfaceRemark(formats::Severity severity, const std::string& sentence) {
   convert::Remark remark;
   remark.code = "SURFACE";
   remark.number = kSurface;
-  remark.severity = formats::severityName(formats::Severity::Warning);
+  remark.severity = formats::severityName(severity);
   remark.message = sentence;
   remark.text = remark.code + " at file: " + sentence;
   return remark;
@@ -127,9 +127,18 @@ private:
   void addSurface(const std::string& file, convert::FileReport& report, Progress& progress) const {
     const auto value = formats::readCaseFile(file);
     if (!value) return;
+    if (!value->models) {
+      ++report.counts.information;
+      if (report.remarks.size() < m_maxIssues)
+        report.remarks.push_back(surfaceRemark(
+            formats::Severity::Information,
+            "the case has no models, so there is no closed surface; lumen fit makes them"));
+      return;
+    }
     for (const std::string& sentence : closedSurfaceWarnings(*value, progress)) {
       ++report.counts.warnings;
-      if (report.remarks.size() < m_maxIssues) report.remarks.push_back(surfaceRemark(sentence));
+      if (report.remarks.size() < m_maxIssues)
+        report.remarks.push_back(surfaceRemark(formats::Severity::Warning, sentence));
     }
   }
 

@@ -116,7 +116,8 @@ void PhantomOptions::addRows(OptionTable& table) {
            "Voxels along an edge; 0: 128, or 256 for patient and willis; not with " +
                kOption.tree.shown())
       .in(WholeRange{0, kLargestSize})
-      .recorded();
+      .recorded()
+      .notBeside(kOption.tree.name);
   table.add(kOption.voxel.name, &voxel, "MM", "Edge of a voxel")
       .in(NumberRange{0.01, 10})
       .recorded();
@@ -140,14 +141,17 @@ void PhantomOptions::addRows(OptionTable& table) {
   table.add("seed", &seed, "K", "Seed of the random numbers")
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
       .recorded("random-seed");
-  table.choice("clicks", isCareless, carelessByName(),
-               "Manner of clicking the seeds; careless clicks lie a fifth of a radius off the "
-               "axis, 1.5 radii "
-               "beyond the parent's wall, and state neither radius nor direction");
+  table
+      .choice("clicks", isCareless, carelessByName(),
+              "Manner of clicking the seeds; careless clicks lie a fifth of a radius off the "
+              "axis, 1.5 radii "
+              "beyond the parent's wall, and state neither radius nor direction")
+      .onlyWith(kOption.seeds.name);
   table
       .add("click-drawing", &clickDrawing, "K",
            "Number of the drawing of clicks: another number makes others on the same volume")
-      .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()});
+      .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})
+      .onlyWith(kOption.seeds.name);
 }
 
 const std::map<std::string, bool>& carelessByName() {

@@ -177,8 +177,8 @@ constexpr const char* kFindings =
     "the length beyond that cannot be reached, in mm |\n"
     "| 652 | `SURFACE` |  | with `--surface`: the closed surface that `lumen convert` makes leaves "
     "a "
-    "part of the case out, was opened or cut, or passes through itself; the message is that of "
-    "`lumen convert` |\n";
+    "part of the case out, was opened or cut, or passes through itself, and the message is that of "
+    "`lumen convert`; or, as information, the case has no models |\n";
 
 }  // namespace
 
