@@ -89,13 +89,11 @@ private:
   /// Contents of the given files, as far as options depend on them.
   [[nodiscard]] ContentMask contentOfFiles() const {
     ContentMask content = engine::kFittedCase;
+    if (isFolderOfCases()) return content;
     for (const std::string& file : m_files) {
       std::error_code ignored;
-      if (!fs::exists(file, ignored)) continue;
-      const FileRole role = openingRole({file, file});
-      if (role == FileRole::Volume)
+      if (fs::exists(file, ignored) && openingRole({file, file}) != FileRole::Seeds)
         content |= engine::inputContent(engine::inputFormat(file, ""), false);
-      if (role == FileRole::Mesh) content |= engine::kMeshes;
     }
     return content;
   }
@@ -104,15 +102,18 @@ private:
     return m_files.empty() ? "the empty page" : m_files.front();
   }
 
-  /// A folder that holds cases; one without is a series of images.
+  /// One folder that holds cases; one without is a series of images.
+  [[nodiscard]] bool isFolderOfCases() const {
+    return m_files.size() == 1 && fs::is_directory(m_files.front()) &&
+           !casesIn(m_files.front()).cases.empty();
+  }
+
   bool openFolder(Session& session) const {
-    if (m_files.size() != 1 || !fs::is_directory(m_files.front())) return false;
-    CaseList list = casesIn(m_files.front());
-    if (list.cases.empty()) return false;
+    if (!isFolderOfCases()) return false;
     if (!m_html.empty())
       throw Error(ErrorKind::Usage,
                   m_files.front() + ": --html shows one case, not a folder of them");
-    session.openLibrary(std::move(list));
+    session.openLibrary(casesIn(m_files.front()));
     return true;
   }
 
@@ -167,6 +168,15 @@ private:
 
   engine::Answer writeHtml(Session& session, engine::Surroundings& around) {
     around.willWrite(m_html);
+    const Document document = session.now().document;
+    const auto refuse = [&](const char* option, const std::string& needed) {
+      const OptionRow& row = *around.table->find(option);
+      if (row.isGiven)
+        engine::refuseIdle(row, "is for " + needed + ", and " + filesText() + " has none",
+                           around.progress);
+    };
+    if (!document.volume) refuse("html-volume", "a volume beside the case");
+    if (!document.value || !document.value->points) refuse("html-points", "cases with wall points");
     HtmlOptions options;
     options.volume = m_htmlVolume;
     options.points = m_htmlPoints;

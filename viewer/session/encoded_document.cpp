@@ -6,9 +6,11 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/engine/command.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/mesh_options.h"
+#include "converters/engine/scope.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/stages/fitting/fit.h"
 
@@ -18,8 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The options of `lumen convert` that concern a mesh or an encoding.
-engine::OutputOptions outputOptions(const SavingOptions& options) {
+/// The options of `lumen convert` that concern a mesh or an encoding, in the scope of `writer`.
+engine::OutputOptions outputOptions(const SavingOptions& options, const engine::FileFormat& writer,
+                                    Progress& progress) {
   engine::OutputOptions output;
   OptionTable table;
   engine::addMeshFileRows(table, output);
@@ -30,6 +33,11 @@ engine::OutputOptions outputOptions(const SavingOptions& options) {
       throw Error(ErrorKind::Usage, "\"" + name + "\" is no option of a download");
     table.set(name, {value.empty() && row->isFlag() ? "true" : value});
   }
+  engine::requireCompatible(table);
+  engine::requireInScope(
+      table,
+      {kAnyContent, engine::outputContent(writer), "", "the format " + std::string(writer.name)},
+      progress);
   return output;
 }
 
@@ -54,7 +62,7 @@ std::string encoded(const Document& document, const std::string& format,
   if (format == "seeds") return encodedSeeds(*document.seeds, places);
   const engine::FileFormat& writer = writableFormat(format);
   if (!document.value) throw Error(ErrorKind::Usage, "there is no case to save");
-  const engine::OutputOptions output = outputOptions(options);
+  const engine::OutputOptions output = outputOptions(options, writer, progress);
   const auto file = places.placeFor("case" + std::string(writer.endings.front()));
   if (engine::canWriteMesh(writer) && !document.value->models) {
     formats::Case fitted = *document.value;

@@ -45,6 +45,17 @@ formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
   return value;
 }
 
+/// A mesh in mm. The arguments state its unit, and from where a scene may take it.
+convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& arguments) {
+  const engine::FileFormat& format = engine::inputFormat(opening.path, "");
+  convert::MeshFile mesh = format.readScene != nullptr
+                               ? format.readScene(opening.path, {{}, arguments.allowDetached})
+                               : format.readMesh(opening.path);
+  const auto unit = engine::millimetresByUnit().find(arguments.unit);
+  if (unit != engine::millimetresByUnit().end()) mesh.unitMm = unit->second;
+  return inMillimetres(std::move(mesh));
+}
+
 void dropFiles(Document& document, FileRole role) {
   std::erase_if(document.files, [role](const OpenFile& file) { return file.role == role; });
 }
@@ -73,8 +84,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Mesh:
       document.meshes.push_back(
           {id, opening.label,
-           std::make_shared<const convert::MeshFile>(
-               inMillimetres(engine::inputFormat(opening.path, "").readMesh(opening.path)))});
+           std::make_shared<const convert::MeshFile>(meshOf(opening, arguments))});
       break;
   }
   if (role != FileRole::Mesh) dropFiles(document, role);

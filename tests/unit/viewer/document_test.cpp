@@ -8,6 +8,7 @@
 #include "viewer/session/conflict.h"
 #include "viewer/session/history.h"
 #include "viewer/session/job_runner.h"
+#include "viewer/session/opening.h"
 #include "viewer/session/pack.h"
 #include "viewer/session/volume_pack.h"
 
@@ -27,6 +28,26 @@ Document withNodes(std::size_t nodes) {
 }
 
 }  // namespace
+
+using OpeningTest = ServedTest;
+
+TEST_F(OpeningTest, TheUnitAndTheFoldersOfTheCommandLineCountForMeshes) {
+  std::filesystem::create_directory(path("scene"));
+  write("a.obj", "v 0 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("scene/a.scn", "<Node name=\"root\"><MeshOBJLoader filename=\"../a.obj\"/></Node>\n");
+  engine::VolumeArguments arguments;
+  Progress silent;
+  const auto opened = [&](const std::string& name) {
+    const Document document = viewer::withFile({}, {path(name), name}, 1, arguments, silent);
+    return document.meshes.front().mesh->mesh.position[1].x();
+  };
+  EXPECT_EQ(opened("a.obj"), 3);
+  EXPECT_THROW(opened("scene/a.scn"), Error);
+  arguments.unit = "cm";
+  arguments.allowDetached = {folder.string()};
+  EXPECT_EQ(opened("a.obj"), 30);
+  EXPECT_EQ(opened("scene/a.scn"), 30);
+}
 
 TEST(History, UndoAndRedoBringBackTheSameParts) {
   History history;

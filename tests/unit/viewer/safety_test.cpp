@@ -154,6 +154,19 @@ TEST_F(SafetyTest, AnUnknownOptionOfADownloadIsRefusedInASentence) {
   }
 }
 
+TEST_F(SafetyTest, AnOptionThatADownloadWouldIgnoreIsRefusedByName) {
+  for (const auto& [query, sentence] : std::vector<std::pair<std::string, std::string>>{
+           {"obj&draco",
+            "--draco is for writing glTF (.glb, .gltf), and the format obj is none of "},
+           {"glb&cell=0.1", "--cell does nothing without --patches"},
+           {"glb&draco&meshopt", "exclude one another"},
+           {"swc&edge=0.5r", "--edge is for writing meshes"}}) {
+    const auto response = get("save?format=" + query);
+    EXPECT_EQ(response.status, 400) << query;
+    EXPECT_NE(response.body.find(sentence), std::string::npos) << response.body;
+  }
+}
+
 TEST_F(SafetyTest, EdgesThatWouldFillTheMemoryAreRefused) {
   for (const char* const query : {"glb&edge=1e-9", "stl&edge=1e-9r", "obj&edge-max=1e-9"}) {
     const auto response = get(std::string("save?format=") + query);
