@@ -6,9 +6,11 @@ lumen_test(cli_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/command_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/config_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_format_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/interrupt_test.cpp
@@ -19,12 +21,15 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/option_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/phantom_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/pushed_tool.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/reachable_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/refusal_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/scope_inputs.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/surfaces_in_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/tool_test.cpp

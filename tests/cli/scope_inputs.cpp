@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/scope_inputs.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <map>
+
+#include <nlohmann/json.hpp>
+#include <stdlib.h>
+
+#include "tests/unit/volume/dicom_fixture.h"
+
+namespace lumen::test {
+
+namespace fs = std::filesystem;
+using engine::Surroundings;
+
+namespace {
+
+constexpr std::size_t kEdge = 32;              // voxels of the volumes
+constexpr std::size_t kNiftiHeader = 352;      // bytes
+constexpr std::size_t kSlice = kEdge * kEdge;  // voxels
+constexpr std::size_t kVoxels = kEdge * kEdge * kEdge;
+
+/// The name of the other half's label in `halves.nii`.
+std::string withTwoHalves(std::string nifti) {
+  for (std::size_t i = kVoxels / 2; i < kVoxels; ++i) {
+    char& label = nifti[nifti.size() - kVoxels + i];
+    if (label == 1) label = 2;
+  }
+  return nifti;
+}
+
+/// Two NIfTI files of one volume as one of two.
+std::string withTwoTimes(std::string first, const std::string& second) {
+  first[40] = 4;  // dim[0], and dim[4], a little-endian number of 16 bits
+  first[48] = 2;
+  return first + second.substr(kNiftiHeader);
+}
+
+/// A slice of a NIfTI volume of 16 bits as a file of DICOM.
+std::string dicomOf(const std::string& nifti, std::size_t slice, const std::string& series) {
+  using convert::DicomSlice;
+  DicomSlice made;
+  made.series = series;
+  made.columns = made.rows = static_cast<int>(kEdge);
+  made.spacing = "0.2\\0.2";
+  made.number = static_cast<int>(slice) + 1;
+  made.position = "0\\0\\" + std::to_string(0.2 * static_cast<double>(slice));
+  std::string pixels = nifti.substr(kNiftiHeader + 2 * slice * kSlice, 2 * kSlice);
+  for (std::size_t i = 0; i < pixels.size(); i += 2)  // no number below 0 is read there
+    if ((pixels[i + 1] & 0x80) != 0) pixels[i] = pixels[i + 1] = 0;
+  made.pixelElement = DicomSlice::tag(0x7fe0, 0x10) + "OW" + DicomSlice::raw<std::uint16_t>(0) +
+                      DicomSlice::raw(static_cast<std::uint32_t>(pixels.size())) + pixels;
+  made.bitsUsed = 15;
+  return made.bytes();
+}
+
+std::string headerOf(const std::string& voxels) {
+  return "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 32 32 32\n"
+         "space directions: (0.2,0,0) (0,0.2,0) (0,0,0.2)\nspace origin: (0,0,0)\n"
+         "kinds: domain domain domain\nendian: little\nencoding: raw\nbyte skip: -1\n"
+         "data file: " +
+         voxels + "\n";
+}
+
+std::string sceneOf(const std::string& folder) {
+  return "<Node name=\"root\">\n<Node name=\"Arteries\"><MeshSTLLoader name=\"loader\" "
+         "filename=\"" +
+         folder +
+         "plain.stl\"/></Node>\n<Node name=\"Tip\"><MeshSTLLoader name=\"tip\" filename=\"" +
+         folder + "two.stl\"/></Node>\n</Node>\n";
+}
+
+const std::map<std::string, std::string> kSamples = {{"series", "1"},
+                                                     {"volume-index", "1"},
+                                                     {"crop", "2,29,2,29,2,29"},
+                                                     {"spacing", "0.21"},
+                                                     {"unit", "cm"},
+                                                     {"allow-detached", "."},
+                                                     {"frame", "ras"},
+                                                     {"seeds", "seeds.json"},
+                                                     {"seeds-frame", "ras"},
+                                                     {"seeds-unit", "cm"},
+                                                     {"root", "3.1,3.1,5.8"},
+                                                     {"only-connected", "true"},
+                                                     {"seeds-only", "true"},
+                                                     {"dark", "true"},
+                                                     {"inlier-rate", "0.6"},
+                                                     {"inlier-band", "0.12"},
+                                                     {"rays", "42"},
+                                                     {"axes", "21"},
+                                                     {"samples", "64"},
+                                                     {"min-trials", "100"},
+                                                     {"max-trials", "400"},
+                                                     {"step", "0.4"},
+                                                     {"noise-margin", "1.5"},
+                                                     {"look-ahead", "2"},
+                                                     {"branch-offset", "1.5"},
+                                                     {"aneurysm-gradient", "0.4"},
+                                                     {"point-spread", "0.1"},
+                                                     {"smoothing", "0.17"},
+                                                     {"even-blur", "false"},
+                                                     {"max-nodes", "1000"},
+                                                     {"random-seed", "2"},
+                                                     {"centerline", "truth.swc"},
+                                                     {"centerline-frame", "ras"},
+                                                     {"centerline-unit", "cm"},
+                                                     {"mesh", "Arteries"},
+                                                     {"mask", "true"},
+                                                     {"label", "1"},
+                                                     {"labels", "1=artery"},
+                                                     {"label-map", "halves.nii"},
+                                                     {"label-table", "table.csv"},
+                                                     {"kernel", "gaussian"},
+                                                     {"kernel-parameter", "0.3"},
+                                                     {"cohesion-weight", "1e-4"},
+                                                     {"curvature-weight", "1e-2"},
+                                                     {"cohesion-scale", "3"},
+                                                     {"max-subdivisions", "2"},
+                                                     {"neighbourhood", "1"},
+                                                     {"seam-sweeps", "1"},
+                                                     {"seam-weight", "32"},
+                                                     {"iso-level", "0.15"},
+                                                     {"accuracy", "0.5"},
+                                                     {"max-distance", "30"},
+                                                     {"min-width", "0.03"},
+                                                     {"edge", "0.4r"},
+                                                     {"extend", "2r"},
+                                                     {"thickness", "0.2r"},
+                                                     {"max-error", "0.02"},
+                                                     {"edge-min", "0.6"},
+                                                     {"edge-max", "0.08"},
+                                                     {"gap", "0.3"},
+                                                     {"open", "true"},
+                                                     {"patches", "true"},
+                                                     {"cell", "0.3"},
+                                                     {"lod", "2"},
+                                                     {"mesh-per", "branch"},
+                                                     {"colour", "radius"},
+                                                     {"meshopt", "true"},
+                                                     {"draco", "true"},
+                                                     {"draco-position-bits", "12"},
+                                                     {"draco-normal-bits", "8"},
+                                                     {"stl-solids", "true"},
+                                                     {"compress", "true"},
+                                                     {"point-bits", "12"}};
+
+/// A temporary folder that is gone when the program ends.
+struct KeptFolder {
+  KeptFolder() {
+    std::string pattern = (fs::temp_directory_path() / "lumen-scope-XXXXXX").string();
+    path = mkdtemp(pattern.data());
+  }
+  ~KeptFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  KeptFolder(const KeptFolder&) = delete;
+  KeptFolder& operator=(const KeptFolder&) = delete;
+
+  fs::path path;
+};
+
+}  // namespace
+
+bool isRefusal(const std::string& message) {
+  for (const char* const words : {" is for ", " does nothing with", " exclude one another"})
+    if (message.find(words) != std::string::npos) return true;
+  return false;
+}
+
+const std::string& sampleOf(const std::string& option) {
+  static const std::string none;
+  const auto found = kSamples.find(option);
+  return found == kSamples.end() ? none : found->second;
+}
+
+void ScopeTest::make(const std::vector<std::string>& arguments) const {
+  const Outcome made = lumen(arguments);
+  ASSERT_EQ(made.code, 0) << made.err;
+}
+
+void ScopeTest::SetUp() {
+  // made for the first test, and kept for the others of this process
+  static const KeptFolder kept;
+  if (fs::is_empty(kept.path)) {
+    makeVolumes();
+    makeSurfaces();
+    fs::copy(path(""), kept.path, fs::copy_options::recursive);
+  } else {
+    fs::copy(kept.path, path(""), fs::copy_options::recursive);
+  }
+  m_hasDicom = lumen({"info", "series", "--series", "1"}).code == 0;
+  m_before = fs::current_path();
+  fs::current_path(path(""));
+}
+
+void ScopeTest::TearDown() {
+  fs::current_path(m_before);
+}
+
+void ScopeTest::makeVolumes() const {
+  make({"phantom", "tube", "tube.nrrd", "--size", "32", "--truth", "truth.lumen", "--seeds",
+        "seeds.json"});
+  make({"phantom", "kissing", "two.nrrd", "--size", "32", "--seeds", "two.json"});
+  write("apart.swc", "1 0 0 0 0 .6 -1\n2 0 6 0 0 .6 1\n3 0 0 3 0 .6 -1\n4 0 6 3 0 .6 3\n");
+  make({"phantom", "--tree", "apart.swc", "apart.nrrd", "--seeds", "apart.json"});
+  nlohmann::json clicks = nlohmann::json::parse(read("apart.json"));
+  clicks["branches"].erase(1);
+  write("one.json", clicks.dump());
+  make({"convert", "tube.nrrd", "case.lumen", "--seeds", "seeds.json"});
+  make({"convert", "two.nrrd", "two.lumen", "--seeds", "two.json"});
+  make({"track", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"});
+  make({"check", "tube.nrrd", "case.lumen", "--mask", "labels.nrrd"});
+  make({"check", "tube.nrrd", "case.lumen", "--mask", "whole.nii"});
+  make({"convert", "apart.nrrd", "apart.lumen"});
+  make({"check", "apart.nrrd", "apart.lumen", "--mask", "apart-labels.nrrd"});
+  write("halves.nii", withTwoHalves(read("whole.nii")));
+  make({"phantom", "tube", "tube.nii", "--size", "32"});
+  make({"phantom", "kissing", "two.nii", "--size", "32"});
+  const std::string tube = read("tube.nii"), two = read("two.nii");
+  write("times.nii", withTwoTimes(tube, two));
+  fs::create_directories(path("header"));
+  write("tube.raw", tube.substr(kNiftiHeader));
+  write("header/tube.nhdr", headerOf("../tube.raw"));
+  fs::create_directories(path("series"));
+  for (std::size_t k = 0; k < kEdge; ++k) {
+    write("series/a" + std::to_string(k) + ".dcm", dicomOf(tube, k, "1.2.3.1"));
+    write("series/b" + std::to_string(k) + ".dcm", dicomOf(two, k, "1.2.3.2"));
+  }
+}
+
+void ScopeTest::makeSurfaces() const {
+  make({"convert", "case.lumen", "plain.stl"});
+  make({"convert", "two.lumen", "two.stl"});
+  make({"convert", "truth.lumen", "truth.swc"});
+  write("table.csv", "value,name\n1,ica\n2,mca\n");
+  write("vessels.scn", sceneOf(""));
+  write("header/vessels.scn", sceneOf("../"));
+  fs::copy_file(path("truth.lumen"), path("tree.lumen"));
+}
+
+Operation ScopeTest::operationOf(const std::string& command, std::vector<std::string> arguments,
+                                 const Given& options) {
+  Operation operation{command, std::move(arguments), {}};
+  for (const auto& [name, value] : options) operation.with(name, value);
+  return operation;
+}
+
+Effect ScopeTest::effectOf(const Operation& operation,
+                           const std::vector<std::string>& folders) const {
+  fs::remove_all("out");
+  fs::create_directory("out");
+  for (const std::string& folder : folders)
+    fs::copy(folder, "out/" + folder, fs::copy_options::recursive);
+  Progress progress;
+  Effect effect;
+  try {
+    const engine::Answer answer = m_engine.run(operation, Surroundings{m_engine, progress});
+    effect.answer = answer.json.dump() + answer.text + std::to_string(answer.code);
+  } catch (const std::exception& error) {
+    effect.error = error.what();
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator("out"))
+    if (entry.is_regular_file() && entry.path().filename() != "lumen-export.json")
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) effect.files += file.string() + read(file.string());
+  return effect;
+}
+
+}  // namespace lumen::test
