@@ -19,8 +19,8 @@ void addExportRows(OptionTable& table, convert::ExportOptions& options);
 convert::OptionTexts exportOptionTexts(const OptionTable& table,
                                        const convert::ExportTarget& target);
 
-/// Refuses, as refuseIdle(), an option that is given and does nothing for this target: the target does
-/// not take it, or takes it beside another that is missing.
+/// Refuses, as refuseIdle(), an option that is given and does nothing for this target: the target
+/// does not take it, or takes it beside another that is missing.
 void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target,
                           Progress& progress);
 

@@ -30,8 +30,8 @@ struct MaskArguments {
   [[nodiscard]] convert::LabelNames table(const std::filesystem::path& file) const;
 };
 
-/// Tree and wall points of the labels in `volume`, which was read from `file`; a branch has the name
-/// of its label where there are several, or names were given. Throws Error(InvalidInput) for a
+/// Tree and wall points of the labels in `volume`, which was read from `file`; a branch has the
+/// name of its label where there are several, or names were given. Throws Error(InvalidInput) for a
 /// volume without labels, and for labels that are no vessels.
 formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::path& file,
                          const MaskArguments& arguments, Progress& progress);

@@ -52,8 +52,8 @@ ContentMask inputContent(const FileFormat& format, bool holdsLabels);
 /// One bit: the content of an output of this format.
 ContentMask outputContent(const FileFormat& format);
 
-/// "does nothing without --seeds or --root", if the options of the table meet none of the needs; empty
-/// if they meet one, or there are none.
+/// "does nothing without --seeds or --root", if the options of the table meet none of the needs;
+/// empty if they meet one, or there are none.
 std::string missingNeed(const OptionTable& table, const std::vector<OptionNeed>& needs);
 
 /// Throws Error(Usage) for the option of a row that would do nothing; `reason` ends the sentence. A

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every option of the commands but convert and export: it changes what the command answers or writes, or it is refused
-// with the name of what it needs. Their options are in option_scope_test.cpp and export_scope_test.cpp.
+// Every option of the commands but convert, export and phantom, whose options are in tests of their
+// own: it changes what the command answers or writes.
 #include <algorithm>
 #include <map>
 #include <set>

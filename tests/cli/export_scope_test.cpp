@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every option of `lumen export` with every target: it changes the folder, or it is refused with the targets that take
-// it, or with what it needs.
+// Every option of `lumen export` with every target: it changes the folder, or it is refused with the
+// targets that take it, or with what it needs.
 #include <algorithm>
 #include <map>
 

@@ -113,12 +113,12 @@ protected:
 
   /// Whether other pairs show that the option counts for this one.
   ///
-  /// - A stage records its values in the case, and the other outputs are made of it: one option of each
-  ///   stage shows that they are.
+  /// - A stage records its values in the case, and the other outputs are made of it: one option of
+  ///   each stage shows that they are.
   /// - A .lumen holds all that a .lumen.json does, glTF and OBJ all that plain STL does.
   /// - Names of branches show in all outputs but plain STL, which has none.
-  /// - A mesh is written of the case, whatever that came from: the case that is taken as it is shows each
-  ///   mesh, the other inputs one.
+  /// - A mesh is written of the case, whatever that came from: the case that is taken as it is
+  ///   shows each mesh, the other inputs one.
   static bool isShownByAnother(const OptionRow& row, const Input& input,
                                const std::string& output) {
     if (!row.recordKey.empty() && !kShowsItsStage.contains(row.name))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of all commands that would do nothing beside the files or the other options of a run: each is refused with
-// the name of what it needs.
+// Options of all commands that would do nothing beside the files or the other options of a run: each
+// is refused with the name of what it needs.
 #include "tests/cli/scope_inputs.h"
 
 namespace lumen::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One small file of each kind that commands read, and runs of commands in this process, whose effects can
-// be compared.
+// One small file of each kind that commands read, and runs of commands in this process, whose effects
+// can be compared.
 #pragma once
 
 #include <filesystem>
@@ -41,7 +41,8 @@ struct Effect {
 /// | tube.nrrd, seeds.json | a vessel of 6 mm in 32^3 voxels, and a click on it |
 /// | labels.nrrd | its lumen as label 1 |
 /// | halves.nii | its lower half as label 1, its upper half as label 2 |
-/// | plain.stl, vessels.scn, truth.swc | its surface, a scene that loads it and another mesh, its centerline |
+/// | plain.stl, truth.swc | its surface, its centerline |
+/// | vessels.scn | a scene that loads its surface and another mesh |
 /// | tracked.lumen, case.lumen, tree.lumen | its case with points, with models too, without both |
 /// | two.nrrd, two.json, two.lumen | two vessels that touch, and clicks on them |
 /// | apart.nrrd, apart.lumen, apart-labels.nrrd | two vessels that are apart, in two trees |

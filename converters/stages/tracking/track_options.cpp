@@ -36,7 +36,8 @@ void addSearchRows(TrackOptions& o, OptionTable& table) {
       .recorded();
 }
 
-/// Rows of tracks that advance from a seed. A vessel that is found has its course, and takes no steps.
+/// Rows of tracks that advance from a seed. A vessel that is found has its course, and takes no
+/// steps.
 void addAdvanceRows(TrackOptions& o, OptionTable& table) {
   const char* const seeds = kOption.seeds.name;
   table.add("step", &o.step, "S", "Prediction step from a seed on, in cylinder heights")
