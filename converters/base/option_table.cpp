@@ -148,8 +148,8 @@ void take(const OptionRow& row, const formats::ParameterValue& found) {
 
 }  // namespace
 
-std::string OptionRow::faultOf(const std::string& text) const {
-  if (!words.empty()) return oneOf(words)(text);
+std::string OptionRow::findFault(const std::string& text) const {
+  if (!words.empty()) return checkAmong(words)(text);
   if (!numbers.empty()) {
     const std::vector<std::string> allowed = textsOf(numbers);
     return contains(allowed, text) ? std::string() : foundText(text, alternatives(allowed));
@@ -173,7 +173,7 @@ void OptionRow::set(const std::vector<std::string>& given) {
     for (std::string& part : delimiter == 0 ? std::vector{text} : splitAt(text, delimiter))
       texts.push_back(std::move(part));
   for (const std::string& text : texts)
-    if (const std::string fault = faultOf(text); !fault.empty())
+    if (const std::string fault = findFault(text); !fault.empty())
       throw Error(ErrorKind::Usage, shownName() + ": " + fault);
   if (texts.empty()) throw Error(ErrorKind::Usage, shownName() + " needs a value");
   if (count > 1 && texts.size() != static_cast<std::size_t>(count))
@@ -339,7 +339,7 @@ void OptionTable::requireValues(const std::string& subject) const {
         isWhole ? std::to_string(static_cast<std::int64_t>(*value)) : numberText(*value);
     std::string fault;
     if (row.range && !row.range->holds(*value)) fault = foundText(text, row.range->text());
-    if (isWhole) fault = row.faultOf(text);
+    if (isWhole) fault = row.findFault(text);
     if (!fault.empty()) throw invalidInput(subject + row.name + ": " + fault);
   }
 }

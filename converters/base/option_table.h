@@ -84,7 +84,7 @@ struct OptionRow {
   /// The given values with spaces between them, or the default.
   [[nodiscard]] std::string valueText() const;
   /// "found 2, expected a number from 0 to 1", or empty.
-  [[nodiscard]] std::string faultOf(const std::string& text) const;
+  [[nodiscard]] std::string findFault(const std::string& text) const;
   /// Stores the values. Throws Error(Usage) with the option's shown name.
   void set(const std::vector<std::string>& texts);
 

@@ -33,7 +33,7 @@ std::string WholeRange::text() const {
   return "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
 }
 
-ValueCheck oneOf(std::vector<std::string> words) {
+ValueCheck checkAmong(std::vector<std::string> words) {
   return [words = std::move(words)](const std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
     return foundText(text, alternatives(words)) + didYouMean(text, words);

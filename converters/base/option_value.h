@@ -42,7 +42,7 @@ using ValueCheck = std::function<std::string(const std::string&)>;
 /// "found 2, expected a number from 0 to 1", or "found nothing, ..." for an empty text.
 std::string foundText(const std::string& text, const std::string& expected);
 /// One of the given words. A misspelt word gets a "did you mean".
-ValueCheck oneOf(std::vector<std::string> words);
+ValueCheck checkAmong(std::vector<std::string> words);
 /// A name of a file or folder: not empty, and not "-", which other programs take for a stream.
 ValueCheck fileName();
 

@@ -81,7 +81,7 @@ public:
   }
 
   void addRows(OptionTable& table) override {
-    table.argument("SHELL", &m_shell, "bash", oneOf({"bash"}));
+    table.argument("SHELL", &m_shell, "bash", checkAmong({"bash"}));
   }
 
   engine::Answer run(engine::Surroundings& around) override {

@@ -68,7 +68,7 @@ std::string unquoted(const std::string& place, const std::string& text) {
   return word.substr(1, word.size() - 2);
 }
 
-std::vector<std::string> valuesOf(const std::string& place, const std::string& text) {
+std::vector<std::string> parseValues(const std::string& place, const std::string& text) {
   const bool isList = text.starts_with('[');
   if (isList && !text.ends_with(']')) refuse(place, "found " + text + ", expected a ] at the end");
   std::vector<std::string> values;
@@ -106,7 +106,7 @@ std::vector<CommandConfig::Line> CommandConfig::linesIn(std::istream& input,
     if (equals == std::string::npos)
       refuse(place, "found " + line + ", expected a line such as \"threads = 4\"");
     lines.push_back({place, section, unquoted(place, line.substr(0, equals)),
-                     valuesOf(place, trimmed(line.substr(equals + 1)))});
+                     parseValues(place, trimmed(line.substr(equals + 1)))});
   }
   return lines;
 }

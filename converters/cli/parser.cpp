@@ -70,7 +70,7 @@ void CommandParser::add(OptionTable& table) {
   for (const OptionRow& row : table.rows())
     for (const std::string& other : row.excludes)
       if (const OptionRow* const found = table.find(other))
-        optionOf(row)->excludes(optionOf(*found));
+        findOption(row)->excludes(findOption(*found));
 }
 
 CLI::Option* CommandParser::addRow(const OptionRow& row) {
@@ -83,13 +83,13 @@ CLI::Option* CommandParser::addRow(const OptionRow& row) {
   else
     option->option_text(row.type);
   if (!row.defaultText.empty()) option->default_str(row.defaultText);
-  option->check(CLI::Validator([&row](std::string& text) { return row.faultOf(text); }, ""));
+  option->check(CLI::Validator([&row](std::string& text) { return row.findFault(text); }, ""));
   if (row.isRequired) option->required();
   if (row.isArgument) option->configurable(false);
   return option;
 }
 
-CLI::Option* CommandParser::optionOf(const OptionRow& row) const {
+CLI::Option* CommandParser::findOption(const OptionRow& row) const {
   for (const auto& [known, option] : m_options)
     if (known == &row) return option;
   return nullptr;

@@ -32,7 +32,7 @@ public:
 private:
   void add(OptionTable& table);
   CLI::Option* addRow(const OptionRow& row);
-  CLI::Option* optionOf(const OptionRow& row) const;
+  CLI::Option* findOption(const OptionRow& row) const;
 
   const engine::Engine& m_commands;
   const engine::BoundCommand& m_command;

@@ -60,7 +60,7 @@ std::string superfluous(const std::string& word, const engine::BoundCommand& com
 }
 
 /// The option that an error's text begins with; null if there is none.
-const CLI::Option* optionOf(const CLI::App& app, const std::string& text) {
+const CLI::Option* findOption(const CLI::App& app, const std::string& text) {
   return app.get_option_no_throw(text.substr(0, text.find_first_of(": ")));
 }
 
@@ -95,7 +95,7 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error,
   if (isA(error, CLI::ExitCodes::RequiredError))
     return missingName(command, text.substr(0, text.find(' '))) +
            " is missing; usage: " + usageLine(command);
-  const CLI::Option* option = optionOf(app, text);
+  const CLI::Option* option = findOption(app, text);
   if (option == nullptr) return text;
   if (isA(error, CLI::ExitCodes::ArgumentMismatch)) return wrongCount(*option);
   if (isA(error, CLI::ExitCodes::ExcludesError))

@@ -32,7 +32,7 @@ ValueCheck checked(Test test, std::string expected) {
 }
 
 /// "SNOMED CT:86117002:Internal carotid artery".
-convert::AnatomyCode codeOf(const std::string& text) {
+convert::AnatomyCode parseCode(const std::string& text) {
   const std::size_t first = text.find(':');
   const std::size_t second = first == std::string::npos ? first : text.find(':', first + 1);
   if (second == std::string::npos) return {};
@@ -41,7 +41,7 @@ convert::AnatomyCode codeOf(const std::string& text) {
 }
 
 bool isCode(const std::string& text) {
-  const convert::AnatomyCode code = codeOf(text);
+  const convert::AnatomyCode code = parseCode(text);
   return (code.system == "SNOMED CT" || code.system == "FMA") && !code.code.empty() &&
          code.code.size() <= 18 && code.code.find_first_not_of("0123456789") == std::string::npos &&
          !formats::checkText(code.name, 255, "");
@@ -49,7 +49,7 @@ bool isCode(const std::string& text) {
 
 void addText(OptionTable& table, const std::string& name, std::string& value,
              const std::string& help, std::size_t most) {
-  table.add(name, &value, "TEXT", help).checkedBy(textOf(0, most));
+  table.add(name, &value, "TEXT", help).checkedBy(checkTextLength(0, most));
 }
 
 void addWord(OptionTable& table, const std::string& name, std::string& value,
@@ -65,7 +65,7 @@ void take(const std::string& given, std::string& value) {
 
 }  // namespace
 
-ValueCheck textOf(std::size_t least, std::size_t most) {
+ValueCheck checkTextLength(std::size_t least, std::size_t most) {
   return checked(
       [=](const std::string& text) {
         return text.size() >= least && !formats::checkText(text, most, "");
@@ -151,7 +151,7 @@ convert::CaseAbout statedAbout(const AboutArguments& arguments, const convert::C
   take(arguments.consent, about.consent);
   take(arguments.deidentification, about.deidentification);
   if (!arguments.codes.empty()) about.codes.clear();
-  for (const std::string& code : arguments.codes) about.codes.push_back(codeOf(code));
+  for (const std::string& code : arguments.codes) about.codes.push_back(parseCode(code));
   return about;
 }
 
@@ -162,8 +162,8 @@ std::string revisionDay(const std::string& given) {
   if (const char* const epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
     char* end = nullptr;
     const long long value = std::strtoll(epoch, &end, 10);
-    constexpr long long kMost = 253402300799;  // the last second of the year 9999
-    if (*epoch == '\0' || *end != '\0' || value < 0 || value > kMost)
+    constexpr long long kLatestSecond = 253402300799;  // the last second of the year 9999
+    if (*epoch == '\0' || *end != '\0' || value < 0 || value > kLatestSecond)
       throw Error(ErrorKind::Usage,
                   "SOURCE_DATE_EPOCH: " + refusal(epoch, "seconds since 1970 in decimal digits"));
     day = floor<days>(sys_seconds(seconds(value)));

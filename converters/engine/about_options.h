@@ -28,7 +28,7 @@ convert::CaseAbout statedAbout(const AboutArguments& arguments, const convert::C
                                const std::string& licence);
 
 /// A text of `least` to `most` bytes, UTF-8 without control characters.
-ValueCheck textOf(std::size_t least, std::size_t most);
+ValueCheck checkTextLength(std::size_t least, std::size_t most);
 /// An SPDX expression.
 ValueCheck licence();
 ValueCheck uuidText();

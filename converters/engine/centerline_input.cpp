@@ -56,7 +56,7 @@ LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFor
                                 const CenterlineArguments& centerline, Progress& progress) {
   LoadedCenterline loaded;
   loaded.file = format.readCenterline(file);
-  if (!loaded.file.points.empty() && !(convert::extentOf(loaded.file).length > 0))
+  if (!loaded.file.points.empty() && !(convert::measureExtent(loaded.file).length > 0))
     throw invalidInput(
         formats::printable(file.string()) +
         (loaded.file.points.size() == 1 ? ": holds one point" : ": holds lines of no length") +
@@ -86,7 +86,7 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::Fit
 
 std::string centerlineInfoText(const LoadedCenterline& centerline) {
   const convert::CenterlineFile& file = centerline.file;
-  const convert::CenterlineExtent extent = convert::extentOf(file);
+  const convert::CenterlineExtent extent = convert::measureExtent(file);
   Lines lines(kNarrowColumn);
   lines.add("points", std::to_string(file.points.size()));
   lines.add("branches", std::to_string(branchCount(file)) + " of " +
@@ -103,7 +103,7 @@ std::string centerlineInfoText(const LoadedCenterline& centerline) {
 
 Json centerlineInfoJson(const LoadedCenterline& centerline) {
   const convert::CenterlineFile& file = centerline.file;
-  const convert::CenterlineExtent extent = convert::extentOf(file);
+  const convert::CenterlineExtent extent = convert::measureExtent(file);
   Json json;
   json["points"] = file.points.size();
   json["branches"] = branchCount(file);

@@ -83,7 +83,7 @@ void requireInput(const fs::path& path, std::string_view what) {
 }
 
 void requireOrder(const fs::path& input, const fs::path& output) {
-  const convert::FileContent content = convert::contentOf(output);
+  const convert::FileContent content = convert::detectContent(output);
   const std::string swapped = "; are the two swapped?";
   std::error_code ignored;
   if (!fs::exists(input, ignored) && isPrecious(content.kind))
@@ -96,7 +96,7 @@ void requireOrder(const fs::path& input, const fs::path& output) {
 
 void requireWritable(const fs::path& path, convert::ContentKind written) {
   std::error_code ignored;
-  const convert::FileContent content = convert::contentOf(path);
+  const convert::FileContent content = convert::detectContent(path);
   if (isPrecious(content.kind) && content.kind != written)
     throw Error(ErrorKind::Usage, path.string() + ": " + content.sentence() +
                                       ", which would be lost; choose another name");

@@ -177,7 +177,7 @@ const FileFormat* findFolder(const fs::path& folder) {
 
 /// The format of a file whose name may stand for several kinds.
 const FileFormat* findByContent(const fs::path& path) {
-  const convert::FileContent content = convert::contentOf(path);
+  const convert::FileContent content = convert::detectContent(path);
   const bool isVtk = lowerCase(path.extension().string()) == ".vtp";
   return isVtk && content.kind == convert::ContentKind::Centerline ? findByName("centerline.vtp")
                                                                    : nullptr;
@@ -209,11 +209,11 @@ std::vector<std::string> listed(FormatTest test, Text text) {
   return words;
 }
 
-std::vector<std::string> namesOf(FormatTest test) {
+std::vector<std::string> namesWhere(FormatTest test) {
   return listed(test, [](const FileFormat& format) { return format.name; });
 }
 
-std::vector<std::string> endingsOf(FormatTest test) {
+std::vector<std::string> endingsWhere(FormatTest test) {
   return listed(test, [](const FileFormat& format) {
     return format.endings.empty() ? std::string_view() : format.endings.front();
   });
@@ -226,18 +226,18 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
   const std::string known = "; lumen " + verb + "s " + formatNames(test);
   if (!override.empty())
     throw unsupported(option + " " + std::string(override) + ": lumen cannot " + verb +
-                      " this format" + known + didYouMean(override, namesOf(test)));
+                      " this format" + known + didYouMean(override, namesWhere(test)));
   if (format != nullptr)
     throw unsupported(path.string() + ": lumen cannot " + verb + " the format " +
                       std::string(format->name) + known);
   throw unsupported(path.string() + ": the name's ending is not that of a format that lumen " +
                     verb + "s" + known + " (" + option + " chooses one whatever the name)" +
-                    didYouMean(path.extension().string(), endingsOf(test)));
+                    didYouMean(path.extension().string(), endingsWhere(test)));
 }
 
 /// Refuses an input whose format its content shows, though its name does not.
 void refuseByContent(const fs::path& path) {
-  const convert::FileContent content = convert::contentOf(path);
+  const convert::FileContent content = convert::detectContent(path);
   if (content.kind == convert::ContentKind::Volume || content.kind == convert::ContentKind::Case ||
       content.kind == convert::ContentKind::Mesh ||
       content.kind == convert::ContentKind::Centerline)
@@ -316,11 +316,11 @@ bool canWriteVolume(const FileFormat& format) {
 }
 
 std::string formatNames(FormatTest test) {
-  return joined(namesOf(test), ", ");
+  return joined(namesWhere(test), ", ");
 }
 
 std::string formatEndings(FormatTest test) {
-  return joined(endingsOf(test), " or ");
+  return joined(endingsWhere(test), " or ");
 }
 
 std::string formatTitles(FormatTest test) {

@@ -85,11 +85,11 @@ void apply(formats::Case& target, const std::string& file,
 }
 
 /// Tracks the hints that lie in no vessel into the result.
-void trackRest(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
-               convert::TrackResult& result, Progress& progress) {
+void addUnusedHints(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
+                    convert::TrackResult& result, Progress& progress) {
   if (rest.empty()) return;
   const convert::TrackingVolume tracking(volume, result.result, progress);
-  convert::AddedTracks added = convert::trackIntoCase(tracking, result.result, rest, progress);
+  convert::AddedTracks added = convert::addTracksFromSeeds(tracking, result.result, rest, progress);
   result.result = std::move(added.result);
   append(std::move(added.failures), result.failures);
   append(std::move(added.missedPoints), result.missedPoints);
@@ -97,14 +97,14 @@ void trackRest(const convert::Volume& volume, const std::vector<convert::SeedBra
   std::move(added.ends.begin(), added.ends.end(), std::back_inserter(result.ends));
 }
 
-convert::TrackResult trackHinted(const convert::Volume& volume, const std::string& file,
-                                 const std::vector<convert::SeedBranch>& seeds,
-                                 const TrackArguments& track, Progress& progress) {
+convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std::string& file,
+                                       const std::vector<convert::SeedBranch>& seeds,
+                                       const TrackArguments& track, Progress& progress) {
   convert::PlacedSeeds placed = placedSeeds(volume, seeds, track, progress);
   std::size_t candidates = 0;
-  convert::TrackResult result = trackAnyFound(volume, track.options, candidates, progress);
+  convert::TrackResult result = findAndTrackIfAny(volume, track.options, candidates, progress);
   if (result.result.tree.nodeCount() == 0) {
-    result = convert::trackCase(volume, placed.seeds, track.options, progress);
+    result = convert::trackFromSeeds(volume, placed.seeds, track.options, progress);
     reportOnSeeds(volume, seeds, track, placed, result, progress);
     apply(result.result, file, seeds, track);
     return result;
@@ -113,7 +113,7 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
   convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, track.rootPlaces());
   append(std::move(hints.missedPoints), result.missedPoints);
   append(std::move(hints.unjoined), result.unjoined);
-  trackRest(volume, hints.rest, result, progress);
+  addUnusedHints(volume, hints.rest, result, progress);
   for (const SeedFailure& unused : hints.unused)
     progress.warn(formats::printable(track.seeds) + ": seed \"" + formats::printable(unused.label) +
                   "\" names no vessel of its own: " + unused.reason);
@@ -125,13 +125,13 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
 
 }  // namespace
 
-convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
-                                 const std::vector<convert::SeedBranch>& seeds,
-                                 const TrackArguments& track, Progress& progress) {
+convert::TrackResult trackVessels(const convert::Volume& volume, const std::string& file,
+                                  const std::vector<convert::SeedBranch>& seeds,
+                                  const TrackArguments& track, Progress& progress) {
   if (!seeds.empty() && !track.isSeedsOnly)
-    return trackHinted(volume, file, seeds, track, progress);
-  convert::TrackResult result = seeds.empty() ? trackFound(volume, file, track.options, progress)
-                                              : trackSeeds(volume, seeds, track, progress);
+    return findAndApplyHints(volume, file, seeds, track, progress);
+  convert::TrackResult result = seeds.empty() ? findAndTrack(volume, file, track.options, progress)
+                                              : placeAndTrack(volume, seeds, track, progress);
   apply(result.result, file, seeds, track);
   renameEnds(result.result, result.ends);
   return result;
@@ -169,7 +169,7 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
     other.options.seed += run;
     const auto places = moved(seeds, volume.geometry.voxelSize(), Random(other.options.seed));
     try {
-      runs.push_back(trackVolume(volume, file, places, other, quiet).result);
+      runs.push_back(trackVessels(volume, file, places, other, quiet).result);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;
       runs.emplace_back();  // it finds nothing

@@ -17,15 +17,15 @@ namespace lumen::engine {
 /// Tracks the vessels of `volume`, read from `file`: those of `seeds`, or all that are found where
 /// there are none or `track` wants all vessels. In the last case seeds are hints: they name what is
 /// found, divide and join it, and start tracks of their own where no vessel is. Roots and selection of
-/// `track` apply. Warnings and errors are those of trackFound() and trackSeeds(); also throws
+/// `track` apply. Warnings and errors are those of findAndTrack() and placeAndTrack(); also throws
 /// Error(Failed) for a root that lies in no vessel.
-convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
-                                 const std::vector<convert::SeedBranch>& seeds,
-                                 const TrackArguments& track, Progress& progress);
+convert::TrackResult trackVessels(const convert::Volume& volume, const std::string& file,
+                                  const std::vector<convert::SeedBranch>& seeds,
+                                  const TrackArguments& track, Progress& progress);
 
-/// Tracks as trackVolume() does as often as `track` asks for repeats, with other random numbers and
-/// with clicks that are moved by a tenth of a voxel, and states how much of `judged` these runs find
-/// again; its nodes get that as LUMEN_repeat.share. Empty without repeats.
+/// Tracks as trackVessels() does as often as `track` asks for repeats, with other random numbers
+/// and with clicks that are moved by a tenth of a voxel, and states how much of `judged` these runs
+/// find again; its nodes get that as LUMEN_repeat.share. Empty without repeats.
 std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
                                                 const std::string& file,
                                                 const std::vector<convert::SeedBranch>& seeds,

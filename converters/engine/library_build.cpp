@@ -85,7 +85,7 @@ const char* endName(RowEnd end) {
   return "";
 }
 
-std::size_t countOf(const std::vector<RowResult>& results, RowEnd end) {
+std::size_t countRows(const std::vector<RowResult>& results, RowEnd end) {
   return static_cast<std::size_t>(std::count_if(
       results.begin(), results.end(), [end](const RowResult& r) { return r.end == end; }));
 }
@@ -128,9 +128,10 @@ int exitCodeOf(const std::vector<RowResult>& results) {
   return static_cast<int>(isInputAlone ? ErrorKind::InvalidInput : ErrorKind::Failed);
 }
 
-Answer answerOf(const std::vector<RowResult>& results, const std::string& library) {
-  const std::size_t made = countOf(results, RowEnd::Made), kept = countOf(results, RowEnd::Kept),
-                    missing = countOf(results, RowEnd::Failed);
+Answer makeAnswer(const std::vector<RowResult>& results, const std::string& library) {
+  const std::size_t made = countRows(results, RowEnd::Made),
+                    kept = countRows(results, RowEnd::Kept),
+                    missing = countRows(results, RowEnd::Failed);
   Json rows = Json::array();
   for (const RowResult& result : results) rows.push_back(resultJson(result));
   return {Json{{"made", made}, {"kept", kept}, {"failed", missing}, {"rows", rows}},
@@ -176,8 +177,8 @@ Answer buildLibrary(const std::vector<BuildRow>& rows, const std::string& list,
   options.jobs = arguments.jobs;
   options.day = revisionDay("");
   const auto results = convert::buildLibrary(rows, folder.parent_path(), options, around.progress);
-  if (countOf(results, RowEnd::Failed) == 0) convert::removeWorkFolder(options.work);
-  return answerOf(results, library);
+  if (countRows(results, RowEnd::Failed) == 0) convert::removeWorkFolder(options.work);
+  return makeAnswer(results, library);
 }
 
 }  // namespace lumen::engine

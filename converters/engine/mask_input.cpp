@@ -97,7 +97,7 @@ formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::p
   const convert::LabelNames names = arguments.names();
   const convert::LabelNames table =
       arguments.labels.empty() ? arguments.table(file) : convert::LabelNames{};
-  convert::LabelMask mask = convert::maskOf(volume, names, name);
+  convert::LabelMask mask = convert::makeLabelMask(volume, names, name);
   useTable(table, mask);
   if (mask.isGrey)
     progress.warn(name +
@@ -105,7 +105,7 @@ formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::p
                   "labels; expected a segmentation: an image is tracked from " +
                   kOption.seeds.shown());
   progress.begin("surface", 0);
-  convert::LabelSurface surface = convert::surfaceOf(mask, progress);
+  convert::LabelSurface surface = convert::makeLabelSurface(mask, progress);
   progress.end();
   if (surface.cavities > 0)
     progress.warn(name + ": " + std::to_string(surface.cavities) +
@@ -137,7 +137,7 @@ void nameByLabelMap(const convert::Volume& volume, const std::string& file,
     throw invalidInput(name +
                        ": its voxels are no labels; expected whole numbers that are equal to "
                        "their neighbours but at borders, and 0 around vessels");
-  convert::LabelMask mask = convert::maskOf(labels, {}, name);
+  convert::LabelMask mask = convert::makeLabelMask(labels, {}, name);
   if (convert::labelledWithin(mask, volume.geometry) == 0)
     throw invalidInput(name + ": none of its labels lies within " + formats::printable(file) +
                        "; the labels' volume is around " + extentText(mask.geometry) +

@@ -55,7 +55,7 @@ Json genusJson(const std::optional<std::int64_t>& genus) {
 }
 
 /// Sum of the genus of all components, if each has one.
-std::optional<std::int64_t> genusOf(const convert::MeshReport& report) {
+std::optional<std::int64_t> sumGenus(const convert::MeshReport& report) {
   std::int64_t sum = 0;
   for (const convert::MeshComponent& c : report.components) {
     if (!c.genus) return std::nullopt;
@@ -170,7 +170,7 @@ Json meshInfoJson(const MeshInfo& info) {
                {"closed", r.closed},
                {"manifold", r.manifold},
                {"oriented", r.oriented},
-               {"genus", genusJson(genusOf(r))},
+               {"genus", genusJson(sumGenus(r))},
                {"self_intersections", r.selfIntersections},
                {"self_intersections_complete", r.allSelfIntersections},
                {"boundary_edges", r.boundaryEdges},
@@ -209,7 +209,7 @@ std::string meshInfoText(const MeshInfo& info) {
   const auto box = [&](Eigen::Index a) {
     return shownNumber(r.low[a] * mm) + " to " + shownNumber(r.high[a] * mm);
   };
-  const std::optional<std::int64_t> genus = genusOf(r);
+  const std::optional<std::int64_t> genus = sumGenus(r);
   Lines lines;
   lines.add("mesh", counted(r.triangles, "triangle", "triangles") + ", " +
                         counted(r.vertices, "point", "points"));

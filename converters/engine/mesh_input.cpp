@@ -94,8 +94,8 @@ std::string guessedUnit(const convert::TriangleMesh& mesh, const std::string& na
 }
 
 /// The unit of the mesh and its axes; warns where the unit is a guess that is not mm.
-MeshFrame frameOf(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
-                  const std::string& name, const MeshArguments& arguments, Progress& progress) {
+MeshFrame chooseFrame(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
+                      const std::string& name, const MeshArguments& arguments, Progress& progress) {
   if (millimetresIn(arguments.unit) > 0) return {arguments.unit, "option", file.frameStated};
   if (file.unitMm > 0) return {"mm", "file", file.frameStated};
   return {guessedUnit(mesh, name, progress), "guess", file.frameStated};
@@ -140,7 +140,7 @@ CaseOfMeshFile caseOfMeshFile(const fs::path& file, const FileFormat& format,
   progress.end();
   for (const std::string& note : read.notes) progress.warn(name + ": " + note);
   if (!repaired.repairs.empty()) progress.warn(name + ": repaired: " + listed(repaired.repairs));
-  const MeshFrame frame = frameOf(read, repaired.mesh, name, arguments, progress);
+  const MeshFrame frame = chooseFrame(read, repaired.mesh, name, arguments, progress);
   const double unit = millimetresIn(frame.unit);
   for (Eigen::Vector3d& p : repaired.mesh.position) p *= unit;
   const auto centerline = givenCenterline(arguments, unit, progress);

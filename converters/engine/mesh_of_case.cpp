@@ -15,7 +15,7 @@ CaseMesh patchesOfCase(const formats::Case& value, const std::filesystem::path& 
                        const OutputOptions& options, int levels, Progress& progress) {
   CaseMesh result;
   convert::PolygoniseOptions patches = options.polygonise;
-  patches.cell = convert::cellOf(value, patches);
+  patches.cell = convert::chooseCell(value, patches);
   for (int level = 0; level < levels; ++level) {
     convert::Patches made = convert::polygonise(value, patches, progress);
     progress.check();

@@ -235,7 +235,7 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   }
   if (!wishes.recipe.empty()) incoming.record.provenance["recipe_sha256"] = wishes.recipe;
   for (const std::string& one : wishes.files) incoming.addFile(pathOfFile(one), "other", one);
-  convert::warnOfClosed(convert::reachOf(value, progress), progress);
+  convert::warnOfClosed(convert::measureReach(value, progress), progress);
   if (value.models && wishes.surface) addSurface(value, incoming, progress);
   if (value.models) addPictures(value, wishes, incoming, progress);
   for (const std::string& target : wishes.targets)

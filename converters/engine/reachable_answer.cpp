@@ -8,13 +8,13 @@ namespace lumen::engine {
 Json reachJson(const std::optional<convert::Reach>& reach) {
   if (!reach) return nullptr;
   Json closed = Json::array();
-  for (const convert::ClosedWay& way : reach->closed)
+  for (const convert::ClosedPath& path : reach->closed)
     closed.push_back(
-        {{"branch", way.branch},
-         {"node", way.node},
+        {{"branch", path.branch},
+         {"node", path.node},
          {"position",
-          {jsonNumber(way.position.x), jsonNumber(way.position.y), jsonNumber(way.position.z)}},
-         {"beyond_mm", jsonNumber(way.beyond)}});
+          {jsonNumber(path.position.x), jsonNumber(path.position.y), jsonNumber(path.position.z)}},
+         {"beyond_mm", jsonNumber(path.beyond)}});
   return {{"length_mm", jsonNumber(reach->length)},
           {"of_mm", jsonNumber(reach->of)},
           {"closed", std::move(closed)}};

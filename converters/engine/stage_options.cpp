@@ -81,8 +81,10 @@ convert::ReadVolumeOptions VolumeArguments::options() const {
     options.unit = mm->second;
   options.allowedDetached.assign(allowDetached.begin(), allowDetached.end());
   if (crop.size() == 6) {
-    constexpr int kFar = 1 << 30;  // beyond every volume, and not where sizes overflow
-    const auto at = [&](std::size_t i) { return std::clamp(crop[i], -kFar, kFar - 1); };
+    constexpr int kBeyondVolumes = 1 << 30;  // beyond every volume, and not where sizes overflow
+    const auto at = [&](std::size_t i) {
+      return std::clamp(crop[i], -kBeyondVolumes, kBeyondVolumes - 1);
+    };
     options.crop = convert::CellBox::between({at(0), at(2), at(4)}, {at(1), at(3), at(5)});
   }
   if (volumeIndex) options.volumeIndex = static_cast<int>(*volumeIndex);

@@ -62,9 +62,9 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
   if (!report->errors.empty() && report->errors.front() >= 0)
     text += ", within " + fixedText(report->errors.front(), 4) + " mm of that with all triangles";
   text += "\n";
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMostOverlapLines = 5;
   const auto& branches = value.tree.branches;
-  for (std::size_t i = 0; i < std::min(kMost, report->overlaps.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMostOverlapLines, report->overlaps.size()); ++i) {
     const convert::Overlap& o = report->overlaps[i];
     text += (i == 0 ? "overlap      " : "             ") +
             formats::printable(branches[o.branch].label) + " and " +
@@ -72,8 +72,8 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
             " mm at " + convert::placeText(o.place) + "; kept " + fixedText(report->gap, 3) +
             " mm apart\n";
   }
-  if (report->overlaps.size() > kMost)
-    text += "             and " + std::to_string(report->overlaps.size() - kMost) +
+  if (report->overlaps.size() > kMostOverlapLines)
+    text += "             and " + std::to_string(report->overlaps.size() - kMostOverlapLines) +
             " more pairs; " + kOption.json.shown() + " lists all\n";
   return text;
 }

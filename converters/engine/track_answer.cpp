@@ -88,15 +88,15 @@ Json withRemarks(Json json, const convert::TrackRemarks& remarks) {
 }
 
 std::string endLines(const convert::TrackRemarks& remarks) {
-  constexpr std::size_t kMost = 10;
+  constexpr std::size_t kMostEndLines = 10;
   std::vector<convert::TrackEnd> open = remarks.ends;
   std::erase_if(open, [](const convert::TrackEnd& end) { return end.goesOn <= 0; });
   std::stable_sort(open.begin(), open.end(),
                    [](const auto& a, const auto& b) { return a.goesOn > b.goesOn; });
   std::string text;
-  for (std::size_t i = 0; i < std::min(open.size(), kMost); ++i) text += endLine(open[i]);
-  if (open.size() > kMost)
-    text += "and so on at " + std::to_string(open.size() - kMost) + " more ends; " +
+  for (std::size_t i = 0; i < std::min(open.size(), kMostEndLines); ++i) text += endLine(open[i]);
+  if (open.size() > kMostEndLines)
+    text += "and so on at " + std::to_string(open.size() - kMostEndLines) + " more ends; " +
             kOption.json.shown() + " lists all\n";
   return text;
 }

@@ -46,12 +46,12 @@ void reportAssumptions(const std::filesystem::path& file,
 /// One line for each seed, unless there are too many to read.
 void warnOfSeeds(const std::string& file, const std::string& what,
                  const std::vector<convert::SeedFailure>& failures, Progress& progress) {
-  constexpr std::size_t kMost = 20;
-  for (std::size_t i = 0; i < std::min(failures.size(), kMost); ++i)
+  constexpr std::size_t kMostSeedLines = 20;
+  for (std::size_t i = 0; i < std::min(failures.size(), kMostSeedLines); ++i)
     progress.warn(file + ": seed \"" + formats::printable(failures[i].label) + "\"" + what +
                   failures[i].reason);
-  if (failures.size() > kMost)
-    progress.warn(file + ": and so on for " + std::to_string(failures.size() - kMost) +
+  if (failures.size() > kMostSeedLines)
+    progress.warn(file + ": and so on for " + std::to_string(failures.size() - kMostSeedLines) +
                   " more seeds; " + kOption.json.shown() + " lists all");
 }
 
@@ -123,11 +123,11 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
   return result;
 }
 
-convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
-                                const convert::TrackOptions& options, Progress& progress) {
+convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& file,
+                                  const convert::TrackOptions& options, Progress& progress) {
   const std::string none = formats::printable(file) + ": no vessels are found in it";
   std::size_t candidates = 0;
-  convert::TrackResult result = trackAnyFound(volume, options, candidates, progress);
+  convert::TrackResult result = findAndTrackIfAny(volume, options, candidates, progress);
   if (candidates == 0)
     throw failed(none + ", as nothing long and thin stands out of its noise; " +
                  kOption.seeds.shown() + " states where vessels begin, and " +
@@ -138,13 +138,13 @@ convert::TrackResult trackFound(const convert::Volume& volume, const std::string
   return result;
 }
 
-convert::TrackResult trackAnyFound(const convert::Volume& volume,
-                                   const convert::TrackOptions& options, std::size_t& candidates,
-                                   Progress& progress) {
+convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
+                                       const convert::TrackOptions& options,
+                                       std::size_t& candidates, Progress& progress) {
   const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
   candidates = found.courses.size();
   if (found.courses.empty()) return {};
-  convert::TrackResult result = convert::trackCourses(
+  convert::TrackResult result = convert::trackAlongCourses(
       volume, found.courses, [&](const Eigen::Vector3d& point) { return found.isBone(point); },
       options, progress);
   reportRefused(result, progress);
@@ -162,12 +162,12 @@ convert::TrackResult trackAnyFound(const convert::Volume& volume,
   return result;
 }
 
-convert::AddedTracks addFound(const convert::TrackingVolume& tracking,
-                              const convert::Volume& volume, const formats::Case& known,
-                              Progress& progress) {
+convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
+                                const convert::Volume& volume, const formats::Case& known,
+                                Progress& progress) {
   const convert::FoundVessels found =
       convert::findVessels(volume, tracking.options().dark, progress);
-  convert::AddedTracks added = convert::trackCoursesIntoCase(
+  convert::AddedTracks added = convert::addTracksAlongCourses(
       tracking, known, found.courses,
       [&](const Eigen::Vector3d& point) { return found.isBone(point); }, progress);
   reportRefused(added, progress);
@@ -219,11 +219,12 @@ void reportOnSeeds(const convert::Volume& volume, const std::vector<convert::See
             std::back_inserter(result.missedPoints));
 }
 
-convert::TrackResult trackSeeds(const convert::Volume& volume,
-                                const std::vector<convert::SeedBranch>& seeds,
-                                const TrackArguments& track, Progress& progress) {
+convert::TrackResult placeAndTrack(const convert::Volume& volume,
+                                   const std::vector<convert::SeedBranch>& seeds,
+                                   const TrackArguments& track, Progress& progress) {
   convert::PlacedSeeds placed = placedSeeds(volume, seeds, track, progress);
-  convert::TrackResult result = convert::trackCase(volume, placed.seeds, track.options, progress);
+  convert::TrackResult result =
+      convert::trackFromSeeds(volume, placed.seeds, track.options, progress);
   reportOnSeeds(volume, seeds, track, placed, result, progress);
   return result;
 }

@@ -36,20 +36,20 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
 /// Finds the vessels of `volume`, which is read from `file`, without seeds, and tracks them. Vessels
 /// of which the volume shows no wall are left out, and listed for --verbose. Throws Error(Failed) if
 /// none is left.
-convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
-                                const convert::TrackOptions& options, Progress& progress);
+convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& file,
+                                  const convert::TrackOptions& options, Progress& progress);
 
 /// Finds the vessels of `volume` without seeds, and tracks them; empty if none is found.
 /// `candidates`: number of paths that might be vessels.
-convert::TrackResult trackAnyFound(const convert::Volume& volume,
-                                   const convert::TrackOptions& options, std::size_t& candidates,
-                                   Progress& progress);
+convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
+                                       const convert::TrackOptions& options,
+                                       std::size_t& candidates, Progress& progress);
 
-/// Adds to a case that was tracked in `volume` the vessels that it lacks, as trackFound() finds them;
-/// what it has stays as it is. Returns the result with its remarks on the new vessels.
-convert::AddedTracks addFound(const convert::TrackingVolume& tracking,
-                              const convert::Volume& volume, const formats::Case& known,
-                              Progress& progress);
+/// Adds to a case that was tracked in `volume` the vessels that it lacks, as findAndTrack() finds
+/// them; what it has stays as it is. Returns the result with its remarks on the new vessels.
+convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
+                                const convert::Volume& volume, const formats::Case& known,
+                                Progress& progress);
 
 /// The seeds of --seeds, read by the options. Throws Error(InvalidInput) for a file that is
 /// missing or invalid.
@@ -71,8 +71,8 @@ void reportOnSeeds(const convert::Volume& volume, const std::vector<convert::See
 /// Tracks `seeds` alone through the volume, from their clicks on. Seeds that cannot be placed in it or that start no track
 /// become warnings, and failures of the result. `track.seeds` is where they are from, for messages.
 /// Throws Error(InvalidInput) if none can be placed, and Error(Failed) if nothing was tracked.
-convert::TrackResult trackSeeds(const convert::Volume& volume,
-                                const std::vector<convert::SeedBranch>& seeds,
-                                const TrackArguments& track, Progress& progress);
+convert::TrackResult placeAndTrack(const convert::Volume& volume,
+                                   const std::vector<convert::SeedBranch>& seeds,
+                                   const TrackArguments& track, Progress& progress);
 
 }  // namespace lumen::engine

@@ -56,7 +56,7 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
   ExportResult result = target.write({source, options, frame, progress}, options);
   result.files.push_back({"README.md", readmeText(target, frame, result), "", ""});
   result.files.push_back(
-      {"lumen-export.json", manifestOf(target, frame, source, texts, result), "", ""});
+      {"lumen-export.json", makeManifest(target, frame, source, texts, result), "", ""});
   return result;
 }
 

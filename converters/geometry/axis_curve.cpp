@@ -28,11 +28,11 @@ std::vector<AxisPoint> curveBetween(const AxisPoint& from, const AxisPoint& to, 
 }
 
 double turnBetween(const AxisPoint& from, const AxisPoint& to) {
-  const Vector3d way = to.position - from.position;
-  const double distance = way.norm();
+  const Vector3d chord = to.position - from.position;
+  const double distance = chord.norm();
   if (!(distance > 0)) return std::numeric_limits<double>::infinity();
-  return std::acos(std::min(1.0, std::abs(from.direction.dot(way)) / distance)) +
-         std::acos(std::clamp(to.direction.dot(way) / distance, -1.0, 1.0));
+  return std::acos(std::min(1.0, std::abs(from.direction.dot(chord)) / distance)) +
+         std::acos(std::clamp(to.direction.dot(chord) / distance, -1.0, 1.0));
 }
 
 }  // namespace lumen::convert

@@ -25,7 +25,7 @@ struct Runs {
 Runs findRuns(const SampleGrid& grid, double level) {
   Runs result;
   result.rowBegin.push_back(0);
-  for (const SampleGrid::Row& row : grid.rows) {
+  for (const SampleGrid::SampleRow& row : grid.rows) {
     bool open = false;
     for (int i = 0; i < row.count; ++i) {
       const std::size_t at = row.offset + static_cast<std::size_t>(i);
@@ -87,10 +87,10 @@ std::size_t nearestRun(const SampleGrid& grid, const Runs& runs, const Eigen::Ve
   return nearest;
 }
 
-class Extraction {
+class MarchingCubes {
 public:
-  Extraction(const SampleGrid& grid, std::span<const SampleState> state,
-             const EdgeCrossing& crossing)
+  MarchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
+                const EdgeCrossing& crossing)
       : m_grid(grid), m_state(state), m_crossing(crossing) {
     m_vertexOnEdge.assign(3 * grid.value.size(), kNoVertex);
   }
@@ -157,12 +157,12 @@ private:
   void addVertex(int x, unsigned corner, unsigned axis) {
     // Keeps the vertices on the six edges at one sample apart, also when the surface runs through
     // it.
-    constexpr double kLeast = 1e-4;
+    constexpr double kLeastShare = 1e-4;
     const unsigned end = corner | 1U << axis;
     const Eigen::Vector3d a = cornerPosition(x, corner), b = cornerPosition(x, end);
     const double fa = m_grid.value[sampleAt(corner >> 1, x + static_cast<int>(corner & 1))];
     const double fb = m_grid.value[sampleAt(end >> 1, x + static_cast<int>(end & 1))];
-    const double t = std::clamp(m_crossing(a, fa, b, fb), kLeast, 1 - kLeast);
+    const double t = std::clamp(m_crossing(a, fa, b, fb), kLeastShare, 1 - kLeastShare);
     m_patch.position.push_back(a + t * (b - a));
   }
 
@@ -176,7 +176,7 @@ private:
   std::span<const SampleState> m_state;
   const EdgeCrossing& m_crossing;
   std::vector<std::uint32_t> m_vertexOnEdge;  ///< by the sample at the edge's start, and its axis
-  std::array<const SampleGrid::Row*, 4> m_row{};
+  std::array<const SampleGrid::SampleRow*, 4> m_row{};
   int m_y = 0, m_z = 0;
   TriangleMesh m_patch;
 };
@@ -202,7 +202,7 @@ std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
 
 TriangleMesh marchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
                            const EdgeCrossing& crossing) {
-  return Extraction(grid, state, crossing).run();
+  return MarchingCubes(grid, state, crossing).run();
 }
 
 }  // namespace lumen::convert

@@ -17,7 +17,7 @@ namespace lumen::convert {
 /// Samples at cell * (x, y, z) of a lattice that is fixed in space. Row (y, z) holds the samples of
 /// a range of x of its own, so that a grid need not fill its box.
 struct SampleGrid {
-  struct Row {
+  struct SampleRow {
     int first = 0;           ///< x of the row's first sample
     int count = 0;           ///< samples, 0 or more
     std::size_t offset = 0;  ///< index of the row's first sample in `value`
@@ -26,10 +26,10 @@ struct SampleGrid {
   double cell = 0;         ///< mm
   int lowY = 0, lowZ = 0;  ///< lattice position of row(0, 0)
   int rowsY = 0, rowsZ = 0;
-  std::vector<Row> rows;  ///< rowsY * rowsZ, y fastest
+  std::vector<SampleRow> rows;  ///< rowsY * rowsZ, y fastest
   std::vector<double> value;
 
-  [[nodiscard]] const Row& row(int y, int z) const {
+  [[nodiscard]] const SampleRow& row(int y, int z) const {
     return rows[static_cast<std::size_t>(z) * static_cast<std::size_t>(rowsY) +
                 static_cast<std::size_t>(y)];
   }

@@ -77,7 +77,7 @@ std::uint8_t insideEnd(std::uint8_t edge, unsigned inside) {
   return (inside >> e.corner & 1) != 0 ? e.corner : end;
 }
 
-std::vector<CellTriangle> trianglesOf(unsigned inside) {
+std::vector<CellTriangle> makeTriangles(unsigned inside) {
   std::vector<CellTriangle> result;
   auto next = linkSegments(inside);
   for (std::uint8_t start = 0; start < next.size(); ++start) {
@@ -110,7 +110,7 @@ bool shareFace(unsigned edge, unsigned otherEdge) {
 
 MarchingCubesTable::MarchingCubesTable() {
   for (unsigned inside = 0; inside < 256; ++inside) {
-    const auto triangles = trianglesOf(inside);
+    const auto triangles = makeTriangles(inside);
     m_triangles.insert(m_triangles.end(), triangles.begin(), triangles.end());
     m_offset[inside + 1] = static_cast<std::uint16_t>(m_triangles.size());
   }

@@ -35,7 +35,7 @@ double signedVolume(const TriangleMesh& mesh) {
   return volume;
 }
 
-Box3d boxOf(const TriangleMesh& mesh) {
+Box3d boundingBox(const TriangleMesh& mesh) {
   Box3d box;
   for (const Triangle& t : mesh.triangle)
     for (const std::uint32_t v : t) box.add(mesh.position[v]);

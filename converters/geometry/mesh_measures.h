@@ -32,6 +32,6 @@ inline double tetrahedronVolume(const Eigen::Vector3d& a, const Eigen::Vector3d&
 double signedVolume(const TriangleMesh& mesh);
 
 /// The box of the points that triangles use; the origin alone if there are no triangles.
-Box3d boxOf(const TriangleMesh& mesh);
+Box3d boundingBox(const TriangleMesh& mesh);
 
 }  // namespace lumen::convert

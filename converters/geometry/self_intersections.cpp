@@ -16,8 +16,8 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kGreatest = 1e50, kLeast = 1e-50;  // range of orientation()
-constexpr std::size_t kBlock = 1 << 14;             // leaves per block of work
+constexpr double kGreatestCoordinate = 1e50, kLeastCoordinate = 1e-50;  // range of orientation()
+constexpr std::size_t kBlock = 1 << 14;                                 // leaves per block of work
 constexpr int kMortonBits = 21;  // bits per coordinate, three of which fit 64 bits
 
 // Adds a point, rounded outwards: floats halve the memory to traverse.
@@ -43,7 +43,7 @@ std::uint64_t spread(std::uint64_t bits) {
 bool isUsable(const TriangleMesh& mesh, const Triangle& t) {
   const auto isInRange = [&mesh](std::uint32_t v) {
     const auto size = mesh.position[v].array().abs();
-    return (size <= kGreatest && (size == 0 || size >= kLeast)).all();
+    return (size <= kGreatestCoordinate && (size == 0 || size >= kLeastCoordinate)).all();
   };
   return isInRange(t[0]) && isInRange(t[1]) && isInRange(t[2]) && hasArea(mesh, t);
 }
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> inOrder(const TriangleMesh& mesh) {
   std::vector<std::uint8_t> usable(mesh.triangle.size());
   tbb::parallel_for(std::size_t{0}, usable.size(),
                     [&](std::size_t t) { usable[t] = isUsable(mesh, mesh.triangle[t]) ? 1 : 0; });
-  Eigen::Array3d low = Eigen::Array3d::Constant(kGreatest), high = -low;
+  Eigen::Array3d low = Eigen::Array3d::Constant(kGreatestCoordinate), high = -low;
   const auto middle = [&mesh](std::size_t t) -> Eigen::Array3d {
     const Triangle& corner = mesh.triangle[t];
     return mesh.position[corner[0]] / 3 + mesh.position[corner[1]] / 3 +
@@ -135,7 +135,7 @@ using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 // The pairs of leaves first .. last - 1, in that order. Where there are more than `most`, threads
 // may find different subsets: then one thread repeats the search in order.
-Pairs pairsOf(const TriangleLeaves& tree, std::size_t first, std::size_t last, std::size_t most) {
+Pairs findPairs(const TriangleLeaves& tree, std::size_t first, std::size_t last, std::size_t most) {
   std::vector<Pairs> found(last - first);
   std::atomic<std::size_t> count{0};
   tbb::parallel_for(first, last, [&](std::size_t i) {
@@ -161,7 +161,7 @@ SelfIntersections selfIntersections(const TriangleMesh& mesh, std::size_t limit,
        first += kBlock) {
     if (progress != nullptr) progress->check();
     const Pairs more =
-        pairsOf(tree, first, std::min(tree.size(), first + kBlock), limit - result.pairs.size());
+        findPairs(tree, first, std::min(tree.size(), first + kBlock), limit - result.pairs.size());
     result.pairs.insert(result.pairs.end(), more.begin(), more.end());
   }
   result.isComplete = result.pairs.size() <= limit;

@@ -27,7 +27,7 @@ Flat drop(const Corners& t, int axis) {
 }
 
 // An axis whose projection keeps the triangle's area; empty if it has no area.
-std::optional<int> axisOf(const Corners& t) {
+std::optional<int> projectionAxis(const Corners& t) {
   int widest = 0;
   (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs().maxCoeff(&widest);
   for (const int axis : {widest, (widest + 1) % 3, (widest + 2) % 3})
@@ -67,7 +67,7 @@ bool segmentMeetsFlat(const Flat& t, const Eigen::Vector2d& a, const Eigen::Vect
 bool segmentMeetsTriangle(const Corners& t, const Point& a, const Point& b, int sideA, int sideB) {
   if (sideA * sideB > 0) return false;
   if (sideA == 0 && sideB == 0) {
-    const int axis = axisOf(t).value_or(0);
+    const int axis = projectionAxis(t).value_or(0);
     return segmentMeetsFlat(drop(t, axis), drop(a, axis), drop(b, axis));
   }
   return agree(orientation(a, b, t[0], t[1]), orientation(a, b, t[1], t[2]),
@@ -80,7 +80,7 @@ bool segmentMeetsTriangle(const Corners& t, const Point& a, const Point& b) {
 }
 
 bool flatTrianglesMeet(const Corners& one, const Corners& other) {
-  const int axis = axisOf(one).value_or(0);
+  const int axis = projectionAxis(one).value_or(0);
   const Flat a = drop(one, axis), b = drop(other, axis);
   for (std::size_t i = 0; i < 3; ++i)
     if (segmentMeetsFlat(a, b[i], b[(i + 1) % 3])) return true;
@@ -107,7 +107,7 @@ bool trianglesMeet(const Corners& one, const Corners& other) {
 // Two triangles on the edge from t[0] to t[1], with tips t[2] and `tip`.
 bool isFolded(const Corners& t, const Point& tip) {
   if (orientation(t[0], t[1], t[2], tip) != 0) return false;
-  const int axis = axisOf(t).value_or(0);
+  const int axis = projectionAxis(t).value_or(0);
   const Flat flat = drop(t, axis);
   return orientation(flat[0], flat[1], flat[2]) * orientation(flat[0], flat[1], drop(tip, axis)) >
          0;
@@ -136,7 +136,7 @@ bool meetBeyondVertex(const TriangleMesh& mesh, const Triangle& one, const Trian
 }  // namespace
 
 bool hasArea(const TriangleMesh& mesh, const Triangle& triangle) {
-  return axisOf(cornersOf(mesh, triangle)).has_value();
+  return projectionAxis(cornersOf(mesh, triangle)).has_value();
 }
 
 bool intersect(const TriangleMesh& mesh, const Triangle& one, const Triangle& other) {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The hit of a ray on a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
 /// ray/triangle intersection", 1997), and whether it comes from behind. Empty without a hit.
@@ -55,7 +55,7 @@ public:
   /// Distance at which the ray enters a box, or a value beyond all triangles if it misses. Boxes
   /// enclose their content with a margin larger than the rounding errors here.
   [[nodiscard]] double entry(const Box3f& box) const {
-    double from = 0, to = kFar;
+    double from = 0, to = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = static_cast<Eigen::Index>(k);
       const double one = (double{box.low[a]} - m_origin[k]) * m_inverse[k];
@@ -63,7 +63,7 @@ public:
       from = std::max(from, std::min(one, two));
       to = std::min(to, std::max(one, two));
     }
-    return from <= to ? from : kFar;
+    return from <= to ? from : kInfinity;
   }
 
 private:
@@ -83,8 +83,8 @@ double TriangleTree::squaredDistance(const Box3f& box, const Vector3d& point) {
 
 // The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection",
 // 2005, section 5.1.5).
-Vector3d nearestPointOf(const Vector3d& p, const Vector3d& a, const Vector3d& b,
-                        const Vector3d& c) {
+Vector3d nearestPointOnTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                                const Vector3d& c) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return a;
@@ -133,7 +133,7 @@ void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, 
   std::size_t depth = 1;
   while (depth > 0) {
     const Waiting here = stack[--depth];
-    if (here.from == kFar || here.from > most) continue;
+    if (here.from == kInfinity || here.from > most) continue;
     const Tree::Node& node = m_tree.node(here.node);
     for (std::uint32_t k = node.at; k < node.at + node.count; ++k) {
       auto hit = meet(origin, direction, m_corner[k]);
@@ -145,7 +145,7 @@ void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, 
     // the nearer child last, so that it is visited first
     const Waiting one = waiting(here.node + 1), two = waiting(node.at);
     const bool oneFirst = one.from < two.from;
-    if (one.from != kFar || two.from != kFar) {
+    if (one.from != kInfinity || two.from != kInfinity) {
       stack[depth++] = oneFirst ? two : one;
       stack[depth++] = oneFirst ? one : two;
     }
@@ -155,7 +155,7 @@ void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, 
 std::optional<RayHit> TriangleTree::firstHit(const Vector3d& origin, const Vector3d& direction,
                                              double least) const {
   std::optional<RayHit> best;
-  double most = kFar;
+  double most = kInfinity;
   eachOnRay(origin, direction, least, most, [&](const RayHit& hit) {
     if (hit.distance > most || (best && hit.distance == most && hit.triangle > best->triangle))
       return;
@@ -173,14 +173,14 @@ bool TriangleTree::isFree(const Vector3d& from, const Vector3d& to) const {
   eachOnRay(from, (to - from) / length, 0, most, [&](const RayHit& hit) {
     if (hit.distance > length) return;
     isMet = true;
-    most = -kFar;
+    most = -kInfinity;
   });
   return !isMet;
 }
 
 int TriangleTree::winding(const Vector3d& origin, const Vector3d& direction) const {
   int turns = 0;
-  const double most = kFar;
+  const double most = kInfinity;
   eachOnRay(origin, direction, 0, most, [&](const RayHit& hit) { turns += hit.leaves ? 1 : -1; });
   return turns;
 }
@@ -199,7 +199,7 @@ NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
   NearestPoint best;
   double most = reach * reach;
   visitNear(point, most, [&](std::uint32_t t, const Vector3d& at, double squared) {
-    if (squared == most && best.distance < kFar && t > best.triangle) return;
+    if (squared == most && best.distance < kInfinity && t > best.triangle) return;
     most = squared;
     best = {std::sqrt(squared), t, at};
   });

@@ -30,8 +30,8 @@ struct NearestPoint {
 };
 
 /// The point of the triangle a, b, c that is nearest to `p`.
-Eigen::Vector3d nearestPointOf(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                               const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+Eigen::Vector3d nearestPointOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                       const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 /// A bounding-volume hierarchy of the triangles of a mesh that computes in doubles and in one fixed
 /// order: results have equal bits on every machine, unlike those of single-precision kernels that
@@ -101,7 +101,7 @@ void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most, V
     if (node.count > 0) {
       for (std::uint32_t k = node.at; k < node.at + node.count; ++k) {
         const auto& [a, b, c] = m_corner[k];
-        const Eigen::Vector3d at = nearestPointOf(point, a, b, c);
+        const Eigen::Vector3d at = nearestPointOnTriangle(point, a, b, c);
         const double squared = (at - point).squaredNorm();
         if (squared <= most) visit(m_tree.items()[k], at, squared);
       }

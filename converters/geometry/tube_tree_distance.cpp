@@ -150,8 +150,8 @@ void TubeTreeDistance::collect(const Eigen::Vector3d& centre, double reach,
   }
 }
 
-WallHit TubeTreeDistance::nearestOf(std::span<const std::uint32_t> segments,
-                                    const Eigen::Vector3d& point) const {
+WallHit TubeTreeDistance::nearestAmong(std::span<const std::uint32_t> segments,
+                                       const Eigen::Vector3d& point) const {
   WallHit hit;
   for (const std::uint32_t s : segments) lower(s, point, hit);
   return hit;

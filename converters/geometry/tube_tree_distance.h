@@ -55,11 +55,11 @@ public:
   [[nodiscard]] WallHit nearest(const Eigen::Vector3d& point) const;
 
   /// Replaces `segments` by those that may be nearest to some point within `reach` mm of `centre`,
-  /// for many queries near one place: nearestOf() with them equals nearest() there.
+  /// for many queries near one place: nearestAmong() with them equals nearest() there.
   void collect(const Eigen::Vector3d& centre, double reach,
                std::vector<std::uint32_t>& segments) const;
-  [[nodiscard]] WallHit nearestOf(std::span<const std::uint32_t> segments,
-                                  const Eigen::Vector3d& point) const;
+  [[nodiscard]] WallHit nearestAmong(std::span<const std::uint32_t> segments,
+                                     const Eigen::Vector3d& point) const;
 
 private:
   struct Segment {

@@ -55,10 +55,10 @@ bool isKept(const fs::path& folder, const LibraryFile& library, const PlannedRow
 }
 
 /// Results that workers hand over, and rows that lie ready for the library.
-class Building {
+class LibraryBuild {
 public:
-  Building(const std::vector<BuildRow>& rows, fs::path folder, const BuildOptions& options,
-           Progress& progress)
+  LibraryBuild(const std::vector<BuildRow>& rows, fs::path folder, const BuildOptions& options,
+               Progress& progress)
       : m_rows(rows),
         m_folder(std::move(folder)),
         m_library(openLibrary(m_folder)),
@@ -112,7 +112,7 @@ private:
     }
     m_results[i] = makeRow(plan, m_library, m_options, m_progress);
     if (m_results[i].end == RowEnd::Failed) {
-      warnOf(m_results[i]);
+      warnOfFailure(m_results[i]);
       return;
     }
     const std::lock_guard lock(m_mutex);
@@ -133,10 +133,10 @@ private:
     m_results[i].end = RowEnd::Failed;
     m_results[i].why = why;
     m_results[i].code = static_cast<int>(ErrorKind::InvalidInput);
-    if (!m_progress.cancelled()) warnOf(m_results[i]);
+    if (!m_progress.cancelled()) warnOfFailure(m_results[i]);
   }
 
-  void warnOf(const RowResult& result) {
+  void warnOfFailure(const RowResult& result) {
     m_progress.warn("line " + std::to_string(result.line) + " (" + formats::printable(result.id) +
                     "): " + result.why);
   }
@@ -208,7 +208,7 @@ void removeWorkFolder(const fs::path& folder) {
 std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows, const fs::path& library,
                                     const BuildOptions& options, Progress& progress) {
   claimWorkFolder(options.work);
-  return Building(rows, library, options, progress).run();
+  return LibraryBuild(rows, library, options, progress).run();
 }
 
 }  // namespace lumen::convert

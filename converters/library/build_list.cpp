@@ -42,7 +42,7 @@ std::string linePrefix(std::size_t line) {
 }
 
 /// The parts between semicolons, without those that are empty.
-std::vector<std::string> partsOf(const std::string& text) {
+std::vector<std::string> splitAtSemicolons(const std::string& text) {
   std::vector<std::string> parts;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(';', at), text.size());
@@ -54,7 +54,7 @@ std::vector<std::string> partsOf(const std::string& text) {
 }
 
 /// "SNOMED CT:ID:NAME".
-nlohmann::ordered_json codeOf(const std::string& text) {
+nlohmann::ordered_json parseCode(const std::string& text) {
   const std::size_t first = text.find(':'), second = text.find(':', first + 1);
   if (first == std::string::npos || second == std::string::npos)
     throw invalidInput("codes: found " + quotedText(text) + ", expected SYSTEM:CODE:NAME");
@@ -79,7 +79,7 @@ void addAbout(nlohmann::ordered_json& about, const std::string& column, const st
     anatomy()["text"] = cell;
   } else if (column == "codes") {
     auto codes = nlohmann::ordered_json::array();
-    for (const std::string& code : partsOf(cell)) codes.push_back(codeOf(code));
+    for (const std::string& code : splitAtSemicolons(cell)) codes.push_back(parseCode(code));
     anatomy()["codes"] = std::move(codes);
   } else if (column == "synthetic") {
     about["synthetic"] = synthetic(cell);
@@ -98,7 +98,7 @@ void addCell(BuildRow& row, nlohmann::ordered_json& about, const fs::path& folde
   else if (column == "id")
     row.id = cell;
   else if (column == "targets")
-    row.targets = partsOf(cell);
+    row.targets = splitAtSemicolons(cell);
   else if (column.starts_with("--"))
     row.options[column] = cell;
   else
@@ -112,7 +112,7 @@ void requireFile(const fs::path& file, const std::string& column) {
 }
 
 /// A row of the list; throws with the fault, without the place.
-BuildRow rowOf(const Cells& names, const Cells& cells, const fs::path& folder) {
+BuildRow parseRow(const Cells& names, const Cells& cells, const fs::path& folder) {
   if (cells.size() > names.size())
     throw invalidInput("found " + std::to_string(cells.size()) + " cells, expected " +
                        std::to_string(names.size()) + ": a text with a comma needs quotes");
@@ -187,7 +187,7 @@ std::vector<BuildRow> readBuildList(const std::string& text, const fs::path& fil
     const auto& [line, cells] = table[i];
     if (std::all_of(cells.begin(), cells.end(), [](const auto& c) { return c.empty(); })) continue;
     try {
-      rows.push_back(rowOf(names, cells, file.parent_path()));
+      rows.push_back(parseRow(names, cells, file.parent_path()));
       rows.back().line = line;
     } catch (const Error& error) {
       faults.push_back(linePrefix(line) + error.what());

@@ -19,10 +19,10 @@ namespace {
 constexpr std::size_t kShortDigest = 12;  // characters, in names of folders
 
 /// The operations of one row.
-class Row {
+class RowMaker {
 public:
-  Row(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
-      const Progress& progress)
+  RowMaker(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
+           const Progress& progress)
       : m_plan(plan), m_library(library), m_options(options), m_progress(progress) {
     m_result.line = plan.row->line;
     m_result.id = plan.id;
@@ -122,7 +122,7 @@ bool isStaged(const PlannedRow& plan) {
 
 RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
                   const Progress& progress) {
-  return Row(plan, library, options, progress).made();
+  return RowMaker(plan, library, options, progress).made();
 }
 
 }  // namespace lumen::convert

@@ -18,8 +18,8 @@ std::string manifestLine(std::string_view digest, std::string_view path) {
 }
 
 /// The lines of a case, sorted by path.
-std::string manifestOf(const CaseRecord& record, const LibraryEntry& entry,
-                       std::string_view crate) {
+std::string manifestLines(const CaseRecord& record, const LibraryEntry& entry,
+                          std::string_view crate) {
   std::vector<std::pair<std::string, std::string>> lines = {{kRecordFile, entry.recordSha256},
                                                             {kCrateFile, sha256(crate)}};
   for (const RecordedFile& file : record.files) lines.emplace_back(file.path, file.sha256);
@@ -87,7 +87,7 @@ LibraryTexts::~LibraryTexts() = default;
 void LibraryTexts::add(const CaseRecord& record, std::string_view crate) {
   State& state = *m_state;
   const LibraryEntry& entry = state.library.cases.at(state.next++);
-  state.manifest.add(manifestOf(record, entry, crate));
+  state.manifest.add(manifestLines(record, entry, crate));
   CrateEntity entity = caseEntity(record);
   entity.erase("about");  // its codes are in the crate of the case
   state.crate.add(crateLine(entity));

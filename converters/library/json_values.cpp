@@ -57,7 +57,7 @@ double positive(const JsonPlace& place) {
   return value;
 }
 
-std::string wordOf(const JsonPlace& place, std::initializer_list<const char*> words) {
+std::string readWord(const JsonPlace& place, std::initializer_list<const char*> words) {
   const std::string& text = place.text();
   if (std::find(words.begin(), words.end(), text) != words.end()) return text;
   std::string expected = "one of ";

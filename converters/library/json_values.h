@@ -21,7 +21,7 @@ std::uint64_t wholeNumber(const JsonPlace& place, std::uint64_t least = 0,
 double notNegative(const JsonPlace& place);
 double positive(const JsonPlace& place);
 /// One of these words.
-std::string wordOf(const JsonPlace& place, std::initializer_list<const char*> words);
+std::string readWord(const JsonPlace& place, std::initializer_list<const char*> words);
 /// SHA-256: 64 lower-case hexadecimal digits.
 std::string digest(const JsonPlace& place);
 /// A day that there is, YYYY-MM-DD.

@@ -35,7 +35,7 @@ std::string digestOfFiles(std::vector<fs::path> files, const fs::path& folder,
 }
 
 template <class Iterator>
-std::vector<fs::path> filesOf(const fs::path& folder) {
+std::vector<fs::path> listFiles(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (Iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
@@ -55,7 +55,7 @@ std::vector<fs::path> filesOfHeader(const fs::path& header) {
   const std::string text = readWholeFile(header, "header");
   const bool isPattern = text.find('%') != std::string::npos;
   const fs::path folder = header.has_parent_path() ? header.parent_path() : fs::path(".");
-  std::vector<fs::path> files = filesOf<fs::directory_iterator>(folder);
+  std::vector<fs::path> files = listFiles<fs::directory_iterator>(folder);
   std::erase_if(files, [&](const fs::path& file) {
     return !isPattern && file.stem() != header.stem() &&
            text.find(file.filename().string()) == std::string::npos;
@@ -68,7 +68,7 @@ std::vector<fs::path> filesOfHeader(const fs::path& header) {
 std::string digestOfInput(const fs::path& input, const Progress& progress) {
   std::error_code ignored;
   if (fs::is_directory(input, ignored))
-    return digestOfFiles(filesOf<fs::recursive_directory_iterator>(input), input, progress);
+    return digestOfFiles(listFiles<fs::recursive_directory_iterator>(input), input, progress);
   if (isHeader(input)) return digestOfFiles(filesOfHeader(input), input.parent_path(), progress);
   return digestOfFile(input).sha256;
 }

@@ -47,7 +47,7 @@ void setBounds(const CenterlineTree& tree, CaseRecord& record) {
   record.boundsMax = asFloats(high);
 }
 
-CaseFigures figuresOf(const formats::Case& source, Progress& progress) {
+CaseFigures measureFigures(const formats::Case& source, Progress& progress) {
   const CenterlineTree& tree = source.tree;
   CaseFigures figures;
   figures.branches = tree.branches.size();
@@ -74,7 +74,7 @@ CaseFigures figuresOf(const formats::Case& source, Progress& progress) {
 }
 
 /// Insertions at the beginning of each vessel that is a root, as exports enter it.
-std::vector<CasePlace> insertionsOf(const CenterlineTree& tree) {
+std::vector<CasePlace> findInsertions(const CenterlineTree& tree) {
   std::vector<CasePlace> places;
   for (const formats::Branch& branch : tree.branches) {
     if (branch.kind != formats::BranchKind::Vessel || branch.parentNode >= 0) continue;
@@ -91,7 +91,7 @@ std::vector<CasePlace> insertionsOf(const CenterlineTree& tree) {
 
 std::vector<CasePlace> namedEnds(const CenterlineTree& tree) {
   std::vector<CasePlace> places;
-  for (const NamedEnd& end : endsOf(tree))
+  for (const NamedEnd& end : findEnds(tree))
     places.push_back({end.name, end.kind == FaceKind::Inlet ? "inlet" : "outlet",
                       asFloats(end.position), asFloats(end.direction), asFloat(end.radius)});
   return places;
@@ -104,7 +104,7 @@ Json stepJson(const formats::Step& step) {
   return {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}};
 }
 
-Json provenanceOf(const formats::Metadata& metadata, const std::string& caseSha256) {
+Json makeProvenance(const formats::Metadata& metadata, const std::string& caseSha256) {
   Json steps = Json::array();
   for (const formats::Step& step : metadata.steps) steps.push_back(stepJson(step));
   return {{"case_sha256", caseSha256},
@@ -120,10 +120,10 @@ void describe(const formats::Case& source, const std::string& caseSha256, CaseRe
   if (source.tree.nodeCount() == 0)
     throw invalidInput("this case has no nodes, so there is nothing to state of it");
   setBounds(source.tree, record);
-  record.figures = figuresOf(source, progress);
-  record.insertions = insertionsOf(source.tree);
+  record.figures = measureFigures(source, progress);
+  record.insertions = findInsertions(source.tree);
   record.ends = namedEnds(source.tree);
-  record.provenance = provenanceOf(source.metadata, caseSha256);
+  record.provenance = makeProvenance(source.metadata, caseSha256);
 }
 
 }  // namespace lumen::convert

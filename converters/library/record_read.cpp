@@ -24,7 +24,7 @@ constexpr std::size_t kMostCodes = 64, kMostSteps = 1024, kMostParameters = 4096
 AnatomyCode readCode(const JsonPlace& place) {
   place.onlyKeys({"system", "code", "name"});
   AnatomyCode code;
-  code.system = wordOf(place.at("system"), {"SNOMED CT", "FMA"});
+  code.system = readWord(place.at("system"), {"SNOMED CT", "FMA"});
   code.code = plainText(place.at("code"), 18, 1);
   if (code.code.find_first_not_of("0123456789") != std::string::npos)
     place.at("code").refuse("1 to 18 digits");
@@ -52,11 +52,11 @@ const std::map<std::string, AboutReader>& aboutReaders() {
       {"anatomy", readAnatomy},
       {"laterality",
        [](P p, CaseAbout& a) {
-         a.laterality = wordOf(p, {"left", "right", "bilateral", "midline", "unknown"});
+         a.laterality = readWord(p, {"left", "right", "bilateral", "midline", "unknown"});
        }},
       {"modality",
        [](P p, CaseAbout& a) {
-         a.modality = wordOf(p, {"XA", "CT", "MR", "US", "mesh", "synthetic", "other"});
+         a.modality = readWord(p, {"XA", "CT", "MR", "US", "mesh", "synthetic", "other"});
        }},
       {"synthetic", [](P p, CaseAbout& a) { a.synthetic = p.boolean(); }},
       {"licence", [](P p, CaseAbout& a) { a.licence = plainText(p, 255); }},
@@ -83,7 +83,7 @@ CasePlace readPlace(const JsonPlace& place, bool isEnd) {
   if (isEnd) {
     place.onlyKeys({"name", "kind", "position", "direction", "radius"});
     result.name = plainText(place.at("name"), 300, 1);
-    result.kind = wordOf(place.at("kind"), {"inlet", "outlet"});
+    result.kind = readWord(place.at("kind"), {"inlet", "outlet"});
   } else {
     place.onlyKeys({"label", "position", "direction", "radius"});
     result.name = plainText(place.at("label"), 255, 1);
@@ -201,7 +201,8 @@ RecordedFile readFile(const JsonPlace& place) {
   if (!isRecordedPath(file.path))
     refusePath(place.at("path"),
                std::string("a path relative to the folder of the case, its parts of ") + kPathRule);
-  file.role = wordOf(place.at("role"), {"case", "surface", "export", "picture", "report", "other"});
+  file.role =
+      readWord(place.at("role"), {"case", "surface", "export", "picture", "report", "other"});
   if (place.has("target") != (file.role == "export"))
     place.refuse("a target for an export, and for nothing else");
   if (place.has("target")) file.target = place.at("target").text();
@@ -254,8 +255,8 @@ CaseRecord readRecord(const std::string& text, const std::filesystem::path& file
   record.version = static_cast<std::uint32_t>(wholeNumber(root.at("version"), 1, UINT32_MAX));
   record.date = day(root.at("date"));
   for (const auto& [key, read] : aboutReaders()) read(root.at(key), record.about);
-  wordOf(root.at("units"), {"mm"});
-  wordOf(root.at("frame"), {"LPS"});
+  readWord(root.at("units"), {"mm"});
+  readWord(root.at("frame"), {"LPS"});
   root.at("bounds").onlyKeys({"min", "max"});
   record.boundsMin = root.at("bounds").at("min").vector();
   record.boundsMax = root.at("bounds").at("max").vector();

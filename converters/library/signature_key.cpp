@@ -25,7 +25,7 @@ constexpr std::size_t kMostBytes = 1U << 20U;  // size of a file of keys: thousa
 constexpr std::size_t kMinisignSecret = 158, kMinisignPublic = 42, kMinisignSignature = 74;
 constexpr std::size_t kKeyId = 8;
 
-std::vector<std::string> linesOf(const std::string& text) {
+std::vector<std::string> splitLines(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(trimmed(line));
@@ -59,7 +59,7 @@ bool isKeyType(std::string_view word) {
                      [&](std::string_view begin) { return word.starts_with(begin); });
 }
 
-std::vector<std::string> wordsOf(const std::string& line) {
+std::vector<std::string> splitWords(const std::string& line) {
   std::istringstream stream(line);
   return {std::istream_iterator<std::string>(stream), {}};
 }
@@ -75,7 +75,7 @@ bool readOpenSsh(const std::vector<std::string>& lines, KeyFile& key) {
   bool hasSigners = false, hasAny = false;
   for (const std::string& line : lines) {
     if (line.empty() || line.starts_with('#')) continue;
-    const std::vector<std::string> words = wordsOf(line);
+    const std::vector<std::string> words = splitWords(line);
     const bool isBare = isKey(words, 0);
     bool found = isBare;
     for (std::size_t at = 1; at < words.size() && !found; ++at) found = isKey(words, at);
@@ -94,7 +94,7 @@ KeyFile readKeyFile(const std::filesystem::path& file) {
   const std::string text = readWholeFile(file, "key file", kMostBytes);
   KeyFile key;
   key.file = file;
-  const std::vector<std::string> lines = linesOf(text);
+  const std::vector<std::string> lines = splitLines(text);
   if (const auto bytes = minisignBytes(lines)) {
     if (bytes->size() == kMinisignSecret) {
       key.kind = KeyKind::MinisignSecret;
@@ -133,7 +133,7 @@ std::string keyKindText(KeyKind kind) {
 }
 
 std::optional<std::string> minisignSigner(const std::string& signature) {
-  const auto bytes = minisignBytes(linesOf(signature));
+  const auto bytes = minisignBytes(splitLines(signature));
   if (!bytes || bytes->size() != kMinisignSignature) return {};
   return keyId(std::span(*bytes).subspan(2, kKeyId));
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 255;
 
-std::vector<std::string_view> linesOf(std::string_view text) {
+std::vector<std::string_view> splitLines(std::string_view text) {
   std::vector<std::string_view> lines;
   for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos;
        text.remove_prefix(end + 1))
@@ -50,7 +50,7 @@ bool isOwnLicence(std::string_view word) {
 }
 
 /// Words and parentheses.
-std::vector<std::string> tokensOf(const std::string& text) {
+std::vector<std::string> splitTokens(const std::string& text) {
   std::vector<std::string> tokens;
   bool inWord = false;
   for (const char c : text) {
@@ -87,9 +87,9 @@ std::string unknown(const std::string& word) {
 }
 
 /// expression = term {("AND" | "OR") term}; term = "(" expression ")" | licence ["WITH" exception]
-class Reader {
+class LicenceParser {
 public:
-  explicit Reader(const std::string& text) : m_tokens(tokensOf(text)) {}
+  explicit LicenceParser(const std::string& text) : m_tokens(splitTokens(text)) {}
 
   /// Fault of the whole text.
   std::string fault() {
@@ -134,19 +134,19 @@ private:
 }  // namespace
 
 const std::vector<std::string_view>& spdxLicences() {
-  static const std::vector<std::string_view> lines = linesOf(spdxTexts()[0].bytes);
+  static const std::vector<std::string_view> lines = splitLines(spdxTexts()[0].bytes);
   return lines;
 }
 
 const std::vector<std::string_view>& spdxExceptions() {
-  static const std::vector<std::string_view> lines = linesOf(spdxTexts()[1].bytes);
+  static const std::vector<std::string_view> lines = splitLines(spdxTexts()[1].bytes);
   return lines;
 }
 
 std::string licenceFault(const std::string& expression) {
   const std::string prefix = "licence " + quotedText(expression) + ": ";
   if (expression.size() > kMostBytes) return prefix + "expected at most 255 bytes";
-  const std::string fault = Reader(expression).fault();
+  const std::string fault = LicenceParser(expression).fault();
   return fault.empty() ? fault : prefix + fault;
 }
 

@@ -29,7 +29,7 @@ std::size_t CubeSearch::voxelAt(const Vector3d& world) const {
   return cell ? m_box.index(*cell) : kNowhere;
 }
 
-std::vector<std::size_t> CubeSearch::voxelsIn(const Ball& ball) const {
+std::vector<std::size_t> CubeSearch::voxelsIn(const WorldBall& ball) const {
   const Vector3d middle = m_geometry.indexFromWorld(ball.centre) - m_box.low.cast<double>();
   const Vector3d half = ball.radius * m_geometry.spacing.cwiseInverse();
   const Vector3d last = (m_box.size - Cell::Ones()).cast<double>();

@@ -15,7 +15,7 @@
 namespace lumen::convert {
 
 /// A ball in space, mm, LPS.
-struct Ball {
+struct WorldBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
 };
@@ -41,7 +41,7 @@ public:
   [[nodiscard]] std::size_t count() const { return m_paths.count(); }
 
   /// The voxels in the cube whose centres lie in a ball.
-  [[nodiscard]] std::vector<std::size_t> voxelsIn(const Ball& ball) const;
+  [[nodiscard]] std::vector<std::size_t> voxelsIn(const WorldBall& ball) const;
   /// Excludes a voxel from the search, unless it is the start.
   void exclude(std::size_t voxel) {
     if (voxel != m_first) m_paths.block(static_cast<std::uint32_t>(voxel));
@@ -101,7 +101,8 @@ void CubeSearch::run(const Price& price, float limit, const Visit& visit,
       const auto next = static_cast<std::uint32_t>(voxel + to.offset);
       reach(next, [&] {
         const float thereCosts = priceAt(next, there);
-        return thereCosts >= limit ? CheapestPaths::kFar : to.half * (hereCosts + thereCosts);
+        return thereCosts >= limit ? CheapestPaths::kInfiniteCost
+                                   : to.half * (hereCosts + thereCosts);
       });
     }
   };

@@ -97,8 +97,9 @@ std::vector<float> distancesTo(const CellBox& box, const Eigen::Vector3d& spacin
   return out;
 }
 
-std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
-                            const Progress& progress) {
+std::vector<float> measureDepths(const VoxelSet& set,
+                                 const std::function<bool(std::size_t)>& isBright,
+                                 const Progress& progress) {
   const auto half = static_cast<float>(0.5 * set.geometry().voxelSize());
   std::vector<float> depths(set.size(), std::numeric_limits<float>::infinity());
   std::vector<Eigen::Vector3f> fromRim(set.size());

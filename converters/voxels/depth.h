@@ -28,8 +28,9 @@ std::vector<float> distancesTo(const CellBox& box, const Eigen::Vector3d& spacin
 /// Danielsson, "Euclidean distance mapping", 1980). `isBright(index)` is called for the neighbours
 /// of the set's voxels. Places beyond the volume count as bright. Infinite where every voxel is
 /// bright. Throws Error(Cancelled).
-std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
-                            const Progress& progress);
+std::vector<float> measureDepths(const VoxelSet& set,
+                                 const std::function<bool(std::size_t)>& isBright,
+                                 const Progress& progress);
 
 /// distance(position) of each voxel of a set, mm, in parallel. Throws Error(Cancelled).
 std::vector<float> depthsBy(const VoxelSet& set,

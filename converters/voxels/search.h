@@ -21,19 +21,20 @@ enum class SearchStep : std::uint8_t { GoOn, GoNoFurther, Stop };
 class CheapestPaths {
 public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  static constexpr float kFar = std::numeric_limits<float>::infinity();
+  static constexpr float kInfiniteCost = std::numeric_limits<float>::infinity();
 
-  explicit CheapestPaths(std::size_t count = 0) : m_cost(count, kFar), m_before(count, kNone) {}
+  explicit CheapestPaths(std::size_t count = 0)
+      : m_cost(count, kInfiniteCost), m_before(count, kNone) {}
 
   [[nodiscard]] std::size_t count() const { return m_cost.size(); }
 
   /// Excludes a voxel that was not reached from every search, unless the search begins there.
-  void block(std::uint32_t i) { m_cost[i] = -kFar; }
+  void block(std::uint32_t i) { m_cost[i] = -kInfiniteCost; }
 
   /// Forgets the paths of the previous search; blocked voxels stay blocked.
   void clear() {
     for (const std::uint32_t i : m_reached) {
-      m_cost[i] = kFar;
+      m_cost[i] = kInfiniteCost;
       m_before[i] = kNone;
     }
     m_reached.clear();

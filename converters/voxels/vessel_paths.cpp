@@ -63,7 +63,7 @@ void VesselPaths::findSteps(const Progress& progress) {
       });
 }
 
-std::vector<std::uint32_t> VesselPaths::partOf(std::uint32_t voxel) const {
+std::vector<std::uint32_t> VesselPaths::connectedPart(std::uint32_t voxel) const {
   std::vector<std::uint32_t> part(1, voxel);
   std::vector<bool> isSeen(m_set.size(), false);
   isSeen[voxel] = true;
@@ -171,13 +171,13 @@ void VesselPaths::findLoop(VesselPath& path) const {
 // Voxels behind a wall, in a vessel that touches, are not covered.
 void VesselPaths::coverAround(std::uint32_t i, bool isBall) {
   m_skeleton.eachCovered(i, [&](std::uint32_t j) {
-    if (m_cover[j] == kFree && isOpen(i, j)) m_cover[j] = kNear;
+    if (m_cover[j] == kFree && isOpen(i, j)) m_cover[j] = kNearBall;
   });
   if (isBall) m_set.eachWithin(i, depth(i), [&](std::uint32_t j) { m_cover[j] = kInBall; });
 }
 
 void VesselPaths::cover(const VesselPath& path) {
-  float last = -CheapestPaths::kFar;
+  float last = -CheapestPaths::kInfiniteCost;
   for (const std::uint32_t i : path.voxels) {
     if (i != path.voxels.back() && m_skeleton.length(i) - last < kBallStep * m_skeleton.depth(i))
       continue;

@@ -46,7 +46,7 @@ public:
   std::vector<VesselPath> find(std::uint32_t root, const Progress& progress);
 
   /// The voxels of a connected part; the given one is the first.
-  [[nodiscard]] std::vector<std::uint32_t> partOf(std::uint32_t voxel) const;
+  [[nodiscard]] std::vector<std::uint32_t> connectedPart(std::uint32_t voxel) const;
 
   /// The voxel farthest from `from`, in its part.
   std::uint32_t farthest(std::uint32_t from, const Progress& progress);
@@ -55,7 +55,7 @@ public:
   std::uint32_t widestTip(std::uint32_t voxel, const Progress& progress);
 
 private:
-  enum Cover : std::uint8_t { kFree = 0, kNear = 1, kInBall = 2 };
+  enum Cover : std::uint8_t { kFree = 0, kNearBall = 1, kInBall = 2 };
   /// A voxel that shares a corner with another, with no wall in between; in the upper three bits
   /// the axes along which it lies beside it.
   using Step = std::uint32_t;

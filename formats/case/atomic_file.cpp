@@ -163,7 +163,7 @@ bool flushFolder(const fs::path& folder, const FileCalls& calls) {
 }
 
 // Flushes the file system of `folder` by one call, or else the folder file by file.
-bool flushSystemOf(const fs::path& folder, const FileCalls& calls) {
+bool flushAtOnce(const fs::path& folder, const FileCalls& calls) {
   if (!calls.flushSystem) return flushFolder(folder, calls);
   const FileDescriptor open = openForReading(folder, O_DIRECTORY);
   if (!open.isOpen()) return false;
@@ -247,7 +247,7 @@ Expected<PendingFolder> PendingFolder::beside(const fs::path& folder, Existing e
 }
 
 Status PendingFolder::commit(Flush how) {
-  const auto flush = how == Flush::Each ? flushFolder : flushSystemOf;
+  const auto flush = how == Flush::Each ? flushFolder : flushAtOnce;
   if (!flush(path(), m_calls)) return writeError(m_target, "cannot write", errno);
   if (m_calls.get().rename(path().c_str(), m_target.c_str()) == 0) {
     m_sibling.release();

@@ -147,7 +147,7 @@ std::optional<std::uint64_t> nodeArrayOffset(const std::string& pointer, const C
 void placeIssues(const Case& value, const CaseChunks& chunks, IssueList& issues) {
   issues.forEach([&](Issue& issue) {
     if (issue.offset || !issue.pointer) return;
-    issue.offset = byteOffsetOf(*issue.pointer, chunks);
+    issue.offset = findByteOffset(*issue.pointer, chunks);
     if (!issue.offset) issue.offset = nodeArrayOffset(*issue.pointer, value, chunks);
   });
 }

@@ -198,7 +198,7 @@ private:
   }
 
   bool addTo(std::vector<float>& to, std::string_view text) {
-    const auto value = singleOf(text);
+    const auto value = parseFloat(text);
     if (!value) return false;
     to.push_back(*value);
     ++m_index;
@@ -207,7 +207,7 @@ private:
 
   bool addTo(std::vector<Vec3f>& to, std::string_view text) {
     if (!checkComponent()) return false;
-    const auto value = singleOf(text);
+    const auto value = parseFloat(text);
     if (!value) return false;
     Vec3f& vector = to.back();
     (m_component == 0 ? vector.x : m_component == 1 ? vector.y : vector.z) = *value;
@@ -232,7 +232,7 @@ private:
     return true;
   }
 
-  std::optional<float> singleOf(std::string_view text) {
+  std::optional<float> parseFloat(std::string_view text) {
     const auto value = floatFromText(text);
     if (!value) outOfRange(text, "a number that rounds to an f32");
     return value;

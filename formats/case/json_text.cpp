@@ -31,9 +31,9 @@ void appendUtf8(std::string& to, std::uint32_t point) {
   add(0x80u | (point & 0x3fu));
 }
 
-class Reader {
+class JsonParser {
 public:
-  Reader(std::string_view text, JsonEvents& events) : m_text(text), m_events(events) {}
+  JsonParser(std::string_view text, JsonEvents& events) : m_text(text), m_events(events) {}
 
   std::optional<JsonFault> read() {
     if (m_text.starts_with("\xef\xbb\xbf"))
@@ -211,7 +211,7 @@ private:
 }  // namespace
 
 std::optional<JsonFault> readJsonText(std::string_view text, JsonEvents& events) {
-  return Reader(text, events).read();
+  return JsonParser(text, events).read();
 }
 
 }  // namespace lumen::formats

@@ -34,7 +34,7 @@ std::optional<Issue> originFault(const NodeArray& array, const std::string& plac
       std::to_string(*fault), "an origin from 0 to 2");
 }
 
-std::vector<NodeOrigin> nodeOriginsOf(const Case& value) {
+std::vector<NodeOrigin> readNodeOrigins(const Case& value) {
   std::vector<NodeOrigin> origins(value.tree.nodeCount(), NodeOrigin::Measured);
   const auto array = std::find_if(value.nodeArrays.begin(), value.nodeArrays.end(), isOrigins);
   if (array != value.nodeArrays.end())

@@ -29,7 +29,7 @@ constexpr const char* kOriginArray = "LUMEN_node.origin";
 std::optional<Issue> originFault(const NodeArray& array, const std::string& place);
 
 /// One value for each node of a valid case; all are measured if the case has no such array.
-std::vector<NodeOrigin> nodeOriginsOf(const Case& value);
+std::vector<NodeOrigin> readNodeOrigins(const Case& value);
 
 /// Replaces the node array of a case by `origins`, one value for each node, and lists its
 /// extension; removes both if all nodes are measured.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks on a centerline tree. Edges are those of the format; field::edgesOf() drops duplicates.
+// Walks on a centerline tree. Edges are those of the format; field::findEdges() drops duplicates.
 #pragma once
 
 #include <cstdint>

@@ -69,9 +69,9 @@ inline void multiplyByStep(const Rival& rival, double s, double& u, Jet<order>& 
 /// The weight u_k of a node, the product of psi over its neighbours. Those that the node does not
 /// beat by tau are added to the nodes that blend. `Nodes` is described at blend().
 template <int order, class Nodes>
-Jet<order> weightOf(const Nodes& nodes, std::uint32_t node, const double* point,
-                    ActiveNodes& active) {
-  constexpr double kLeast = 1e-7;  // least s: u, u' and u'' fall like s^3, s^2 and s
+Jet<order> blendWeight(const Nodes& nodes, std::uint32_t node, const double* point,
+                       ActiveNodes& active) {
+  constexpr double kLeastStep = 1e-7;  // least s: u, u' and u'' fall like s^3, s^2 and s
   double x[3];
   for (int i = 0; i < 3; ++i) x[i] = point[i] - nodes.centre(node)[i];
   Jet<order> logarithm, weight;
@@ -80,7 +80,7 @@ Jet<order> weightOf(const Nodes& nodes, std::uint32_t node, const double* point,
     const double s = 0.5 + 0.5 * rival.inverseTau * powerDifference(rival, x);
     if (s >= 1.0) return true;
     active.add(rival.node);
-    if (s <= kLeast) return false;
+    if (s <= kLeastStep) return false;
     multiplyByStep<order>(rival, s, u, logarithm);
     return true;
   });
@@ -147,7 +147,7 @@ template <int order, class Nodes>
 Jet<order> blend(const Nodes& nodes, std::uint32_t node, const double* point) {
   Mixture<order> sum;
   visitActiveNodes(node, [&](std::uint32_t k, ActiveNodes& active) {
-    const Jet<order> weight = weightOf<order>(nodes, k, point, active);
+    const Jet<order> weight = blendWeight<order>(nodes, k, point, active);
     if (!(weight.value > 0)) return false;
     sum.add(weight, nodes.template model<order>(k, point));
     return true;

@@ -17,17 +17,17 @@ template <class T>
   return s * s * s * smoothStepOverCube(s);
 }
 
-/// Nodes that blend at a point, in the order in which they were found. Nodes after the first kMost
-/// are left out.
+/// Nodes that blend at a point, in the order in which they were found. Nodes after the first
+/// kMostActive are left out.
 struct ActiveNodes {
-  static constexpr unsigned kMost = 24;
-  std::uint32_t node[kMost];
+  static constexpr unsigned kMostActive = 24;
+  std::uint32_t node[kMostActive];
   unsigned count = 0;
 
   void add(std::uint32_t k) {
     for (unsigned i = 0; i < count; ++i)
       if (node[i] == k) return;
-    if (count < kMost) node[count++] = k;
+    if (count < kMostActive) node[count++] = k;
   }
 };
 

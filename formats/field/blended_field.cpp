@@ -4,7 +4,7 @@
 namespace lumen::field {
 namespace {
 
-Rival rivalOf(const TreeView& tree, std::uint32_t i, std::uint32_t k, double tau) {
+Rival makeRival(const TreeView& tree, std::uint32_t i, std::uint32_t k, double tau) {
   Rival rival{};
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -25,10 +25,10 @@ BlendedField::BlendedField(const TreeView& tree, const ModelsView& models)
     : m_kernel(models.kernel),
       m_level(models.level),
       m_offset(models.offset, models.offset + tree.nodeCount + 1) {
-  const Neighbourhood edges = edgesOf(tree);
-  const std::vector<std::uint32_t> lender = lendersOf(edges, models.offset);
-  const std::vector<double> spacing = spacingsOf(tree, edges);
-  m_around = neighbourhoodOf(tree, edges);
+  const Neighbourhood edges = findEdges(tree);
+  const std::vector<std::uint32_t> lender = findLenders(edges, models.offset);
+  const std::vector<double> spacing = measureSpacings(tree, edges);
+  m_around = findNeighbourhood(tree, edges);
   m_nodes.reserve(tree.nodeCount);
   m_rivals.reserve(m_around.node.size());
   for (std::uint32_t i = 0; i < tree.nodeCount; ++i) {
@@ -37,7 +37,8 @@ BlendedField::BlendedField(const TreeView& tree, const ModelsView& models)
     for (std::uint32_t e = m_around.offset[i]; e < m_around.offset[i + 1]; ++e) {
       const std::uint32_t k = m_around.node[e];
       const double mean = 0.5 * (spacing[i] + spacing[k]);
-      m_rivals.push_back(rivalOf(tree, i, k, blendingWidth(tree, i, k, m_around.isEdge[e], mean)));
+      m_rivals.push_back(
+          makeRival(tree, i, k, blendingWidth(tree, i, k, m_around.isEdge[e], mean)));
     }
   }
   m_blobs.reserve(m_offset.back());
@@ -58,8 +59,8 @@ std::uint32_t BlendedField::locate(const Vec& point) const {
   double least = 0;
   for (std::uint32_t i = 0; i < m_nodes.size(); ++i) {
     const Node& node = m_nodes[i];
-    const Vec way = point - Vec{node.centre[0], node.centre[1], node.centre[2]};
-    const double power = dot(way, way) - node.radius * node.radius;
+    const Vec fromCentre = point - Vec{node.centre[0], node.centre[1], node.centre[2]};
+    const double power = dot(fromCentre, fromCentre) - node.radius * node.radius;
     if (best != kNowhere && !(power < least)) continue;
     least = power;
     best = i;

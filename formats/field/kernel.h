@@ -43,13 +43,13 @@ inline constexpr auto kKernelNames = [] {
 }();
 
 /// Behaviour of a kernel far out.
-inline KernelTail tailOf(Kernel kernel) {
+inline KernelTail kernelTail(Kernel kernel) {
   return withKernel(kernel, [](auto k) { return k.kTail; });
 }
 
 /// Whether phi is zero from u = 1 on.
 inline bool isCompact(Kernel kernel) {
-  return tailOf(kernel) == KernelTail::Compact;
+  return kernelTail(kernel) == KernelTail::Compact;
 }
 
 /// The default of the parameter p; 0 for a kernel without one.

@@ -86,7 +86,7 @@ public:
   DistantPairSearch(const TreeView& tree, const Neighbourhood& edges)
       : m_tree(tree),
         m_edges(edges),
-        m_spacing(spacingsOf(tree, edges)),
+        m_spacing(measureSpacings(tree, edges)),
         m_reachedFrom(tree.nodeCount, kNowhere) {}
 
   // Adds the nearest along the tree first, while both nodes have room.
@@ -176,7 +176,7 @@ private:
 
 }  // namespace
 
-std::vector<double> spacingsOf(const TreeView& tree, const Neighbourhood& edges) {
+std::vector<double> measureSpacings(const TreeView& tree, const Neighbourhood& edges) {
   std::vector<double> result(tree.nodeCount, 0.0);
   for (std::uint32_t i = 0; i < tree.nodeCount; ++i)
     for (std::uint32_t e = edges.offset[i]; e < edges.offset[i + 1]; ++e)
@@ -187,13 +187,13 @@ std::vector<double> spacingsOf(const TreeView& tree, const Neighbourhood& edges)
 double blendingWidth(const TreeView& tree, std::uint32_t i, std::uint32_t k, bool isEdge,
                      double spacing) {
   constexpr double kShare = 0.6;
-  constexpr double kLeast = 1e-3;  // share of a radius squared: nodes in one place share evenly
+  constexpr double kLeastShare = 1e-3;  // of a radius squared: nodes in one place share evenly
   const double radius = std::min(tree.radius[i], tree.radius[k]), square = squareOf(tree, i, k);
   const double width = isEdge ? kShare * square : std::min(0.5 * square, kShare * spacing);
-  return std::max(width, kLeast * radius * radius);
+  return std::max(width, kLeastShare * radius * radius);
 }
 
-std::vector<std::uint32_t> lendersOf(const Neighbourhood& edges, const std::uint32_t* offset) {
+std::vector<std::uint32_t> findLenders(const Neighbourhood& edges, const std::uint32_t* offset) {
   const std::size_t count = edges.offset.size() - 1;
   std::vector<std::uint32_t> queue, lender(count, kNowhere);
   for (std::uint32_t i = 0; i < count; ++i)
@@ -211,12 +211,12 @@ std::vector<std::uint32_t> lendersOf(const Neighbourhood& edges, const std::uint
   return lender;
 }
 
-Neighbourhood edgesOf(const TreeView& tree) {
+Neighbourhood findEdges(const TreeView& tree) {
   const std::vector<Pair> pairs = edgePairs(tree);
   return fromPairs(tree.nodeCount, pairs, pairs.size());
 }
 
-Neighbourhood neighbourhoodOf(const TreeView& tree, const Neighbourhood& edges) {
+Neighbourhood findNeighbourhood(const TreeView& tree, const Neighbourhood& edges) {
   std::vector<Pair> pairs = edgePairs(tree);
   const std::size_t edgeCount = pairs.size();
   const std::vector<Pair> distant = DistantPairSearch(tree, edges).distantPairs();

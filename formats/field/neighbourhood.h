@@ -16,15 +16,15 @@ struct Neighbourhood {
 };
 
 /// Adjacency by parents, children and links only. Indices are in range.
-Neighbourhood edgesOf(const TreeView& tree);
+Neighbourhood findEdges(const TreeView& tree);
 
 /// The node whose blobs answer for each node: itself if it has some, else the nearest along
 /// the tree that has (the fewest edges away; of several, the lowest index), or kNowhere. Node i
 /// owns the blobs offset[i] .. offset[i + 1] - 1.
-std::vector<std::uint32_t> lendersOf(const Neighbourhood& edges, const std::uint32_t* offset);
+std::vector<std::uint32_t> findLenders(const Neighbourhood& edges, const std::uint32_t* offset);
 
 /// The greatest square of the lengths of a node's edges, mm^2, for all nodes.
-std::vector<double> spacingsOf(const TreeView& tree, const Neighbourhood& edges);
+std::vector<double> measureSpacings(const TreeView& tree, const Neighbourhood& edges);
 
 /// Blending width tau of a pair, mm^2. For an edge, a share of the square of its length: along a
 /// straight chain two models blend in that share of the distance between two nodes, and one is
@@ -38,6 +38,6 @@ double blendingWidth(const TreeView& tree, std::uint32_t i, std::uint32_t k, boo
 /// in the bend of a vessel, in the crotch of a bifurcation, past nodes too thin for their
 /// neighbours. Then the node of least power among its neighbours is that of least power of all
 /// nodes near by along the tree, and a cursor's node does not depend on its path.
-Neighbourhood neighbourhoodOf(const TreeView& tree, const Neighbourhood& edges);
+Neighbourhood findNeighbourhood(const TreeView& tree, const Neighbourhood& edges);
 
 }  // namespace lumen::field

@@ -25,8 +25,8 @@ RadicalDisc::RadicalDisc(const TreeView& tree, std::uint32_t a, std::uint32_t b)
   const double share = 0.5 * (1.0 + (ra * ra - rb * rb) / square), length = std::sqrt(square);
   // the plane's distance from either centre, and the radius that a reach leaves on the plane
   const auto left = [](double reach, double height) { return reach * reach - height * height; };
-  const double rest =
-      std::max(left(kReach * ra, share * length), left(kReach * rb, (1.0 - share) * length));
+  const double rest = std::max(left(kReachRadii * ra, share * length),
+                               left(kReachRadii * rb, (1.0 - share) * length));
   if (!(rest > 0)) return;
   const Vec middle = share * axis, u = std::sqrt(rest) * perpendicular(axis);
   const Vec v = (1.0 / length) * cross(axis, u);
@@ -44,12 +44,12 @@ void RadicalDisc::cut(const TreeView& tree, std::uint32_t node, double slack) {
   const double radius = tree.radius[node];
   const double constant = dot(c, c) - radius * radius + m_radius * m_radius + slack;
   const auto excess = [&](const Vec& x) { return constant - 2.0 * dot(c, x); };
-  std::array<Vec, kMost> kept;
+  std::array<Vec, kMostCorners> kept;
   std::size_t count = 0;
   for (std::size_t i = 0; i < m_count; ++i) {
     const Vec &here = m_corner[i], &next = m_corner[(i + 1) % m_count];
     const double e = excess(here), f = excess(next);
-    if (count + 2 > kMost) return;
+    if (count + 2 > kMostCorners) return;
     if (e >= 0) kept[count++] = here;
     if ((e >= 0) != (f >= 0)) kept[count++] = here + (e / (e - f)) * (next - here);
   }

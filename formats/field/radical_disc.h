@@ -15,7 +15,7 @@ namespace lumen::field {
 /// disc, from which half-planes are cut.
 class RadicalDisc {
 public:
-  /// A square that holds all points of the plane within kReach radii of both centres.
+  /// A square that holds all points of the plane within kReachRadii of both centres.
   RadicalDisc(const TreeView& tree, std::uint32_t a, std::uint32_t b);
 
   /// Keeps the points where `node` has no less power than the two less `slack`, mm^2.
@@ -24,13 +24,13 @@ public:
   [[nodiscard]] bool isEmpty() const { return m_count == 0; }
 
 private:
-  static constexpr double kReach = 1.5;
-  static constexpr std::size_t kMost = 32;  ///< corners; a cut that would add more is left out
-  static constexpr std::size_t kEverywhere = kMost + 1;
+  static constexpr double kReachRadii = 1.5;
+  static constexpr std::size_t kMostCorners = 32;  ///< a cut that would add more is left out
+  static constexpr std::size_t kEverywhere = kMostCorners + 1;
 
   Vec m_origin;     ///< the first centre, mm; corners are relative to it
   double m_radius;  ///< the first node's, mm
-  std::array<Vec, kMost> m_corner;
+  std::array<Vec, kMostCorners> m_corner;
   std::size_t m_count = 0;
 };
 

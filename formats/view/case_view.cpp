@@ -232,7 +232,7 @@ Expected<CaseView> viewCase(std::span<const std::byte> bytes, Verify verify) {
   checkKernels(view, issues);
   if (verify == Verify::All) checkModelRules(view, issues);
   if (auto problem = issues.firstError()) {
-    problem->offset = byteOffsetOf(*problem->pointer, chunks);
+    problem->offset = findByteOffset(*problem->pointer, chunks);
     return *std::move(problem);
   }
   return view;

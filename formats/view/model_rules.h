@@ -28,7 +28,7 @@ void readKernelRecord(std::span<const std::byte> record, ModelView& model);
 
 /// Place in the file of the value that a pointer names: its first byte, or that of its chunk if the
 /// chunk is encoded or the value is inside of the metadata. Nothing if the pointer names no chunk.
-std::optional<std::uint64_t> byteOffsetOf(const std::string& pointer, const CaseChunks& chunks);
+std::optional<std::uint64_t> findByteOffset(const std::string& pointer, const CaseChunks& chunks);
 
 // The parts of checkModelRules().
 void checkTreeRules(const CaseView& view, IssueList& issues);

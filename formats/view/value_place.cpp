@@ -75,7 +75,7 @@ std::uint64_t branchFieldOffset(const Chunk& records, std::uint64_t recordAt, st
 
 }  // namespace
 
-std::optional<std::uint64_t> byteOffsetOf(const std::string& pointer, const CaseChunks& chunks) {
+std::optional<std::uint64_t> findByteOffset(const std::string& pointer, const CaseChunks& chunks) {
   const auto place = std::find_if(kPlaces.begin(), kPlaces.end(), [&](const PlacedArray& p) {
     return pointer.starts_with(p.pointer);
   });

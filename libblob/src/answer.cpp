@@ -17,12 +17,12 @@ void answerOutOfRange(const blob_model& model, const double* point, std::uint32_
   for (int i = 0; i < 3; ++i) sample.gradient[i] = sample.normal[i] = sample.value;
   if (!isFinitePoint(point)) return;
   const NodeRecord& record = model.nodes[node];
-  double way[3];
-  for (int i = 0; i < 3; ++i) way[i] = point[i] - record.centre[i];
-  const double length = std::hypot(way[0], way[1], way[2]);
+  double fromCentre[3];
+  for (int i = 0; i < 3; ++i) fromCentre[i] = point[i] - record.centre[i];
+  const double length = std::hypot(fromCentre[0], fromCentre[1], fromCentre[2]);
   sample.distance = length - double{record.radius()};
   if (!(length < kInfinity)) return;
-  for (int i = 0; i < 3; ++i) sample.normal[i] = way[i] / length;
+  for (int i = 0; i < 3; ++i) sample.normal[i] = fromCentre[i] / length;
 }
 
 }  // namespace lumen::blob

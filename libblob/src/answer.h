@@ -13,11 +13,12 @@ inline bool isFinitePoint(const double* p) noexcept {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
-/// Whether a point is within kFar of a node, so that no float overflows in the computation of f.
+/// Whether a point is within kFarthestMm of a node, so that no float overflows in the computation
+/// of f.
 inline bool isInRange(const NodeRecord& node, const double* p) noexcept {
   double sum = 0;
   for (int i = 0; i < 3; ++i) sum += std::abs(p[i] - node.centre[i]);
-  return sum <= kFar;
+  return sum <= kFarthestMm;
 }
 
 /// The answer at a point that is not finite, or out of range of its node.

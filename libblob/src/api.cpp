@@ -80,11 +80,11 @@ blob_columns packedColumns(std::size_t count, const double (*points)[3],
 
 // A batch whose points and cursors have been copied: answers may be written over points.
 struct ExactBatch {
-  static constexpr std::size_t kMost = 64;
-  double point[kMost][3];
-  std::uint32_t cursor[kMost];
-  blob_sample sample[kMost];
-  bool inRange[kMost];
+  static constexpr std::size_t kMostPoints = 64;
+  double point[kMostPoints][3];
+  std::uint32_t cursor[kMostPoints];
+  blob_sample sample[kMostPoints];
+  bool inRange[kMostPoints];
 
   void read(const blob_columns& c, std::size_t first, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
@@ -117,8 +117,8 @@ struct ExactBatch {
 
 void queryExact(const blob_model& model, std::uint32_t flags, const Job& job) noexcept {
   ExactBatch batch;
-  for (std::size_t first = 0; first < job.columns.count; first += ExactBatch::kMost) {
-    const std::size_t count = std::min(job.columns.count - first, ExactBatch::kMost);
+  for (std::size_t first = 0; first < job.columns.count; first += ExactBatch::kMostPoints) {
+    const std::size_t count = std::min(job.columns.count - first, ExactBatch::kMostPoints);
     batch.read(job.columns, first, count);
     batch.answer(model, flags, count);
     batch.write(job, first, count);
@@ -243,7 +243,7 @@ blob_model_info blob_model_describe(const blob_model* model) noexcept {
     info.low[i] = model->low[i];
     info.high[i] = model->high[i];
   }
-  info.bytes = memoryOf(*model);
+  info.bytes = countBytes(*model);
   return info;
 }
 

@@ -20,7 +20,7 @@ TreeView treeOf(const blob_model_def& def) {
 
 // A radius: where f > T, one of the model's `count` blobs is nearer than this, as one exceeds T /
 // count.
-double reachOf(const blob_blobs& blobs, double width, double count) {
+double reachOfBlob(const blob_blobs& blobs, double width, double count) {
   const field::Kernel kernel = kernelOf(blobs.kernel);
   const double ratio = width * count / blobs.iso_level;
   const double u = field::withKernel(kernel, [ratio](auto k) { return k.reach(ratio); });
@@ -32,7 +32,7 @@ void extendReach(const blob_model_def& def, blob_model& model) {
   for (std::size_t i = 0; i < def.node_count; ++i) {
     const std::uint32_t begin = blobs.offset[i], end = blobs.offset[i + 1];
     for (std::uint32_t j = begin; j < end; ++j) {
-      const double reach = reachOf(blobs, blobs.width[j], end - begin);
+      const double reach = reachOfBlob(blobs, blobs.width[j], end - begin);
       for (int axis = 0; axis < 3; ++axis) {
         const double x = blobs.centre[j][axis];
         model.reachLow[axis] = std::min(model.reachLow[axis], x - reach);
@@ -90,7 +90,7 @@ std::vector<FieldNode> buildField(const blob_model_def& def, const Neighbourhood
   std::vector<FieldNode> nodes;
   nodes.reserve(def.node_count);
   for (std::size_t i = 0; i < def.node_count; ++i) nodes.push_back(layOut(def, i, field.blocks));
-  lendBlobs(def, field::lendersOf(edges, blobs.offset), nodes);
+  lendBlobs(def, field::findLenders(edges, blobs.offset), nodes);
   return nodes;
 }
 
@@ -150,10 +150,10 @@ void buildNodes(const blob_model_def& def, blob_model& model) {
 std::unique_ptr<blob_model> buildModel(const blob_model_def& def) {
   auto model = std::make_unique<blob_model>();
   const TreeView tree = treeOf(def);
-  const Neighbourhood edges = field::edgesOf(tree);
-  const Neighbourhood around = field::neighbourhoodOf(tree, edges);
+  const Neighbourhood edges = field::findEdges(tree);
+  const Neighbourhood around = field::findNeighbourhood(tree, edges);
   buildNodes(def, *model);
-  const std::vector<double> spacing = field::spacingsOf(tree, edges);
+  const std::vector<double> spacing = field::measureSpacings(tree, edges);
   for (std::uint32_t i = 0; i < def.node_count; ++i) addNeighbours(def, around, spacing, i, *model);
   const std::vector<FieldNode> fields = buildField(def, edges, model->field);
   for (std::size_t i = 0; i < def.node_count; ++i) model->nodes[i].field = fields[i];
@@ -167,7 +167,7 @@ std::unique_ptr<blob_model> buildModel(const blob_model_def& def) {
   return model;
 }
 
-std::size_t memoryOf(const blob_model& model) noexcept {
+std::size_t countBytes(const blob_model& model) noexcept {
   const auto bytes = [](const auto& values) { return values.size() * sizeof(values[0]); };
   std::size_t sum = sizeof model + bytes(model.nodes) + bytes(model.neighbours) +
                     bytes(model.field.blocks) + bytes(model.parent) + bytes(model.locate.leaves);

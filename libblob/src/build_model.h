@@ -12,6 +12,6 @@ namespace lumen::blob {
 std::unique_ptr<blob_model> buildModel(const blob_model_def& def);
 
 /// Memory of a model in bytes.
-std::size_t memoryOf(const blob_model& model) noexcept;
+std::size_t countBytes(const blob_model& model) noexcept;
 
 }  // namespace lumen::blob

@@ -6,7 +6,8 @@
 namespace lumen::blob {
 namespace {
 
-// The ranges of blob_model_def: with these, no float in a query overflows within kFar of a node.
+// The ranges of blob_model_def: with these, no float in a query overflows within kFarthestMm of a
+// node.
 constexpr double kMaxCoordinate = 1e6, kMinLength = 1e-5, kMaxLength = 1e3;
 constexpr double kMinParameter = 1e-4, kMaxParameter = 1e4;
 constexpr double kMinLevel = 1e-6, kMaxLevel = 1e3;

@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-class Builder {
+class LocateTreeBuilder {
 public:
-  explicit Builder(const std::vector<NodeRecord>& nodes) : m_nodes(nodes), m_order(nodes.size()) {
+  explicit LocateTreeBuilder(const std::vector<NodeRecord>& nodes)
+      : m_nodes(nodes), m_order(nodes.size()) {
     std::iota(m_order.begin(), m_order.end(), 0U);
   }
 
@@ -125,7 +126,7 @@ private:
 }  // namespace
 
 LocateTree buildLocateTree(const std::vector<NodeRecord>& nodes) {
-  return Builder(nodes).build();
+  return LocateTreeBuilder(nodes).build();
 }
 
 std::uint32_t locateNode(const blob_model& model, const double* point) noexcept {

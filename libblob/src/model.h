@@ -14,7 +14,7 @@
 namespace lumen::blob {
 
 constexpr int kLanes = 8;
-constexpr double kFar = 1e9;         ///< mm from a node; beyond, f counts as zero
+constexpr double kFarthestMm = 1e9;  ///< mm from a node; beyond, f counts as zero
 constexpr float kVanished = 1e-20f;  ///< mm; below, the terms of grad f may underflow
 
 /// The number that a caller in C has stored in an enumeration, which may be none of its values.

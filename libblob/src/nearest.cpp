@@ -103,8 +103,8 @@ private:
     if (!(slope > 0)) return false;
     Vec step = stepAlong(gradient, slope, local.hessian);
     // the decrease of the distance that the step could still give
-    const Vec way = m_query - m_best.at;
-    const double gain = 0.5 * dot(way, step);
+    const Vec toQuery = m_query - m_best.at;
+    const double gain = 0.5 * dot(toQuery, step);
     m_converged = norm(step) <= m_tolerance || gain <= kGainShare * m_tolerance * m_best.length;
     if (m_converged) return true;
     for (int tries = 0; tries < kMaxShortenings && m_steps < m_maxSteps;
@@ -127,8 +127,8 @@ private:
   // downhill.
   [[nodiscard]] Vec stepAlong(const Vec& gradient, double slope, const double* h) const {
     const Vec normal = (-1.0 / slope) * gradient;
-    const Vec way = m_query - m_best.at;
-    const double distance = dot(way, normal);
+    const Vec toQuery = m_query - m_best.at;
+    const double distance = dot(toQuery, normal);
     const Vec e1 = perpendicular(normal), e2 = cross(normal, e1);
     const Vec h1 = multiply(h, e1), h2 = multiply(h, e2);
     const double scale = -distance / slope;
@@ -138,13 +138,13 @@ private:
     const double angle = 0.5 * std::atan2(2.0 * b, a - c);
     const Vec v1 = std::cos(angle) * e1 + std::sin(angle) * e2;
     const Vec v2 = std::cos(angle) * e2 - std::sin(angle) * e1;
-    const Vec step = along(v1, way, mean + root) + along(v2, way, mean - root);
+    const Vec step = along(v1, toQuery, mean + root) + along(v2, toQuery, mean - root);
     const double length = norm(step), longest = kLongestStep * m_radius;
     return length > longest ? (longest / length) * step : step;
   }
 
-  [[nodiscard]] Vec along(const Vec& direction, const Vec& way, double eigenvalue) const {
-    const double part = dot(direction, way);
+  [[nodiscard]] Vec along(const Vec& direction, const Vec& toQuery, double eigenvalue) const {
+    const double part = dot(direction, toQuery);
     if (eigenvalue < -kFlat && std::abs(part) < m_tolerance)
       return (kLeaveMaximum * m_radius) * direction;
     return (part / std::max(std::abs(eigenvalue), kFlat)) * direction;

@@ -43,7 +43,7 @@ blob_status statusOf(ErrorCode code) {
 }
 
 // Fills `blobs`; false if offsets point beyond the arrays, as those of an unverified file may.
-bool blobsOf(const formats::ModelView& view, blob_blobs& blobs) {
+bool fillBlobs(const formats::ModelView& view, blob_blobs& blobs) {
   if (view.offset.empty() || view.offset.back() != view.centre.size() ||
       view.centre.size() != view.width.size())
     return false;
@@ -67,7 +67,7 @@ blob_status build(const formats::CaseView& view, const blob_open_def& def, blob_
   tree.simd = def.simd;
   if (!view.models)
     return fail(def, BLOB_ERROR_NO_MODELS, "the case has no models; lumen fit makes them");
-  if (!blobsOf(*view.models, tree.blobs))
+  if (!fillBlobs(*view.models, tree.blobs))
     return fail(def, BLOB_ERROR_TOPOLOGY, "offsets do not match the number of blobs");
   const blob_status status = checkDefinition(tree);
   if (status != BLOB_OK) return fail(def, status, blob_status_text(status));

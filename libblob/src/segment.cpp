@@ -31,11 +31,11 @@ struct Range {
 Range clip(const blob_model& model, const double* from, const double* to) {
   Range range;
   for (int i = 0; i < 3; ++i) {
-    const double way = to[i] - from[i];
-    double enter = (model.reachLow[i] - from[i]) / way,
-           leave = (model.reachHigh[i] - from[i]) / way;
-    if (way < 0) std::swap(enter, leave);
-    if (way == 0) {
+    const double delta = to[i] - from[i];
+    double enter = (model.reachLow[i] - from[i]) / delta,
+           leave = (model.reachHigh[i] - from[i]) / delta;
+    if (delta < 0) std::swap(enter, leave);
+    if (delta == 0) {
       if (from[i] < model.reachLow[i] || from[i] > model.reachHigh[i]) return {1, 0};
       continue;
     }

@@ -70,7 +70,7 @@ protected:
     m_said = Json::parse(done.out)["surface"];
     m_source = *formats::readCaseFile(path(name));
     const auto surface = reproduce::readSurface(path("surface.vtp"));
-    const reproduce::ShapeFacts shape = reproduce::shapeOf(surface.mesh);
+    const reproduce::ShapeFacts shape = reproduce::measureShape(surface.mesh);
     EXPECT_TRUE(shape.isMesh && shape.closed && shape.outward) << name;
     EXPECT_EQ(shape.euler, reproduce::eulerOfTrees(m_source)) << name;
     EXPECT_EQ(shape.cgalIntersections, 0U) << name;
@@ -103,7 +103,7 @@ private:
     // The answer counts vertices that lie off since models disagree; the factor is for those moved with them.
     EXPECT_LE(m_facts.verticesFar, 2 * m_said["offField"].get<std::size_t>())
         << name << ", " << m_facts.vertex.radii << " radii at " << m_facts.vertex.place.transpose();
-    const reproduce::EndFacts ends = reproduce::endsOf(m_source, surface);
+    const reproduce::EndFacts ends = reproduce::measureEnds(m_source, surface);
     EXPECT_EQ(ends.flat, m_said["flatEnds"].get<std::size_t>()) << name;
     EXPECT_LT(ends.tilt, 1) << name;
   }

@@ -11,7 +11,7 @@ using convert::ContentKind;
 class FileContentTest : public TubeTest {
 protected:
   [[nodiscard]] ContentKind kindOf(const std::string& name) const {
-    return convert::contentOf(path(name)).kind;
+    return convert::detectContent(path(name)).kind;
   }
 };
 

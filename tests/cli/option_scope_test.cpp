@@ -93,13 +93,13 @@ protected:
     return found;
   }
 
-  static ContentMask contentOf(const std::string& output) {
+  static ContentMask detectContent(const std::string& output) {
     return engine::outputContent(engine::outputFormat(output, ""));
   }
 
   /// Whether the row claims that it counts for the pair.
   static bool claims(const OptionRow& row, const Input& input, const std::string& output) {
-    const ContentMask written = contentOf(output);
+    const ContentMask written = detectContent(output);
     ContentMask read = input.content;
     // a case gets models for a mesh alone
     if (read == engine::kUnfittedCase && (written & engine::kAllMeshes) == 0)
@@ -124,7 +124,7 @@ protected:
     if (!row.recordKey.empty() && !kShowsItsStage.contains(row.name))
       return output != kOutputs.front();
     if (row.name == "label-table" && output.ends_with(".stl")) return true;
-    const ContentMask written = contentOf(output);
+    const ContentMask written = detectContent(output);
     if (row.outputs == kAnyContent && row.name != "label-table" &&
         (written & (engine::kBinaryCase | engine::kGltf | engine::kOtherMesh)) != 0)
       return true;

@@ -18,9 +18,9 @@ constexpr double kAdvance = 0.5;  // of the least radius: a step
 using Point = std::array<double, 3>;
 
 /// The nodes from a root to a tip, and how far along each of them is.
-class Way {
+class ToolPath {
 public:
-  Way(const blob_model* model, std::uint32_t tip) {
+  ToolPath(const blob_model* model, std::uint32_t tip) {
     for (auto node = static_cast<std::int32_t>(tip); node >= 0; node = m_nodes.back().parent) {
       m_index.push_back(static_cast<std::uint32_t>(node));
       m_nodes.push_back(blob_model_node(model, m_index.back()));
@@ -91,7 +91,7 @@ double outside(const blob_model* model, const Point& point, std::uint32_t cursor
 }
 
 /// Puts one point to a place of the way, displaced, and back inside if it is outside.
-Point contact(const blob_model* model, const Way::Station& station, std::mt19937& random,
+Point contact(const blob_model* model, const ToolPath::Station& station, std::mt19937& random,
               std::uint32_t& cursor, PushedTool& tool) {
   Point point = inBall(random, kAside * station.radius);
   for (std::size_t k = 0; k < 3; ++k) point[k] += station.place[k];
@@ -112,25 +112,25 @@ Point contact(const blob_model* model, const Way::Station& station, std::mt19937
 
 /// One push along a way, by a tool whose points are so far apart.
 PushedTool push(const blob_model* model, std::uint32_t tip, double spacing) {
-  const Way way(model, tip);
+  const ToolPath path(model, tip);
   PushedTool tool;
   tool.tip = tip;
-  tool.length = way.length();
+  tool.length = path.length();
   std::mt19937 random(1);
-  std::vector<std::uint32_t> cursors(kPoints, way.root());
-  const double steps = std::ceil(way.length() / (kAdvance * way.leastRadius()));
+  std::vector<std::uint32_t> cursors(kPoints, path.root());
+  const double steps = std::ceil(path.length() / (kAdvance * path.leastRadius()));
   Point head{};
   for (double step = 0; step <= steps; ++step)
     for (int i = 0; i < kPoints; ++i) {
-      const double along = way.length() * step / steps - spacing * i;
+      const double along = path.length() * step / steps - spacing * i;
       if (along < 0) break;  // not yet in
       const Point place =
-          contact(model, way.at(along), random, cursors[static_cast<std::size_t>(i)], tool);
+          contact(model, path.at(along), random, cursors[static_cast<std::size_t>(i)], tool);
       if (i == 0) head = place;
     }
-  const double* end = way.tip().centre;
+  const double* end = path.tip().centre;
   tool.fromTip = std::hypot(head[0] - end[0], head[1] - end[1], head[2] - end[2]);
-  tool.cursorFromTip = way.fromTip(cursors.front());
+  tool.cursorFromTip = path.fromTip(cursors.front());
   return tool;
 }
 
@@ -147,7 +147,7 @@ std::vector<PushedTool> pushToEveryTip(const blob_model* model) {
   for (std::uint32_t node = 0; node < count; ++node) {
     if (hasChild[node] || blob_model_node(model, node).parent < 0) continue;
     tips.push_back(node);
-    longest = std::max(longest, Way(model, node).length());
+    longest = std::max(longest, ToolPath(model, node).length());
   }
   std::vector<PushedTool> tools;
   for (const std::uint32_t tip : tips) tools.push_back(push(model, tip, longest / (kPoints - 1)));

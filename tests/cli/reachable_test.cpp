@@ -183,7 +183,7 @@ TEST_F(ReachableTest, TheOriginsOfNodesSurviveBothEncodingsAndAFit) {
   for (const char* file : {"back.lumen", "fitted.lumen"}) {
     const auto found = formats::readCaseFile(path(file));
     ASSERT_TRUE(found) << file;
-    EXPECT_EQ(formats::nodeOriginsOf(*found), origins) << file;
+    EXPECT_EQ(formats::readNodeOrigins(*found), origins) << file;
   }
 }
 

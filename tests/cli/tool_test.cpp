@@ -75,7 +75,7 @@ TEST_F(ToolTest, OfOnePointFindsTheSameWaysClosedAsInfo) {
   ASSERT_EQ(blob_model_open(path("gaps.lumen").c_str(), nullptr, &model), BLOB_OK);
   std::vector<std::uint32_t> told;
   const Json info = Json::parse(lumen({"info", "gaps.lumen", "--json"}).out);
-  for (const Json& way : info["reachable"]["closed"]) told.push_back(way["node"]);
+  for (const Json& closedPath : info["reachable"]["closed"]) told.push_back(closedPath["node"]);
   std::sort(told.begin(), told.end());
   EXPECT_EQ(told, (std::vector<std::uint32_t>{11, 77}));
   EXPECT_EQ(firstClosedNodes(model), told);

@@ -31,10 +31,10 @@ namespace {
 using namespace lumen;
 using namespace lumen::convert;
 
-constexpr double kNear = 0.5;     // mm: points are as far from a wall, at most
-constexpr double kTouching = 1;   // mm: another vessel's wall is as near
-constexpr double kClearly = 0.1;  // mm: a sign that is wrong deeper than this is no rounding
-constexpr double kBand = 1;       // mm
+constexpr double kMostFromWall = 0.5;  // mm: points are as far from a wall, at most
+constexpr double kTouching = 1;        // mm: another vessel's wall is as near
+constexpr double kClearly = 0.1;       // mm: a sign that is wrong deeper than this is no rounding
+constexpr double kBand = 1;            // mm
 constexpr int kPoints = 100000;
 
 /// A place of a tool in a branch, near that branch's wall.
@@ -86,18 +86,18 @@ std::vector<Probe> probesOf(const Case& c) {
   const auto share = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
   while (probes.size() < kPoints) {
     const std::size_t v = random() % c.wall.position.size();
-    const double along = kNear * (2 * share() - 1);
+    const double along = kMostFromWall * (2 * share() - 1);
     const Eigen::Vector3d p = toEigen(c.wall.position[v]) + along * toEigen(c.wall.normal[v]);
     const std::uint32_t branch = c.source.tree.branch[c.wall.node[v]];
     const double own = distanceOf(c, branch, p);
-    if (std::abs(own) > kNear) continue;
+    if (std::abs(own) > kMostFromWall) continue;
     probes.push_back({p, branch, own, static_cast<double>(test::askAll(c.vessels, p).distance),
                       isTouched(c, branch, p)});
   }
   return probes;
 }
 
-Box3d boxOf(const Case& c, const TreeRegion* region) {
+Box3d boundingBox(const Case& c, const TreeRegion* region) {
   Box3d box;
   for (std::size_t v = 0; v < c.wall.position.size(); ++v)
     if (!region || std::binary_search(region->begin(), region->end(), c.wall.node[v]))
@@ -145,7 +145,8 @@ private:
 void measureDense(const Case& c, const std::vector<Probe>& probes, double h) {
   Progress silent;
   const Clock clock;
-  const DistanceGrid grid = sampleGrid({c.vessels}, latticeOver(boxOf(c, nullptr), 2, h), silent);
+  const DistanceGrid grid =
+      sampleGrid({c.vessels}, latticeOver(boundingBox(c, nullptr), 2, h), silent);
   const double seconds = clock.seconds();
   Answers answers;
   for (const Probe& probe : probes) answers.push_back(test::trilinear(grid, probe.place));
@@ -155,13 +156,14 @@ void measureDense(const Case& c, const std::vector<Probe>& probes, double h) {
 
 void measureBranches(const Case& c, const std::vector<Probe>& probes, double h) {
   Progress silent;
-  const Lattice whole = latticeOver(boxOf(c, nullptr), 2, h);
+  const Lattice whole = latticeOver(boundingBox(c, nullptr), 2, h);
   Answers answers(probes.size(), std::nan(""));
   double samples = 0, seconds = 0;
   for (std::uint32_t b = 0; b < c.regions.size(); ++b) {
     const Clock clock;
-    const DistanceGrid grid = sampleGrid({c.vessels, &c.regions[b], kBand + 2 * h},
-                                         partOf(whole, boxOf(c, &c.regions[b]), 2), silent);
+    const DistanceGrid grid =
+        sampleGrid({c.vessels, &c.regions[b], kBand + 2 * h},
+                   cropLattice(whole, boundingBox(c, &c.regions[b]), 2), silent);
     seconds += clock.seconds();
     samples += static_cast<double>(grid.values.size());
     for (std::size_t i = 0; i < probes.size(); ++i)
@@ -173,8 +175,9 @@ void measureBranches(const Case& c, const std::vector<Probe>& probes, double h) 
 void measureVdb(const Case& c, const std::vector<Probe>& probes, double h, bool half) {
   Progress silent;
   const Clock clock;
-  const std::string bytes = encodeVdb({c.vessels, nullptr, std::max(kBand, 3 * h)},
-                                      latticeOver(boxOf(c, nullptr), 2, h), {.half = half}, silent);
+  const std::string bytes =
+      encodeVdb({c.vessels, nullptr, std::max(kBand, 3 * h)},
+                latticeOver(boundingBox(c, nullptr), 2, h), {.half = half}, silent);
   const double seconds = clock.seconds();
   std::istringstream in(bytes, std::ios::binary);
   openvdb::io::Stream stream(in, false);
@@ -194,7 +197,7 @@ void measureCdf(const Case& c, const std::vector<Probe>& probes, double h) {
   Progress silent;
   const Clock clock;
   const std::string bytes =
-      encodeCdf({c.vessels, nullptr, kBand}, latticeOver(boxOf(c, nullptr), 2, h), 1, silent);
+      encodeCdf({c.vessels, nullptr, kBand}, latticeOver(boundingBox(c, nullptr), 2, h), 1, silent);
   const double seconds = clock.seconds();
   btSdfCollisionShape shape;
   if (!shape.initializeSDF(bytes.data(), static_cast<int>(bytes.size()))) std::abort();
@@ -234,7 +237,7 @@ int main(int argc, char** argv) {
   std::printf(
       "%zu points within %g mm of a wall, %td of them where another vessel's wall is within "
       "%g mm\n\n",
-      probes.size(), kNear, touched, kTouching);
+      probes.size(), kMostFromWall, touched, kTouching);
   std::puts(
       "| grid | h, mm | MB | s | mean error | 99 % | greatest | touching | wrong sign | leaks > "
       "0.1 mm | walls > 0.1 mm |\n|---|---|---|---|---|---|---|---|---|---|---|");

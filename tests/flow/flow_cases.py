@@ -46,10 +46,10 @@ def write_case(file, branches, links=()):
                                  "nodeCount": len(points), "stopReason": "unknown"})
         for k, point in enumerate(points):
             a, b = points[max(0, k - 1)], points[min(len(points) - 1, k + 1)]
-            way = [q - p for p, q in zip(a, b)] if len(points) > 1 else [0, 0, 1]
-            length = math.sqrt(sum(w * w for w in way))
+            chord = [q - p for p, q in zip(a, b)] if len(points) > 1 else [0, 0, 1]
+            length = math.sqrt(sum(w * w for w in chord))
             tree["centre"].append(point)
-            tree["direction"].append([w / length for w in way])
+            tree["direction"].append([w / length for w in chord])
             tree["radius"].append(one["radii"][k])
             tree["height"].append(1.0)
             tree["parent"].append(one["parent"] if k == 0 else first + k - 1)

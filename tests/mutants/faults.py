@@ -35,7 +35,7 @@ FAULTS = [
           "0.5 * (1.0 + (ra * ra - rb * rb) / square)", "0.5 * (1.0 - (ra * ra - rb * rb) / square)", "field_test"),
     # libblob
     Fault("a segment downward along z is clipped at the wrong ends", "libblob/src/segment.cpp",
-          "if (way < 0) std::swap(enter, leave);", "if (way < 0 && i < 2) std::swap(enter, leave);", "blob_test"),
+          "if (delta < 0) std::swap(enter, leave);", "if (delta < 0 && i < 2) std::swap(enter, leave);", "blob_test"),
     Fault("two entries of the Hessian are exchanged in the curvature", "libblob/src/hessian.cpp",
           "h[4] * g[0] + h[5] * g[1] + h[2] * g[2]", "h[5] * g[0] + h[4] * g[1] + h[2] * g[2]", "blob_test"),
     Fault("the second node of a link is not checked", "libblob/src/check_definition.cpp",

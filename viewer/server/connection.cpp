@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds kLook{200};
 
 /// The descriptor of a connection. The HTTP library keeps it to itself, but of the loopback
 /// interface the other end's port is that of one connection only.
-std::optional<int> descriptorOf(int remotePort) {
+std::optional<int> findDescriptor(int remotePort) {
   std::error_code error;
   for (fs::directory_iterator entry("/proc/self/fd", error), end; !error && entry != end;
        entry.increment(error)) {
@@ -46,7 +46,7 @@ bool isClosed(int descriptor) {
 
 void whileConnected(int remotePort, const std::function<void(Progress&)>& work) {
   Progress progress;
-  const std::optional<int> descriptor = descriptorOf(remotePort);
+  const std::optional<int> descriptor = findDescriptor(remotePort);
   if (!descriptor) return work(progress);
   std::mutex mutex;
   std::condition_variable wake;

@@ -39,7 +39,7 @@ std::string inlineScript(std::string code) {
   return code;
 }
 
-std::string base64Of(std::string_view bytes) {
+std::string encodeBase64(std::string_view bytes) {
   return formats::base64(std::as_bytes(std::span(bytes)));
 }
 
@@ -64,7 +64,7 @@ VolumeSending aroundCase(const Document& document) {
   return sending;
 }
 
-std::string volumeOf(const Document& document) {
+std::string encodeVolume(const Document& document) {
   const VolumePack pack(document.volume, document.labelOf(FileRole::Volume), aroundCase(document));
   std::string bytes;
   while (bytes.size() < pack.size()) bytes += pack.bytes(bytes.size(), pack.size());
@@ -72,7 +72,7 @@ std::string volumeOf(const Document& document) {
 }
 
 /// The parts of a case that libblob needs: tree and models.
-std::string modelsOf(const formats::Case& value) {
+std::string encodeModels(const formats::Case& value) {
   formats::Case models;
   models.metadata = value.metadata;
   models.tree = value.tree;
@@ -85,7 +85,7 @@ std::string modelsOf(const formats::Case& value) {
 class Embedded {
 public:
   void add(const std::string& name, std::string_view bytes) {
-    m_parts[name] = base64Of(deflated(bytes));
+    m_parts[name] = encodeBase64(deflated(bytes));
   }
   void addSurface(const std::string& name, const Tagged& part) {
     if (part.bytes) add(name, compactPack(*part.bytes));
@@ -144,11 +144,11 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
   Embedded embedded;
   if (document.value) {
     embedded.add("case", casePack(*document.value, options.points, progress));
-    if (document.hasModels()) embedded.add("case.lumen", modelsOf(*document.value));
+    if (document.hasModels()) embedded.add("case.lumen", encodeModels(*document.value));
     embedded.addSurface("surface", session.finishedSurface(options.level, progress));
   }
   if (document.volume && (options.volume || !document.value))
-    embedded.add("volume", volumeOf(document));
+    embedded.add("volume", encodeVolume(document));
   for (const OpenMesh& mesh : document.meshes)
     embedded.addSurface("mesh?id=" + std::to_string(mesh.id), session.meshPack(mesh.id));
   if (!fileOf(page, "blob.wasm").empty()) embedded.add("blob.wasm", fileOf(page, "blob.wasm"));

@@ -198,7 +198,8 @@ private:
 
   void addWork() {
     post("do", [this](formats::JsonValue request) { return m_session.run(request); });
-    post("snap", [this](formats::JsonValue request) { return m_session.snap(request); });
+    post("vesselAtClick",
+         [this](formats::JsonValue request) { return m_session.vesselAtClick(request); });
     post("cancel", [this](formats::JsonValue request) -> Json {
       const Arguments arguments(request);
       return {{"cancelled", m_session.cancel(static_cast<int>(arguments.index("job", 1U << 30)))}};

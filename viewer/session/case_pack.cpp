@@ -55,13 +55,13 @@ std::vector<float> rootDistances(const formats::CenterlineTree& tree) {
 }
 
 Json reachableJson(const formats::Case& value, const Progress& progress) {
-  const auto reach = convert::reachOf(value, progress);
+  const auto reach = convert::measureReach(value, progress);
   if (!reach) return nullptr;
   Json closed = Json::array();
-  for (const convert::ClosedWay& way : reach->closed)
-    closed.push_back({{"node", way.node},
-                      {"position", {way.position.x, way.position.y, way.position.z}},
-                      {"beyond", way.beyond}});
+  for (const convert::ClosedPath& path : reach->closed)
+    closed.push_back({{"node", path.node},
+                      {"position", {path.position.x, path.position.y, path.position.z}},
+                      {"beyond", path.beyond}});
   return {{"reached", reach->length}, {"total", reach->of}, {"closed", std::move(closed)}};
 }
 
@@ -82,7 +82,7 @@ void addOrigins(PackWriter& pack, const formats::Case& value) {
                                   [](const auto& a) { return a.name == formats::kOriginArray; });
   if (!stated) return;
   std::vector<std::uint8_t> origins;
-  for (const formats::NodeOrigin origin : formats::nodeOriginsOf(value))
+  for (const formats::NodeOrigin origin : formats::readNodeOrigins(value))
     origins.push_back(static_cast<std::uint8_t>(origin));
   pack.add("origin", origins);
 }

@@ -81,7 +81,7 @@ std::string Document::labelOf(FileRole role) const {
   return file != nullptr ? file->label : std::string();
 }
 
-std::size_t bytesOf(const std::vector<const Document*>& documents) {
+std::size_t countBytes(const std::vector<const Document*>& documents) {
   std::set<const void*> seen;
   std::size_t sum = 0;
   const auto add = [&](const auto& part) {

@@ -68,6 +68,6 @@ struct Document {
 };
 
 /// Bytes in memory of the parts of these documents, each part once.
-std::size_t bytesOf(const std::vector<const Document*>& documents);
+std::size_t countBytes(const std::vector<const Document*>& documents);
 
 }  // namespace lumen::viewer

@@ -49,7 +49,7 @@ void History::forget() {
   const auto bytes = [this] {
     std::vector<const Document*> all{&m_now.document};
     for (const Entry& entry : m_undo) all.push_back(&entry.other);
-    return bytesOf(all) - bytesOf({&m_now.document});
+    return countBytes(all) - countBytes({&m_now.document});
   };
   while (!m_undo.empty() && bytes() > m_mostBytes) m_undo.pop_front();
 }

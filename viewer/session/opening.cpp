@@ -97,7 +97,8 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
 
 FileRole openingRole(const Opening& opening) {
   engine::requireInput(opening.path, "file");
-  if (convert::contentOf(opening.path).kind == convert::ContentKind::Seeds) return FileRole::Seeds;
+  if (convert::detectContent(opening.path).kind == convert::ContentKind::Seeds)
+    return FileRole::Seeds;
   const engine::FileFormat& format = engine::inputFormat(opening.path, "");
   if (opening.asTruth && format.kind != engine::FormatKind::Case)
     throw Error(ErrorKind::Usage, opening.label + ": the truth must be a case");

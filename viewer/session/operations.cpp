@@ -58,7 +58,7 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
 
 Json Operations::reject(const Arguments& request, const Moment& from) {
   const std::vector<bool> chosen = chosenProposals(from.document, request);
-  m_workspace.commit(titleOf("reject", *from.document.proposals, chosen), from,
+  m_workspace.commit(makeTitle("reject", *from.document.proposals, chosen), from,
                      rejected(from.document, chosen));
   return m_workspace.revision();
 }

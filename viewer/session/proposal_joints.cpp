@@ -124,7 +124,8 @@ void Joints::remove(Case& value) {
 Case withBranches(const Case& known, const Case& found, const std::vector<bool>& chosen,
                   std::set<std::string> taken, std::vector<std::string>& dropped) {
   const Joints joints(found);
-  convert::TrackedTree tree = convert::trackedTreeOf(known), more = convert::trackedTreeOf(found);
+  convert::TrackedTree tree = convert::makeTrackedTree(known),
+                       more = convert::makeTrackedTree(found);
   std::vector<int> placeOf(chosen.size(), -1);
   std::vector<std::int64_t> nodeIn(found.tree.nodeCount(), -1);
   auto next = static_cast<std::int64_t>(known.tree.nodeCount());

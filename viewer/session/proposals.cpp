@@ -24,7 +24,7 @@ using formats::Case;
 using formats::CenterlineTree;
 
 /// The branch on which a branch hangs, or -1.
-int parentOf(const CenterlineTree& tree, const formats::Branch& branch) {
+int findParent(const CenterlineTree& tree, const formats::Branch& branch) {
   return branch.parentNode == formats::kNoParent
              ? -1
              : static_cast<int>(tree.branch[static_cast<std::size_t>(branch.parentNode)]);
@@ -87,7 +87,7 @@ std::shared_ptr<const Case> proposalsFor(const Document& document,
     known = knownBranches(value.tree, wall);
     Joints joints(value);
     for (const formats::Branch& branch : value.tree.branches) {
-      const int parent = parentOf(value.tree, branch);
+      const int parent = findParent(value.tree, branch);
       if (parent < 0 || !known[static_cast<std::size_t>(parent)]) continue;
       const formats::Vec3f& c = value.tree.centre[static_cast<std::size_t>(branch.parentNode)];
       const WallHit hit = wall.nearest({c.x, c.y, c.z});
@@ -120,14 +120,14 @@ Acceptance accepted(const Document& document, std::vector<bool> chosen) {
   const Case& found = *document.proposals;
   const CenterlineTree& tree = found.tree;
   for (std::size_t b = tree.branches.size(); b-- > 0;)
-    if (const int parent = parentOf(tree, tree.branches[b]); chosen[b] && parent >= 0)
+    if (const int parent = findParent(tree, tree.branches[b]); chosen[b] && parent >= 0)
       chosen[static_cast<std::size_t>(parent)] = true;
   std::vector<bool> others = chosen;
   others.flip();
 
   Acceptance out;
   out.count = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), true));
-  out.title = titleOf("accept", found, chosen);
+  out.title = makeTitle("accept", found, chosen);
   out.document = document;
   if (document.value && document.value->tree.nodeCount() > 0) {
     out.firstNewNode = static_cast<std::uint32_t>(document.value->tree.nodeCount());
@@ -154,7 +154,7 @@ Document rejected(const Document& document, const std::vector<bool>& chosen) {
   return out;
 }
 
-std::string titleOf(const char* verb, const Case& proposals, const std::vector<bool>& chosen) {
+std::string makeTitle(const char* verb, const Case& proposals, const std::vector<bool>& chosen) {
   const auto count = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), true));
   const auto first = std::find(chosen.begin(), chosen.end(), true) - chosen.begin();
   return std::string(verb) + " " +
@@ -170,7 +170,7 @@ Json proposalsJson(const Document& document) {
   for (const formats::Branch& branch : tree.branches) {
     const auto first = tree.radius.begin() + branch.firstNode;
     const formats::Vec3f& middle = tree.centre[branch.firstNode + branch.nodeCount / 2];
-    const int parent = parentOf(tree, branch);
+    const int parent = findParent(tree, branch);
     const auto at = parent < 0 && document.value
                         ? joints.nodeAt(branch.firstNode, document.value->tree)
                         : std::nullopt;

@@ -51,8 +51,8 @@ Acceptance accepted(const Document& document, std::vector<bool> chosen);
 Document rejected(const Document& document, const std::vector<bool>& chosen);
 
 /// "accept vessel-3" or "accept 12 vessels" of the marked proposals; `verb` begins the title.
-std::string titleOf(const char* verb, const formats::Case& proposals,
-                    const std::vector<bool>& chosen);
+std::string makeTitle(const char* verb, const formats::Case& proposals,
+                      const std::vector<bool>& chosen);
 
 /// The list of proposals as the state has it (viewer/README.md).
 Json proposalsJson(const Document& document);

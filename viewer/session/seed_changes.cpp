@@ -33,7 +33,7 @@ std::string freeLabel(const Document& document, const std::string& stem) {
     if (std::string label = stem + "-" + std::to_string(i); !isTaken(document, label)) return label;
 }
 
-convert::SeedBranch& seedOf(Seeds& seeds, const std::string& label) {
+convert::SeedBranch& findSeed(Seeds& seeds, const std::string& label) {
   const auto found = std::find_if(seeds.begin(), seeds.end(),
                                   [&label](const auto& seed) { return seed.label == label; });
   if (found == seeds.end()) refuse("there is no seed \"" + label + "\"");
@@ -62,7 +62,7 @@ std::string addSeed(Seeds& seeds, const Document& document, const Arguments& req
 
 std::string moveSeed(Seeds& seeds, const Document&, const Arguments& request) {
   const std::string label = request.text("label");
-  convert::SeedBranch& seed = seedOf(seeds, label);
+  convert::SeedBranch& seed = findSeed(seeds, label);
   convert::SeedPoint& point = seed.points[request.index("point", seed.points.size())];
   point.position = request.position("position");
   if (request.has("radius")) point.radius = request.number("radius");
@@ -72,7 +72,7 @@ std::string moveSeed(Seeds& seeds, const Document&, const Arguments& request) {
 
 std::string deleteSeed(Seeds& seeds, const Document&, const Arguments& request) {
   const std::string label = request.text("label");
-  seedOf(seeds, label);
+  findSeed(seeds, label);
   std::erase_if(seeds, [&label](const auto& seed) { return seed.label == label; });
   for (convert::SeedBranch& seed : seeds)
     if (seed.parent == label) seed.parent.reset();

@@ -41,7 +41,7 @@ std::string Session::encoded(const std::string& format, const SavingOptions& opt
                          progress);
 }
 
-Json Session::snap(formats::JsonValue request) {
+Json Session::vesselAtClick(formats::JsonValue request) {
   const Arguments arguments(request);
   return vesselNear(arguments.position("position"), now().document, m_workspace.tracking,
                     m_workspace.options.track.options);

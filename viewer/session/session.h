@@ -70,7 +70,7 @@ public:
   /// Runs the operation that a page asks for: {"revision"} or {"job"}.
   Json run(formats::JsonValue request) { return m_operations.run(request); }
   /// The vessel near a click.
-  Json snap(formats::JsonValue request);
+  Json vesselAtClick(formats::JsonValue request);
   bool cancel(int job) { return m_workspace.jobs.cancel(job); }
   void cancelAll();
   [[nodiscard]] bool isBusy() const { return m_workspace.jobs.running().has_value(); }

@@ -56,7 +56,7 @@ Json StageJobs::track(const Arguments& request, const Moment& from) {
   Workspace& workspace = m_workspace;
   return workspace.startJob("tracking", true, [&workspace, from, seeds](Progress& progress) {
     TrackedCase tracked =
-        trackedFrom(from.document, seeds, workspace.tracking, workspace.options, progress);
+        trackUntracked(from.document, seeds, workspace.tracking, workspace.options, progress);
     Document document = from.document;
     document.value = std::move(tracked.value);
     document.proposals = proposalsFor(document, document.proposals);
@@ -75,7 +75,7 @@ Json StageJobs::find(const Moment& from) {
   return workspace.startJob("finding vessels", true, [&workspace, from](Progress& progress) {
     Document document = from.document;
     document.proposals =
-        foundFrom(document, workspace.tracking, workspace.options.track.options, progress);
+        findProposals(document, workspace.tracking, workspace.options.track.options, progress);
     if (document.proposals || from.document.proposals)
       workspace.commit("find vessels", from, document);
     if (!document.proposals) return std::string("no vessel is found that the case lacks");

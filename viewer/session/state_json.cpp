@@ -66,7 +66,7 @@ Json formatsJson(const Document& document) {
   return list;
 }
 
-std::string titleOf(const Document& document) {
+std::string makeTitle(const Document& document) {
   for (const FileRole role : {FileRole::Case, FileRole::Volume, FileRole::Mesh})
     if (const std::string label = document.labelOf(role); !label.empty()) return label;
   return "lumen";
@@ -100,7 +100,7 @@ Json stateJson(const Workspace& workspace) {
   Json json;
   json["revision"] = now.revision;
   json["revisions"] = revisionsJson(workspace, now.parts);
-  json["title"] = titleOf(document);
+  json["title"] = makeTitle(document);
   json["hasVolume"] = document.volume != nullptr;
   json["hasCase"] = document.value != nullptr;
   json["hasTruth"] = document.truth != nullptr;

@@ -33,20 +33,20 @@ void warnAbout(const std::vector<convert::SeedFailure>& failures, const std::str
 }
 
 /// A case that has its tree, wall points and models from these seeds alone.
-formats::Case trackedAnew(const Document& document, const Seeds& seeds,
-                          const SessionOptions& options, Progress& progress) {
+formats::Case trackNewCase(const Document& document, const Seeds& seeds,
+                           const SessionOptions& options, Progress& progress) {
   engine::TrackArguments arguments = options.track;
   arguments.seeds = "the seeds";
-  formats::Case value = engine::trackSeeds(*document.volume, seeds, arguments, progress).result;
+  formats::Case value = engine::placeAndTrack(*document.volume, seeds, arguments, progress).result;
   convert::fit(value, engine::fitOptionsFor(value, options.fit), progress);
   return value;
 }
 
 /// The case with further vessels, to which `seeds` lead; it keeps those that it had.
-formats::Case trackedFurther(const convert::TrackingVolume& volume, const formats::Case& known,
-                             const Seeds& seeds, std::vector<std::string>& dropped,
-                             Progress& progress) {
-  convert::AddedTracks tracks = convert::trackIntoCase(volume, known, seeds, progress);
+formats::Case trackFurther(const convert::TrackingVolume& volume, const formats::Case& known,
+                           const Seeds& seeds, std::vector<std::string>& dropped,
+                           Progress& progress) {
+  convert::AddedTracks tracks = convert::addTracksFromSeeds(volume, known, seeds, progress);
   warnAbout(tracks.failures, " started no track: ", progress);
   warnAbout(tracks.missedPoints, " does not pass through its ", progress);
   warnAbout(tracks.unjoined, " is not joined to its parent: ", progress);
@@ -91,14 +91,14 @@ Seeds untrackedSeeds(const Document& document, const Arguments& request) {
   return seeds;
 }
 
-TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCache& cache,
-                        const SessionOptions& options, Progress& progress) {
+TrackedCase trackUntracked(const Document& document, const Seeds& seeds, TrackingCache& cache,
+                           const SessionOptions& options, Progress& progress) {
   TrackedCase tracked;
   tracked.value = std::make_shared<const formats::Case>(
       hasVessels(document)
-          ? trackedFurther(*cache.volumeFor(document, seeds, options.track.options, progress),
-                           *document.value, seeds, tracked.droppedArrays, progress)
-          : trackedAnew(document, seeds, options, progress));
+          ? trackFurther(*cache.volumeFor(document, seeds, options.track.options, progress),
+                         *document.value, seeds, tracked.droppedArrays, progress)
+          : trackNewCase(document, seeds, options, progress));
   const std::size_t had = document.value ? document.value->tree.branches.size() : 0;
   tracked.newVessels = tracked.value->tree.branches.size() - had;
   return tracked;
@@ -113,9 +113,9 @@ void fitNewNodes(formats::Case& value, const formats::Case& known, std::uint32_t
                  convert::recordedFitOptions(value), progress);
 }
 
-std::shared_ptr<const formats::Case> foundFrom(const Document& document, TrackingCache& cache,
-                                               const convert::TrackOptions& options,
-                                               Progress& progress) {
+std::shared_ptr<const formats::Case> findProposals(const Document& document, TrackingCache& cache,
+                                                   const convert::TrackOptions& options,
+                                                   Progress& progress) {
   const std::string name = formats::printable(document.labelOf(FileRole::Volume));
   if (convert::holdsLabels(*document.volume))
     throw invalidInput(name +
@@ -124,12 +124,12 @@ std::shared_ptr<const formats::Case> foundFrom(const Document& document, Trackin
   if (hasVessels(document)) {
     const auto& known = *document.value;
     const auto tracking = cache.volumeFor(document, clicksOn(known.tree), options, progress);
-    convert::AddedTracks added = engine::addFound(*tracking, *document.volume, known, progress);
+    convert::AddedTracks added = engine::findAndAdd(*tracking, *document.volume, known, progress);
     return proposalsFor(document, proposalsBehind(std::move(added.result), added.firstNewBranch));
   }
   std::size_t candidates = 0;
   convert::TrackResult found =
-      engine::trackAnyFound(*document.volume, options, candidates, progress);
+      engine::findAndTrackIfAny(*document.volume, options, candidates, progress);
   if (found.result.tree.nodeCount() == 0)
     throw failed("no vessels are found in " + name +
                  (candidates == 0 ? ", as nothing long and thin stands out of its noise"
@@ -149,13 +149,13 @@ Json vesselNear(const Eigen::Vector3d& click, const Document& document, Tracking
   seed.label = "click";
   seed.points.push_back({click, std::nullopt});
   Progress silent;
-  const auto snap =
+  const auto vessel =
       convert::vesselAtClick(*cache.volumeFor(document, {seed}, options, silent), click);
-  return {{"found", snap.found},
-          {"position", json(snap.position)},
-          {"direction", json(snap.direction)},
-          {"radius", snap.radius},
-          {"reason", snap.reason}};
+  return {{"found", vessel.found},
+          {"position", json(vessel.position)},
+          {"direction", json(vessel.direction)},
+          {"radius", vessel.radius},
+          {"reason", vessel.reason}};
 }
 
 }  // namespace lumen::viewer

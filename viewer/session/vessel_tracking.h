@@ -26,8 +26,8 @@ struct TrackedCase {
 
 /// The case of the document with the vessels of these seeds, or a new case. The document has a
 /// volume. Throws as the stages.
-TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCache& cache,
-                        const SessionOptions& options, Progress& progress);
+TrackedCase trackUntracked(const Document& document, const Seeds& seeds, TrackingCache& cache,
+                           const SessionOptions& options, Progress& progress);
 
 /// Fits the nodes of `value` from `firstNew` on, and those around them, as its case was fitted; none
 /// if `known`, of the nodes before, has no models.
@@ -37,9 +37,9 @@ void fitNewNodes(formats::Case& value, const formats::Case& known, std::uint32_t
 /// The vessels that the volume of a document shows and its case lacks, without clicks, as proposals
 /// with names that are free. Null if the case has all. Throws Error(Failed) if the volume shows none,
 /// Error(InvalidInput) for a mask, and as the stages.
-std::shared_ptr<const formats::Case> foundFrom(const Document& document, TrackingCache& cache,
-                                               const convert::TrackOptions& options,
-                                               Progress& progress);
+std::shared_ptr<const formats::Case> findProposals(const Document& document, TrackingCache& cache,
+                                                   const convert::TrackOptions& options,
+                                                   Progress& progress);
 
 /// {"found", "position", "direction", "radius", "reason"} of the axis near a click, mm. Throws
 /// Error(Usage) without a volume.

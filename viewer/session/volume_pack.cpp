@@ -25,7 +25,7 @@ constexpr double kWindowLow = 0.5, kWindowHigh = 0.9995;
 constexpr std::size_t kSampled = 1 << 20;  // voxels from which the window is chosen
 
 template <class T>
-std::pair<double, double> rangeOf(const std::vector<T>& voxels) {
+std::pair<double, double> measureRange(const std::vector<T>& voxels) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const T value : voxels) {
     const auto v = static_cast<double>(value);
@@ -112,7 +112,8 @@ void VolumePack::chooseScale() {
     m_offset = std::numeric_limits<std::int16_t>::min();
     return;
   }
-  const auto [low, high] = std::visit([](const auto& v) { return rangeOf(v); }, m_volume->voxels);
+  const auto [low, high] =
+      std::visit([](const auto& v) { return measureRange(v); }, m_volume->voxels);
   m_offset = low;
   if (high > low) m_scale = (high - low) / (m_bytes == 1 ? 255 : 65535);
 }

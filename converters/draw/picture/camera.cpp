@@ -16,9 +16,9 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kMargin = 0.06;    // share of the picture, on each side
-constexpr double kLeast = 1e-6;     // mm: least size of a picture's content
-constexpr int kStepsOfCircle = 64;  // after n steps the radius is some 1/n too wide
+constexpr double kMargin = 0.06;        // share of the picture, on each side
+constexpr double kLeastContent = 1e-6;  // mm: least size of a picture's content
+constexpr int kStepsOfCircle = 64;      // after n steps the radius is some 1/n too wide
 
 /// Directions in which the extent is no more than this times the least one count as of least
 /// extent.
@@ -68,7 +68,7 @@ Eigen::Vector3d towardsViewer(const formats::CenterlineTree& tree, View view) {
   return thinnestDirection(tree);
 }
 
-Eigen::Matrix3d axesOf(const Eigen::Vector3d& towards) {
+Eigen::Matrix3d viewAxes(const Eigen::Vector3d& towards) {
   // seen from above or below the front of the patient is up
   const bool isAxial = std::abs(towards.z()) > 0.9;
   const Eigen::Vector3d upright = isAxial ? Eigen::Vector3d(-Eigen::Vector3d::UnitY())
@@ -87,7 +87,7 @@ struct Extent {
   double width = 0, height = 0;                      ///< mm
 };
 
-Extent extentOf(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
+Extent measureExtent(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
   Box3d box;
   for (std::size_t n = 0; n < tree.nodeCount(); ++n)
     box.add(axes * toEigen(tree.centre[n]), double{tree.radius[n]});
@@ -96,8 +96,8 @@ Extent extentOf(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes
 
 /// About the upright axis through the centre all nodes stay within the width at any turn: it is a
 /// nearly least circle around them (M. Badoiu, K. L. Clarkson, Smaller core-sets for balls, 2003).
-Extent extentOfTurns(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
-  Extent extent = extentOf(tree, axes);
+Extent measureExtentOfTurns(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
+  Extent extent = measureExtent(tree, axes);
   Eigen::Vector3d centre = axes * extent.centre;
   for (int step = 1; step <= kStepsOfCircle; ++step) {
     double farthest = -1;
@@ -142,19 +142,19 @@ Camera cameraFor(const formats::CenterlineTree& tree, const Framing& framing) {
   Camera camera;
   camera.width = framing.width;
   camera.height = framing.height;
-  camera.axes = axesOf(towardsViewer(tree, framing.view));
+  camera.axes = viewAxes(towardsViewer(tree, framing.view));
   const Eigen::Matrix3d unturned = camera.axes;
   const Eigen::Vector3d up = unturned.row(1);
   camera.axes = unturned * Eigen::AngleAxisd(framing.turn, up).toRotationMatrix().transpose();
   const Extent held =
-      framing.allTurns ? extentOfTurns(tree, unturned) : extentOf(tree, camera.axes);
+      framing.allTurns ? measureExtentOfTurns(tree, unturned) : measureExtent(tree, camera.axes);
   camera.centre = held.centre;
   const double across = (1 - 2 * kMargin) * framing.width;
   const double down =
       framing.height -
       2 * std::min(std::max(kMargin * framing.height, framing.margin), 0.4 * framing.height);
-  camera.scale =
-      std::min(across / std::max(held.width, kLeast), down / std::max(held.height, kLeast));
+  camera.scale = std::min(across / std::max(held.width, kLeastContent),
+                          down / std::max(held.height, kLeastContent));
   return camera;
 }
 

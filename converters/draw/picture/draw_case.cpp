@@ -32,14 +32,14 @@ struct Colours {
   Legend legend;  ///< without colours: none is needed
 };
 
-std::vector<Light> lightOf(const SurfaceMesh& values, const ColorScale& scale) {
+std::vector<Light> computeLight(const SurfaceMesh& values, const ColorScale& scale) {
   std::vector<Light> colours;
   for (const Color& c : vertexColors(values, scale))
     colours.emplace_back(float(c[0]) / 65535, float(c[1]) / 65535, float(c[2]) / 65535);
   return colours;
 }
 
-Legend legendOf(const ColorScale& scale) {
+Legend makeLegend(const ColorScale& scale) {
   const bool isRadius = scale.by == ColorBy::Radius;
   Legend legend;
   legend.title = isRadius ? "radius, mm" : "confidence, share";
@@ -56,13 +56,13 @@ Legend legendOf(const ColorScale& scale) {
                                                    : low + share * (high - low));
     (isRadius ? steps.radius : steps.confidence).push_back(value);
   }
-  for (const Light& c : lightOf(steps, scale))
-    legend.colours.push_back({codedOf(c[0]), codedOf(c[1]), codedOf(c[2])});
+  for (const Light& c : computeLight(steps, scale))
+    legend.colours.push_back({encodeSrgb(c[0]), encodeSrgb(c[1]), encodeSrgb(c[2])});
   return legend;
 }
 
 /// Colours of a mesh with a vertex at each node.
-Colours coloursOf(const formats::CenterlineTree& tree, ColorBy by) {
+Colours computeColours(const formats::CenterlineTree& tree, ColorBy by) {
   if (by == ColorBy::None)
     return {{tree.nodeCount(), Light(kVessel[0], kVessel[1], kVessel[2])}, {}};
   if (by == ColorBy::Confidence && tree.inlierRate.empty())
@@ -74,11 +74,11 @@ Colours coloursOf(const formats::CenterlineTree& tree, ColorBy by) {
   nodes.radius = tree.radius;
   nodes.branch = tree.branch;
   nodes.confidence = tree.inlierRate;
-  const ColorScale scale = scaleOf(nodes, by);
-  return {lightOf(nodes, scale), by == ColorBy::Branch ? Legend{} : legendOf(scale)};
+  const ColorScale scale = measureColorScale(nodes, by);
+  return {computeLight(nodes, scale), by == ColorBy::Branch ? Legend{} : makeLegend(scale)};
 }
 
-Framing framingOf(const PictureOptions& options) {
+Framing makeFraming(const PictureOptions& options) {
   const int room = options.marks ? roomForMarks(options.width, options.height) : 0;
   return {options.view,  options.turn,   options.allTurns,
           options.width, options.height, static_cast<double>(room)};
@@ -110,15 +110,15 @@ Picture CasePainter::background(const PictureOptions& options, const Camera& cam
   if (!m_projector) return {camera.width, camera.height, kPaper};
   PictureOptions unturned = options;
   unturned.turn = 0;
-  const Camera coarse = cameraFor(m_source.tree, framingOf(unturned)).scaled(kCoarse);
-  const GreyWindow window = windowOf(m_projector->greatest(coarse, progress));
+  const Camera coarse = cameraFor(m_source.tree, makeFraming(unturned)).scaled(kCoarse);
+  const GreyWindow window = chooseWindow(m_projector->greatest(coarse, progress));
   return greyPicture(m_projector->greatest(camera, progress), camera.width, camera.height, window);
 }
 
 Picture CasePainter::draw(const PictureOptions& options, Progress& progress) const {
   const formats::CenterlineTree& tree = m_source.tree;
-  const Colours colours = coloursOf(tree, options.colour);
-  const Framing framing = framingOf(options);
+  const Colours colours = computeColours(tree, options.colour);
+  const Framing framing = makeFraming(options);
   const Camera camera = cameraFor(tree, framing);
   const Camera fine = camera.scaled(kSamples);
   Picture picture = shade(m_tracer.trace(fine, progress), fine, colours.ofNode,

@@ -51,7 +51,7 @@ void drawScaleBar(Picture& picture, const Camera& camera, const Rgb& ink) {
   picture.text(x, y - (5 + kLetterHeight) * scale, scale, shownNumber(bar.length) + " mm", ink);
 }
 
-std::string sideOf(const Eigen::Vector3d& direction) {
+std::string sidesTowards(const Eigen::Vector3d& direction) {
   constexpr std::array<char, 3> kPositive{'L', 'P', 'S'}, kNegative{'R', 'A', 'I'};
   std::array<int, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(),
@@ -70,11 +70,11 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink) {
   const auto centred = [&](int y, const std::string& text) {
     picture.text((picture.width - textWidth(text, scale)) / 2, y, scale, text, ink);
   };
-  picture.text(edge, middle, scale, sideOf(-right), ink);
-  const std::string side = sideOf(right);
+  picture.text(edge, middle, scale, sidesTowards(-right), ink);
+  const std::string side = sidesTowards(right);
   picture.text(picture.width - edge - textWidth(side, scale), middle, scale, side, ink);
-  centred(edge, sideOf(up));
-  centred(picture.height - edge - kLetterHeight * scale, sideOf(-up));
+  centred(edge, sidesTowards(up));
+  centred(picture.height - edge - kLetterHeight * scale, sidesTowards(-up));
 }
 
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink) {

@@ -29,7 +29,7 @@ void drawScaleBar(Picture& picture, const Camera& camera, const Rgb& ink);
 
 /// The side of the patient towards which a direction (unit, LPS) points: L, R, P, A, S or I, or
 /// several, the nearest first, where it lies more than 22.5 degrees off the first.
-std::string sideOf(const Eigen::Vector3d& direction);
+std::string sidesTowards(const Eigen::Vector3d& direction);
 
 /// The sides in the middle of the picture's four edges.
 void drawSides(Picture& picture, const Camera& camera, const Rgb& ink);

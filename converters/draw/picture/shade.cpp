@@ -18,14 +18,14 @@ constexpr int kDirections = 8, kSteps = 4;  // numbers for occlusion
 constexpr float kAmbient = 0.55F, kDiffuse = 0.6F, kSpecular = 0.12F, kShininess = 32;
 
 /// sRGB, IEC 61966-2-1.
-float linearOf(std::uint8_t value) {
+float decodeSrgb(std::uint8_t value) {
   const float v = static_cast<float>(value) / 255;
   return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F);
 }
 
 /// The greatest sine above the surface's plane of the surfaces in one direction.
-float horizonOf(const TracedSurface& surface, double pixelsPerMm, int x, int y, double angle,
-                double reach) {
+float findHorizon(const TracedSurface& surface, double pixelsPerMm, int x, int y, double angle,
+                  double reach) {
   const std::size_t pixel = surface.at(x, y);
   const Eigen::Vector3f& normal = surface.normal[pixel];
   float highest = 0;
@@ -62,7 +62,7 @@ Light litAt(const TracedSurface& surface, std::size_t pixel, const Light& colour
 
 }  // namespace
 
-std::uint8_t codedOf(float light) {
+std::uint8_t encodeSrgb(float light) {
   const float v = std::clamp(light, 0.0F, 1.0F);
   const float s = v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
   return static_cast<std::uint8_t>(std::lround(255 * s));
@@ -79,8 +79,8 @@ std::vector<float> computeOcclusion(const TracedSurface& surface, const Camera& 
       const double turn = ((x & 1) + 2 * (y & 1)) / 4.0;
       float sum = 0;
       for (int k = 0; k < kDirections; ++k)
-        sum += horizonOf(surface, camera.scale, x, y,
-                         2 * std::numbers::pi * (k + turn) / kDirections, reach);
+        sum += findHorizon(surface, camera.scale, x, y,
+                           2 * std::numbers::pi * (k + turn) / kDirections, reach);
       sky[pixel] = std::clamp(1 - 1.2F * sum / kDirections, 0.0F, 1.0F);
     }
   });
@@ -92,7 +92,7 @@ Picture shade(const TracedSurface& surface, const Camera& camera, const std::vec
   const std::vector<float> sky = computeOcclusion(surface, camera, 0.02 * surface.width);
   std::array<float, 256> linear{};
   for (std::size_t i = 0; i < linear.size(); ++i)
-    linear[i] = linearOf(static_cast<std::uint8_t>(i));
+    linear[i] = decodeSrgb(static_cast<std::uint8_t>(i));
   Picture picture = background;
   tbb::parallel_for(0, picture.height, [&](int y) {
     for (int x = 0; x < picture.width; ++x) {
@@ -111,9 +111,9 @@ Picture shade(const TracedSurface& surface, const Camera& camera, const std::vec
                          static_cast<std::size_t>(x)];
       const auto all = static_cast<float>(samples * samples);
       for (std::size_t c = 0; c < 3; ++c)
-        out[c] = codedOf((sum[static_cast<Eigen::Index>(c)] +
-                          (all - static_cast<float>(hits)) * linear[out[c]]) /
-                         all);
+        out[c] = encodeSrgb((sum[static_cast<Eigen::Index>(c)] +
+                             (all - static_cast<float>(hits)) * linear[out[c]]) /
+                            all);
     }
   });
   return picture;

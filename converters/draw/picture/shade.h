@@ -17,7 +17,7 @@ namespace lumen::convert {
 using Light = Eigen::Vector3f;
 
 /// A channel of linear light, 0 to 1, as sRGB (IEC 61966-2-1).
-std::uint8_t codedOf(float light);
+std::uint8_t encodeSrgb(float light);
 
 /// Share of the sky that each pixel sees, 0 to 1: less in forks, between vessels, and behind
 /// others. It follows from the depths around the pixel, within `reach` pixels (L. Bavoil, M. Sainz,

@@ -20,9 +20,9 @@ namespace {
 constexpr double kBall = 2;  // radii: a model's wall in its own cell does not reach beyond
 // Inset in radii: rays stay off the sides of cells, where a cursor would step across.
 constexpr double kInset = 1e-4;
-constexpr int kMostSteps = 64;   // steps of a ray in one cell
-constexpr double kShare = 0.9;   // share of the distance: it is right to first order only
-constexpr double kNear = 0.002;  // radii: on the surface
+constexpr int kMostSteps = 64;             // steps of a ray in one cell
+constexpr double kShare = 0.9;             // share of the distance: it is right to first order only
+constexpr double kOnSurfaceRadii = 0.002;  // a point as near is on the surface
 constexpr int kRowsOfTile = 16;
 
 /// Half-space in which the power of a node is at most that of a neighbour: across . X <= level, X
@@ -33,7 +33,7 @@ struct Side {
 };
 
 /// A node's ball as the camera sees it, and the sides of its power cell.
-struct Ball {
+struct SeenBall {
   std::uint32_t node;
   double x, y, depth;  ///< pixels, pixels, mm towards the viewer
   double radius;       ///< mm
@@ -42,7 +42,7 @@ struct Ball {
 
 /// The balls that hold the lumen, from the front to the back.
 struct Balls {
-  std::vector<Ball> all;
+  std::vector<SeenBall> all;
   std::vector<Side> sides;
 };
 
@@ -59,7 +59,7 @@ public:
         m_surface(surface) {}
 
   /// Sends the rays of rows `first` to `last` - 1 that may meet a ball.
-  void meet(const Ball& ball, int first, int last) const {
+  void meet(const SeenBall& ball, int first, int last) const {
     const double reach = m_camera.scale * ball.radius;
     const int y0 = std::max(first, static_cast<int>(std::ceil(ball.y - reach - 0.5)));
     const int y1 = std::min(last, static_cast<int>(std::floor(ball.y + reach - 0.5)) + 1);
@@ -74,7 +74,7 @@ public:
   }
 
 private:
-  void ray(const Ball& ball, int x, int y) const {
+  void ray(const SeenBall& ball, int x, int y) const {
     const std::size_t pixel = m_surface.at(x, y);
     const double met = double{m_surface.depth[pixel]};
     if (ball.depth + ball.radius <= met) return;
@@ -108,7 +108,7 @@ private:
       const Eigen::Vector3d p = origin + along * m_towards;
       blob_query(m_model, BLOB_BLENDED, p.data(), &cursor, &sample);
       if (!std::isfinite(sample.distance)) return;
-      if (std::abs(sample.distance) < kNear * double{m_tree.radius[cursor]})
+      if (std::abs(sample.distance) < kOnSurfaceRadii * double{m_tree.radius[cursor]})
         return keep(pixel, p, sample);
       // in the lumen already: its wall lies towards the viewer
       if (step == 0) isOutwards = sample.distance < 0;
@@ -138,7 +138,7 @@ private:
 
 void addSides(Balls& balls, const formats::CenterlineTree& tree, const blob_model* model,
               const Camera& camera) {
-  Ball& ball = balls.all.back();
+  SeenBall& ball = balls.all.back();
   const Eigen::Vector3d centre = toEigen(tree.centre[ball.node]);
   const double radius = double{tree.radius[ball.node]};
   std::vector<std::uint32_t> neighbours(blob_model_neighbours(model, ball.node, nullptr, 0));
@@ -179,14 +179,14 @@ TracedSurface SurfaceTracer::trace(const Camera& camera, Progress& progress) con
     balls.all.push_back({n, p.x(), p.y(), p.z(), kBall * double{m_tree.radius[n]}, 0, 0});
     addSides(balls, m_tree, m_model.get(), camera);
   }
-  std::stable_sort(balls.all.begin(), balls.all.end(), [](const Ball& a, const Ball& b) {
+  std::stable_sort(balls.all.begin(), balls.all.end(), [](const SeenBall& a, const SeenBall& b) {
     return a.depth + a.radius > b.depth + b.radius;
   });
   const Rays rays(m_tree, m_model.get(), camera, balls, surface);
   const int tiles = (camera.height + kRowsOfTile - 1) / kRowsOfTile;
   tbb::parallel_for(0, tiles, [&](int tile) {
     const int first = tile * kRowsOfTile, last = std::min(camera.height, first + kRowsOfTile);
-    for (const Ball& ball : balls.all) {
+    for (const SeenBall& ball : balls.all) {
       if (progress.cancelled()) return;
       rays.meet(ball, first, last);
     }

@@ -21,13 +21,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Range of a ray in index space that lies in the box of the voxels: from `first` to `last` steps;
 /// empty if first > last.
-struct Stretch {
+struct RayRange {
   double first = -kInfinity, last = kInfinity;
 };
 
-Stretch stretchIn(const std::array<int, 3>& size, const Eigen::Vector3d& from,
-                  const Eigen::Vector3d& step) {
-  Stretch s;
+RayRange stretchIn(const std::array<int, 3>& size, const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& step) {
+  RayRange s;
   for (int a = 0; a < 3; ++a) {
     const double low = -0.5, high = size[static_cast<std::size_t>(a)] - 0.5;
     if (std::abs(step[a]) < 1e-12) {
@@ -127,7 +127,7 @@ private:
 };
 
 template <class Pixel>
-float greatestOn(const Trilinear<Pixel>& voxels, const Bricks& bricks, const Stretch& stretch,
+float greatestOn(const Trilinear<Pixel>& voxels, const Bricks& bricks, const RayRange& stretch,
                  const Eigen::Vector3d& from, const Eigen::Vector3d& step) {
   constexpr int kRun = 4;  // samples between two looks at the bricks
   float greatest = -std::numeric_limits<float>::infinity();
@@ -140,8 +140,8 @@ float greatestOn(const Trilinear<Pixel>& voxels, const Bricks& bricks, const Str
 
 /// The greatest voxel from the first of a brick to the first of the next.
 template <class Pixel>
-float mostOf(const std::array<int, 3>& size, const std::vector<Pixel>& voxels,
-             const std::array<int, 3>& brick) {
+float greatestInBrick(const std::array<int, 3>& size, const std::vector<Pixel>& voxels,
+                      const std::array<int, 3>& brick) {
   std::array<int, 3> end{};
   for (std::size_t a = 0; a < 3; ++a) end[a] = std::min(size[a], kBrick * (brick[a] + 1) + 1);
   Pixel most = std::numeric_limits<Pixel>::lowest();
@@ -169,7 +169,8 @@ Projector::Projector(const Volume& volume, Progress& progress) : m_volume(volume
           if (progress.cancelled()) return;
           std::size_t brick = plane * static_cast<std::size_t>(k);
           for (int j = 0; j < m_bricks[1]; ++j)
-            for (int i = 0; i < m_bricks[0]; ++i) m_most[brick++] = mostOf(size, voxels, {i, j, k});
+            for (int i = 0; i < m_bricks[0]; ++i)
+              m_most[brick++] = greatestInBrick(size, voxels, {i, j, k});
         });
       },
       volume.voxels);
@@ -204,7 +205,7 @@ std::vector<float> Projector::greatest(const Camera& camera, Progress& progress)
   return values;
 }
 
-GreyWindow windowOf(std::vector<float> projection) {
+GreyWindow chooseWindow(std::vector<float> projection) {
   std::erase_if(projection, [](float v) { return !std::isfinite(v); });
   if (projection.empty()) return {};
   const auto at = [&](std::size_t i) {

@@ -36,7 +36,7 @@ struct GreyWindow {
 };
 
 /// Window from the median of a projection to its highest thousandth.
-GreyWindow windowOf(std::vector<float> projection);
+GreyWindow chooseWindow(std::vector<float> projection);
 
 /// A projection as a picture; black beside the volume.
 Picture greyPicture(const std::vector<float>& projection, int width, int height,

@@ -30,7 +30,7 @@ std::vector<Markup> placeCells(const formats::CenterlineTree& tree, std::uint32_
 }
 
 /// A sentence for the rest of a list that is too long for paper.
-Markup moreOf(std::size_t count) {
+Markup restSentence(std::size_t count) {
   if (count <= kPlacesListed) return {};
   return paragraph("And " + std::to_string(count - kPlacesListed) + " smaller ones; lumen check " +
                    kOption.json.shown() + " lists all.");
@@ -41,7 +41,8 @@ Markup heading(const char* ours) {
 }
 
 /// mm of the vessels for each Agreement.
-std::array<double, 4> lengthsOf(const formats::CenterlineTree& tree, const CheckReport& report) {
+std::array<double, 4> measureLengths(const formats::CenterlineTree& tree,
+                                     const CheckReport& report) {
   std::array<double, 4> lengths{};
   for (std::uint32_t node = 0; node < tree.nodeCount(); ++node)
     lengths[static_cast<std::size_t>(report.nodes[node])] += formats::edgeLength(tree, node);
@@ -51,7 +52,7 @@ std::array<double, 4> lengthsOf(const formats::CenterlineTree& tree, const Check
 Markup wallFacts(const CheckReport& report, const formats::CenterlineTree& tree) {
   const Offsets& o = report.offsets;
   const double voxel = report.voxelSize;
-  const std::array<double, 4> lengths = lengthsOf(tree, report);
+  const std::array<double, 4> lengths = measureLengths(tree, report);
   const double length = lengths[0] + lengths[1] + lengths[2] + lengths[3];
   const auto inBoth = [&](double mm) {
     return text(fixedText(mm, 3) + " mm, " + fixedText(mm / voxel, 2) + " voxels");
@@ -119,7 +120,7 @@ Markup regionTable(const char* id, const convert::Regions& regions,
     table.row(cells);
   }
   Markup result = table.markup();
-  result += moreOf(regions.regions.size());
+  result += restSentence(regions.regions.size());
   return result;
 }
 
@@ -151,7 +152,7 @@ Markup shortEnds(const CheckReport& report, const formats::CenterlineTree& tree)
     table.row(cells);
   }
   content += table.markup();
-  content += moreOf(ends.size());
+  content += restSentence(ends.size());
   return content;
 }
 
@@ -177,7 +178,7 @@ Markup missingVessels(const CheckReport& report, const formats::CenterlineTree& 
       table.row(cells);
     }
     content += table.markup();
-    content += moreOf(vessels.size());
+    content += restSentence(vessels.size());
   }
   if (report.missing.wide.regions.empty()) return content;
   content += heading("Wide bright regions outside");

@@ -30,7 +30,7 @@ std::string stopText(const std::string& reason) {
 }
 
 /// The place of each branch in tree order, from 1.
-std::vector<std::size_t> numbersOf(const formats::CenterlineTree& tree) {
+std::vector<std::size_t> branchNumbers(const formats::CenterlineTree& tree) {
   std::vector<std::size_t> numbers(tree.branches.size());
   std::size_t next = 1;
   for (const std::uint32_t branch : convert::inTreeOrder(tree)) numbers[branch] = next++;
@@ -73,7 +73,7 @@ Markup branchSection(const ReportFacts& facts) {
   const formats::CenterlineTree& tree = facts.value.tree;
   if (tree.branches.empty())
     return section("branches", "Vessels", paragraph("This case has no vessels."));
-  const std::vector<std::size_t> numbers = numbersOf(tree);
+  const std::vector<std::size_t> numbers = branchNumbers(tree);
   convert::Table table("branch-table", {{"no."},
                                         {"vessel", false},
                                         {"kind", false},

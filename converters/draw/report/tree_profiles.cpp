@@ -24,8 +24,8 @@ std::vector<std::vector<std::uint32_t>> branchesOfEach(const CenterlineTree& tre
   return children;
 }
 
-TreeProfile profileOf(const CenterlineTree& tree, std::uint32_t index,
-                      const std::vector<std::uint32_t>& children) {
+TreeProfile makeProfile(const CenterlineTree& tree, std::uint32_t index,
+                        const std::vector<std::uint32_t>& children) {
   const Branch& branch = tree.branches[index];
   TreeProfile profile;
   profile.branch = index;
@@ -64,7 +64,7 @@ std::vector<TreeProfile> treeProfiles(const CenterlineTree& tree) {
   const auto children = branchesOfEach(tree);
   std::vector<TreeProfile> profiles;
   for (const std::uint32_t branch : inTreeOrder(tree))
-    profiles.push_back(profileOf(tree, branch, children[branch]));
+    profiles.push_back(makeProfile(tree, branch, children[branch]));
   return profiles;
 }
 

@@ -76,7 +76,7 @@ public:
     requirePoints(value, around);
     complete(value, from, to, around);
     around.progress.check();
-    const std::optional<convert::Reach> reach = convert::reachOf(value, around.progress);
+    const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
     convert::warnOfClosed(reach, around.progress);
     const auto surface = to.writeCase(value, m_output, m_outputOptions, around.progress);
     return report(value, reach, surface);
@@ -99,7 +99,7 @@ private:
       const auto loaded = loadCenterline(m_input, from, m_volume, m_centerline, progress);
       // there is no voxel that a mesh could take its cells from
       double& cell = m_outputOptions.polygonise.cell;
-      const double thinnest = convert::extentOf(loaded.file).least;
+      const double thinnest = convert::measureExtent(loaded.file).least;
       if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
       return convert::caseOfCenterline(loaded.file, m_input);
     }
@@ -112,7 +112,7 @@ private:
       return caseOfLabels(volume, progress);
     }
     if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
-    convert::TrackResult tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
+    convert::TrackResult tracked = trackVessels(volume, m_input, m_seeds, m_track, progress);
     if (!m_mask.labelMap.empty())
       nameByLabelMap(volume, m_input, m_mask, tracked.result, tracked.ends, progress);
     m_repetition = repeatTracks(volume, m_input, m_seeds, m_track, tracked.result, progress);

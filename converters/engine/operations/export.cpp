@@ -106,9 +106,9 @@ public:
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
     around.willWrite(m_output);
-    convert::warnOfClosed(convert::reachOf(value, around.progress), around.progress);
+    convert::warnOfClosed(convert::measureReach(value, around.progress), around.progress);
     const ExportResult result = made(target, value, around);
-    warnOf(result, around.progress);
+    warnOfLosses(result, around.progress);
     around.progress.check();
     writeFolder(result.files, *folder);
     return report(result, value);
@@ -127,7 +127,7 @@ private:
     }
   }
 
-  void warnOf(const ExportResult& result, Progress& progress) const {
+  void warnOfLosses(const ExportResult& result, Progress& progress) const {
     if (result.surface) warnOfSurface(*result.surface, m_output, progress);
     for (const std::string& loss : result.losses)
       progress.warn(formats::printable(m_output) + ": " + loss);

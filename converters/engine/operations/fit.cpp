@@ -45,7 +45,7 @@ public:
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
     convert::fit(value, m_fit, around.progress);
-    const std::optional<convert::Reach> reach = convert::reachOf(value, around.progress);
+    const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
     convert::warnOfClosed(reach, around.progress);
     to.writeCase(value, m_output, {}, around.progress);
     Json json = caseSummary(value);

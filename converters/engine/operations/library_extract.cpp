@@ -27,7 +27,8 @@ public:
         .required()
         .many()
         .checkedBy(caseIdText());
-    table.add("title", &m_title, "TEXT", "Title [the other library's]").checkedBy(textOf(1, 255));
+    table.add("title", &m_title, "TEXT", "Title [the other library's]")
+        .checkedBy(checkTextLength(1, 255));
     table.add("id", &m_id, "UUID", "The new library's id [a random one]").checkedBy(uuidText());
     addDayRow(table, m_day);
   }

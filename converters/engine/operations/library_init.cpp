@@ -21,7 +21,9 @@ public:
 
   void addRows(OptionTable& table) override {
     table.argument("LIBRARY", &m_folder, "Folder to make; it may not exist, or must be empty");
-    table.add("title", &m_library.title, "TEXT", "Title").required().checkedBy(textOf(1, 255));
+    table.add("title", &m_library.title, "TEXT", "Title")
+        .required()
+        .checkedBy(checkTextLength(1, 255));
     table
         .add("licence", &m_library.licence, "SPDX",
              "Licence of the library's own files, and of cases that state none: an SPDX expression "
@@ -29,8 +31,9 @@ public:
         .required()
         .checkedBy(licence());
     table.add("description", &m_library.description, "TEXT", "Description")
-        .checkedBy(textOf(0, 4096));
-    table.add("publisher", &m_library.publisher, "TEXT", "Publisher").checkedBy(textOf(0, 255));
+        .checkedBy(checkTextLength(0, 4096));
+    table.add("publisher", &m_library.publisher, "TEXT", "Publisher")
+        .checkedBy(checkTextLength(0, 255));
     table.add("id", &m_library.id, "UUID", "The library's id [a random one]").checkedBy(uuidText());
     addDayRow(table, m_library.date);
   }

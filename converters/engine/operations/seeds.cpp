@@ -83,7 +83,7 @@ public:
     requireWritable(m_output, convert::ContentKind::Seeds);
     around.willWrite(m_output);
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    const formats::Case found = trackFound(volume, m_input, m_options, around.progress).result;
+    const formats::Case found = findAndTrack(volume, m_input, m_options, around.progress).result;
     const std::vector<convert::SeedBranch> seeds = seedsOn(found);
     convert::writeSeeds(seeds, m_output);
     Json json;

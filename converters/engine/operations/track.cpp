@@ -53,7 +53,7 @@ public:
     around.willWrite(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    convert::TrackResult tracked = trackVolume(volume, m_input, seeds, m_track, around.progress);
+    convert::TrackResult tracked = trackVessels(volume, m_input, seeds, m_track, around.progress);
     if (!m_labels.labelMap.empty())
       nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, around.progress);
     const auto repetition =

@@ -124,7 +124,7 @@ Lattice latticeOver(const Box3d& box, double margin, double spacing) {
   return lattice;
 }
 
-Lattice partOf(const Lattice& whole, const Box3d& box, double margin) {
+Lattice cropLattice(const Lattice& whole, const Box3d& box, double margin) {
   Lattice part = whole;
   for (int a = 0; a < 3; ++a) {
     const int samples = whole.size[static_cast<std::size_t>(a)];

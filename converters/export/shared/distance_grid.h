@@ -42,7 +42,7 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
 Lattice latticeOver(const Box3d& box, double margin, double spacing);
 
 /// The samples of `whole` that lie in the box with its margin; at least two along each axis.
-Lattice partOf(const Lattice& whole, const Box3d& box, double margin);
+Lattice cropLattice(const Lattice& whole, const Box3d& box, double margin);
 
 /// The source of the answers on a grid, and the greatest distance from the wall that is asked for.
 struct GridSource {

@@ -25,7 +25,7 @@ constexpr double kMostPressure = 180;
 using Entry = Eigen::Triplet<double>;
 
 /// Conductances of segments; a segment without a length is as good as one of a micrometre.
-std::vector<double> conductancesOf(const FlowNetwork& network) {
+std::vector<double> computeConductances(const FlowNetwork& network) {
   std::vector<double> conductances;
   double least = INFINITY;
   for (const FlowSegment& segment : network.segments)
@@ -61,7 +61,7 @@ std::string warningAt(const FlowNetwork& network, const std::vector<double>& pre
 
 std::vector<double> steadyPressures(const FlowNetwork& network) {
   const auto joints = static_cast<Eigen::Index>(network.joints.size());
-  const std::vector<double> conductances = conductancesOf(network);
+  const std::vector<double> conductances = computeConductances(network);
   std::vector<Entry> entries;
   for (std::size_t s = 0; s < conductances.size(); ++s) {
     const auto a = static_cast<int>(network.segments[s].from),

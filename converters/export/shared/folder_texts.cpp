@@ -103,9 +103,9 @@ std::string readmeText(const TargetRow& target, const ExportFrame& frame,
   return text + "\nMade by lumen " LUMEN_VERSION ".\n";
 }
 
-std::string manifestOf(const TargetRow& target, const ExportFrame& frame,
-                       const formats::Case& source, const OptionTexts& options,
-                       const ExportResult& result) {
+std::string makeManifest(const TargetRow& target, const ExportFrame& frame,
+                         const formats::Case& source, const OptionTexts& options,
+                         const ExportResult& result) {
   const Json json = {{"format", "lumen-export"},
                      {"version", kManifestVersion},
                      {"target", target.name},

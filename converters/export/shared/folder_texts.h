@@ -14,8 +14,8 @@ std::string readmeText(const TargetRow& target, const ExportFrame& frame,
                        const ExportResult& result);
 
 /// lumen-export.json, spec/export.md, with all files of `result`. Equal folders give equal bytes.
-std::string manifestOf(const TargetRow& target, const ExportFrame& frame,
-                       const formats::Case& source, const OptionTexts& options,
-                       const ExportResult& result);
+std::string makeManifest(const TargetRow& target, const ExportFrame& frame,
+                         const formats::Case& source, const OptionTexts& options,
+                         const ExportResult& result);
 
 }  // namespace lumen::convert

@@ -45,7 +45,7 @@ std::uint32_t branchToEnter(const CenterlineTree& tree, const std::string& label
 }
 
 /// The nodes from the first one of a branch on, each followed by its widest child in a vessel.
-std::vector<std::uint32_t> widestWay(const CenterlineTree& tree, std::uint32_t first) {
+std::vector<std::uint32_t> widestPath(const CenterlineTree& tree, std::uint32_t first) {
   std::vector<std::optional<std::uint32_t>> widest(tree.nodeCount());
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
     const std::int32_t parent = tree.parent[n];
@@ -55,9 +55,9 @@ std::vector<std::uint32_t> widestWay(const CenterlineTree& tree, std::uint32_t f
     auto& best = widest[static_cast<std::uint32_t>(parent)];
     if (!best || tree.radius[n] > tree.radius[*best]) best = n;
   }
-  std::vector<std::uint32_t> way = {first};
-  while (widest[way.back()]) way.push_back(*widest[way.back()]);
-  return way;
+  std::vector<std::uint32_t> path = {first};
+  while (widest[path.back()]) path.push_back(*widest[path.back()]);
+  return path;
 }
 
 }  // namespace
@@ -65,33 +65,33 @@ std::vector<std::uint32_t> widestWay(const CenterlineTree& tree, std::uint32_t f
 Insertion findInsertion(const CenterlineTree& tree, const std::string& label, double clearance) {
   Insertion result;
   result.branch = branchToEnter(tree, label);
-  const auto way = widestWay(tree, tree.branches[result.branch].firstNode);
+  const auto path = widestPath(tree, tree.branches[result.branch].firstNode);
   std::vector<double> along = {0};
-  for (std::size_t k = 1; k < way.size(); ++k)
-    along.push_back(along.back() + (centreOf(tree, way[k]) - centreOf(tree, way[k - 1])).norm());
+  for (std::size_t k = 1; k < path.size(); ++k)
+    along.push_back(along.back() + (centreOf(tree, path[k]) - centreOf(tree, path[k - 1])).norm());
   // a vessel ends in front of an instrument, a sac is filled from its inside
   const bool isSac = tree.branches[result.branch].kind == BranchKind::Aneurysm;
-  const double end = along.back() + (isSac ? clearance : -tree.radius[way.back()]);
+  const double end = along.back() + (isSac ? clearance : -tree.radius[path.back()]);
 
   std::size_t k = 0;
-  while (k < way.size() &&
-         (along[k] < clearance || along[k] + clearance > end || tree.radius[way[k]] < clearance))
+  while (k < path.size() &&
+         (along[k] < clearance || along[k] + clearance > end || tree.radius[path[k]] < clearance))
     ++k;
-  if (k == way.size())
+  if (k == path.size())
     throw invalidInput("branch " + formats::printable(tree.branches[result.branch].label) +
                        ": an instrument that is inserted there needs a lumen of " +
                        fixedText(clearance, 2) + " mm radius and some length, and there is none; " +
                        kOption.insert.shown() + " names another branch, " +
                        kOption.instrument.shown() + " a thinner instrument");
-  result.node = way[k];
-  result.position = centreOf(tree, way[k]);
-  result.radius = tree.radius[way[k]];
-  result.way = end - along[k];
+  result.node = path[k];
+  result.position = centreOf(tree, path[k]);
+  result.radius = tree.radius[path[k]];
+  result.pathLength = end - along[k];
 
   // nodes may jitter sideways by a tenth of a radius, so the direction is taken over a whole one
   std::size_t ahead = k;
-  while (ahead + 1 < way.size() && along[ahead] - along[k] < result.radius) ++ahead;
-  const Eigen::Vector3d step = centreOf(tree, way[ahead]) - result.position;
+  while (ahead + 1 < path.size() && along[ahead] - along[k] < result.radius) ++ahead;
+  const Eigen::Vector3d step = centreOf(tree, path[ahead]) - result.position;
   if (step.norm() > 0) result.direction = step.normalized();
   return result;
 }

@@ -16,7 +16,7 @@ struct Insertion {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< mm, LPS
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, into the vessels
   double radius = 0;                                     ///< radius of the vessel there, mm
-  double way = 0;  ///< mm, along the widest branches, to a radius before the last one's end
+  double pathLength = 0;  ///< mm, along the widest branches, to a radius before the last one's end
 };
 
 /// The insertion at the beginning of the branch called `label`, or, if that is empty, of the first

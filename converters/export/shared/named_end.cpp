@@ -45,7 +45,7 @@ Eigen::Vector3d pointOf(const SurfaceMesh& mesh, std::uint32_t vertex) {
   return toEigen(mesh.position[vertex]);
 }
 
-std::vector<Rim> rimsOf(const SurfaceMesh& mesh) {
+std::vector<Rim> findRims(const SurfaceMesh& mesh) {
   std::vector<Rim> rims(mesh.groups.size());
   const std::vector<EdgeUse> uses = edgeUses(mesh.triangle);
   forEachEdge(uses, [&](std::span<const EdgeUse> edge) {
@@ -92,8 +92,8 @@ bool isJoined(const formats::CenterlineTree& tree, std::uint32_t node) {
 
 }  // namespace
 
-std::vector<NamedEnd> endsOf(const SurfaceMesh& mesh) {
-  const std::vector<Rim> rims = rimsOf(mesh);
+std::vector<NamedEnd> findEnds(const SurfaceMesh& mesh) {
+  const std::vector<Rim> rims = findRims(mesh);
   std::vector<NamedEnd> ends;
   for (std::uint32_t g = 0; g < mesh.groups.size(); ++g) {
     if (mesh.groups[g].kind == FaceKind::Wall || rims[g].edges.empty()) continue;
@@ -107,7 +107,7 @@ std::vector<NamedEnd> endsOf(const SurfaceMesh& mesh) {
   return ends;
 }
 
-std::vector<NamedEnd> endsOf(const formats::CenterlineTree& tree) {
+std::vector<NamedEnd> findEnds(const formats::CenterlineTree& tree) {
   const auto isRoot = [](const formats::Branch& branch) {
     return branch.kind == formats::BranchKind::Vessel && branch.nodeCount > 0 &&
            branch.parentNode < 0;

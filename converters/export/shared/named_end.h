@@ -24,11 +24,11 @@ struct NamedEnd {
 /// One for each group of faces but walls, in their order, measured on the edges that it shares with
 /// the lumen's wall, which is group 0. `mesh`: mm, LPS, closed, of closedSurface(), with a thick
 /// wall or without.
-std::vector<NamedEnd> endsOf(const SurfaceMesh& mesh);
+std::vector<NamedEnd> findEnds(const SurfaceMesh& mesh);
 
 /// The ends that the tree alone states: an inlet at the first node of each root that is a vessel,
 /// an outlet at the last node of each vessel to which no other is connected and that no link holds;
 /// named as on the surface. Directions are the nodes', radii too.
-std::vector<NamedEnd> endsOf(const formats::CenterlineTree& tree);
+std::vector<NamedEnd> findEnds(const formats::CenterlineTree& tree);
 
 }  // namespace lumen::convert

@@ -25,9 +25,9 @@ using formats::CenterlineTree;
 constexpr double kMetres = 1e-3;  // metres in a millimetre
 
 /// Makes a network of the graph of nodes and edges.
-class Builder {
+class NetworkBuilder {
 public:
-  explicit Builder(const CenterlineTree& tree)
+  explicit NetworkBuilder(const CenterlineTree& tree)
       : m_tree(tree), m_next(tree.nodeCount()), m_jointOf(tree.nodeCount(), kNone) {
     for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
       if (tree.parent[n] != formats::kNoParent)
@@ -129,7 +129,7 @@ private:
            m_tree.parent[joint] != static_cast<std::int32_t>(n);
   }
   /// True if the vessel of `n` comes from before it and goes on behind it.
-  [[nodiscard]] bool isOnTheWay(std::uint32_t n) const {
+  [[nodiscard]] bool passesThrough(std::uint32_t n) const {
     const Branch& branch = m_tree.branches[m_tree.branch[n]];
     return n + 1 != branch.firstNode + branch.nodeCount && !isRoot(n);
   }
@@ -142,12 +142,12 @@ private:
     const bool isLink = nodes.size() == 2 && isGuest(nodes[at], nodes[beside]);
     segment.radii[at] = isLink ? std::min(m_tree.radius[nodes[at]], m_tree.radius[nodes[beside]])
                                : m_tree.radius[nodes[beside]];
-    if (!isOnTheWay(nodes[at])) return;
-    const Eigen::Vector3d way = segment.points[beside] - segment.points[at];
-    const double length = way.norm(), inside = m_tree.radius[nodes[at]];
+    if (!passesThrough(nodes[at])) return;
+    const Eigen::Vector3d chord = segment.points[beside] - segment.points[at];
+    const double length = chord.norm(), inside = m_tree.radius[nodes[at]];
     // of a vessel that is nowhere outside of the other's ball all counts
     if (nodes.size() > 2 || inside < length)
-      segment.points[at] += (inside < length ? inside / length : 1.0) * way;
+      segment.points[at] += (inside < length ? inside / length : 1.0) * chord;
   }
 
   void walk(std::uint32_t from, std::uint32_t to) {
@@ -278,10 +278,10 @@ double FlowSegment::length() const {
 }
 
 FlowNetwork flowNetwork(const CenterlineTree& tree) {
-  return Builder(tree).build();
+  return NetworkBuilder(tree).build();
 }
 
-std::vector<NamedEnd> endsOf(const FlowNetwork& network) {
+std::vector<NamedEnd> findEnds(const FlowNetwork& network) {
   std::vector<NamedEnd> ends;
   for (std::uint32_t j = 0; j < network.joints.size(); ++j) {
     const FlowJoint& joint = network.joints[j];

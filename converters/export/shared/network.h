@@ -63,7 +63,7 @@ struct FlowNetwork {
 FlowNetwork flowNetwork(const formats::CenterlineTree& tree);
 
 /// Inlets and outlets, under their names; positions are those of the first and last nodes.
-std::vector<NamedEnd> endsOf(const FlowNetwork& network);
+std::vector<NamedEnd> findEnds(const FlowNetwork& network);
 
 /// Numbers of segments, junctions, inlets, outlets and trees: a sentence for the answer.
 std::string networkSummary(const FlowNetwork& network);

@@ -21,7 +21,7 @@ using formats::CenterlineTree;
 
 constexpr double kCentimetres = 0.1;  // centimetres in a millimetre
 
-BranchPath pathOf(const CenterlineTree& tree, std::uint32_t index, std::string name) {
+BranchPath makePath(const CenterlineTree& tree, std::uint32_t index, std::string name) {
   const formats::Branch& branch = tree.branches[index];
   BranchPath path{index, std::move(name), {}, {}};
   const auto add = [&](std::size_t node, double radius) {
@@ -62,7 +62,7 @@ std::vector<BranchPath> branchPaths(const CenterlineTree& tree) {
   const std::vector<std::string> names = distinct(labels, fileWord);
   std::vector<BranchPath> paths;
   for (std::size_t b = 0; b < names.size(); ++b) {
-    BranchPath path = pathOf(tree, static_cast<std::uint32_t>(b), names[b]);
+    BranchPath path = makePath(tree, static_cast<std::uint32_t>(b), names[b]);
     if (path.points.size() > 1) paths.push_back(std::move(path));
   }
   if (paths.empty())

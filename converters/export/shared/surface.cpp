@@ -15,7 +15,7 @@ namespace {
 ExportedSurface surfaceWith(const ExportInput& input, const ClosedSurfaceOptions& options) {
   ClosedSurface made = closedSurface(input.source, options, input.progress);
   ExportedSurface result;
-  result.ends = endsOf(made.levels.front());
+  result.ends = findEnds(made.levels.front());
   result.mesh = input.frame.of(std::move(made.levels.front()));
   for (std::size_t level = 1; level < made.levels.size(); ++level)
     result.coarser.push_back(input.frame.of(std::move(made.levels[level])));
@@ -51,7 +51,7 @@ WallAttempt tryWall(const ExportInput& input, const Length& usual, const Surface
   }
 }
 
-Box3d boxOf(const SurfaceMesh& mesh) {
+Box3d boundingBox(const SurfaceMesh& mesh) {
   Box3d box;
   for (const Float3& p : mesh.position) box.add(toEigen(p));
   return box;

@@ -37,6 +37,6 @@ struct WallAttempt {
 WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen);
 
 /// The box of all vertices.
-Box3d boxOf(const SurfaceMesh& mesh);
+Box3d boundingBox(const SurfaceMesh& mesh);
 
 }  // namespace lumen::convert

@@ -17,7 +17,7 @@ namespace lumen::convert {
 
 namespace {
 
-openvdb::math::Transform::Ptr transformOf(const Lattice& lattice, double unit) {
+openvdb::math::Transform::Ptr makeTransform(const Lattice& lattice, double unit) {
   auto transform = openvdb::math::Transform::createLinearTransform(lattice.spacing / unit);
   transform->postTranslate(
       {lattice.first[0] / unit, lattice.first[1] / unit, lattice.first[2] / unit});
@@ -36,8 +36,8 @@ struct VdbGrids {
     set->setGridClass(openvdb::GRID_LEVEL_SET);
     set->setSaveFloatAsHalf(options.half);
     labels->setName("branch");
-    set->setTransform(transformOf(lattice, options.unit));
-    labels->setTransform(transformOf(lattice, options.unit));
+    set->setTransform(makeTransform(lattice, options.unit));
+    labels->setTransform(makeTransform(lattice, options.unit));
   }
 
   void add(const DistanceGrid& part, int firstLayer) {

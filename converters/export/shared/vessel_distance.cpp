@@ -21,7 +21,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// A wall lies within the doubled ball of its node: beyond it, a branch is left to the nearest
 /// node's answer.
-constexpr double kReach = 2;
+constexpr double kReachRadii = 2;
 /// Radii along the tree within which libblob lets nodes blend.
 constexpr double kNeighbourhood = 4;
 
@@ -85,7 +85,7 @@ VesselDistance::VesselDistance(const formats::Case& source, bool exact)
   for (const formats::Branch& branch : m_tree.branches) {
     Box3d box;
     for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n)
-      box.add(toEigen(m_tree.centre[n]), kReach * static_cast<double>(m_tree.radius[n]));
+      box.add(toEigen(m_tree.centre[n]), kReachRadii * static_cast<double>(m_tree.radius[n]));
     m_reach.push_back(box);
   }
 }
@@ -98,7 +98,7 @@ double VesselDistance::power(std::uint32_t node, const Eigen::Vector3d& p) const
 bool VesselDistance::hasNodeNear(std::uint32_t branch, const Box3d& box, double band) const {
   const formats::Branch& own = m_tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
-    const double reach = kReach * static_cast<double>(m_tree.radius[n]) + band;
+    const double reach = kReachRadii * static_cast<double>(m_tree.radius[n]) + band;
     if (squaredRange(box, toEigen(m_tree.centre[n])).first <= reach * reach) return true;
   }
   return false;
@@ -145,7 +145,7 @@ void VesselDistance::askBranch(std::uint32_t branch, std::span<const Eigen::Vect
   TreeRegion near;
   const formats::Branch& own = m_tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
-    const double reach = kReach * static_cast<double>(m_tree.radius[n]);
+    const double reach = kReachRadii * static_cast<double>(m_tree.radius[n]);
     if (squaredRange(box, toEigen(m_tree.centre[n])).first < reach * reach) near.push_back(n);
   }
   std::vector<std::size_t> chosen;
@@ -157,7 +157,7 @@ void VesselDistance::askBranch(std::uint32_t branch, std::span<const Eigen::Vect
           return power(a, points[i]) < power(b, points[i]);
         });
     const auto r = static_cast<double>(m_tree.radius[node]);
-    if (power(node, points[i]) >= (kReach * kReach - 1) * r * r) continue;
+    if (power(node, points[i]) >= (kReachRadii * kReachRadii - 1) * r * r) continue;
     chosen.push_back(i);
     cursors.push_back(node);
   }
@@ -166,7 +166,7 @@ void VesselDistance::askBranch(std::uint32_t branch, std::span<const Eigen::Vect
 
 namespace {
 
-Box3d boxOf(std::span<const Eigen::Vector3d> points) {
+Box3d boundingBox(std::span<const Eigen::Vector3d> points) {
   Box3d box;
   for (const Eigen::Vector3d& p : points) box.add(p);
   return box;
@@ -177,7 +177,7 @@ Box3d boxOf(std::span<const Eigen::Vector3d> points) {
 void VesselDistance::ofAll(std::span<const Eigen::Vector3d> points, double band,
                            std::span<WallDistance> answers) const {
   if (points.empty()) return;
-  const Box3d box = boxOf(points);
+  const Box3d box = boundingBox(points);
   bool isNear = false;
   std::vector<std::uint32_t> branches;
   for (std::uint32_t b = 0; b < m_reach.size(); ++b) {
@@ -198,14 +198,14 @@ void VesselDistance::ofAll(std::span<const Eigen::Vector3d> points, double band,
 void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Eigen::Vector3d> points,
                               double band, std::span<WallDistance> answers) const {
   if (points.empty()) return;
-  const Box3d box = boxOf(points);
+  const Box3d box = boundingBox(points);
   bool isNear = false;
   double least = kInfinite;  // no node of least power has more, anywhere in the box
   std::vector<double> lowest;
   for (const std::uint32_t n : region) {
     const auto [near, far] = squaredRange(box, toEigen(m_tree.centre[n]));
     const auto r = static_cast<double>(m_tree.radius[n]);
-    isNear = isNear || std::sqrt(near) <= kReach * r + band;
+    isNear = isNear || std::sqrt(near) <= kReachRadii * r + band;
     least = std::min(least, far - r * r);
     lowest.push_back(near - r * r);
   }

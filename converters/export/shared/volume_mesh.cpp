@@ -45,8 +45,8 @@ void writeComplex(const SurfaceMesh& surface, const std::filesystem::path& path)
 }
 
 /// Rows of numbers behind a header that counts them; false if the file is something else.
-template <class Row>
-bool readRows(const std::filesystem::path& path, const Row& row) {
+template <class VisitRow>
+bool readRows(const std::filesystem::path& path, const VisitRow& row) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
   std::ifstream file(path);

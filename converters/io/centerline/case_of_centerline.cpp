@@ -26,7 +26,7 @@ constexpr double kLongestStep = 1.25, kInserted = 0.6, kDense = 0.2, kResampled 
 constexpr double kSamePoint = 0.02;
 // Limits relative to the parent's radius: a child within its core, within its lumen, and the length
 // that it may run there before it is attached to another node.
-constexpr double kCore = 0.5, kInside = 0.9, kLongWay = 1.5;
+constexpr double kCore = 0.5, kInside = 0.9, kLongPathRadii = 1.5;
 // Upper bound: a short file may describe long vessels, but not without limit.
 constexpr double kNodesForFree = 200000, kNodesPerPoint = 100;
 
@@ -37,23 +37,24 @@ struct Sample {
 };
 using Samples = std::vector<Sample>;
 
-double stepAt(const Samples& way, std::size_t i) {
-  return (way[i + 1].position - way[i].position).norm();
+double stepAt(const Samples& path, std::size_t i) {
+  return (path[i + 1].position - path[i].position).norm();
 }
 
 // The derivative by the chord length at each sample, second order at samples with two neighbours.
-std::vector<Vector3d> tangentsOf(const Samples& way) {
-  std::vector<Vector3d> tangents(way.size(), Vector3d::Zero());
-  if (way.size() < 2) return tangents;
+std::vector<Vector3d> computeTangents(const Samples& path) {
+  std::vector<Vector3d> tangents(path.size(), Vector3d::Zero());
+  if (path.size() < 2) return tangents;
   std::vector<Vector3d> secant;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i)
-    secant.emplace_back((way[i + 1].position - way[i].position) / std::max(stepAt(way, i), 1e-300));
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    if (i == 0 || i + 1 == way.size()) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    secant.emplace_back((path[i + 1].position - path[i].position) /
+                        std::max(stepAt(path, i), 1e-300));
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (i == 0 || i + 1 == path.size()) {
       tangents[i] = secant[i == 0 ? 0 : i - 1];
       continue;
     }
-    const double before = stepAt(way, i - 1), after = stepAt(way, i);
+    const double before = stepAt(path, i - 1), after = stepAt(path, i);
     tangents[i] = (after * secant[i - 1] + before * secant[i]) / std::max(before + after, 1e-300);
   }
   return tangents;
@@ -62,11 +63,11 @@ std::vector<Vector3d> tangentsOf(const Samples& way) {
 // A curve through samples: cubic Hermite pieces over the chord lengths; radii are linear.
 class Curve {
 public:
-  explicit Curve(const Samples& way) : m_way(way), m_tangent(tangentsOf(way)) {}
+  explicit Curve(const Samples& path) : m_path(path), m_tangent(computeTangents(path)) {}
 
   [[nodiscard]] Sample at(std::size_t piece, double share) const {
-    const Sample &from = m_way[piece], &to = m_way[piece + 1];
-    const double h = stepAt(m_way, piece), t = share, u = 1 - t;
+    const Sample &from = m_path[piece], &to = m_path[piece + 1];
+    const double h = stepAt(m_path, piece), t = share, u = 1 - t;
     const Vector3d position = u * u * (1 + 2 * t) * from.position +
                               t * t * (1 + 2 * u) * to.position +
                               h * t * u * (u * m_tangent[piece] - t * m_tangent[piece + 1]);
@@ -74,66 +75,66 @@ public:
   }
 
 private:
-  const Samples& m_way;
+  const Samples& m_path;
   std::vector<Vector3d> m_tangent;
 };
 
 // Removes samples at the place of their predecessor; the last stays.
-Samples apart(const Samples& way) {
+Samples apart(const Samples& path) {
   Samples kept;
-  for (const Sample& sample : way) {
+  for (const Sample& sample : path) {
     const bool isSame =
         !kept.empty() && (sample.position - kept.back().position).norm() <=
                              kSamePoint * std::min(sample.radius, kept.back().radius);
     if (!isSame)
       kept.push_back(sample);
-    else if (&sample == &way.back() && kept.size() > 1)
+    else if (&sample == &path.back() && kept.size() > 1)
       kept.back() = sample;
   }
   return kept;
 }
 
-double radiusOf(const Samples& way, std::size_t piece) {
-  return std::min(way[piece].radius, way[piece + 1].radius);
+double radiusOf(const Samples& path, std::size_t piece) {
+  return std::min(path[piece].radius, path[piece + 1].radius);
 }
 
-bool isDense(const Samples& way) {
+bool isDense(const Samples& path) {
   std::vector<double> steps;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i)
-    steps.push_back(stepAt(way, i) / radiusOf(way, i));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    steps.push_back(stepAt(path, i) / radiusOf(path, i));
   if (steps.size() < 4) return false;
   std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
   return steps[steps.size() / 2] < kDense;
 }
 
-double nodesFor(const Samples& way) {
+double nodesFor(const Samples& path) {
   double nodes = 0;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i)
-    nodes += 1 + stepAt(way, i) / (kInserted * radiusOf(way, i));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    nodes += 1 + stepAt(path, i) / (kInserted * radiusOf(path, i));
   return nodes;
 }
 
-Samples filled(const Samples& way) {
-  const Curve curve(way);
-  Samples samples{way.front()};
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    const double length = stepAt(way, i) / radiusOf(way, i);
+Samples filled(const Samples& path) {
+  const Curve curve(path);
+  Samples samples{path.front()};
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const double length = stepAt(path, i) / radiusOf(path, i);
     const int pieces = length > kLongestStep ? static_cast<int>(std::ceil(length / kInserted)) : 1;
     for (int k = 1; k < pieces; ++k) samples.push_back(curve.at(i, double(k) / pieces));
-    samples.push_back(way[i + 1]);
+    samples.push_back(path[i + 1]);
   }
   return samples;
 }
 
 // Samples every half radius; each names the nearest of the file's points at most once.
-Samples resampled(const Samples& way) {
+Samples resampled(const Samples& path) {
   std::vector<double> place{0};  // in steps of half a radius
-  for (std::size_t i = 0; i + 1 < way.size(); ++i)
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
     place.push_back(place.back() +
-                    stepAt(way, i) / (kResampled * 0.5 * (way[i].radius + way[i + 1].radius)));
+                    stepAt(path, i) / (kResampled * 0.5 * (path[i].radius + path[i + 1].radius)));
   const int count = std::max(1, static_cast<int>(std::lround(place.back())));
-  const Curve curve(way);
-  Samples samples{way.front()};
+  const Curve curve(path);
+  Samples samples{path.front()};
   std::size_t piece = 0;
   for (int k = 1; k < count; ++k) {
     const double wanted = place.back() * k / count;
@@ -141,9 +142,9 @@ Samples resampled(const Samples& way) {
     const double share =
         (wanted - place[piece]) / std::max(place[piece + 1] - place[piece], 1e-300);
     samples.push_back(curve.at(piece, std::clamp(share, 0.0, 1.0)));
-    samples.back().point = way[share < 0.5 ? piece : piece + 1].point;
+    samples.back().point = path[share < 0.5 ? piece : piece + 1].point;
   }
-  samples.push_back(way.back());
+  samples.push_back(path.back());
   return samples;
 }
 
@@ -170,23 +171,23 @@ public:
 
 private:
   void add(const CenterlineChain& chain, const std::vector<CenterlineChain>& chains) {
-    Samples way;
-    for (const std::int32_t index : chain.points) way.push_back(sampleOf(index));
+    Samples path;
+    for (const std::int32_t index : chain.points) path.push_back(sampleAt(index));
     std::int32_t on = kNoPoint;
     if (chain.parent >= 0) {
       on = chains[std::size_t(chain.parent)].points[chain.parentSample];
       // the child is not wider where it leaves its parent
-      way.insert(way.begin(), {sampleOf(on).position, way.front().radius, kNoPoint});
+      path.insert(path.begin(), {sampleAt(on).position, path.front().radius, kNoPoint});
     }
-    if (!m_file.isOfLumen) way = apart(way);
+    if (!m_file.isOfLumen) path = apart(path);
     m_allowed += kNodesPerPoint * double(chain.points.size());
-    m_asked += nodesFor(way);
+    m_asked += nodesFor(path);
     if (!(m_asked <= m_allowed))
       throw invalidInput(m_name +
                          ": its vessels are so long for their radii that they would take " +
                          "more than " + std::to_string(std::int64_t(m_allowed)) +
                          " nodes; expected radii and positions of one unit");
-    Samples samples = m_file.isOfLumen ? way : isDense(way) ? resampled(way) : filled(way);
+    Samples samples = m_file.isOfLumen ? path : isDense(path) ? resampled(path) : filled(path);
     std::int32_t parent = formats::kNoParent;
     if (on != kNoPoint) {
       parent = static_cast<std::int32_t>(nodeOf(on));
@@ -197,7 +198,7 @@ private:
     nameNodes(chain, parent);
   }
 
-  [[nodiscard]] Sample sampleOf(std::int32_t index) const {
+  [[nodiscard]] Sample sampleAt(std::int32_t index) const {
     const CenterlinePoint& point = m_file.points[std::size_t(index)];
     if (!(point.radius > 0))
       throw invalidInput(m_name +
@@ -214,10 +215,10 @@ private:
     const formats::Branch& branch = m_tree.branches[m_tree.branch[std::size_t(parent)]];
     std::int32_t nearest = parent, last = parent;
     std::size_t core = 0;  // number of samples that lie in it
-    double way = 0;
+    double length = 0;
     Vector3d from = centreOf(parent);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      way += (samples[i].position - from).norm();
+      length += (samples[i].position - from).norm();
       from = samples[i].position;
       nearest = nearestNode(from, nearest, branch);
       const double distance =
@@ -227,7 +228,7 @@ private:
         last = nearest;
       }
       if (distance <= kInside) continue;
-      if (way <= kLongWay * m_tree.radius[std::size_t(nearest)]) return parent;
+      if (length <= kLongPathRadii * m_tree.radius[std::size_t(nearest)]) return parent;
       samples.erase(samples.begin(), samples.begin() + std::ptrdiff_t(core));
       return last;
     }
@@ -262,7 +263,7 @@ private:
     Samples run = samples;
     if (parent != formats::kNoParent)
       run.insert(run.begin(), {centreOf(parent), samples.front().radius, kNoPoint});
-    const std::vector<Vector3d> tangents = tangentsOf(run);
+    const std::vector<Vector3d> tangents = computeTangents(run);
     const std::size_t shift = run.size() - samples.size();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const std::size_t r = i + shift;

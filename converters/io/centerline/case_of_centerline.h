@@ -23,7 +23,7 @@ struct CenterlineExtent {
 };
 
 /// Extent in the file's unit. The file has points.
-CenterlineExtent extentOf(const CenterlineFile& file);
+CenterlineExtent measureExtent(const CenterlineFile& file);
 
 /// The unit, mm, in which the lengths of the file are plausible for vessels: millimetres if
 /// possible, else micrometres or metres.

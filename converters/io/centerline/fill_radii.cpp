@@ -12,14 +12,14 @@ namespace {
 // The nearest radius in one direction along the tree, with its distance.
 struct Known {
   double radius = 0;
-  double way = std::numeric_limits<double>::infinity();
+  double distance = std::numeric_limits<double>::infinity();
 };
 
 double between(const Known& a, const Known& b) {
   if (b.radius <= 0) return a.radius;
   if (a.radius <= 0) return b.radius;
-  const double whole = a.way + b.way;
-  return whole > 0 ? (a.radius * b.way + b.radius * a.way) / whole : a.radius;
+  const double whole = a.distance + b.distance;
+  return whole > 0 ? (a.radius * b.distance + b.radius * a.distance) / whole : a.radius;
 }
 
 }  // namespace
@@ -36,13 +36,13 @@ void fillRadii(CenterlineFile& file, const std::string& name, const char* expect
     if (points[i].radius > 0) below[i] = {points[i].radius, 0};
     if (points[i].parent == kNoPoint || below[i].radius <= 0) continue;
     Known& parent = below[std::size_t(points[i].parent)];
-    const double way = below[i].way + step(i);
-    if (way < parent.way) parent = {below[i].radius, way};
+    const double distance = below[i].distance + step(i);
+    if (distance < parent.distance) parent = {below[i].radius, distance};
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].parent != kNoPoint) {
       above[i] = above[std::size_t(points[i].parent)];
-      above[i].way += step(i);
+      above[i].distance += step(i);
     }
     if (points[i].radius > 0) above[i] = {points[i].radius, 0};
   }

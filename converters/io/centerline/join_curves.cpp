@@ -170,21 +170,21 @@ private:
 
   // Adds the points of a curve that do not exist yet.
   void place(Index curve, const std::optional<Contact>& on, bool turned) {
-    std::vector<CurvePoint> way = points(curve);
-    if (turned) std::reverse(way.begin(), way.end());
+    std::vector<CurvePoint> path = points(curve);
+    if (turned) std::reverse(path.begin(), path.end());
     std::vector<Index>& mine = m_point[std::size_t(curve)];
     Index at = kNoPoint;
     if (on) {
       at = m_point[std::size_t(on->curve)][on->sample];
-      if (on->distance != kStated) mine = follow(way, at);
+      if (on->distance != kStated) mine = follow(path, at);
       if (!mine.empty()) at = mine.back();
     }
     const std::size_t shared = mine.size();
-    for (std::size_t i = shared; i < way.size(); ++i) {
-      at = add(way[i], at, curve);
+    for (std::size_t i = shared; i < path.size(); ++i) {
+      at = add(path[i], at, curve);
       mine.push_back(at);
     }
-    if (on && !turned && shared < way.size()) close(curve, way.size() - shared);
+    if (on && !turned && shared < path.size()) close(curve, path.size() - shared);
     if (turned) std::reverse(mine.begin(), mine.end());
   }
 
@@ -197,9 +197,9 @@ private:
   }
 
   // The points of the tree along which the beginning of the path runs, from `at` on.
-  [[nodiscard]] std::vector<Index> follow(const std::vector<CurvePoint>& way, Index at) const {
+  [[nodiscard]] std::vector<Index> follow(const std::vector<CurvePoint>& path, Index at) const {
     std::vector<Index> same;
-    for (const CurvePoint& point : way) {
+    for (const CurvePoint& point : path) {
       at = descend(point.position, at);
       if (offCourse(point.position, at)) break;
       same.push_back(at);
@@ -259,12 +259,12 @@ private:
   // Whether the path along the tree is short, so that the curve has not left it for another place.
   [[nodiscard]] bool isNear(Index ancestor, Index point) const {
     const CenterlinePoint& end = m_file.points[std::size_t(point)];
-    double way = 0;
+    double length = 0;
     const double far = 4 * std::max(end.radius, m_file.points[std::size_t(ancestor)].radius);
     for (Index at = point; at != ancestor;) {
       const Index parent = m_file.points[std::size_t(at)].parent;
-      if (parent == kNoPoint || way > far) return false;
-      way += distance(m_file.points[std::size_t(at)].position, parent);
+      if (parent == kNoPoint || length > far) return false;
+      length += distance(m_file.points[std::size_t(at)].position, parent);
       at = parent;
     }
     return true;

@@ -28,7 +28,7 @@ const char* unitName(double unit) {
 
 }  // namespace
 
-CenterlineExtent extentOf(const CenterlineFile& file) {
+CenterlineExtent measureExtent(const CenterlineFile& file) {
   CenterlineExtent extent;
   Eigen::Vector3d low = file.points.front().position, high = low;
   std::vector<double> radii;
@@ -50,7 +50,7 @@ CenterlineExtent extentOf(const CenterlineFile& file) {
 }
 
 double plausibleUnit(const CenterlineFile& file) {
-  const CenterlineExtent extent = extentOf(file);
+  const CenterlineExtent extent = measureExtent(file);
   if (extent.most > kWidestRadius || extent.diagonal > kLongestBody) return 1e-3;
   return extent.diagonal < kShortestTree ? 1000 : 1;
 }
@@ -60,7 +60,7 @@ double toPatientSpace(CenterlineFile& file, const CenterlineReading& reading) {
   double unit = reading.unit.value_or(file.unit);
   if (unit == 0) {
     unit = plausibleUnit(file);
-    const CenterlineExtent extent = extentOf(file);
+    const CenterlineExtent extent = measureExtent(file);
     if (unit != 1)
       file.remarks.push_back(std::string("lengths are taken as ") + unitName(unit) +
                              ": as millimetres the tree would "

@@ -27,7 +27,7 @@ bool isMarkups(const fs::path& file) {
 }
 
 // The files in the order of their names; (10) comes before (2).
-std::vector<fs::path> filesOf(const fs::path& path) {
+std::vector<fs::path> listFiles(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return {path};
   std::vector<fs::path> files;
@@ -55,7 +55,7 @@ CenterlineFile readCurves(const fs::path& fileOrFolder) {
   const std::string name = formats::printable(fileOrFolder.string());
   std::vector<CenterlineCurve> curves;
   std::size_t without = 0, short_ = 0;
-  for (const fs::path& file : filesOf(fileOrFolder)) {
+  for (const fs::path& file : listFiles(fileOrFolder)) {
     for (const SeedBranch& branch : readSeeds(file)) {
       CenterlineCurve curve{branch.label, {}, -1, -1};
       bool hasRadii = false;

@@ -50,7 +50,7 @@ public:
     std::vector<Line> lines;
     while (!m_text.empty()) {
       ++m_number;
-      const std::array<std::string_view, 7> columns = columnsOf(nextLine());
+      const std::array<std::string_view, 7> columns = splitColumns(nextLine());
       if (!columns[0].empty()) lines.push_back(lineOf(columns));
     }
     if (lines.empty()) throw invalidInput(m_name + ": has no points; " + kExpectedLine);
@@ -101,7 +101,7 @@ private:
   }
 
   // The first field is empty for an empty line.
-  [[nodiscard]] std::array<std::string_view, 7> columnsOf(std::string_view line) const {
+  [[nodiscard]] std::array<std::string_view, 7> splitColumns(std::string_view line) const {
     std::array<std::string_view, 7> columns;
     std::size_t count = 0;
     while (count < columns.size()) {
@@ -117,15 +117,16 @@ private:
     return columns;
   }
 
-  [[nodiscard]] double numberOf(std::string_view text, std::size_t column) const {
+  [[nodiscard]] double parseNumber(std::string_view text, std::size_t column) const {
     const auto value = parsedNumber(text);
     if (!value || !(std::abs(*value) <= kLargestLength * 10))
       refuse(found(text, column) + "; expected a number");
     return *value;
   }
 
-  [[nodiscard]] std::int32_t wholeOf(std::string_view text, std::size_t column, double low) const {
-    const double value = numberOf(text, column);
+  [[nodiscard]] std::int32_t parseWhole(std::string_view text, std::size_t column,
+                                        double low) const {
+    const double value = parseNumber(text, column);
     if (value != std::floor(value) || value < low || value > kLargestId)
       refuse(found(text, column) + "; expected a whole number from " +
              std::to_string(static_cast<int>(low)) + " to 2147483647");
@@ -141,19 +142,19 @@ private:
   [[nodiscard]] Line lineOf(const std::array<std::string_view, 7>& columns) const {
     Line line;
     line.number = m_number;
-    line.id = wholeOf(columns[0], 0, 0);
-    line.point.type = wholeOf(columns[1], 1, -kLargestId);
+    line.id = parseWhole(columns[0], 0, 0);
+    line.point.type = parseWhole(columns[1], 1, -kLargestId);
     for (std::size_t a = 0; a < 3; ++a) {
-      const double value = numberOf(columns[2 + a], 2 + a);
+      const double value = parseNumber(columns[2 + a], 2 + a);
       if (std::abs(value) > kLargestLength)
         refuse(found(columns[2 + a], 2 + a) + "; expected -1e9 to 1e9");
       line.point.position[static_cast<Eigen::Index>(a)] = value;
     }
-    line.point.radius = numberOf(columns[5], 5);
+    line.point.radius = parseNumber(columns[5], 5);
     if (line.point.radius > kLargestLength)
       refuse(found(columns[5], 5) + "; expected a positive number up to 1e9");
     if (line.point.radius < 0) line.point.radius = 0;  // a placeholder
-    line.parent = wholeOf(columns[6], 6, -1);
+    line.parent = parseWhole(columns[6], 6, -1);
     if (line.parent == line.id)
       refuse(found(columns[6], 6) + ", the point itself; expected another point, or -1 of a root");
     return line;
@@ -166,7 +167,7 @@ private:
 };
 
 // Index of each line's parent line, or kNoPoint. Refuses ids that occur twice and missing parents.
-std::vector<std::int32_t> parentsOf(const std::vector<Line>& lines, const Parser& parser) {
+std::vector<std::int32_t> resolveParents(const std::vector<Line>& lines, const Parser& parser) {
   std::vector<std::pair<std::int32_t, std::int32_t>> byId;  // id, index
   byId.reserve(lines.size());
   for (const Line& line : lines) byId.emplace_back(line.id, static_cast<std::int32_t>(byId.size()));
@@ -206,8 +207,8 @@ std::size_t dropSomaHelpers(std::vector<Line>& lines) {
   const auto isHelper = [&](const Line& line) {
     if (line.parent != body.id || line.point.type != kSoma || parents.count(line.id) > 0)
       return false;
-    const double way = (line.point.position - body.point.position).norm();
-    return std::abs(way - body.point.radius) <= kSomaRounding * body.point.radius;
+    const double distance = (line.point.position - body.point.position).norm();
+    return std::abs(distance - body.point.radius) <= kSomaRounding * body.point.radius;
   };
   if (std::count_if(lines.begin(), lines.end(), isHelper) != 2) return 0;
   return std::erase_if(lines, isHelper);
@@ -269,7 +270,7 @@ CenterlineFile parseSwc(std::string_view text, const std::string& name) {
     file.remarks.push_back("its comments name NeuroMorpho, so lengths are micrometres");
   const std::size_t soma = dropSomaHelpers(lines);
   if (soma > 0) file.remarks.push_back("a soma of three points is taken as its first one");
-  const std::vector<std::int32_t> parents = parentsOf(lines, parser);
+  const std::vector<std::int32_t> parents = resolveParents(lines, parser);
   const std::vector<std::int32_t> order = parentsFirst(lines, parents, parser);
   std::vector<std::int32_t> place(lines.size());
   for (std::size_t i = 0; i < order.size(); ++i)

@@ -101,9 +101,9 @@ private:
     else if (key == "CompressedData" && isTrue(value))
       refuse("states that data are compressed; lumen reads them as they are");
     else if (key == "ElementSpacing")
-      object.spacing = threeOf(value);
+      object.spacing = parseVector(value);
     else if (key == "Offset" || key == "Position")
-      object.placement.offset = threeOf(value);
+      object.placement.offset = parseVector(value);
     else if (key == "TransformMatrix" || key == "Rotation" || key == "Orientation")
       takeMatrix(object, value);
     else if (key == "PointDim")
@@ -125,7 +125,7 @@ private:
   }
 
   void takeMatrix(TreObject& object, const std::string& value) {
-    const std::vector<double> numbers = numbersOf(value);
+    const std::vector<double> numbers = parseNumbers(value);
     if (numbers.size() != 9)
       refuse("has " + std::to_string(numbers.size()) + " numbers; expected 9");
     for (int i = 0; i < 9; ++i) object.placement.matrix(i / 3, i % 3) = numbers[std::size_t(i)];
@@ -185,7 +185,7 @@ private:
     std::vector<double> row;
     while (row.size() < width) {
       if (m_rest.empty()) refuse("is the last, but points are missing");
-      const std::vector<double> more = numbersOf(nextLine());
+      const std::vector<double> more = parseNumbers(nextLine());
       row.insert(row.end(), more.begin(), more.end());
     }
     if (row.size() != width)
@@ -233,7 +233,7 @@ private:
     return word;
   }
 
-  [[nodiscard]] std::vector<double> numbersOf(std::string_view text) const {
+  [[nodiscard]] std::vector<double> parseNumbers(std::string_view text) const {
     std::vector<double> numbers;
     for (std::string_view word; !(word = nextWord(text)).empty();) {
       const auto value = parsedNumber(word);
@@ -243,8 +243,8 @@ private:
     return numbers;
   }
 
-  [[nodiscard]] Eigen::Vector3d threeOf(const std::string& text) const {
-    const std::vector<double> numbers = numbersOf(text);
+  [[nodiscard]] Eigen::Vector3d parseVector(const std::string& text) const {
+    const std::vector<double> numbers = parseNumbers(text);
     if (numbers.size() != 3)
       refuse("has " + std::to_string(numbers.size()) + " numbers; expected 3");
     for (const double number : numbers)

@@ -41,11 +41,11 @@ std::vector<std::vector<std::size_t>> whole(const VtkPolyData& data) {
   const std::size_t before = data.verts.size();
   const VtkArray* centerline = data.cellArray("CenterlineIds");
   const VtkArray* tract = data.cellArray("TractIds");
-  std::vector<std::vector<std::size_t>> ways;
+  std::vector<std::vector<std::size_t>> courses;
   if (centerline == nullptr || tract == nullptr || centerline->components != 1 ||
       tract->components != 1) {
-    for (std::size_t line = 0; line < data.lines.size(); ++line) ways.push_back({line});
-    return ways;
+    for (std::size_t line = 0; line < data.lines.size(); ++line) courses.push_back({line});
+    return courses;
   }
   std::map<double, std::vector<std::size_t>> byCenterline;
   for (std::size_t line = 0; line < data.lines.size(); ++line) {
@@ -53,15 +53,15 @@ std::vector<std::vector<std::size_t>> whole(const VtkPolyData& data) {
     if (std::isfinite(id) && std::isfinite(tract->values[before + line]))
       byCenterline[id].push_back(line);
     else
-      ways.push_back({line});
+      courses.push_back({line});
   }
   for (auto& [id, lines] : byCenterline) {
     std::stable_sort(lines.begin(), lines.end(), [&](std::size_t a, std::size_t b) {
       return tract->values[before + a] < tract->values[before + b];
     });
-    ways.push_back(std::move(lines));
+    courses.push_back(std::move(lines));
   }
-  return ways;
+  return courses;
 }
 
 CurvePoint pointOf(const VtkPolyData& data, const VtkArray* radii, std::uint32_t index,
@@ -130,14 +130,14 @@ std::optional<CenterlineFile> sharedTree(const VtkPolyData& data, const VtkArray
 
 CenterlineFile joinedLines(const VtkPolyData& data, const VtkArray* radii,
                            const std::string& name) {
-  const std::vector<std::vector<std::size_t>> ways = whole(data);
-  if (ways.size() > kMostLines)
-    throw invalidInput(name + ": has " + std::to_string(ways.size()) +
+  const std::vector<std::vector<std::size_t>> courses = whole(data);
+  if (courses.size() > kMostLines)
+    throw invalidInput(name + ": has " + std::to_string(courses.size()) +
                        " lines; expected at most 10000, one for each vessel or way to a tip");
   std::vector<CenterlineCurve> curves;
-  for (const auto& way : ways) {
+  for (const auto& course : courses) {
     CenterlineCurve curve;
-    for (const std::size_t line : way)
+    for (const std::size_t line : course)
       for (std::uint32_t i = data.lines.begin(line); i < data.lines.end[line]; ++i)
         curve.points.push_back(pointOf(data, radii, data.lines.point[i], name));
     if (!curve.points.empty()) curves.push_back(std::move(curve));

@@ -59,7 +59,7 @@ struct ControlPoints {
   std::vector<float> radius;
 };
 
-ControlPoints controlPointsOf(const CenterlineTree& tree, const formats::Branch& branch) {
+ControlPoints chooseControlPoints(const CenterlineTree& tree, const formats::Branch& branch) {
   ControlPoints points;
   const auto add = [&](std::size_t place, std::size_t width) {
     points.position.push_back(tree.centre[place]);
@@ -73,7 +73,7 @@ ControlPoints controlPointsOf(const CenterlineTree& tree, const formats::Branch&
 
 void writeCurve(formats::JsonWriter& json, const CenterlineTree& tree,
                 const formats::Branch& branch) {
-  const ControlPoints points = controlPointsOf(tree, branch);
+  const ControlPoints points = chooseControlPoints(tree, branch);
   json.beginObject();
   json.key("type");
   json.text("Curve");

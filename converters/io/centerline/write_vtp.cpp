@@ -45,7 +45,7 @@ public:
     std::vector<Tract> all;
     std::int32_t centerline = 0;
     for (std::uint32_t n = 0; n < m_tree.nodeCount(); ++n)
-      if (m_children[n] == 0) addWay(n, centerline++, all);
+      if (m_children[n] == 0) addPath(n, centerline++, all);
     return all;
   }
 
@@ -80,22 +80,22 @@ private:
            double{m_tree.radius[f]};
   }
 
-  void addWay(std::uint32_t tip, std::int32_t centerline, std::vector<Tract>& all) const {
-    std::vector<std::uint32_t> way;
+  void addPath(std::uint32_t tip, std::int32_t centerline, std::vector<Tract>& all) const {
+    std::vector<std::uint32_t> path;
     for (auto n = static_cast<std::int32_t>(tip); n != formats::kNoParent;
          n = m_tree.parent[static_cast<std::size_t>(n)])
-      way.push_back(static_cast<std::uint32_t>(n));
-    std::reverse(way.begin(), way.end());
-    if (way.size() == 1) {  // a vessel of one node
-      all.push_back({way, centerline, 0, m_groups, false});
+      path.push_back(static_cast<std::uint32_t>(n));
+    std::reverse(path.begin(), path.end());
+    if (path.size() == 1) {  // a vessel of one node
+      all.push_back({path, centerline, 0, m_groups, false});
       return;
     }
     std::int32_t tract = -1;
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      const Group& group = m_group[way[i]];
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Group& group = m_group[path[i]];
       if (tract < 0 || group.id != all.back().group)
-        all.push_back({{way[i - 1]}, centerline, ++tract, group.id, group.isBlanked});
-      all.back().nodes.push_back(way[i]);
+        all.push_back({{path[i - 1]}, centerline, ++tract, group.id, group.isBlanked});
+      all.back().nodes.push_back(path[i]);
     }
   }
 

@@ -68,7 +68,7 @@ FileContent jsonContent(std::string_view text) {
   return {};
 }
 
-std::string beginningOf(const fs::path& file) {
+std::string readBeginning(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return {};
   std::string text(kLookedAt, '\0');
@@ -79,7 +79,7 @@ std::string beginningOf(const fs::path& file) {
 }
 
 /// Advice for a file of this kind.
-std::string useOf(ContentKind kind) {
+std::string adviceFor(ContentKind kind) {
   using enum ContentKind;
   switch (kind) {
     case Volume:
@@ -123,7 +123,7 @@ FileContent metaContent(std::string_view text) {
   return {Volume, "a volume (MetaImage)"};
 }
 
-std::string nounOf(ContentKind kind) {
+std::string nounFor(ContentKind kind) {
   using enum ContentKind;
   switch (kind) {
     case Volume:
@@ -145,9 +145,9 @@ std::string FileContent::sentence() const {
   return (kind == ContentKind::Seeds ? "these are " : "this is ") + name;
 }
 
-FileContent contentOf(const fs::path& file) {
+FileContent detectContent(const fs::path& file) {
   using enum ContentKind;
-  const std::string text = beginningOf(file);
+  const std::string text = readBeginning(file);
   const std::string_view view = text;
   if (formats::hasContainerMagic(std::as_bytes(std::span(text)))) return {Case, "a case"};
   for (const Signature& signature : signatures())
@@ -168,11 +168,11 @@ FileContent contentOf(const fs::path& file) {
 }
 
 std::string notA(ContentKind wanted, const fs::path& file) {
-  const FileContent content = contentOf(file);
+  const FileContent content = detectContent(file);
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
   // a curve may be seeds or a centerline
   if (wanted == ContentKind::Seeds && content.name == kCurves) return "";
-  return content.sentence() + ", not " + nounOf(wanted) + useOf(content.kind);
+  return content.sentence() + ", not " + nounFor(wanted) + adviceFor(content.kind);
 }
 
 }  // namespace lumen::convert

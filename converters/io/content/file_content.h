@@ -20,7 +20,7 @@ struct FileContent {
 
 /// Content of a file, by its beginning; Unknown for a folder, or a file that cannot be read or
 /// recognised.
-FileContent contentOf(const std::filesystem::path& file);
+FileContent detectContent(const std::filesystem::path& file);
 
 /// "this is a volume (NRRD), not a case; lumen convert and lumen track make a case of it". Empty if
 /// the file has the expected kind, or its kind is unknown.

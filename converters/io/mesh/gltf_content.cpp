@@ -123,14 +123,14 @@ std::string_view GltfContent::bufferOf(Json buffer, std::uint64_t size) {
   const std::string uri = text(buffer, "uri");
   if (!uri.starts_with(kDataUri))
     return std::string_view(m_files.at(detachedFile(uri))).substr(0, size);
-  const std::string_view bytes = dataOf(uri);
+  const std::string_view bytes = decodeDataUri(uri);
   if (bytes.size() < size)
     refuse("/buffers: byteLength is " + std::to_string(size) + "; expected at most " +
            std::to_string(bytes.size()) + ", which are there");
   return bytes;
 }
 
-std::string_view GltfContent::dataOf(const std::string& uri) {
+std::string_view GltfContent::decodeDataUri(const std::string& uri) {
   const std::size_t from = uri.find(kBase64);
   const auto decoded =
       from == uri.npos ? std::nullopt
@@ -169,11 +169,11 @@ void GltfContent::readFiles() {
     Part& part = parts[detachedFile(uri)];
     part = {uri, std::max(part.bytes, whole(buffer, "byteLength", 0))};
   }
-  for (const auto& [file, part] : parts) m_files[file] = bytesOf(file, part.uri, part.bytes);
+  for (const auto& [file, part] : parts) m_files[file] = readFileOfUri(file, part.uri, part.bytes);
 }
 
-std::string GltfContent::bytesOf(const fs::path& file, const std::string& uri,
-                                 std::uint64_t size) const {
+std::string GltfContent::readFileOfUri(const fs::path& file, const std::string& uri,
+                                       std::uint64_t size) const {
   std::error_code error;
   const std::uintmax_t there = fs::file_size(file, error);
   if (error || there < size)

@@ -47,12 +47,12 @@ private:
   void parseJson(std::string_view text);
   void readBuffers();
   [[nodiscard]] std::string_view bufferOf(Json buffer, std::uint64_t size);
-  [[nodiscard]] std::string_view dataOf(const std::string& uri);
+  [[nodiscard]] std::string_view decodeDataUri(const std::string& uri);
   // Reads each detached file once, up to the largest extent that a buffer needs.
   void readFiles();
   [[nodiscard]] std::filesystem::path detachedFile(const std::string& uri) const;
-  [[nodiscard]] std::string bytesOf(const std::filesystem::path& file, const std::string& uri,
-                                    std::uint64_t size) const;
+  [[nodiscard]] std::string readFileOfUri(const std::filesystem::path& file, const std::string& uri,
+                                          std::uint64_t size) const;
 
   std::filesystem::path m_file;
   std::string m_name;

@@ -62,7 +62,7 @@ void useOwnVertices(const SurfaceMesh& surface, MeshPart& part, std::vector<std:
 
 }  // namespace
 
-std::vector<MeshPart> partsOf(const SurfaceMesh& surface, MeshPer per) {
+std::vector<MeshPart> splitMesh(const SurfaceMesh& surface, MeshPer per) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, MeshPart> parts;
   for (std::size_t f = 0; f < surface.triangle.size(); ++f) {
     const Triangle& t = surface.triangle[f];

@@ -22,7 +22,7 @@ struct MeshPart {
 
 /// The non-empty parts, by branch and then by group. A face belongs to the branch of two of its
 /// vertices, or to that of its first.
-std::vector<MeshPart> partsOf(const SurfaceMesh& surface, MeshPer per);
+std::vector<MeshPart> splitMesh(const SurfaceMesh& surface, MeshPer per);
 
 /// Whether every edge lies between two faces that run along it in opposite directions.
 bool isClosed(const SurfaceMesh& surface);

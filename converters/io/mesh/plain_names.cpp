@@ -48,7 +48,7 @@ std::vector<std::string> distinct(const std::vector<std::string>& names,
   return words;
 }
 
-std::vector<std::string> namesOf(const std::vector<FaceGroup>& groups) {
+std::vector<std::string> plainGroupNames(const std::vector<FaceGroup>& groups) {
   std::vector<std::string> names;
   names.reserve(groups.size());
   for (const FaceGroup& group : groups) names.push_back(group.name);

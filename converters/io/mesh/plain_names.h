@@ -21,6 +21,6 @@ std::vector<std::string> distinct(const std::vector<std::string>& names,
                                   std::string (*rule)(const std::string&));
 
 /// The names of groups, in their order.
-std::vector<std::string> namesOf(const std::vector<FaceGroup>& groups);
+std::vector<std::string> plainGroupNames(const std::vector<FaceGroup>& groups);
 
 }  // namespace lumen::convert

@@ -110,8 +110,8 @@ private:
   void parseElement() {
     PlyElement element;
     element.name = m_text.wordOfLine();
-    element.count = m_text.wholeOf(m_text.wordOfLine(), "the count of an element",
-                                   std::numeric_limits<std::uint64_t>::max());
+    element.count = m_text.parseWhole(m_text.wordOfLine(), "the count of an element",
+                                      std::numeric_limits<std::uint64_t>::max());
     m_header.elements.push_back(std::move(element));
   }
 

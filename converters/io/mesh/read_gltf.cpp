@@ -282,7 +282,7 @@ private:
         addPoint({positions.at(i, 0), positions.at(i, 1), positions.at(i, 2)}, matrix);
       placed[accessor] = first;
     }
-    const std::vector<std::uint32_t> indices = indicesOf(primitive, positions.count());
+    const std::vector<std::uint32_t> indices = readIndices(primitive, positions.count());
     requireRoom(indices.size() / 3);
     addFaces(indices, mode, first, isMirrored(matrix));
   }
@@ -307,7 +307,7 @@ private:
     return m.determinant() < 0;
   }
 
-  std::vector<std::uint32_t> indicesOf(Json primitive, std::uint64_t points) const {
+  std::vector<std::uint32_t> readIndices(Json primitive, std::uint64_t points) const {
     std::vector<std::uint32_t> indices;
     if (!primitive.find("indices")) {
       for (std::uint64_t i = 0; i < points; ++i) indices.push_back(static_cast<std::uint32_t>(i));

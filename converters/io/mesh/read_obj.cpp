@@ -46,7 +46,7 @@ private:
 
   void parsePoint() {
     Eigen::Vector3d p;
-    for (double& coordinate : p) coordinate = m_text.numberOf(argument(), "a coordinate");
+    for (double& coordinate : p) coordinate = m_text.parseNumber(argument(), "a coordinate");
     m_builder.addPoint(p, [&] { return m_text.place(); });
     m_text.restOfLine();  // a weight, or a colour
   }

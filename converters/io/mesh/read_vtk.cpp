@@ -26,7 +26,7 @@ std::string groupName(const VtkArray* ids, std::size_t cell) {
   return std::to_string(static_cast<std::int64_t>(id));
 }
 
-MeshFile meshOf(const VtkPolyData& data, const StatedFrame& frame, MeshBuilder& builder) {
+MeshFile makeMesh(const VtkPolyData& data, const StatedFrame& frame, MeshBuilder& builder) {
   builder.file.mesh.position.reserve(data.position.size());
   for (const Eigen::Vector3d& p : data.position)
     builder.addPoint(p, [&] { return "point " + std::to_string(builder.points()); });
@@ -64,14 +64,14 @@ MeshFile parseVtp(std::string_view bytes, const std::string& name) {
   MeshBuilder builder(name);
   const std::array<std::string_view, 1> wanted = {kFaceId};
   const VtkPolyData data = parseVtkXml(bytes, name, wanted);
-  return meshOf(data, {data.space == "RAS", data.space == "LPS", data.unit == "mm"}, builder);
+  return makeMesh(data, {data.space == "RAS", data.space == "LPS", data.unit == "mm"}, builder);
 }
 
 MeshFile parseVtk(std::string_view bytes, const std::string& name) {
   MeshBuilder builder(name);
   StatedFrame frame;
   const VtkPolyData data = parseVtkLegacy(bytes, name, kFaceId, frame);
-  return meshOf(data, frame, builder);
+  return makeMesh(data, frame, builder);
 }
 
 }  // namespace lumen::convert

@@ -255,7 +255,7 @@ Loaders those(const std::vector<SofaLoader>& loaders, Test&& test) {
   return out;
 }
 
-std::string lastOf(const std::string& node) {
+std::string lastName(const std::string& node) {
   return node.substr(node.rfind('/') == node.npos ? 0 : node.rfind('/') + 1);
 }
 
@@ -276,12 +276,12 @@ Loaders chosen(const std::vector<SofaLoader>& loaders, const std::string& wanted
     });
     if (!whole.empty()) return whole;
     return those(loaders, [&](const SofaLoader& loader) {
-      return loader.name == wanted || lastOf(loader.node) == wanted;
+      return loader.name == wanted || lastName(loader.node) == wanted;
     });
   }
   if (loaders.size() == 1) return {loaders.data()};
   Loaders out = those(loaders, [](const SofaLoader& loader) {
-    return lowerCase(lastOf(loader.node)).find("vessel") != std::string::npos;
+    return lowerCase(lastName(loader.node)).find("vessel") != std::string::npos;
   });
   if (out.empty()) out = those(loaders, [](const SofaLoader& loader) { return loader.isStill; });
   return out;

@@ -26,18 +26,18 @@ std::string_view TextCursor::restOfLine() {
   return rest;
 }
 
-double TextCursor::numberOf(std::string_view word, const char* what) const {
+double TextCursor::parseNumber(std::string_view word, const char* what) const {
   const auto value = parsedNumber(word);
   if (!value) refuse(foundText(what, word) + "; expected a number");
   return *value;
 }
 
 std::uint64_t TextCursor::whole(const char* what, std::uint64_t largest) {
-  return wholeOf(word(), what, largest);
+  return parseWhole(word(), what, largest);
 }
 
-std::uint64_t TextCursor::wholeOf(std::string_view word, const char* what,
-                                  std::uint64_t largest) const {
+std::uint64_t TextCursor::parseWhole(std::string_view word, const char* what,
+                                     std::uint64_t largest) const {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size() || value > largest)

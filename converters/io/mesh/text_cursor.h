@@ -36,11 +36,11 @@ public:
 
   /// The next word, of this line or a later one, as a number, finite or not. Refuses a word that is
   /// no number, and a number too large for a double. `what` is the subject of the message.
-  double number(const char* what) { return numberOf(word(), what); }
-  double numberOf(std::string_view word, const char* what) const;
+  double number(const char* what) { return parseNumber(word(), what); }
+  double parseNumber(std::string_view word, const char* what) const;
   /// The next word as a whole number from 0 to `largest`. Refuses any other word.
   std::uint64_t whole(const char* what, std::uint64_t largest);
-  std::uint64_t wholeOf(std::string_view word, const char* what, std::uint64_t largest) const;
+  std::uint64_t parseWhole(std::string_view word, const char* what, std::uint64_t largest) const;
 
   [[nodiscard]] std::size_t line() const { return m_line; }
   [[nodiscard]] std::size_t offset() const { return m_at; }

@@ -62,7 +62,7 @@ Color hue(std::uint32_t branch) {
 
 }  // namespace
 
-ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by) {
+ColorScale measureColorScale(const SurfaceMesh& surface, ColorBy by) {
   if (by == ColorBy::Confidence && surface.confidence.empty() && !surface.position.empty())
     throw invalidInput(
         "color confidence: the case has no inlier rates, which come with tracking; expected branch "

@@ -24,7 +24,7 @@ struct ColorScale {
 
 /// The range of the values of a surface: its least and its greatest radius, or 0 to 1 for
 /// confidence. Throws Error(InvalidInput) if there are no such values.
-ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by);
+ColorScale measureColorScale(const SurfaceMesh& surface, ColorBy by);
 
 /// The colour of each vertex: viridis, from dark blue to yellow, for confidence, and for the
 /// logarithm of the radius; one of seven hues for a branch, repeated after every seventh. All

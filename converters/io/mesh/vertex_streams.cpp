@@ -15,7 +15,7 @@ constexpr std::size_t kMostBranches = 65536;
 
 /// `valueOf(part, i)` returns the value of vertex i of a part.
 template <class ValueOf>
-VertexStream streamOf(VertexStream stream, std::span<const MeshPart> parts, ValueOf valueOf) {
+VertexStream fillStream(VertexStream stream, std::span<const MeshPart> parts, ValueOf valueOf) {
   for (const MeshPart& part : parts)
     for (std::size_t i = 0; i < part.vertex.size(); ++i) {
       const auto value = valueOf(part, i);
@@ -37,21 +37,22 @@ std::vector<VertexStream> vertexStreams(const SurfaceMesh& surface, std::span<co
     return VertexStream{name, kFloat, components, false, 4 * components, kLengthExponent};
   };
   std::vector<VertexStream> streams;
-  streams.push_back(streamOf(lengthStream("POSITION", 3), parts, of(surface.position)));
-  streams.push_back(streamOf({"NORMAL", kFloat, 3, false, 12, kNormalExponent}, parts,
-                             [](const MeshPart& part, std::size_t i) { return part.normal[i]; }));
-  streams.push_back(streamOf(lengthStream("_RADIUS", 1), parts, of(surface.radius)));
+  streams.push_back(fillStream(lengthStream("POSITION", 3), parts, of(surface.position)));
+  streams.push_back(fillStream({"NORMAL", kFloat, 3, false, 12, kNormalExponent}, parts,
+                               [](const MeshPart& part, std::size_t i) { return part.normal[i]; }));
+  streams.push_back(fillStream(lengthStream("_RADIUS", 1), parts, of(surface.radius)));
   if (surface.labels.size() <= kMostBranches)
-    streams.push_back(streamOf({"_BRANCH", kUnsignedShort, 1, false, 4, 0}, parts,
-                               [&](const MeshPart& part, std::size_t i) {
-                                 return static_cast<std::uint16_t>(surface.branch[part.vertex[i]]);
-                               }));
+    streams.push_back(fillStream({"_BRANCH", kUnsignedShort, 1, false, 4, 0}, parts,
+                                 [&](const MeshPart& part, std::size_t i) {
+                                   return static_cast<std::uint16_t>(
+                                       surface.branch[part.vertex[i]]);
+                                 }));
   if (!surface.confidence.empty())
-    streams.push_back(streamOf({"_CONFIDENCE", kFloat, 1, false, 4, kShareExponent}, parts,
-                               of(surface.confidence)));
+    streams.push_back(fillStream({"_CONFIDENCE", kFloat, 1, false, 4, kShareExponent}, parts,
+                                 of(surface.confidence)));
   if (scale.by != ColorBy::None)
-    streams.push_back(streamOf({"COLOR_0", kUnsignedShort, 4, true, 8, 0}, parts,
-                               of(vertexColors(surface, scale))));
+    streams.push_back(fillStream({"COLOR_0", kUnsignedShort, 4, true, 8, 0}, parts,
+                                 of(vertexColors(surface, scale))));
   return streams;
 }
 

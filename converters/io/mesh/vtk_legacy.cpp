@@ -262,7 +262,7 @@ private:
     const TypeName& type = typeOf(m_text.word());
     const std::string_view components = m_text.wordOfLine();
     const std::uint64_t n =
-        components.empty() ? 1 : m_text.wholeOf(components, "the number of components", 64);
+        components.empty() ? 1 : m_text.parseWhole(components, "the number of components", 64);
     expect("lookup_table");
     m_text.word();
     take(name, n, type, m_tuples);

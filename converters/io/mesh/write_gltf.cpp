@@ -52,7 +52,7 @@ json rootNode() {
 }
 
 // The wall is arterial red, and the lumen at an open end darker; white if vertices have colours.
-json materialOf(FaceKind kind, bool isOpen, bool isColored) {
+json makeMaterial(FaceKind kind, bool isOpen, bool isColored) {
   const bool isWall = kind == FaceKind::Wall;
   const json color = isColored ? json{1.0, 1.0, 1.0, 1.0}
                      : isWall  ? json{0.5, 0.05, 0.05, 1.0}
@@ -87,7 +87,7 @@ json meshExtras(const SurfaceMesh& surface, const std::vector<VertexStream>& str
   return extras;
 }
 
-json accessorOf(const VertexStream& stream, std::size_t count) {
+json makeAccessor(const VertexStream& stream, std::size_t count) {
   json accessor = {{"componentType", stream.componentType},
                    {"count", count},
                    {"type", stream.components == 1   ? "SCALAR"
@@ -121,7 +121,7 @@ struct Place {
 
 // The accessor of a part's share of a stream, which has a buffer view of its own.
 json sharedAccessor(const VertexStream& stream, const MeshPart& part, std::size_t first, int view) {
-  json accessor = accessorOf(stream, part.vertex.size());
+  json accessor = makeAccessor(stream, part.vertex.size());
   accessor["bufferView"] = view;
   accessor["byteOffset"] = first * stream.stride;
   if (stream.name != "POSITION") return accessor;
@@ -163,7 +163,7 @@ std::vector<json> plainPrimitives(GltfDocument& document, Level& level) {
 }
 
 // The cube around all levels.
-DracoGrid gridOf(std::span<const SurfaceMesh> levels) {
+DracoGrid makeDracoGrid(std::span<const SurfaceMesh> levels) {
   Float3 low = levels.front().position.empty() ? Float3{} : levels.front().position.front();
   Float3 high = low;
   for (const SurfaceMesh& level : levels)
@@ -184,7 +184,7 @@ std::vector<json> dracoPrimitives(GltfDocument& document, const Level& level, co
     json primitive, extension;
     for (std::size_t s = 0; s < level.streams.size(); ++s) {
       const VertexStream& stream = level.streams[s];
-      json accessor = accessorOf(stream, coded.vertices);
+      json accessor = makeAccessor(stream, coded.vertices);
       if (stream.name == "POSITION") setBounds(accessor, coded.low, coded.high);
       primitive["attributes"][stream.name] = document.add("accessors", std::move(accessor));
       extension["attributes"][stream.name] = coded.id[s];
@@ -208,16 +208,16 @@ json turnFromZ(const std::array<double, 3>& d) {
 }
 
 // Writes the levels of one surface; holds their common data.
-class Scene {
+class GltfWriter {
 public:
-  Scene(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options,
-        const GltfScene* layout = nullptr)
+  GltfWriter(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options,
+             const GltfScene* layout = nullptr)
       : m_document(options.meshopt),
         m_options(options),
         m_layout(layout),
         m_first(levels.front()),
-        m_scale(scaleOf(m_first, options.color)),
-        m_grid(gridOf(levels)),
+        m_scale(measureColorScale(m_first, options.color)),
+        m_grid(makeDracoGrid(levels)),
         m_isOpen(!isClosed(m_first)) {
     m_document.content["asset"] = {{"version", "2.0"}, {"generator", "lumen " LUMEN_VERSION}};
     m_document.content["scene"] = 0;
@@ -241,7 +241,7 @@ private:
   }
 
   void addLevel(const SurfaceMesh& surface) {
-    Level level{surface, partsOf(surface, m_options.per), {}};
+    Level level{surface, splitMesh(surface, m_options.per), {}};
     if (!m_options.draco)
       for (MeshPart& part : level.parts) orderForDrawing(part);
     level.streams = vertexStreams(surface, level.parts, m_scale);
@@ -282,8 +282,8 @@ private:
   int materialFor(FaceKind kind) {
     const auto [found, isNew] = m_materials.try_emplace(kind, 0);
     if (isNew)
-      found->second =
-          m_document.add("materials", materialOf(kind, m_isOpen, m_options.color != ColorBy::None));
+      found->second = m_document.add(
+          "materials", makeMaterial(kind, m_isOpen, m_options.color != ColorBy::None));
     return found->second;
   }
 
@@ -323,11 +323,11 @@ std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
   if (options.draco && options.meshopt)
     throw Error(ErrorKind::Usage, kOption.draco.shown() + " and " + kOption.meshopt.shown() +
                                       ": found both, expected one of them");
-  return Scene(levels, options).write(binary);
+  return GltfWriter(levels, options).write(binary);
 }
 
 std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene) {
-  return Scene(levels, WriteMeshOptions{}, &scene).write(true);
+  return GltfWriter(levels, WriteMeshOptions{}, &scene).write(true);
 }
 
 }  // namespace lumen::convert

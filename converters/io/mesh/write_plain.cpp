@@ -85,9 +85,9 @@ std::string encodeBinaryStl(const SurfaceMesh& surface) {
 }
 
 std::string encodeSolids(const SurfaceMesh& surface) {
-  const std::vector<std::string> names = distinct(namesOf(surface.groups), openFoamWord);
+  const std::vector<std::string> names = distinct(plainGroupNames(surface.groups), openFoamWord);
   std::string out;
-  for (const MeshPart& part : partsOf(surface, MeshPer::Whole)) {
+  for (const MeshPart& part : splitMesh(surface, MeshPer::Whole)) {
     out += "solid " + names[part.group] + "\n";
     for (const Triangle& local : part.triangle) {
       const Triangle t{part.vertex[local[0]], part.vertex[local[1]], part.vertex[local[2]]};
@@ -106,7 +106,7 @@ std::string plyHeader(const SurfaceMesh& surface) {
       "ply\nformat binary_little_endian 1.0\ncomment lumen " LUMEN_VERSION "\ncomment ";
   out += kFrame;
   out += "\ncomment SPACE=LPS\n";
-  const std::vector<std::string> groups = distinct(namesOf(surface.groups), oneWord);
+  const std::vector<std::string> groups = distinct(plainGroupNames(surface.groups), oneWord);
   const std::vector<std::string> labels = distinct(surface.labels, oneWord);
   for (std::size_t g = 0; g < groups.size(); ++g)
     out += "comment group " + std::to_string(g + 1) + " " + groups[g] + "\n";
@@ -129,9 +129,9 @@ std::string encodeObj(const SurfaceMesh& surface) {
   out += "\n# SPACE=LPS\n";
   for (const Float3& p : surface.position) putLine(out, "v", p);
   for (const Float3& n : surface.normal) putLine(out, "vn", n);
-  const std::vector<std::string> names = distinct(namesOf(surface.groups), oneWord);
+  const std::vector<std::string> names = distinct(plainGroupNames(surface.groups), oneWord);
   std::size_t normals = surface.normal.size();
-  for (const MeshPart& part : partsOf(surface, MeshPer::Whole)) {
+  for (const MeshPart& part : splitMesh(surface, MeshPer::Whole)) {
     out += "g " + names[part.group] + "\n";
     if (part.isFlat)
       for (const Float3& n : part.normal) putLine(out, "vn", n);

@@ -15,7 +15,7 @@ namespace {
 std::string fieldData(const SurfaceMesh& surface, const std::string& unit) {
   std::vector<std::string> kinds;
   for (const FaceGroup& group : surface.groups) kinds.emplace_back(faceKindName(group.kind));
-  return "<FieldData>\n" + textArray("GroupNames", namesOf(surface.groups)) +
+  return "<FieldData>\n" + textArray("GroupNames", plainGroupNames(surface.groups)) +
          textArray("GroupKinds", kinds) + textArray("BranchLabels", surface.labels) +
          textArray("Unit", {unit}) + textArray("SPACE", {"LPS"}) +
          textArray("Generator", {"lumen " LUMEN_VERSION}) + "</FieldData>\n";

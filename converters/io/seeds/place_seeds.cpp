@@ -90,8 +90,8 @@ std::string radiusText(double radius, const RadiusRange& range) {
 }
 
 /// The reason why a point cannot be tracked; empty if it can.
-std::optional<std::string> faultOf(const Vector3d& world, const SeedPoint& point,
-                                   const VolumeGeometry& geometry, const RadiusRange& range) {
+std::optional<std::string> findFault(const Vector3d& world, const SeedPoint& point,
+                                     const VolumeGeometry& geometry, const RadiusRange& range) {
   if (!isWithinVoxels(geometry, geometry.indexFromWorld(world)))
     return outsideText(world, geometry);
   if (point.radius && !range.has(*point.radius)) return radiusText(*point.radius, range);
@@ -268,7 +268,7 @@ private:
                   std::vector<std::string>& faults) {
     SeedPoint point = branch.points[i];
     point.position = worldOf(branch, point.position, m_geometry);
-    if (const auto fault = faultOf(point.position, point, m_geometry, m_range)) {
+    if (const auto fault = findFault(point.position, point, m_geometry, m_range)) {
       faults.push_back("point " + std::to_string(i + 1) + " " + *fault);
       if (firstFault.empty())
         firstFault = "branch " + quotedText(branch.label) + ": " + faults.back();

@@ -32,7 +32,7 @@ std::string stemOf(const fs::path& file) {
 }
 
 /// The first character that is no white space; 0 if there is none.
-char firstOf(std::string_view text) {
+char firstCharacter(std::string_view text) {
   const auto at = text.find_first_not_of(" \t\r\n");
   return at == text.npos ? '\0' : text[at];
 }
@@ -45,7 +45,7 @@ std::string firstLine(const std::string& text) {
 std::vector<SeedBranch> parseText(const std::string& text, const fs::path& file,
                                   const SeedReading& reading) {
   const std::string_view marked = withoutByteOrderMark(text);
-  const char first = firstOf(marked);
+  const char first = firstCharacter(marked);
   const bool named = lowerCase(file.extension().string()) == ".fcsv";
   if (first == '#' || (named && first != '{'))
     return parseFcsv(marked, file, stemOf(file), reading);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* kColumns = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
 
 /// The fields of a row: between commas, or between quotes, which stand for themselves when doubled.
-std::vector<std::string> fieldsOf(std::string_view row) {
+std::vector<std::string> splitFields(std::string_view row) {
   std::vector<std::string> fields(1);
   bool inQuotes = false;
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -78,7 +78,7 @@ private:
     if (line[0] == '#')
       readHeader(line);
     else
-      readRow(fieldsOf(line));
+      readRow(splitFields(line));
   }
 
   /// "# CoordinateSystem = LPS", "# columns = id,x,y,z"; other remarks are ignored.
@@ -102,7 +102,7 @@ private:
   }
 
   void nameColumns(const std::string& names) {
-    const std::vector<std::string> all = fieldsOf(names);
+    const std::vector<std::string> all = splitFields(names);
     for (std::size_t c = 0; c < kCount; ++c) {
       const auto at = std::find(all.begin(), all.end(), kNames[c]);
       m_column[c] = at == all.end() ? kAbsent : static_cast<std::size_t>(at - all.begin());

@@ -23,7 +23,7 @@ SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
     frame.system = SeedSystem::Ras;
   else if (system.text() != "LPS")
     system.refuse("\"LPS\" or \"RAS\"; " + kOption.seedsFrame.shown() + " states another");
-  frame.unit = reading.unit ? *reading.unit : scaleOf(units);
+  frame.unit = reading.unit ? *reading.unit : unitInMillimetres(units);
   return frame;
 }
 

@@ -33,10 +33,10 @@ double unitScale(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.unit) return *reading.unit;
   if (!markup.has("coordinateUnits")) return 1;
   const JsonPlace unit = markup.at("coordinateUnits");
-  if (!unit.value().isArray()) return scaleOf(unit);
+  if (!unit.value().isArray()) return unitInMillimetres(unit);
   const auto words = unit.elements();
   if (words.empty()) unit.refuse("\"mm\" or \"m\"");
-  return scaleOf(words[0]);
+  return unitInMillimetres(words[0]);
 }
 
 /// The values of the measurement "Radius", one for each control point; null if there is none.

@@ -8,7 +8,7 @@
 
 namespace lumen::convert {
 
-double scaleOf(const JsonPlace& unit) {
+double unitInMillimetres(const JsonPlace& unit) {
   const std::string& word = unit.text();
   if (word == "mm") return 1;
   if (word == "m") return 1000;

@@ -11,7 +11,7 @@
 namespace lumen::convert {
 
 /// Millimetres in the unit that `unit` names: "mm" or "m".
-double scaleOf(const JsonPlace& unit);
+double unitInMillimetres(const JsonPlace& unit);
 
 /// Sets the kind that "vessel", "aneurysm" or "root" names; false for another word.
 bool setKind(const std::string& word, SeedBranch& branch);

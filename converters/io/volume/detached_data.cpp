@@ -57,7 +57,7 @@ bool readPlace(const std::string& text, std::size_t& at, NamePattern& pattern) {
   return true;
 }
 
-NamePattern patternOf(const fs::path& header, const std::string& text) {
+NamePattern parsePattern(const fs::path& header, const std::string& text) {
   NamePattern pattern;
   int places = 0;
   bool sound = true;
@@ -117,7 +117,7 @@ std::uint64_t NumberRange::count() const {
 
 DetachedNames namesOfPattern(const fs::path& header, const std::string& text,
                              const NumberRange& range) {
-  const auto name = [pattern = patternOf(header, text), range](std::uint64_t n) {
+  const auto name = [pattern = parsePattern(header, text), range](std::uint64_t n) {
     return pattern.name(range.first + static_cast<std::int64_t>(n) * range.step);
   };
   return {range.count(), name};

@@ -66,7 +66,7 @@ std::string trimmedText(std::string text) {
 }
 
 /// The numbers of "0.5\0.25 "; empty if one of them is malformed.
-std::vector<double> numbersOf(const std::string& text) {
+std::vector<double> parseNumbers(const std::string& text) {
   std::vector<double> values;
   std::size_t begin = 0;
   for (bool more = true; more;) {
@@ -131,9 +131,9 @@ DicomVisitor collectInto(Content& content, DicomBytes& bytes) {
 }
 
 /// Reads numbers of one data set, with messages that name the element.
-class Reader {
+class DataSetReader {
 public:
-  Reader(const Values& values, bool bigEndian) : m_values(values), m_bigEndian(bigEndian) {}
+  DataSetReader(const Values& values, bool bigEndian) : m_values(values), m_bigEndian(bigEndian) {}
 
   [[nodiscard]] std::string text(DicomTag tag) const {
     const auto found = m_values.find(tag);
@@ -161,7 +161,7 @@ public:
                                                               const char* name) const {
     const std::string value = text(tag);
     if (value.empty()) return std::nullopt;
-    const std::vector<double> numbers = numbersOf(value);
+    const std::vector<double> numbers = parseNumbers(value);
     if (numbers.size() != N)
       throw invalidInput("its " + std::string(name) + " " + tagText(tag) + " is \"" +
                          printable(value) + "\"; expected " + std::to_string(N) +
@@ -189,8 +189,8 @@ void checkOrientation(const std::array<double, 6>& v) {
                      " is of no two orthogonal unit vectors, so it has no place in space");
 }
 
-DicomPlane planeOf(const Values& values) {
-  const Reader reader(values, false);
+DicomPlane readPlane(const Values& values) {
+  const DataSetReader reader(values, false);
   DicomPlane plane;
   if (const auto v = reader.decimals<3>(kPosition, "image position"))
     plane.position = Eigen::Vector3d((*v)[0], (*v)[1], (*v)[2]);
@@ -219,7 +219,7 @@ DicomPlane joined(DicomPlane specific, const DicomPlane& general) {
   return specific;
 }
 
-void readFormat(const Reader& reader, DicomImage& image) {
+void readFormat(const DataSetReader& reader, DicomImage& image) {
   image.rows = reader.word(kRows, "the number of rows");
   image.columns = reader.word(kColumns, "the number of columns");
   if (image.rows == 0 || image.columns == 0)
@@ -298,7 +298,7 @@ struct Beginning {
 
 /// Old writers omit the mark and the meta information: such a file begins with an element of group
 /// 2 or 8, little-endian.
-Beginning beginningOf(DicomBytes& bytes) {
+Beginning readBeginning(DicomBytes& bytes) {
   constexpr std::uint64_t kMarkEnd = 132;
   std::array<std::byte, 4> mark{};
   if (bytes.size() >= kMarkEnd) bytes.read(kMarkEnd - mark.size(), mark);
@@ -313,7 +313,7 @@ Beginning beginningOf(DicomBytes& bytes) {
   return {true, 0, byte(0) == 2, false, isRepresentation(vr)};
 }
 
-const Syntax& syntaxOf(const std::string& uid) {
+const Syntax& findSyntax(const std::string& uid) {
   const auto* const found = std::find_if(kSyntaxes.begin(), kSyntaxes.end(),
                                          [&](const Syntax& syntax) { return uid == syntax.uid; });
   if (found == kSyntaxes.end())
@@ -323,7 +323,7 @@ const Syntax& syntaxOf(const std::string& uid) {
 }
 
 void fillImage(DicomImage& image, const Content& content, const Syntax& syntax) {
-  const Reader reader(content.top, syntax.how.bigEndian);
+  const DataSetReader reader(content.top, syntax.how.bigEndian);
   image.transferSyntax = syntax.uid;
   image.packing = syntax.packing;
   image.description = reader.text(kDescription);
@@ -332,9 +332,9 @@ void fillImage(DicomImage& image, const Content& content, const Syntax& syntax) 
   checkGrey(image);
   if (syntax.how.bigEndian && image.bitsAllocated == 8 && image.pixels.vr != std::array{'O', 'B'})
     throw unsupported("its pixels of 8 bits are in big-endian words; expected bytes");
-  image.plane = joined(planeOf(content.top), planeOf(content.shared));
+  image.plane = joined(readPlane(content.top), readPlane(content.shared));
   for (const Values& values : content.perFrame)
-    image.perFrame.push_back(joined(planeOf(values), image.plane));
+    image.perFrame.push_back(joined(readPlane(values), image.plane));
   if (!image.perFrame.empty() && image.perFrame.size() != image.frames)
     throw invalidInput("it has " + std::to_string(image.frames) + " frames, but groups for " +
                        std::to_string(image.perFrame.size()) + "; expected one for each");
@@ -350,7 +350,7 @@ std::uint64_t readMeta(DicomBytes& bytes, const Beginning& beginning, std::strin
   }
   Content meta;
   const std::uint64_t end = walkDicomMeta(bytes, beginning.at, collectInto(meta, bytes));
-  const Reader reader(meta.top, false);
+  const DataSetReader reader(meta.top, false);
   syntax = reader.text(kTransferSyntax);
   storage = reader.text(kStorageClass);
   return end;
@@ -362,14 +362,14 @@ void scanInto(DicomScan& scan, DicomBytes& bytes, const Beginning& beginning) {
   const std::uint64_t begin = readMeta(bytes, beginning, uid, storage);
   constexpr const char* kDirectory = "1.2.840.10008.1.3.10";
   if (storage == kDirectory) return;
-  const Syntax& syntax = syntaxOf(uid);
+  const Syntax& syntax = findSyntax(uid);
   Content content;
   const DicomVisitor collect = collectInto(content, bytes);
   walkDicom(bytes, begin, syntax.how,
             [&](const DicomElement& element, std::span<const DicomTag> path, std::size_t item) {
               collect(element, path, item);
               if (element.tag == kSeries && path.empty())
-                scan.series = Reader(content.top, false).text(kSeries);
+                scan.series = DataSetReader(content.top, false).text(kSeries);
             });
   if (content.pixels.tag == 0) return;
   DicomImage& image = scan.image.emplace();
@@ -384,7 +384,7 @@ DicomScan scanDicom(const std::filesystem::path& file) {
   Beginning beginning{.hasMark = true};
   try {
     DicomBytes bytes(file);
-    beginning = beginningOf(bytes);
+    beginning = readBeginning(bytes);
     if (!beginning.isDicom) return scan;
     scanInto(scan, bytes, beginning);
     if (scan.image) scan.image->file = file;

@@ -144,7 +144,7 @@ Voxels rescaled(const std::vector<T>& stored, const DicomImage& image, const Dic
 }
 
 template <class T>
-Voxels voxelsOf(const Bytes& pixels, const DicomImage& image, const DicomPlane& plane) {
+Voxels decodeVoxels(const Bytes& pixels, const DicomImage& image, const DicomPlane& plane) {
   return rescaled(storedValues<T>(pixels, image.bitsStored), image, plane);
 }
 
@@ -169,13 +169,13 @@ Voxels readDicomFrame(const DicomImage& image, std::size_t frame, const Progress
     DicomBytes file(image.file);
     const Bytes pixels = unpacked(file, image, frame, progress);
     if (image.bitsAllocated == 8)
-      return image.isSigned ? voxelsOf<std::int8_t>(pixels, image, plane)
-                            : voxelsOf<std::uint8_t>(pixels, image, plane);
+      return image.isSigned ? decodeVoxels<std::int8_t>(pixels, image, plane)
+                            : decodeVoxels<std::uint8_t>(pixels, image, plane);
     if (image.bitsAllocated == 16)
-      return image.isSigned ? voxelsOf<std::int16_t>(pixels, image, plane)
-                            : voxelsOf<std::uint16_t>(pixels, image, plane);
-    return image.isSigned ? voxelsOf<std::int32_t>(pixels, image, plane)
-                          : voxelsOf<std::uint32_t>(pixels, image, plane);
+      return image.isSigned ? decodeVoxels<std::int16_t>(pixels, image, plane)
+                            : decodeVoxels<std::uint16_t>(pixels, image, plane);
+    return image.isSigned ? decodeVoxels<std::int32_t>(pixels, image, plane)
+                          : decodeVoxels<std::uint32_t>(pixels, image, plane);
   } catch (const Error& error) {
     throw Error(error.kind(), image.file.string() + ": " + error.what());
   }

@@ -31,7 +31,7 @@ constexpr std::string_view kSlicerTable = "# Color table";
 /// Adds one name; `place` begins messages.
 void addName(const std::string& place, const std::string& value, const std::string& name,
              LabelNames& names) {
-  const std::optional<std::int64_t> label = integerOf(value);
+  const std::optional<std::int64_t> label = parseInteger(value);
   if (!label || *label < 0 || *label > kLargest)
     throw invalidInput(place + "found the label " + quotedText(value) +
                        ", expected a whole number from 0 to 16777216");
@@ -72,7 +72,7 @@ LabelNames namesOfSlicerTable(const std::string& text, const std::string& file) 
     at = end + 1;
     ++line;
     if (row.empty() || row[0] == '#') continue;
-    const std::vector<std::string> words = wordsOf(row);
+    const std::vector<std::string> words = splitWords(row);
     if (words.size() != 6)
       throw invalidInput(placeOf(file, line) + "found " + quotedText(row) +
                          ", expected a label, a name and four numbers of a colour");
@@ -85,8 +85,8 @@ LabelNames namesOfSlicerTable(const std::string& text, const std::string& file) 
 
 /// The column with one of these names, in lower case.
 template <std::size_t N>
-std::optional<std::size_t> columnOf(const std::vector<std::string>& header,
-                                    const std::array<std::string_view, N>& wanted) {
+std::optional<std::size_t> findColumn(const std::vector<std::string>& header,
+                                      const std::array<std::string_view, N>& wanted) {
   for (std::size_t i = 0; i < header.size(); ++i)
     if (std::find(wanted.begin(), wanted.end(), lowerCase(header[i])) != wanted.end()) return i;
   return std::nullopt;
@@ -97,10 +97,10 @@ LabelNames namesOfCsv(const std::string& text, const std::string& file) {
   if (rows.empty())
     throw invalidInput(file + ": is empty; expected a row LABEL,NAME for each label");
   std::size_t value = 0, name = 1, first = 0;
-  if (!integerOf(rows[0].cells[0])) {
+  if (!parseInteger(rows[0].cells[0])) {
     const auto valueColumn =
-        columnOf<5>(rows[0].cells, {"value", "labelvalue", "label", "index", "id"});
-    const auto nameColumn = columnOf<1>(rows[0].cells, {"name"});
+        findColumn<5>(rows[0].cells, {"value", "labelvalue", "label", "index", "id"});
+    const auto nameColumn = findColumn<1>(rows[0].cells, {"name"});
     if (!valueColumn || !nameColumn)
       throw invalidInput(
           placeOf(file, rows[0].line) + "found " + quotedText(rows[0].cells[0]) +
@@ -167,7 +167,7 @@ LabelNames segmentNames(const fs::path& file) {
     if (equals == line.npos || underscore > equals || !line.starts_with("Segment")) continue;
     const std::string number = line.substr(7, underscore - 7);
     const std::string key = line.substr(underscore + 1, equals - underscore - 1);
-    if (!integerOf(number)) continue;
+    if (!parseInteger(number)) continue;
     const std::string value = trimmed(line.substr(equals + 2));
     if (key == "LabelValue") segments[number].value = value;
     if (key == "Name") segments[number].name = value;

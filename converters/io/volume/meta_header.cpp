@@ -97,8 +97,8 @@ PixelType metaType(const TextHeader& header) {
 }
 
 /// The numbers of ElementSpacing, or those of ElementSize if it is absent.
-std::vector<double> spacingsOf(const TextHeader& header, std::size_t dimensions,
-                               const ReadVolumeOptions& options) {
+std::vector<double> readSpacings(const TextHeader& header, std::size_t dimensions,
+                                 const ReadVolumeOptions& options) {
   const std::string field = header.has(kSpacing) ? kSpacing : kPixelSize;
   std::vector<double> spacings = header.numbers(field, dimensions);
   for (int a = 0; a < 3 && !spacings.empty() && !options.spacing; ++a)
@@ -113,7 +113,7 @@ StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int
   StatedGeometry stated;
   VolumeGeometry& g = stated.geometry;
   g.size = volumeSize(header.path(), sizes);
-  const auto spacings = spacingsOf(header, n, options);
+  const auto spacings = readSpacings(header, n, options);
   const auto offset = header.numbers(kOffset, n);
   const auto matrix = header.numbers(kMatrix, n * n);
   g.spacing.setConstant(kUnstated);
@@ -153,7 +153,7 @@ std::uint64_t slicesOf(const std::vector<std::int64_t>& sizes, std::size_t axes)
 /// all three numbers follow.
 DetachedNames metaPattern(const TextHeader& header, std::int64_t slices) {
   const std::string& text = header.text(kDataFile);
-  std::vector<std::string> words = wordsOf(text);
+  std::vector<std::string> words = splitWords(text);
   if (words.size() > 4) {
     std::string name = text.substr(0, text.size() - words.back().size());
     for (std::size_t back = 2; back <= 4; ++back) {
@@ -164,7 +164,7 @@ DetachedNames metaPattern(const TextHeader& header, std::int64_t slices) {
   }
   std::vector<std::int64_t> numbers;
   for (std::size_t w = 1; w < words.size(); ++w) {
-    const auto number = integerOf(words[w]);
+    const auto number = parseInteger(words[w]);
     if (!number || std::abs(*number) > kMaxMetaInt)
       throw header.refusal(kDataFile, "a pattern and up to three whole numbers: first, last, step");
     numbers.push_back(*number);
@@ -202,10 +202,10 @@ void setMetaFiles(const TextHeader& header, const std::vector<std::int64_t>& siz
   }
   DetachedNames names;
   std::size_t axes = sizes.size() - 1;
-  const std::vector<std::string> words = wordsOf(text);
+  const std::vector<std::string> words = splitWords(text);
   if (words[0] == "LIST") {
     if (words.size() > 1) {
-      const auto stated = integerOf(words[1]);
+      const auto stated = parseInteger(words[1]);
       if (words.size() > 2 || !stated || *stated < 1 ||
           *stated > static_cast<std::int64_t>(sizes.size()))
         throw header.refusal(kDataFile, "LIST and the number of axes of each file");

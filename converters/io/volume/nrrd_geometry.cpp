@@ -67,7 +67,7 @@ Space anatomicalSpace(const TextHeader& header, std::vector<std::string>& assump
   return space;
 }
 
-Space spaceOf(const TextHeader& header, std::vector<std::string>& assumptions) {
+Space readSpace(const TextHeader& header, std::vector<std::string>& assumptions) {
   const std::int64_t dimension = header.integer("space dimension", 1, 8, 0);
   Space space{static_cast<std::size_t>(dimension)};
   if (header.has("space")) {
@@ -81,8 +81,8 @@ Space spaceOf(const TextHeader& header, std::vector<std::string>& assumptions) {
 }
 
 /// The vectors of "(1,0,0) none (0,0,1)", `dimension` numbers each; empty for none and for NaN.
-std::vector<std::optional<Vector3d>> vectorsOf(const TextHeader& header, const std::string& field,
-                                               std::size_t dimension) {
+std::vector<std::optional<Vector3d>> readVectors(const TextHeader& header, const std::string& field,
+                                                 std::size_t dimension) {
   const std::string& text = header.text(field);
   const auto refused = [&] {
     return header.refusal(
@@ -98,8 +98,8 @@ std::vector<std::optional<Vector3d>> vectorsOf(const TextHeader& header, const s
     const std::size_t end = text.find(')', at);
     if (text[at] != '(' || end == std::string::npos) throw refused();
     std::vector<double> values;
-    for (const std::string& word : wordsOf(text.substr(at + 1, end - at - 1), ", \t"))
-      values.push_back(numberOf(word).value_or(std::numeric_limits<double>::infinity()));
+    for (const std::string& word : splitWords(text.substr(at + 1, end - at - 1), ", \t"))
+      values.push_back(parseNumber(word).value_or(std::numeric_limits<double>::infinity()));
     if (values.size() != dimension) throw refused();
     const bool none = std::all_of(values.begin(), values.end(), [](double v) { return v != v; });
     for (const double value : values)
@@ -114,7 +114,7 @@ std::vector<std::optional<Vector3d>> vectorsOf(const TextHeader& header, const s
 
 /// The axes without the axes of a voxel's components.
 std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::int64_t>& sizes) {
-  const std::vector<std::string> kinds = wordsOf(header.text("kinds"));
+  const std::vector<std::string> kinds = splitWords(header.text("kinds"));
   if (!kinds.empty() && kinds.size() != sizes.size())
     throw header.refusal("kinds", std::to_string(sizes.size()) + " kinds");
   std::vector<Axis> axes;
@@ -140,7 +140,7 @@ std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::i
       throw invalidInput(header.path().string() +
                          ": its header states space directions, but no space; expected one, such "
                          "as left-posterior-superior");
-    const auto vectors = vectorsOf(header, "space directions", space.dimension);
+    const auto vectors = readVectors(header, "space directions", space.dimension);
     if (vectors.size() != sizes.size())
       throw header.refusal("space directions", std::to_string(sizes.size()) + " vectors");
     for (Axis& axis : axes) axis.direction = vectors[axis.number];
@@ -155,9 +155,9 @@ std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::i
 }
 
 /// The mm of the units that `field` quotes for the `numbers`; NaN for an unknown unit.
-std::vector<double> unitsOf(const TextHeader& header, const std::string& field,
-                            const std::vector<std::size_t>& numbers,
-                            std::vector<std::string>& assumptions) {
+std::vector<double> readUnits(const TextHeader& header, const std::string& field,
+                              const std::vector<std::size_t>& numbers,
+                              std::vector<std::string>& assumptions) {
   std::vector<std::string> names;
   const std::string& text = header.text(field);
   for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at)) {
@@ -190,7 +190,7 @@ void settleUnits(const TextHeader& header, std::vector<Axis>& axes, StatedGeomet
   if (!header.has(field)) return;
   std::vector<std::size_t> numbers = {0, 1, 2};
   if (!oriented) numbers = {axes[0].number, axes[1].number, axes[2].number};
-  const auto units = unitsOf(header, field, numbers, assumptions);
+  const auto units = readUnits(header, field, numbers, assumptions);
   if (units.empty()) return;
   if (units[0] != units[1] || units[0] != units[2])
     throw header.refusal(field, "one unit for all axes; state it with " + kOption.unit.shown());
@@ -203,7 +203,7 @@ void originOfAxisMins(const TextHeader& header, const std::vector<Axis>& axes, s
                       StatedGeometry& stated) {
   const auto mins = header.numbers("axis mins", count);
   const auto maxs = header.numbers("axis maxs", count);
-  const auto centers = wordsOf(lowerCase(header.text("centers")));
+  const auto centers = splitWords(lowerCase(header.text("centers")));
   if (mins.empty()) return;
   Vector3d origin;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -257,7 +257,7 @@ void settleOrigin(const TextHeader& header, const Space& space, VolumeGeometry& 
     throw invalidInput(header.path().string() +
                        ": its header states a space origin, but no space; expected one, such as "
                        "left-posterior-superior");
-  const auto origins = vectorsOf(header, "space origin", space.dimension);
+  const auto origins = readVectors(header, "space origin", space.dimension);
   if (origins.size() != 1) throw header.refusal("space origin", "one vector");
   if (origins[0])
     geometry.origin = space.toLps.cwiseProduct(*origins[0]);
@@ -271,7 +271,7 @@ void settleOrigin(const TextHeader& header, const Space& space, VolumeGeometry& 
 StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int64_t>& sizes,
                             const ReadVolumeOptions& options,
                             std::vector<std::string>& assumptions) {
-  const Space space = spaceOf(header, assumptions);
+  const Space space = readSpace(header, assumptions);
   std::vector<Axis> axes = spatialAxes(header, sizes, space);
   StatedGeometry stated;
   (void)volumeSize(header.path(), sizes);  // only checks

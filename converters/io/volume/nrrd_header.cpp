@@ -133,7 +133,7 @@ PixelType pixelType(const TextHeader& header) {
   return found->second;
 }
 
-Packing packingOf(const TextHeader& header) {
+Packing readPacking(const TextHeader& header) {
   const std::string encoding = lowerCase(header.required("encoding"));
   if (encoding == "raw") return Packing::Raw;
   if (encoding == "gzip" || encoding == "gz") return Packing::Deflate;
@@ -156,9 +156,9 @@ bool isBigEndian(const TextHeader& header, const StoredVoxels& voxels) {
 /// file holds, of `most`; a single file holds them all.
 DetachedNames detachedNames(const TextHeader& header, std::int64_t most, std::int64_t& axes) {
   const std::string& text = header.text("data file");
-  std::vector<std::string> words = wordsOf(text);
+  std::vector<std::string> words = splitWords(text);
   const auto integer = [&](const std::string& word) {
-    const auto value = integerOf(word);
+    const auto value = parseInteger(word);
     if (!value || std::abs(*value) > kMaxInt)
       throw header.refusal("data file", "a name, LIST, or a pattern and three whole numbers");
     return *value;
@@ -214,7 +214,7 @@ ImageHeader readNrrdHeader(const fs::path& path, const ReadVolumeOptions& option
   StoredVoxels& voxels = header.voxels;
   voxels.header = path;
   header.encoding = lowerCase(fields.required("encoding"));
-  voxels.packing = packingOf(fields);
+  voxels.packing = readPacking(fields);
   voxels.type = pixelType(fields);
   voxels.bigEndian = isBigEndian(fields, voxels);
   const std::int64_t dimension = fields.integers("dimension", 1, 1, kMaxDimension)[0];

@@ -232,7 +232,7 @@ private:
       return value;
     } else {
       // writers print whole numbers as 1e+06 too
-      const auto value = numberOf(m_word);
+      const auto value = parseNumber(m_word);
       const double low = static_cast<double>(std::numeric_limits<T>::min());
       const double high = std::ldexp(1.0, std::numeric_limits<T>::digits);
       if (!value || !(*value >= low && *value < high) || *value != std::floor(*value))

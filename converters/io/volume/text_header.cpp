@@ -17,10 +17,10 @@ namespace {
 /// Numbers have several notations, and words either case.
 bool isSameValue(const std::string& a, const std::string& b) {
   const auto same = [](const std::string& v, const std::string& w) {
-    const auto number = numberOf(v);
-    return lowerCase(v) == lowerCase(w) || (number && number == numberOf(w));
+    const auto number = parseNumber(v);
+    return lowerCase(v) == lowerCase(w) || (number && number == parseNumber(w));
   };
-  const auto left = wordsOf(a), right = wordsOf(b);
+  const auto left = splitWords(a), right = splitWords(b);
   return std::equal(left.begin(), left.end(), right.begin(), right.end(), same);
 }
 
@@ -35,7 +35,7 @@ std::string cited(std::string_view text) {
   return out;
 }
 
-std::vector<std::string> wordsOf(std::string_view text, std::string_view separators) {
+std::vector<std::string> splitWords(std::string_view text, std::string_view separators) {
   std::vector<std::string> words;
   for (std::size_t at = 0;
        (at = text.find_first_not_of(separators, at)) != std::string_view::npos;) {
@@ -46,16 +46,16 @@ std::vector<std::string> wordsOf(std::string_view text, std::string_view separat
   return words;
 }
 
-std::optional<double> numberOf(std::string_view text) {
+std::optional<double> parseNumber(std::string_view text) {
   return parsedNumber(text);
 }
 
-std::optional<std::int64_t> integerOf(std::string_view text) {
+std::optional<std::int64_t> parseInteger(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) return value;
-  const auto real = numberOf(text);            // "48.0"
+  const auto real = parseNumber(text);         // "48.0"
   constexpr double kExact = 9007199254740992;  // 2^53
   if (!real || std::abs(*real) > kExact || *real != std::floor(*real)) return {};
   return static_cast<std::int64_t>(*real);
@@ -102,9 +102,9 @@ const std::string& TextHeader::required(const std::string& name) const {
 std::vector<double> TextHeader::numbers(const std::string& name, std::size_t count) const {
   std::vector<double> values;
   if (!has(name)) return values;
-  const auto words = wordsOf(text(name));
+  const auto words = splitWords(text(name));
   for (const std::string& word : words)
-    if (const auto value = numberOf(word)) values.push_back(*value);
+    if (const auto value = parseNumber(word)) values.push_back(*value);
   if (values.size() != count || words.size() != count)
     throw refusal(name, std::to_string(count) + " numbers");
   return values;
@@ -113,9 +113,9 @@ std::vector<double> TextHeader::numbers(const std::string& name, std::size_t cou
 std::vector<std::int64_t> TextHeader::integers(const std::string& name, std::size_t count,
                                                std::int64_t low, std::int64_t high) const {
   std::vector<std::int64_t> values;
-  const auto words = wordsOf(required(name));
+  const auto words = splitWords(required(name));
   for (const std::string& word : words)
-    if (const auto value = integerOf(word); value && *value >= low && *value <= high)
+    if (const auto value = parseInteger(word); value && *value >= low && *value <= high)
       values.push_back(*value);
   if (values.size() != count || words.size() != count)
     throw refusal(name, (count == 1 ? "a whole number" : std::to_string(count) + " whole numbers") +

@@ -207,7 +207,8 @@ private:
 };
 
 template <class Number>
-std::vector<double> numbersOf(VtkDecoder& decoder, const VtkPacking& packing, std::uint64_t count) {
+std::vector<double> decodeNumbers(VtkDecoder& decoder, const VtkPacking& packing,
+                                  std::uint64_t count) {
   if (count > std::numeric_limits<std::size_t>::max() / sizeof(Number))
     decoder.refuse("cannot have " + std::to_string(count) + " numbers");
   const std::string bytes = decoder.bytes(count * sizeof(Number));
@@ -230,16 +231,16 @@ std::vector<double> decodeVtkNumbers(const VtkEncodedArray& array, const VtkPack
                                      std::uint64_t count) {
   VtkDecoder decoder(array, packing);
   if (array.form == VtkForm::Ascii) return decoder.ascii(count);
-  if (array.type == "Float32") return numbersOf<float>(decoder, packing, count);
-  if (array.type == "Float64") return numbersOf<double>(decoder, packing, count);
-  if (array.type == "Int64") return numbersOf<std::int64_t>(decoder, packing, count);
-  if (array.type == "Int32") return numbersOf<std::int32_t>(decoder, packing, count);
-  if (array.type == "Int16") return numbersOf<std::int16_t>(decoder, packing, count);
-  if (array.type == "Int8") return numbersOf<std::int8_t>(decoder, packing, count);
-  if (array.type == "UInt64") return numbersOf<std::uint64_t>(decoder, packing, count);
-  if (array.type == "UInt32") return numbersOf<std::uint32_t>(decoder, packing, count);
-  if (array.type == "UInt16") return numbersOf<std::uint16_t>(decoder, packing, count);
-  if (array.type == "UInt8") return numbersOf<std::uint8_t>(decoder, packing, count);
+  if (array.type == "Float32") return decodeNumbers<float>(decoder, packing, count);
+  if (array.type == "Float64") return decodeNumbers<double>(decoder, packing, count);
+  if (array.type == "Int64") return decodeNumbers<std::int64_t>(decoder, packing, count);
+  if (array.type == "Int32") return decodeNumbers<std::int32_t>(decoder, packing, count);
+  if (array.type == "Int16") return decodeNumbers<std::int16_t>(decoder, packing, count);
+  if (array.type == "Int8") return decodeNumbers<std::int8_t>(decoder, packing, count);
+  if (array.type == "UInt64") return decodeNumbers<std::uint64_t>(decoder, packing, count);
+  if (array.type == "UInt32") return decodeNumbers<std::uint32_t>(decoder, packing, count);
+  if (array.type == "UInt16") return decodeNumbers<std::uint16_t>(decoder, packing, count);
+  if (array.type == "UInt8") return decodeNumbers<std::uint8_t>(decoder, packing, count);
   decoder.refuse("is of the type \"" + formats::printable(array.type.substr(0, kShownVtkBytes)) +
                  "\"; expected Int8 to Int64, UInt8 to UInt64, Float32 or Float64");
 }

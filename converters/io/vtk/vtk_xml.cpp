@@ -73,7 +73,7 @@ struct Element {
   std::size_t line = 0;
 };
 
-struct Piece {
+struct XmlPiece {
   std::uint64_t points = 0;
   std::array<std::uint64_t, 7> cells{};  // count of each section
   std::vector<Element> elements;
@@ -81,16 +81,17 @@ struct Piece {
 
 struct Document {
   VtkPacking packing;
-  std::vector<Piece> pieces;
+  std::vector<XmlPiece> pieces;
   std::vector<Element> field;
   std::optional<std::size_t> appended;  // first byte behind the underscore
   bool isAppendedBase64 = false;
 };
 
 // Calls of expat, which is C: nothing may throw through it.
-class Handler {
+class VtkXmlParser {
 public:
-  Handler(std::string_view text, const std::string& name, std::span<const std::string_view> wanted)
+  VtkXmlParser(std::string_view text, const std::string& name,
+               std::span<const std::string_view> wanted)
       : m_text(text), m_name(name), m_wanted(wanted) {}
 
   Document parse() {
@@ -102,13 +103,14 @@ public:
     XML_SetElementHandler(
         m_parser,
         [](void* self, const XML_Char* tag, const XML_Char** attributes) {
-          static_cast<Handler*>(self)->begin(tag, attributes);
+          static_cast<VtkXmlParser*>(self)->begin(tag, attributes);
         },
-        [](void* self, const XML_Char* tag) { static_cast<Handler*>(self)->end(tag); });
-    XML_SetStartDoctypeDeclHandler(m_parser, [](void* self, const XML_Char*, const XML_Char*,
-                                                const XML_Char*, int) {
-      static_cast<Handler*>(self)->refuse("has a document type; expected none in a file of VTK");
-    });
+        [](void* self, const XML_Char* tag) { static_cast<VtkXmlParser*>(self)->end(tag); });
+    XML_SetStartDoctypeDeclHandler(
+        m_parser, [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
+          static_cast<VtkXmlParser*>(self)->refuse(
+              "has a document type; expected none in a file of VTK");
+        });
     feed();
     if (m_fault) throw *m_fault;
     if (!m_isFile) throw invalidInput(m_name + ": has no <VTKFile>; expected a file of VTK (.vtp)");
@@ -190,7 +192,7 @@ private:
   }
 
   void beginPiece(const char** attributes) {
-    Piece piece;
+    XmlPiece piece;
     piece.points = count(attributes, "NumberOfPoints");
     piece.cells[kVerts] = count(attributes, "NumberOfVerts");
     piece.cells[kLines] = count(attributes, "NumberOfLines");
@@ -296,7 +298,7 @@ class Assembler {
 public:
   Assembler(const Document& document, std::string_view text, const std::string& name)
       : m_document(document), m_text(text), m_name(name) {
-    for (const Piece& piece : document.pieces)
+    for (const XmlPiece& piece : document.pieces)
       for (const Element& element : piece.elements)
         if (element.isAppended) m_offsets.push_back(element.offset);
     for (const Element& element : document.field)
@@ -305,7 +307,7 @@ public:
   }
 
   VtkPolyData all() {
-    for (const Piece& piece : m_document.pieces) addPoints(piece);
+    for (const XmlPiece& piece : m_document.pieces) addPoints(piece);
     addCells(kVerts, m_result.verts);
     addCells(kLines, m_result.lines);
     addCells(kPolys, m_result.polys);
@@ -319,7 +321,7 @@ public:
   }
 
 private:
-  void addPoints(const Piece& piece) {
+  void addPoints(const XmlPiece& piece) {
     const Element* element = find(piece, kPoints, nullptr);
     if (element == nullptr) {
       if (piece.points != 0)
@@ -337,13 +339,13 @@ private:
 
   void addCells(Section section, VtkCells& cells) {
     std::size_t first = 0;  // index of the piece's first point
-    for (const Piece& piece : m_document.pieces) {
+    for (const XmlPiece& piece : m_document.pieces) {
       if (piece.cells[section] > 0) addCells(piece, section, first, cells);
       first += static_cast<std::size_t>(piece.points);
     }
   }
 
-  void addCells(const Piece& piece, Section section, std::size_t first, VtkCells& cells) {
+  void addCells(const XmlPiece& piece, Section section, std::size_t first, VtkCells& cells) {
     const Element* ends = find(piece, section, "offsets");
     const Element* points = find(piece, section, "connectivity");
     if (ends == nullptr || points == nullptr)
@@ -378,7 +380,7 @@ private:
 
   // False unless all pieces have it.
   bool addValues(Section section, VtkArray& array) {
-    for (const Piece& piece : m_document.pieces) {
+    for (const XmlPiece& piece : m_document.pieces) {
       const Element* element = find(piece, section, array.name.c_str());
       if (element == nullptr || element->components != array.components) return false;
       const std::uint64_t count = section == kPointData
@@ -392,7 +394,7 @@ private:
   }
 
   // The last array of a section and name, or of any name if it is null.
-  static const Element* find(const Piece& piece, Section section, const char* name) {
+  static const Element* find(const XmlPiece& piece, Section section, const char* name) {
     const Element* found = nullptr;
     for (const Element& element : piece.elements)
       if (element.section == section && (name == nullptr || element.name == name)) found = &element;
@@ -451,7 +453,7 @@ private:
 VtkPolyData parseVtkXml(std::string_view text, const std::string& name,
                         std::span<const std::string_view> wanted) {
   const std::string shown = formats::printable(name);
-  const Document document = Handler(text, shown, wanted).parse();
+  const Document document = VtkXmlParser(text, shown, wanted).parse();
   return Assembler(document, text, shown).all();
 }
 

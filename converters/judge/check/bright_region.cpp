@@ -164,7 +164,7 @@ BrightRegion growBrightRegion(const LumenVoxels& lumen, const Levels& levels,
     region.node[region.order.back()] = voxel.node;
   }
   progress.check();
-  region.depth = depthsOf(
+  region.depth = measureDepths(
       region.voxels, [&](std::size_t i) { return bright[i] != 0; }, progress);
   progress.check();
   region.wide = wideParts(region, widest, progress);

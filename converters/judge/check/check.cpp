@@ -55,7 +55,7 @@ Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   return result;
 }
 
-Agreement agreementOf(const Offsets& offsets, double voxel) {
+Agreement judgeOffsets(const Offsets& offsets, double voxel) {
   if (offsets.samples == 0) return Agreement::NotJudged;
   if (offsets.noEdge + offsets.wrongPolarity > 0.5 || offsets.absoluteMedian > voxel)
     return Agreement::Poor;
@@ -79,7 +79,7 @@ void summariseAll(const formats::CenterlineTree& tree, const std::vector<WallOff
                                                        report.voxelSize)});
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
     report.nodes.push_back(
-        agreementOf(summarise(ofNodes(offsets, n, n + 1), report.voxelSize), report.voxelSize));
+        judgeOffsets(summarise(ofNodes(offsets, n, n + 1), report.voxelSize), report.voxelSize));
 }
 
 /// The number of nodes outside of the volume if every coordinate is multiplied by a factor.

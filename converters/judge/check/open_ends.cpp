@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 // Missing vessels begin two voxels outside of the lumen, which ends up to a radius beyond its node.
 constexpr double kNearRadii = 2, kNearVoxels = 3;
 
-std::vector<OpenEnd> openEndsOf(const formats::CenterlineTree& tree) {
+std::vector<OpenEnd> listOpenEnds(const formats::CenterlineTree& tree) {
   std::vector<std::uint8_t> joined(tree.nodeCount(), 0);
   for (const formats::Branch& branch : tree.branches)
     if (branch.parentNode >= 0) joined[static_cast<std::size_t>(branch.parentNode)] = 1;
@@ -58,7 +58,7 @@ double lengthBeyond(const formats::CenterlineTree& tree, const OpenEnd& end, dou
 
 std::vector<OpenEnd> findOpenEnds(const formats::CenterlineTree& tree, double voxel,
                                   std::vector<MissingVessel>& vessels) {
-  std::vector<OpenEnd> ends = openEndsOf(tree);
+  std::vector<OpenEnd> ends = listOpenEnds(tree);
   for (OpenEnd& end : ends)
     for (MissingVessel& vessel : vessels) {
       const double beyond = lengthBeyond(tree, end, voxel, vessel);

@@ -26,9 +26,9 @@ constexpr double kLeastLength = 4;                        // voxels
 constexpr double kTooWide = 1.5;  // times the widest vessel: the root is seldom wider
 
 /// The connected groups of the voxels i with free[i] != 0, which are used up.
-Regions regionsOf(const VoxelSet& set, std::span<const float> depth,
-                  std::span<const std::uint32_t> node, std::vector<std::uint8_t>& free,
-                  std::size_t least) {
+Regions findRegions(const VoxelSet& set, std::span<const float> depth,
+                    std::span<const std::uint32_t> node, std::vector<std::uint8_t>& free,
+                    std::size_t least) {
   const double each = set.geometry().spacing.prod();
   Regions result;
   std::vector<std::uint32_t> group;
@@ -78,7 +78,7 @@ std::vector<std::uint8_t> awayFromLumen(const BrightRegion& region, const LumenV
   return away;
 }
 
-double widestOf(const formats::CenterlineTree& tree) {
+double greatestRadius(const formats::CenterlineTree& tree) {
   float widest = 0;
   for (std::size_t n = 0; n < tree.nodeCount(); ++n)
     if (tree.branches[tree.branch[n]].kind == formats::BranchKind::Vessel)
@@ -87,7 +87,7 @@ double widestOf(const formats::CenterlineTree& tree) {
   return static_cast<double>(widest);
 }
 
-MissingVessel vesselOf(const SkeletonPath& path, const BrightRegion& region) {
+MissingVessel makeMissingVessel(const SkeletonPath& path, const BrightRegion& region) {
   MissingVessel vessel;
   for (const std::uint32_t i : path.voxels)
     vessel.path.push_back({region.voxels.position(i), region.node[i]});
@@ -105,7 +105,7 @@ Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progres
   std::vector<std::size_t> all;
   for (const LumenVoxel& voxel : lumen.voxels()) all.push_back(voxel.index);
   const VoxelSet inside(geometry, std::move(all));
-  const std::vector<float> depth = depthsOf(
+  const std::vector<float> depth = measureDepths(
       inside, [&](std::size_t i) { return lumen.inside()[i] != 0; }, progress);
   std::vector<std::size_t> dark;
   std::vector<std::uint32_t> node;
@@ -122,19 +122,19 @@ Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progres
   progress.check();
   const VoxelSet set(geometry, std::move(dark));
   std::vector<std::uint8_t> free(set.size(), 1);
-  const auto depths = depthsOf(
+  const auto depths = measureDepths(
       set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, progress);
-  return regionsOf(set, depths, node, free, kLeastDark);
+  return findRegions(set, depths, node, free, kLeastDark);
 }
 
 Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
                       const formats::CenterlineTree& tree, const Progress& progress) {
   const BrightRegion region =
-      growBrightRegion(lumen, levels, tree, kTooWide * widestOf(tree), progress);
+      growBrightRegion(lumen, levels, tree, kTooWide * greatestRadius(tree), progress);
   const VoxelSet& voxels = region.voxels;
   Missing result;
   std::vector<std::uint8_t> wide = region.wide;
-  result.wide = regionsOf(voxels, region.depth, region.node, wide, kLeastBright);
+  result.wide = findRegions(voxels, region.depth, region.node, wide, kLeastBright);
   std::vector<std::uint8_t> free = awayFromLumen(region, lumen);
   progress.check();
   SkeletonPaths skeleton(voxels, region.depth, free);
@@ -145,7 +145,7 @@ Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
       count += skeleton.split(i, kLeastLength * voxels.geometry().voxelSize(), kLeastBright,
                               progress, paths);
   result.volume = static_cast<double>(count) * voxels.geometry().spacing.prod();
-  for (const SkeletonPath& path : paths) result.vessels.push_back(vesselOf(path, region));
+  for (const SkeletonPath& path : paths) result.vessels.push_back(makeMissingVessel(path, region));
   std::stable_sort(result.vessels.begin(), result.vessels.end(),
                    [](const MissingVessel& a, const MissingVessel& b) {
                      return std::tie(a.length, a.volume) > std::tie(b.length, b.volume);

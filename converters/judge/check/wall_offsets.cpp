@@ -154,7 +154,7 @@ double textureTop(std::span<const WallOffset> offsets, double lumen) {
 }
 
 /// The medians over the edges in a range; empty if there are too few.
-std::optional<NodeLevels> levelsOf(std::span<const WallOffset> offsets, std::size_t least) {
+std::optional<NodeLevels> measureLevels(std::span<const WallOffset> offsets, std::size_t least) {
   std::vector<double> halves, faints, lumens;
   for (const WallOffset& o : offsets) {
     if (!hasEdge(o)) continue;
@@ -200,7 +200,7 @@ std::vector<NodeLevels> nodeLevels(const formats::CenterlineTree& tree,
   const auto ofNodes = [&](std::uint32_t first, std::uint32_t end, std::size_t least) {
     const auto before = [](const WallOffset& o, std::uint32_t node) { return o.node < node; };
     const auto from = std::lower_bound(offsets.begin(), offsets.end(), first, before);
-    return levelsOf({from, std::lower_bound(from, offsets.end(), end, before)}, least);
+    return measureLevels({from, std::lower_bound(from, offsets.end(), end, before)}, least);
   };
   const auto count = static_cast<std::uint32_t>(tree.nodeCount());
   const auto ofTree = ofNodes(0, count, 1);

@@ -37,7 +37,7 @@ struct FoundBranch {
 };
 
 // A contiguous range of samples of a found branch.
-struct Stretch {
+struct SampleRange {
   std::size_t branch, first, last;  // last is excluded
   bool reversed;
 };
@@ -67,7 +67,7 @@ double ratio(double part, double whole) {
   return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
 }
 
-CenterlineScore scoreOf(const Tally& t) {
+CenterlineScore computeScore(const Tally& t) {
   CenterlineScore score;
   score.overlap = ratio(t.tpm + t.tpr, t.tpm + t.tpr + t.fn + t.fp);
   score.overlapUntilFirstError = ratio(t.beforeError, t.reference);
@@ -85,9 +85,9 @@ class Comparer {
 public:
   Comparer(const formats::CenterlineTree& found, const formats::CenterlineTree& truth, double step,
            Progress& progress)
-      : m_wall(truth), m_axes(axesOf(found)), m_progress(progress) {
+      : m_wall(truth), m_axes(makeAxes(found)), m_progress(progress) {
     for (std::uint32_t b = 0; b < truth.branches.size(); ++b) addTrue(truth, b, step);
-    for (std::uint32_t b = 0; b < found.branches.size(); ++b) addFound(found, b, step);
+    for (std::uint32_t b = 0; b < found.branches.size(); ++b) findAndAdd(found, b, step);
     matchLabels(found, truth);
   }
 
@@ -104,7 +104,7 @@ public:
     CenterlineComparison result;
     Tally all;
     for (std::size_t b = 0; b < m_true.size(); ++b) {
-      result.branch.push_back(scoreOf(tallies[b]));
+      result.branch.push_back(computeScore(tallies[b]));
       if (m_true[b].vessel) all.add(tallies[b]);
     }
     for (const FoundBranch& branch : m_found) {
@@ -114,13 +114,13 @@ public:
       all.fp += wrong;
       all.falseLength += wrong * branch.path.spacing;
     }
-    result.all = scoreOf(all);
+    result.all = computeScore(all);
     return result;
   }
 
 private:
   // The found tree without thickness: its wall is the centerline.
-  static TubeTreeDistance axesOf(formats::CenterlineTree tree) {
+  static TubeTreeDistance makeAxes(formats::CenterlineTree tree) {
     std::fill(tree.radius.begin(), tree.radius.end(), 0.0F);
     return TubeTreeDistance(tree);
   }
@@ -140,7 +140,7 @@ private:
     m_lumen.emplace_back(truth, index);
   }
 
-  void addFound(const formats::CenterlineTree& found, std::uint32_t index, double step) {
+  void findAndAdd(const formats::CenterlineTree& found, std::uint32_t index, double step) {
     FoundBranch f;
     f.path = samplePath(found, index, step, true);
     f.counts = found.branches[index].kind == formats::BranchKind::Vessel;
@@ -178,7 +178,7 @@ private:
     const TrueBranch& t = m_true[b];
     FoundBranch& f = m_found[static_cast<std::size_t>(t.answer)];
     const std::vector<PathSample>& path = f.path.samples;
-    Stretch all{static_cast<std::size_t>(t.answer), 0, path.size(), false};
+    SampleRange all{static_cast<std::size_t>(t.answer), 0, path.size(), false};
     const PathSample &start = t.path.samples.front(), &end = t.path.samples.back();
     const auto apart = [](const PathSample& p, const PathSample& q) {
       return (p.position - q.position).norm();
@@ -200,8 +200,8 @@ private:
 
   // The unmatched samples that lie in this branch's lumen, in the order in which the branch passes
   // them.
-  std::vector<Stretch> stretchesFor(std::size_t b) {
-    std::vector<Stretch> candidates;
+  std::vector<SampleRange> stretchesFor(std::size_t b) {
+    std::vector<SampleRange> candidates;
     for (std::size_t f = 0; f < m_found.size(); ++f) {
       const std::vector<PathSample>& path = m_found[f].path.samples;
       const auto here = [&](std::size_t i) {
@@ -219,16 +219,17 @@ private:
     return arrange(b, std::move(candidates));
   }
 
-  std::vector<Stretch> arrange(std::size_t b, std::vector<Stretch> candidates) {
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Stretch& p, const Stretch& q) {
-      return p.last - p.first > q.last - q.first;
-    });
+  std::vector<SampleRange> arrange(std::size_t b, std::vector<SampleRange> candidates) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const SampleRange& p, const SampleRange& q) {
+                       return p.last - p.first > q.last - q.first;
+                     });
     struct Placed {
-      Stretch stretch;
+      SampleRange stretch;
       std::size_t low, high;  // samples of the true branch
     };
     std::vector<Placed> placed;
-    for (Stretch s : candidates) {
+    for (SampleRange s : candidates) {
       const std::vector<PathSample>& path = m_found[s.branch].path.samples;
       const std::size_t from = closestOn(m_true[b].path.samples, path[s.first].position).index;
       const std::size_t to = closestOn(m_true[b].path.samples, path[s.last - 1].position).index;
@@ -242,17 +243,17 @@ private:
     }
     std::sort(placed.begin(), placed.end(),
               [](const Placed& p, const Placed& q) { return p.low < q.low; });
-    std::vector<Stretch> result;
+    std::vector<SampleRange> result;
     for (const Placed& p : placed) result.push_back(p.stretch);
     return result;
   }
 
-  Tally score(std::size_t b, const std::vector<Stretch>& stretches) {
+  Tally score(std::size_t b, const std::vector<SampleRange>& stretches) {
     const TrueBranch& t = m_true[b];
     std::vector<PathSample> answer;
     std::vector<State*> states;
     std::vector<double> lengths;
-    for (const Stretch& s : stretches) {
+    for (const SampleRange& s : stretches) {
       FoundBranch& f = m_found[s.branch];
       for (std::size_t i = s.first; i < s.last; ++i) {
         const std::size_t at = s.reversed ? s.first + s.last - 1 - i : i;

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 enum Move : std::uint8_t { Both, First, Second };
 
-std::vector<PathSample> pathOf(const formats::CenterlineTree& tree, const formats::Branch& branch,
-                               bool withLink) {
+std::vector<PathSample> takeSamples(const formats::CenterlineTree& tree,
+                                    const formats::Branch& branch, bool withLink) {
   std::vector<PathSample> path;
   const auto append = [&](std::uint32_t node, bool onLink) {
     const formats::Vec3f& c = tree.centre[node];
@@ -33,7 +33,7 @@ std::vector<PathSample> pathOf(const formats::CenterlineTree& tree, const format
 
 SampledPath samplePath(const formats::CenterlineTree& tree, std::uint32_t branch, double step,
                        bool withLink) {
-  const std::vector<PathSample> path = pathOf(tree, tree.branches[branch], withLink);
+  const std::vector<PathSample> path = takeSamples(tree, tree.branches[branch], withLink);
   if (path.empty()) return {};
   double length = 0;
   for (std::size_t i = 1; i < path.size(); ++i)

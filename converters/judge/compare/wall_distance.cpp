@@ -156,7 +156,7 @@ std::vector<Vector3d> surfaceSamples(const formats::Case& found, const field::Bl
   return samples;
 }
 
-std::optional<Quantiles> quantilesOf(std::vector<double> values) {
+std::optional<Quantiles> computeQuantiles(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
   return Quantiles{nearestRank(values, 0.5), nearestRank(values, 0.9), nearestRank(values, 1.0)};
 }
@@ -192,8 +192,9 @@ WallComparison compareWalls(const formats::Case& found, const CenterlineTree& tr
       each[sample.branch].push_back(sample.distance);
     }
   WallComparison result;
-  result.all = quantilesOf(std::move(all));
-  for (std::vector<double>& values : each) result.branch.push_back(quantilesOf(std::move(values)));
+  result.all = computeQuantiles(std::move(all));
+  for (std::vector<double>& values : each)
+    result.branch.push_back(computeQuantiles(std::move(values)));
   return result;
 }
 

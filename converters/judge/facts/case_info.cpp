@@ -35,7 +35,7 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   info.length = totalLength(value.tree);
   if (info.nodes > 0) info.radius = radiusRange(value.tree.radius);
   info.errorOfFit = fittedError(value, progress);
-  info.reach = reachOf(value, progress);
+  info.reach = measureReach(value, progress);
   for (const auto& branch : value.tree.branches)
     info.branches.push_back(describeBranch(value.tree, branch));
   info.metadata = value.metadata;

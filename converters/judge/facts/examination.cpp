@@ -42,15 +42,15 @@ Remark remarkOf(const PrivacyFinding& finding) {
           code + " at " + finding.pointer + ": " + finding.message};
 }
 
-Remark remarkOf(const ClosedWay& way) {
-  const std::string code = "CLOSED_EDGE", pointer = "/tree/parent/" + std::to_string(way.node);
-  const std::string message = closedText(way) + "; lumen fit may open it";
+Remark remarkOf(const ClosedPath& path) {
+  const std::string code = "CLOSED_EDGE", pointer = "/tree/parent/" + std::to_string(path.node);
+  const std::string message = closedText(path) + "; lumen fit may open it";
   return {code,
           kClosedEdge,
           formats::severityName(formats::Severity::Warning),
           std::nullopt,
           pointer,
-          {{"found", fixedText(way.beyond, 1)}},
+          {{"found", fixedText(path.beyond, 1)}},
           message,
           code + " at " + pointer + ": " + message};
 }
@@ -88,8 +88,8 @@ FileReport examineBytes(std::span<const std::byte> bytes, const std::string& fil
   };
   if (result.valid) {
     if (const auto value = formats::decodeCase(bytes))
-      if (const auto reach = reachOf(*value, progress))
-        for (const ClosedWay& way : reach->closed) warn(way);
+      if (const auto reach = measureReach(*value, progress))
+        for (const ClosedPath& path : reach->closed) warn(path);
   }
   if (!privacy) return result;
   for (const PrivacyFinding& finding : scanPrivacy(bytes)) {

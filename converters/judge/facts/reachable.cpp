@@ -13,7 +13,7 @@
 
 namespace lumen::convert {
 
-std::optional<Reach> reachOf(const formats::Case& value, const Progress& progress) {
+std::optional<Reach> measureReach(const formats::Case& value, const Progress& progress) {
   if (!value.models) return std::nullopt;
   const auto found = formats::measureReachability(value.tree, formats::caseField(value),
                                                   [&progress] { progress.check(); });
@@ -22,7 +22,7 @@ std::optional<Reach> reachOf(const formats::Case& value, const Progress& progres
     reach.closed.push_back({value.tree.branches[value.tree.branch[barrier.node]].label,
                             barrier.node, barrier.place, barrier.beyond});
   std::stable_sort(reach.closed.begin(), reach.closed.end(),
-                   [](const ClosedWay& a, const ClosedWay& b) { return a.beyond > b.beyond; });
+                   [](const ClosedPath& a, const ClosedPath& b) { return a.beyond > b.beyond; });
   return reach;
 }
 
@@ -35,16 +35,16 @@ std::string reachLine(const std::optional<Reach>& reach) {
   return "reachable: " + reachText(reach) + "\n";
 }
 
-std::string closedText(const ClosedWay& way) {
-  return "branch " + formats::printable(way.branch) + " is closed before node " +
-         std::to_string(way.node) + " at " +
-         placeText({way.position.x, way.position.y, way.position.z}) + ": " +
-         fixedText(way.beyond, 1) + " mm beyond cannot be reached";
+std::string closedText(const ClosedPath& path) {
+  return "branch " + formats::printable(path.branch) + " is closed before node " +
+         std::to_string(path.node) + " at " +
+         placeText({path.position.x, path.position.y, path.position.z}) + ": " +
+         fixedText(path.beyond, 1) + " mm beyond cannot be reached";
 }
 
 std::vector<std::string> closedTexts(const Reach& reach) {
-  constexpr std::size_t kMost = 10;
-  const std::size_t count = std::min(reach.closed.size(), kMost);
+  constexpr std::size_t kMostClosedTexts = 10;
+  const std::size_t count = std::min(reach.closed.size(), kMostClosedTexts);
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < count; ++i) texts.push_back(closedText(reach.closed[i]));
   if (const std::size_t more = reach.closed.size() - count; more > 0)

@@ -14,7 +14,7 @@
 namespace lumen::convert {
 
 /// A place where the path is closed: see formats::Barrier.
-struct ClosedWay {
+struct ClosedPath {
   std::string branch;      ///< label of the branch
   std::uint32_t node = 0;  ///< index in the case; the path to it is closed
   field::Vec position{};   ///< mm, LPS
@@ -22,12 +22,12 @@ struct ClosedWay {
 };
 
 struct Reach {
-  double length = 0, of = 0;      ///< mm
-  std::vector<ClosedWay> closed;  ///< the one with the greatest length beyond it first
+  double length = 0, of = 0;       ///< mm
+  std::vector<ClosedPath> closed;  ///< the one with the greatest length beyond it first
 };
 
 /// The reachable length of a valid case; empty for a case without models.
-std::optional<Reach> reachOf(const formats::Case& value, const Progress& progress);
+std::optional<Reach> measureReach(const formats::Case& value, const Progress& progress);
 
 /// "3448.1 of 3477.0 mm", or the reason why it is unknown.
 std::string reachText(const std::optional<Reach>& reach);
@@ -37,7 +37,7 @@ std::string reachLine(const std::optional<Reach>& reach);
 
 /// A closed path as text: "branch a-1 is closed before node 27 at (1.0, 2.0, 3.0): 28.9 mm beyond
 /// cannot be reached".
-std::string closedText(const ClosedWay& way);
+std::string closedText(const ClosedPath& path);
 
 /// One text for each closed path; a long list is cut, and its last text states the number of the
 /// others.

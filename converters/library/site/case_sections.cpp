@@ -67,7 +67,7 @@ const RecordedFile* fileOfRole(const CaseRecord& record, const std::string& role
 }
 
 /// The case in the viewer, as `lumen view --html` writes it; null without one.
-const RecordedFile* viewerOf(const CaseRecord& record) {
+const RecordedFile* findViewer(const CaseRecord& record) {
   for (const RecordedFile& file : record.files)
     if (file.path == "view.html" && file.media == "text/html") return &file;
   return nullptr;
@@ -139,7 +139,7 @@ std::string factsSection(const CaseRecord& record) {
   text += term("Centerline", counted(figures.nodes, "node", "nodes"));
   text += "</dl>\n<p class=\"actions\">";
   text += button(record, fileOfRole(record, "case"), "Download the case", " download");
-  text += button(record, viewerOf(record), "Open in the viewer", "");
+  text += button(record, findViewer(record), "Open in the viewer", "");
   text += button(record, fileOfRole(record, "surface"), "Download the surface", " download");
   text += button(record, fileOfRole(record, "report"), "Report to print", "");
   return text + "</p>\n</section>\n";

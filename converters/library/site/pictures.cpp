@@ -14,7 +14,7 @@ constexpr const char* kThumbnail = "thumbnail.png";
 
 /// Rest of "turn-007.png" or "turn/007.png" without its number: "turn-.png", "turn/.png"; empty for
 /// others.
-std::string turnOf(const std::string& path) {
+std::string turnName(const std::string& path) {
   constexpr std::size_t kDigits = 3;
   const std::size_t dot = path.rfind('.');
   if (dot == std::string::npos || dot < kDigits + 1) return {};
@@ -42,7 +42,8 @@ CasePictures casePictures(const CaseRecord& record) {
       continue;
     }
     paths.push_back(file.path);
-    if (const std::string turn = turnOf(file.path); !turn.empty()) turns[turn].push_back(file.path);
+    if (const std::string turn = turnName(file.path); !turn.empty())
+      turns[turn].push_back(file.path);
   }
   std::sort(paths.begin(), paths.end());
   for (auto& [name, frames] : turns)

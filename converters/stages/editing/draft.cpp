@@ -45,7 +45,7 @@ struct Draft::Layout {
 
 Draft::Draft(const Case& value) : links(value.tree.links), m_case(value) {
   const formats::CenterlineTree& tree = value.tree;
-  const auto origins = formats::nodeOriginsOf(value);
+  const auto origins = formats::readNodeOrigins(value);
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
     nodes.push_back({i, tree.centre[i], tree.direction[i], tree.radius[i], tree.height[i],
                      tree.inlierRate.empty() ? 0 : tree.inlierRate[i], origins[i]});
@@ -64,7 +64,7 @@ void Draft::reverse(std::vector<std::uint32_t>& chain) {
   for (const std::uint32_t node : chain) nodes[node].direction = opposite(nodes[node].direction);
 }
 
-double Draft::lengthOf(const std::vector<std::uint32_t>& chain) const {
+double Draft::measureLength(const std::vector<std::uint32_t>& chain) const {
   double length = 0;
   for (std::size_t i = 1; i < chain.size(); ++i)
     length += (toEigen(nodes[chain[i]].centre) - toEigen(nodes[chain[i - 1]].centre)).norm();

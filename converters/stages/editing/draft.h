@@ -54,7 +54,7 @@ public:
   /// Reverses the directions and the order of nodes.
   void reverse(std::vector<std::uint32_t>& chain);
   /// Length along a chain, mm.
-  [[nodiscard]] double lengthOf(const std::vector<std::uint32_t>& chain) const;
+  [[nodiscard]] double measureLength(const std::vector<std::uint32_t>& chain) const;
   /// A label that no branch has: `base` followed by the first free number from 2 on.
   [[nodiscard]] std::string freeLabel(const std::string& base) const;
 

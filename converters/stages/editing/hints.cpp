@@ -36,7 +36,7 @@ struct Placed {
 
 /// The branch that holds most points of a hint, and of several the one whose axis and radius are
 /// nearest; the node is that at the first point that it holds.
-std::optional<NodePlace> placeOf(const CenterlineTree& tree, const SeedBranch& hint) {
+std::optional<NodePlace> findPlace(const CenterlineTree& tree, const SeedBranch& hint) {
   std::optional<NodePlace> best;
   std::size_t most = 0;
   double least = 0;
@@ -160,7 +160,7 @@ private:
     std::map<std::uint32_t, std::vector<Placed>> hintsOf;
     for (const SeedBranch& hint : m_hints) {
       if (hint.kind != BranchKind::Vessel) continue;
-      const auto place = placeOf(tree(), hint);
+      const auto place = findPlace(tree(), hint);
       if (!place)
         m_unplaced.push_back(&hint);
       else
@@ -208,14 +208,14 @@ private:
         const bool isNamed = m_labels.contains(child.label);
         hasNamed = hasNamed || isNamed;
         if (isNamed || child.kind != BranchKind::Vessel) continue;
-        if (widest == b || widthOf(c) > widthOf(widest)) widest = c;
+        if (widest == b || medianRadius(c) > medianRadius(widest)) widest = c;
       }
       if (hasNamed && widest != b) mergeIntoParent(m_case, widest);
     }
   }
 
   /// The median radius of a branch, mm.
-  [[nodiscard]] float widthOf(std::uint32_t branch) const {
+  [[nodiscard]] float medianRadius(std::uint32_t branch) const {
     const auto first = tree().radius.begin() + tree().branches[branch].firstNode;
     std::vector<float> radii(first, first + tree().branches[branch].nodeCount);
     return upperMedian(radii);

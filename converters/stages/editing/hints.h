@@ -15,8 +15,8 @@ namespace lumen::convert {
 
 struct HintRemarks {
   /// Hints that lie in no vessel of the case, and aneurysms, whose walls have to be captured: seeds
-  /// for trackIntoCase(). The parent of a vessel is another of them or none, as the lumen shows which
-  /// vessel of the case it leaves; that of an aneurysm may be a branch of the case.
+  /// for addTracksFromSeeds(). The parent of a vessel is another of them or none, as the lumen
+  /// shows which vessel of the case it leaves; that of an aneurysm may be a branch of the case.
   std::vector<SeedBranch> rest;
   std::vector<SeedFailure> missedPoints;  ///< points of a hint that lie outside of its vessel
   std::vector<SeedFailure> unused;        ///< hints in a vessel that has another hint's name

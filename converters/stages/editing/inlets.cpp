@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using formats::CenterlineTree;
 
-std::vector<std::vector<std::uint32_t>> childrenOf(const CenterlineTree& tree) {
+std::vector<std::vector<std::uint32_t>> findChildren(const CenterlineTree& tree) {
   std::vector<std::vector<std::uint32_t>> children(tree.nodeCount());
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
     if (tree.parent[i] != formats::kNoParent)
@@ -24,7 +24,7 @@ std::vector<std::vector<std::uint32_t>> childrenOf(const CenterlineTree& tree) {
 
 /// The end of the tree of `from` that is nearest along the vessels: its root, or a tip.
 std::uint32_t nearestEnd(const CenterlineTree& tree, std::uint32_t from) {
-  const auto children = childrenOf(tree);
+  const auto children = findChildren(tree);
   std::vector<double> away(tree.nodeCount(), -1);
   std::vector<std::uint32_t> reached{from};
   away[from] = 0;

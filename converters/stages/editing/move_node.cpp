@@ -41,7 +41,7 @@ struct Place {
   [[nodiscard]] bool hasNext() const { return node + 1 < end; }
 };
 
-Section sectionOf(const Draft& draft, const Place& place) {
+Section measureSection(const Draft& draft, const Place& place) {
   const DraftNode& node = draft.nodes[place.node];
   const Vector3d centre = toEigen(node.centre), axis = toEigen(node.direction);
   const auto half = [&](bool isThere, std::uint32_t other) {
@@ -71,8 +71,8 @@ void dropPoints(const Case& value, const Place& place, const std::array<Section,
 formats::Vec3f courseAt(const Draft& draft, const Place& place) {
   const std::uint32_t from = place.hasPrevious() ? place.node - 1 : place.node;
   const std::uint32_t to = place.hasNext() ? place.node + 1 : place.node;
-  const Vector3d way = toEigen(draft.nodes[to].centre) - toEigen(draft.nodes[from].centre);
-  return way.norm() > 0 ? toVec3f(way.normalized()) : draft.nodes[place.node].direction;
+  const Vector3d chord = toEigen(draft.nodes[to].centre) - toEigen(draft.nodes[from].centre);
+  return chord.norm() > 0 ? toVec3f(chord.normalized()) : draft.nodes[place.node].direction;
 }
 
 std::string placeAndRadius(const Vector3d& p, double radius) {
@@ -91,7 +91,7 @@ Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, doub
   const formats::Branch& branch = target.tree.branches[target.tree.branch[node]];
   const Place place{node, branch.firstNode, branch.firstNode + branch.nodeCount};
   Draft draft(target);
-  const Section before = sectionOf(draft, place);
+  const Section before = measureSection(draft, place);
   DraftNode& moved = draft.nodes[node];
   moved.centre = toVec3f(position);
   moved.radius = static_cast<float>(radius);
@@ -100,7 +100,7 @@ Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, doub
     moved.origin = formats::NodeOrigin::Given;
     moved.inlierRate = 0;
     draft.branches[target.tree.branch[node]].isOther = true;
-    dropPoints(target, place, {before, sectionOf(draft, place)}, draft);
+    dropPoints(target, place, {before, measureSection(draft, place)}, draft);
   }
   return draft.finish(
       target, "moved " + nodeText(target, node) + " to " + placeAndRadius(position, radius));

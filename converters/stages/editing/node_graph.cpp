@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using formats::BranchKind;
 
 // Radii: what lies nearer to a fork is its own shape, what lies farther may have turned.
-constexpr double kNear = 1, kFar = 4;
+constexpr double kArmBeginRadii = 1, kArmEndRadii = 4;
 
 }  // namespace
 
@@ -56,7 +56,8 @@ void NodeGraph::orient(const std::vector<std::uint32_t>& roots) {
         m_order.push_back(j);
       }
   }
-  for (auto node = m_order.rbegin(); node != m_order.rend(); ++node) m_main[*node] = mainOf(*node);
+  for (auto node = m_order.rbegin(); node != m_order.rend(); ++node)
+    m_main[*node] = findMain(*node);
 }
 
 Vector3d NodeGraph::position(std::uint32_t node) const {
@@ -77,10 +78,10 @@ std::optional<Arm> NodeGraph::armAlong(std::span<const std::uint32_t> nodes) con
   std::optional<Vector3d> from;
   Vector3d to = position(nodes.front());
   double along = 0;
-  for (std::size_t i = 1; i < nodes.size() && along < kFar * width; ++i) {
+  for (std::size_t i = 1; i < nodes.size() && along < kArmEndRadii * width; ++i) {
     const Vector3d at = position(nodes[i]);
     along += (at - position(nodes[i - 1])).norm();
-    if (along < kNear * width) continue;
+    if (along < kArmBeginRadii * width) continue;
     if (!from) from = at;
     to = at;
     radii.push_back(m_draft.nodes[nodes[i]].radius);
@@ -93,7 +94,7 @@ std::vector<std::uint32_t> NodeGraph::follow(std::uint32_t node,
                                              const std::vector<std::uint32_t>& next) const {
   std::vector<std::uint32_t> nodes;
   double along = 0;
-  const double reach = 2 * kFar * radius(node);
+  const double reach = 2 * kArmEndRadii * radius(node);
   for (std::uint32_t i = node; i != kNoNode && along < reach; i = next[i]) {
     if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
     nodes.push_back(i);
@@ -109,7 +110,7 @@ std::vector<std::uint32_t> NodeGraph::stretchAround(std::uint32_t node) const {
 }
 
 // Children have their own main neighbours already.
-std::uint32_t NodeGraph::mainOf(std::uint32_t node) const {
+std::uint32_t NodeGraph::findMain(std::uint32_t node) const {
   const auto into = armAlong(follow(node, m_parent));  // against the stream
   std::uint32_t best = kNoNode, any = kNoNode;
   double most = -1;
@@ -134,7 +135,7 @@ std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
   std::vector<std::uint32_t> nodes;
   std::uint32_t before = kNoNode;
   double along = 0;
-  const double reach = 2 * kFar * double{m_draft.nodes[end].radius};
+  const double reach = 2 * kArmEndRadii * double{m_draft.nodes[end].radius};
   for (std::uint32_t i = end; i != kNoNode && along < reach;) {
     if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
     nodes.push_back(i);

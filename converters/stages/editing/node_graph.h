@@ -72,7 +72,7 @@ private:
   /// Nodes from one on, each followed by its `next`, over the reach of an arm.
   [[nodiscard]] std::vector<std::uint32_t> follow(std::uint32_t node,
                                                   const std::vector<std::uint32_t>& next) const;
-  [[nodiscard]] std::uint32_t mainOf(std::uint32_t node) const;
+  [[nodiscard]] std::uint32_t findMain(std::uint32_t node) const;
 
   Draft& m_draft;
   std::vector<bool> m_isVessel;

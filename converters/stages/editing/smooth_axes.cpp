@@ -62,9 +62,9 @@ private:
 
   /// Moves the nodes between the first and the last.
   void smoothRun(std::span<const std::uint32_t> run) {
-    const std::vector<std::uint32_t> way(run.begin(), run.end());
-    const std::vector<AxisPoint> curve = curveBetween(axisAt(run.front()), axisAt(run.back()),
-                                                      run.size() - 2, m_draft.lengthOf(way));
+    const std::vector<std::uint32_t> stretch(run.begin(), run.end());
+    const std::vector<AxisPoint> curve = curveBetween(
+        axisAt(run.front()), axisAt(run.back()), run.size() - 2, m_draft.measureLength(stretch));
     for (std::size_t i = 0; i < curve.size(); ++i)
       if ((curve[i].position - axisAt(run[i + 1]).position).norm() > curve[i].radius) return;
     for (std::size_t i = 0; i < curve.size(); ++i) move(run[i + 1], curve[i]);

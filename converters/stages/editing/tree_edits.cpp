@@ -26,9 +26,9 @@ constexpr double kLongestBridge = 20000;
 }  // namespace
 
 std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
-  const Vector3d start = toEigen(from.centre), way = toEigen(to.centre) - start;
+  const Vector3d start = toEigen(from.centre), chord = toEigen(to.centre) - start;
   const double first = std::min(from.radius, to.radius), last = to.radius;
-  const double count = std::floor(way.norm() / (kSpacing * first));
+  const double count = std::floor(chord.norm() / (kSpacing * first));
   if (!(count <= kLongestBridge))
     throw invalidInput(
         "the way there is " + std::to_string(std::lround(count * kSpacing)) +
@@ -37,8 +37,8 @@ std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
   for (double n = 1; n < count; ++n) {
     DraftNode node;
     node.origin = NodeOrigin::Bridged;
-    node.centre = toVec3f(start + n / count * way);
-    node.direction = toVec3f(way.normalized());
+    node.centre = toVec3f(start + n / count * chord);
+    node.direction = toVec3f(chord.normalized());
     node.radius = static_cast<float>(first + (last - first) * n / count);
     node.height = static_cast<float>(2 * kSpacing) * node.radius;
     nodes.push_back(node);
@@ -136,7 +136,7 @@ Change makeRoot(Case& target, std::uint32_t branch) {
       piece.record.stopReason = StopReason::Unknown;
       draft.reverse(piece.nodes);
       const std::string other = draft.freeLabel(piece.record.label);
-      const bool isLonger = draft.lengthOf(rest.nodes) > draft.lengthOf(piece.nodes);
+      const bool isLonger = draft.measureLength(rest.nodes) > draft.measureLength(piece.nodes);
       (isLonger ? piece : rest).record.label = other;
       draft.branches.push_back(std::move(rest));
     }

@@ -54,7 +54,7 @@ public:
 
   std::vector<Vector3d> untangle() {
     m_graph.orient(m_graph.formerRoots());
-    const std::vector<Match> joined = chosen(matches(endsOf(m_graph.chains())));
+    const std::vector<Match> joined = chosen(matches(findEnds(m_graph.chains())));
     join(joined);
     m_graph.orient(roots());
     rebuild();
@@ -64,7 +64,7 @@ public:
   }
 
 private:
-  std::vector<VesselEnd> endsOf(const std::vector<Chain>& chains) const {
+  std::vector<VesselEnd> findEnds(const std::vector<Chain>& chains) const {
     std::vector<VesselEnd> ends;
     const auto add = [&](std::span<const std::uint32_t> nodes, std::size_t chain,
                          std::uint32_t parent, std::vector<std::uint32_t> stem) {
@@ -77,7 +77,7 @@ private:
       const std::vector<std::uint32_t> back(nodes.rbegin(), nodes.rend());
       add(back, c, kNoNode, {});
       if (chains[c].parent == kNoNode) continue;
-      const std::size_t stem = stemOf(chains[c]);
+      const std::size_t stem = countStem(chains[c]);
       add(std::span(nodes).subspan(stem), c, chains[c].parent,
           {nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(stem)});
     }
@@ -86,7 +86,7 @@ private:
 
   /// Number of nodes between a parent and the last fork of a vessel that still touches the parent's
   /// vessel: through them a skeleton gets from one vessel into another that passes by.
-  [[nodiscard]] std::size_t stemOf(const Chain& chain) const {
+  [[nodiscard]] std::size_t countStem(const Chain& chain) const {
     const auto arm = m_graph.armAlong(chain.nodes);
     if (!arm) return 0;
     const std::vector<std::uint32_t> parents = m_graph.stretchAround(chain.parent);
@@ -103,7 +103,7 @@ private:
   }
 
   /// Cost of one vessel through two ends; empty if they are none.
-  [[nodiscard]] std::optional<double> costOf(const VesselEnd& a, const VesselEnd& b) const {
+  [[nodiscard]] std::optional<double> joinCost(const VesselEnd& a, const VesselEnd& b) const {
     const Vector3d gap = b.position - a.position;
     const double length = gap.norm(), wide = a.radius + b.radius;
     double reach = kReachRadii * wide;
@@ -152,7 +152,7 @@ private:
     for (std::size_t a = 0; a < m_ends.size(); ++a)
       for (std::size_t b = a + 1; b < m_ends.size(); ++b) {
         if (m_ends[a].chain == m_ends[b].chain) continue;
-        if (const auto cost = costOf(m_ends[a], m_ends[b])) found.push_back({a, b, *cost});
+        if (const auto cost = joinCost(m_ends[a], m_ends[b])) found.push_back({a, b, *cost});
       }
     std::stable_sort(found.begin(), found.end(),
                      [](const Match& x, const Match& y) { return x.cost < y.cost; });

@@ -26,8 +26,8 @@ struct BlockLevel {
 };
 
 template <class T>
-BlockLevel levelOf(const std::vector<T>& voxels, const CellBox& cells, const CellBox& block,
-                   float sign) {
+BlockLevel measureLevel(const std::vector<T>& voxels, const CellBox& cells, const CellBox& block,
+                        float sign) {
   std::vector<float> values;
   values.reserve(block.count());
   block.forEach([&](const Cell& cell) {
@@ -53,7 +53,7 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
         tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
           progress.check();
           const CellBox block{m_blocks.cell(b) * kEdge, Cell::Constant(kEdge)};
-          const BlockLevel level = levelOf(voxels, m_voxels, block.meet(m_voxels), sign);
+          const BlockLevel level = measureLevel(voxels, m_voxels, block.meet(m_voxels), sign);
           medians[b] = level.median;
           deviations[b] = level.deviation;
         });

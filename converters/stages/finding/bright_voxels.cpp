@@ -66,7 +66,7 @@ struct Histogram {
     const float at = (value - low) / (high - low) * static_cast<float>(kBins);
     return std::min(kBins - 1, static_cast<std::size_t>(std::max(at, 0.0F)));
   }
-  [[nodiscard]] float valueOf(std::size_t bin) const {
+  [[nodiscard]] float middleOfBin(std::size_t bin) const {
     return low + (high - low) * static_cast<float>(bin) / static_cast<float>(kBins);
   }
   [[nodiscard]] std::size_t countFrom(std::size_t bin) const {
@@ -102,12 +102,12 @@ struct Histogram {
     const std::size_t half = countFrom(bin) / 2;
     std::size_t sum = 0;
     while (bin + 1 < kBins && (sum += count[bin]) <= half) ++bin;
-    return valueOf(bin);
+    return middleOfBin(bin);
   }
 };
 
 /// Excess of all voxels that stand out of the noise.
-Histogram histogramOf(const Volume& volume, const Background& background, float sign,
+Histogram countExcess(const Volume& volume, const Background& background, float sign,
                       const Progress& progress) {
   const auto slices = static_cast<std::size_t>(volume.geometry.size[2]);
   std::vector<float> highest(slices, 0.0F);
@@ -131,7 +131,7 @@ Histogram histogramOf(const Volume& volume, const Background& background, float 
 
 /// The excess of wide vessels: the median of the upper class, or of its own upper class, until it
 /// is no more than vessels may fill.
-float contrastOf(const Histogram& excess, std::size_t voxels) {
+float measureContrast(const Histogram& excess, std::size_t voxels) {
   std::size_t bin = excess.split(0);
   while (static_cast<double>(excess.countFrom(bin)) > kMostLumen * static_cast<double>(voxels)) {
     const std::size_t next = excess.split(bin);
@@ -146,7 +146,7 @@ class UsualRidges {
 public:
   UsualRidges(const CellBox& cells, const std::vector<float>& strength,
               const std::vector<std::uint8_t>& mark, const Progress& progress)
-      : m_median(blocksOf(cells).count()), m_blocks(blocksOf(cells)) {
+      : m_median(blocksAround(cells).count()), m_blocks(blocksAround(cells)) {
     std::vector<std::vector<float>> found(m_blocks.count());
     tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
       progress.check();
@@ -160,7 +160,7 @@ public:
     });
     std::vector<float> all;
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    const float everywhere = usualOf(all);
+    const float everywhere = medianOfRidges(all);
     for (std::size_t b = 0; b < found.size(); ++b) {
       std::vector<float> around;
       const Cell at = m_blocks.cell(b);
@@ -169,7 +169,7 @@ public:
             const auto& some = found[m_blocks.index(cell)];
             around.insert(around.end(), some.begin(), some.end());
           });
-      m_median[b] = std::max(everywhere, usualOf(around));
+      m_median[b] = std::max(everywhere, medianOfRidges(around));
     }
   }
 
@@ -179,7 +179,7 @@ public:
 
 private:
   /// The median of the ridges among samples of the background; 0 if these are few.
-  static float usualOf(std::vector<float>& samples) {
+  static float medianOfRidges(std::vector<float>& samples) {
     const auto ridges =
         std::partition(samples.begin(), samples.end(), [](float s) { return s > 0; });
     const auto count = static_cast<std::size_t>(ridges - samples.begin());
@@ -188,7 +188,7 @@ private:
     samples.resize(count);
     return upperMedian(samples);
   }
-  static CellBox blocksOf(const CellBox& cells) {
+  static CellBox blocksAround(const CellBox& cells) {
     return {Cell::Zero(), (cells.size.array() + kRidgeBlock - 1) / kRidgeBlock};
   }
   std::vector<float> m_median;
@@ -235,12 +235,12 @@ void markFaded(const Volume& volume, const Background& background, float sign, f
 BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress) {
   const float sign = dark ? -1.0F : 1.0F;
   const Background background(volume, sign, progress);
-  const Histogram excess = histogramOf(volume, background, sign, progress);
+  const Histogram excess = countExcess(volume, background, sign, progress);
   BrightVoxels out;
   out.noise = static_cast<double>(background.noise());
   if (excess.countFrom(0) == 0) return out;
   const CellBox cells = volume.geometry.cells();
-  const float contrast = contrastOf(excess, cells.count());
+  const float contrast = measureContrast(excess, cells.count());
   out.contrast = static_cast<double>(contrast);
 
   std::vector<std::uint8_t> mark(cells.count(), kBackground);

@@ -120,8 +120,8 @@ struct GrownPart {
   bool isHole = true;   ///< lumen is all around it
 };
 
-std::vector<GrownPart> partsOf(const CellBox& cells, const std::vector<bool>& isNew,
-                               const std::vector<bool>& isLumen, const Progress& progress) {
+std::vector<GrownPart> findGrownParts(const CellBox& cells, const std::vector<bool>& isNew,
+                                      const std::vector<bool>& isLumen, const Progress& progress) {
   std::vector<GrownPart> parts;
   std::vector<bool> isSeen(isNew.size(), false);
   for (std::size_t first = 0; first < isNew.size(); ++first) {
@@ -150,7 +150,7 @@ void growIntoFaded(const Excess& excess, float contrast, std::vector<bool>& isLu
                    const Progress& progress) {
   std::vector<bool> isNew = grown(excess, contrast, isLumen, progress);
   for (std::size_t i = 0; i < isNew.size(); ++i) isNew[i] = isNew[i] && !isLumen[i];
-  const std::vector<GrownPart> parts = partsOf(excess.cells, isNew, isLumen, progress);
+  const std::vector<GrownPart> parts = findGrownParts(excess.cells, isNew, isLumen, progress);
   std::set<std::array<int, 3>> blocks;  // those in which a vessel fades, which noise perforates
   const auto blockOf = [&](std::size_t voxel) {
     const Cell block = excess.cells.cell(voxel) / kContrastBlock;

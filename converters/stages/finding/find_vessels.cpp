@@ -44,7 +44,7 @@ public:
     std::vector<VesselPath> all;
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
-      const std::vector<std::uint32_t> part = partOf(i, isSeen);
+      const std::vector<std::uint32_t> part = connectedPart(i, isSeen);
       if (part.size() < kLeastPart) continue;
       m_trees.push_back(m_paths.find(m_paths.widestTip(i, m_progress), m_progress));
       all.insert(all.end(), m_trees.back().begin(), m_trees.back().end());
@@ -60,11 +60,11 @@ public:
 
 private:
   std::vector<float> depths(const Progress& progress) const {
-    return depthsOf(
+    return measureDepths(
         m_set, [this](std::size_t i) { return m_set.find(i) != VoxelSet::kNone; }, progress);
   }
 
-  std::vector<std::uint32_t> partOf(std::uint32_t first, std::vector<bool>& isSeen) const {
+  std::vector<std::uint32_t> connectedPart(std::uint32_t first, std::vector<bool>& isSeen) const {
     std::vector<std::uint32_t> part(1, first);
     isSeen[first] = true;
     for (std::size_t k = 0; k < part.size(); ++k) {
@@ -80,22 +80,23 @@ private:
   void addTree(const std::vector<VesselPath>& paths) {
     const std::size_t first = m_out.size();
     for (const VesselPath& path : paths) {
-      SeedBranch course = courseOf(path, first);
-      if (path.parent == VesselPath::kNone && lengthOf(course) < kLeastLength * voxelSize()) return;
+      SeedBranch course = makeCourse(path, first);
+      if (path.parent == VesselPath::kNone && measureLength(course) < kLeastLength * voxelSize())
+        return;
       m_out.push_back(std::move(course));
     }
   }
 
   [[nodiscard]] double voxelSize() const { return m_set.geometry().voxelSize(); }
 
-  static double lengthOf(const SeedBranch& course) {
+  static double measureLength(const SeedBranch& course) {
     double length = 0;
     for (std::size_t i = 1; i < course.points.size(); ++i)
       length += (course.points[i].position - course.points[i - 1].position).norm();
     return length;
   }
 
-  [[nodiscard]] SeedBranch courseOf(const VesselPath& path, std::size_t first) const {
+  [[nodiscard]] SeedBranch makeCourse(const VesselPath& path, std::size_t first) const {
     SeedBranch course;
     course.label = "vessel-" + std::to_string(m_out.size() + 1);
     if (path.parent != VesselPath::kNone) course.parent = m_out[first + path.parent].label;

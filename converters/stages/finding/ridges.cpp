@@ -82,7 +82,7 @@ struct Brick {
 };
 
 /// The strength of a ridge whose second derivatives are `hessian`, per mm^2; 0 if it is none.
-float strengthOf(const Eigen::Matrix3f& hessian) {
+float measureStrength(const Eigen::Matrix3f& hessian) {
   if (!(hessian.trace() < 0)) return 0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(hessian, Eigen::EigenvaluesOnly);
@@ -155,7 +155,7 @@ std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progres
         const std::size_t i = brick.box.index(cell);
         // c1 + c2 + c3 <= -(2 - kAlong) |c2| on a ridge, so few voxels need their eigenvalues
         if (!(-laplacianAt(brick, i, spacing) * variance > kLeastCurved * best)) return;
-        best = std::max(best, variance * strengthOf(hessianAt(brick, i, spacing)));
+        best = std::max(best, variance * measureStrength(hessianAt(brick, i, spacing)));
       });
     }
   };

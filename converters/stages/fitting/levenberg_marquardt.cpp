@@ -23,10 +23,10 @@ constexpr double kWorthTrying = 0.1;
 constexpr double kFloor = 1e-14;
 
 /// Moves a centre that is outside all balls to the surface of the nearest one.
-void keepWithin(std::span<const Ball> balls, Blob& blob) {
-  const Ball* nearest = nullptr;
+void keepWithin(std::span<const FitBall> balls, Blob& blob) {
+  const FitBall* nearest = nullptr;
   double away = 0, least = std::numeric_limits<double>::infinity();
-  for (const Ball& ball : balls) {
+  for (const FitBall& ball : balls) {
     const double dx = blob.x - ball.centre.x, dy = blob.y - ball.centre.y;
     const double dz = blob.z - ball.centre.z;
     const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);

@@ -17,7 +17,7 @@
 namespace lumen::convert::fitting {
 
 /// A ball in the fit's frame.
-struct Ball {
+struct FitBall {
   formats::Vec3d centre;
   double radius = 0;
 };
@@ -29,7 +29,7 @@ struct MinimiseOptions {
   /// No centre moves farther from the origin.
   double reach = std::numeric_limits<double>::infinity();
   /// No centre moves out of the union of these balls, if there are any.
-  std::span<const Ball> lumen = {};
+  std::span<const FitBall> lumen = {};
 };
 
 struct MinimiseResult {

@@ -21,7 +21,7 @@ constexpr double kCurvatureSpread = 0.5;
 constexpr double kWidthSpread = 0.1;
 /// Blobs stay within this many times the distance of the farthest point from the node: those of a
 /// good model lie inside the vessel. Those that get there are dropped.
-constexpr double kReach = 1.5;
+constexpr double kReachShare = 1.5;
 /// Share of the reach from which a blob counts as having reached its end, for rounding.
 constexpr double kAtReach = 0.999;
 /// No blob is farther than this many radii of the node from all points, if nothing else is known
@@ -56,8 +56,8 @@ EnergyParameters scaledEnergy(const NodeProblem& problem) {
 }  // namespace
 
 NodeProblem makeProblem(const LocalModelOptions& options, const NodeData& node,
-                        std::vector<Ball>& around) {
-  const double reach = std::min(options.maxDistance, kReach * farthestFromOrigin(node.points));
+                        std::vector<FitBall>& around) {
+  const double reach = std::min(options.maxDistance, kReachShare * farthestFromOrigin(node.points));
   const double bulge = node.bulges * node.radius;
   if (!node.lumen.empty()) return {options, node.radius, bulge, reach, node.lumen};
   // at least no blob is farther from all points than the middle of the vessel is

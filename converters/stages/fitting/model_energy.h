@@ -12,22 +12,22 @@ namespace lumen::convert::fitting {
 /// Constants of the fit of one node.
 struct NodeProblem {
   const LocalModelOptions& options;
-  double radius;                ///< radius of the node
-  double bulge;                 ///< radius of the wall's finest bulges
-  double reach;                 ///< no centre moves farther from the node
-  std::span<const Ball> lumen;  ///< no centre moves out of their union
+  double radius;                   ///< radius of the node
+  double bulge;                    ///< radius of the wall's finest bulges
+  double reach;                    ///< no centre moves farther from the node
+  std::span<const FitBall> lumen;  ///< no centre moves out of their union
 };
 
 /// Buffers of fits, kept from one to the next, and the energy at work. One per thread.
 struct FitWorkspace {
   Energy energy{EnergyParameters{}};
   MinimiseWorkspace minimiser;
-  std::vector<Ball> around;
+  std::vector<FitBall> around;
 };
 
 /// `around` is filled where the node does not state its inside.
 NodeProblem makeProblem(const LocalModelOptions& options, const NodeData& node,
-                        std::vector<Ball>& around);
+                        std::vector<FitBall>& around);
 
 /// Sets `energy` up with the node's points, in weights for its radius, so that it measures
 /// distances of models like `blobs`.

@@ -27,7 +27,7 @@ struct NodeData {
   /// Inscribed balls of the neighbourhood: the centre of every blob stays in one of them. Where the
   /// points end, a wide blob out there would fit them as well as a good one. If empty, blobs stay
   /// close to the points.
-  std::span<const Ball> lumen = {};
+  std::span<const FitBall> lumen = {};
   /// Starting model; if empty, two blobs along the direction.
   std::span<const Blob> start = {};
   /// Radius of the wall's finest bulges, as a share of the radius. A tube's wall has none, a sac's

@@ -111,7 +111,7 @@ bool NodeModels::isInSac(std::uint32_t node) const {
 }
 
 /// The ball of a node, in the frame of another.
-Ball NodeModels::ball(std::uint32_t frame, std::uint32_t node) const {
+FitBall NodeModels::ball(std::uint32_t frame, std::uint32_t node) const {
   return {toLocal(frame, m_tree.centre[node]), m_tree.radius[node] * m_scale};
 }
 
@@ -157,7 +157,7 @@ void NodeModels::gatherSeams(std::uint32_t node, std::vector<Vec3d>& seams) cons
 /// Finds the seam of a node and its parent: halfway, or on the surface of the one that is kept.
 void NodeModels::findSeam(std::uint32_t node) {
   const auto parent = static_cast<std::uint32_t>(m_tree.parent[node]);
-  std::vector<Ball> others;
+  std::vector<FitBall> others;
   for (const std::uint32_t end : {node, parent}) {
     for (const std::uint32_t near : m_neighbours.within(end, kSeamNeighbourhood)) {
       if (near != node && near != parent) others.push_back(ball(node, near));

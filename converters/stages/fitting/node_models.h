@@ -40,12 +40,12 @@ private:
   struct Worker {
     FitWorkspace workspace;
     std::vector<formats::Vec3d> points, seams;
-    std::vector<Ball> lumen;
+    std::vector<FitBall> lumen;
   };
 
   [[nodiscard]] formats::Vec3d toLocal(std::uint32_t node, const formats::Vec3f& p) const;
   [[nodiscard]] bool isInSac(std::uint32_t node) const;
-  [[nodiscard]] Ball ball(std::uint32_t frame, std::uint32_t node) const;
+  [[nodiscard]] FitBall ball(std::uint32_t frame, std::uint32_t node) const;
   [[nodiscard]] NodeData data(std::uint32_t node, const Worker& worker) const;
 
   template <class Action>

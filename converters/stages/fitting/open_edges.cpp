@@ -18,7 +18,7 @@ namespace {
 
 /// Width of the passage that an opening makes, as a share of the edge's lesser radius. A wider one
 /// moves the wall.
-constexpr double kWay = 0.4;
+constexpr double kPassageRadii = 0.4;
 /// Excess of the field over the iso-level where it was too low, as a share of the level.
 constexpr double kExcess = 0.1;
 /// The most turns. An opening may be incomplete where other nodes answer than at its middle; the
@@ -43,7 +43,7 @@ std::vector<std::uint32_t> ownersAt(const field::BlendedField& field,
   const double p[3] = {closed.place.x, closed.place.y, closed.place.z};
   std::vector<std::uint32_t> owners;
   field::visitActiveNodes(closed.cursor, [&](std::uint32_t k, field::ActiveNodes& active) {
-    const bool blends = field::weightOf<1>(field, k, p, active).value > 0;
+    const bool blends = field::blendWeight<1>(field, k, p, active).value > 0;
     if (blends) owners.push_back(field.lender(k));
     return blends;
   });
@@ -84,7 +84,7 @@ void openEdge(const field::BlendedField& field, const formats::BlobbyModels& mod
 using MayOpen = std::function<bool(std::uint32_t)>;
 
 /// The blobs that open the closed edges.
-NewBlobs openingsOf(const formats::Case& value, const MayOpen& mayOpen) {
+NewBlobs findOpenings(const formats::Case& value, const MayOpen& mayOpen) {
   const field::BlendedField field = formats::caseField(value);
   std::map<std::uint32_t, std::vector<Lack>> closed;  // by the edge's farther end
   formats::findClosedPlaces(value.tree, field, [&](const formats::ClosedPlace& at) {
@@ -95,7 +95,8 @@ NewBlobs openingsOf(const formats::Case& value, const MayOpen& mayOpen) {
   });
   NewBlobs added;
   for (auto& [node, lacks] : closed)
-    openEdge(field, *value.models, std::move(lacks), kWay * radiusAlong(value.tree, node), added);
+    openEdge(field, *value.models, std::move(lacks), kPassageRadii * radiusAlong(value.tree, node),
+             added);
   return added;
 }
 
@@ -124,7 +125,7 @@ formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBl
 
 void openEdges(formats::Case& target, const MayOpen& mayOpen) {
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    const NewBlobs added = openingsOf(target, mayOpen);
+    const NewBlobs added = findOpenings(target, mayOpen);
     if (added.empty()) return;
     target.models = withBlobs(*target.models, added);
   }

@@ -83,19 +83,20 @@ private:
   double m_unit;
 };
 
-double power(const Ball& ball, const Vector3d& p) {
+double power(const FitBall& ball, const Vector3d& p) {
   return (p - toEigen(ball.centre)).squaredNorm() - ball.radius * ball.radius;
 }
 
 }  // namespace
 
 std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide& first,
-                              const SeamSide& second, std::span<const Ball> others, double share) {
+                              const SeamSide& second, std::span<const FitBall> others,
+                              double share) {
   std::vector<Vec3d> points;
-  const Vector3d from = toEigen(first.node.centre), way = toEigen(second.node.centre) - from;
-  const double distance = way.norm(), r0 = first.node.radius, r1 = second.node.radius;
+  const Vector3d from = toEigen(first.node.centre), chord = toEigen(second.node.centre) - from;
+  const double distance = chord.norm(), r0 = first.node.radius, r1 = second.node.radius;
   if (!(distance > 0)) return points;
-  const Vector3d normal = way / distance;
+  const Vector3d normal = chord / distance;
   const Vector3d origin = from + 0.5 * (distance + (r0 - r1) * (r0 + r1) / distance) * normal;
   const auto [side, up] = planeBasis(normal);
   const double farthest = kFarthestApart * std::min(r0, r1);
@@ -109,7 +110,7 @@ std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide
     const Vector3d p = origin + ((1 - share) * *a + share * *b) * direction;
     const double own = power(first.node, p);
     if (std::any_of(others.begin(), others.end(),
-                    [&](const Ball& other) { return power(other, p) < own; })) {
+                    [&](const FitBall& other) { return power(other, p) < own; })) {
       continue;
     }
     points.push_back(toVec3d(p));

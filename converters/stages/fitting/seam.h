@@ -13,7 +13,7 @@ namespace lumen::convert::fitting {
 
 /// A node and its model. All centres are in one frame; the blobs are in the frame of their node.
 struct SeamSide {
-  Ball node;
+  FitBall node;
   std::span<const Blob> blobs;
 };
 
@@ -26,7 +26,7 @@ constexpr std::size_t kSeamRays = kRingSize;
 /// only, where they are farther apart than half of the narrower radius, or where one of `others`
 /// has a smaller power.
 std::vector<formats::Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide& first,
-                                       const SeamSide& second, std::span<const Ball> others,
+                                       const SeamSide& second, std::span<const FitBall> others,
                                        double share = 0.5);
 
 }  // namespace lumen::convert::fitting

@@ -50,11 +50,11 @@ std::vector<Blob> placeAlongVessel(const EnergyParameters& parameters, const Nod
   return blobs;
 }
 
-std::vector<Blob> placeInLumen(const EnergyParameters& parameters, std::span<const Ball> lumen) {
+std::vector<Blob> placeInLumen(const EnergyParameters& parameters, std::span<const FitBall> lumen) {
   std::vector<Blob> blobs;
-  std::vector<const Ball*> kept;
-  for (const Ball& ball : lumen) {
-    const auto isNear = [&](const Ball* other) {
+  std::vector<const FitBall*> kept;
+  for (const FitBall& ball : lumen) {
+    const auto isNear = [&](const FitBall* other) {
       const double dx = ball.centre.x - other->centre.x, dy = ball.centre.y - other->centre.y;
       const double dz = ball.centre.z - other->centre.z;
       const double apart = kBallsApart * std::max(ball.radius, other->radius);

@@ -13,6 +13,6 @@ namespace lumen::convert::fitting {
 std::vector<Blob> placeAlongVessel(const EnergyParameters& parameters, const NodeData& node);
 
 /// A blob in every inscribed ball that is not mostly in another one's.
-std::vector<Blob> placeInLumen(const EnergyParameters& parameters, std::span<const Ball> lumen);
+std::vector<Blob> placeInLumen(const EnergyParameters& parameters, std::span<const FitBall> lumen);
 
 }  // namespace lumen::convert::fitting

@@ -15,20 +15,20 @@ using Eigen::Vector3d;
 
 /// Edges along the tree within which another branch's lumen opens the wall: a bridge that leaves
 /// its parent has that many nodes beside it.
-constexpr int kNear = 12;
+constexpr int kNearEdges = 12;
 
 }  // namespace
 
 std::vector<std::vector<formats::Vec3f>> pointsOfUnmeasured(const formats::Case& value,
                                                             const formats::Neighbours& neighbours) {
   const formats::CenterlineTree& tree = value.tree;
-  const auto origins = formats::nodeOriginsOf(value);
+  const auto origins = formats::readNodeOrigins(value);
   std::vector<std::vector<formats::Vec3f>> points(tree.nodeCount());
   for (std::uint32_t node = 0; node < tree.nodeCount(); ++node) {
     const bool hasPoints =
         value.points && value.points->offset[node] < value.points->offset[node + 1];
     if (origins[node] == formats::NodeOrigin::Measured || hasPoints) continue;
-    const std::vector<std::uint32_t> near = neighbours.within(node, kNear);
+    const std::vector<std::uint32_t> near = neighbours.within(node, kNearEdges);
     const Vector3d centre = toEigen(tree.centre[node]);
     const auto [u, v] = planeBasis(toEigen(tree.direction[node]));
     for (std::size_t i = 0; i < fitting::kRingSize; ++i) {

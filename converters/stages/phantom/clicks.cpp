@@ -21,7 +21,7 @@ std::uint32_t nodeAt(const formats::CenterlineTree& tree, const formats::Branch&
 // A point at most `reach` off the axis at `node`, uniform over the disc.
 Vector3d besideAxis(const formats::CenterlineTree& tree, std::uint32_t node, double reach,
                     Random& random) {
-  const auto [u, v] = normalsOf(nodeDirection(tree, node));
+  const auto [u, v] = perpendiculars(nodeDirection(tree, node));
   const double r = reach * std::sqrt(random.uniform());
   const double angle = 2 * std::numbers::pi * random.uniform();
   return nodeCentre(tree, node) + r * (std::cos(angle) * u + std::sin(angle) * v);
@@ -37,7 +37,7 @@ SeedBranch clickRoot(const formats::CenterlineTree& tree, const formats::Branch&
   SeedBranch seed;
   seed.points.push_back({besideAxis(tree, node, 0.1 * radiusOf(tree, node), random),
                          about(radiusOf(tree, node), random)});
-  const auto [u, v] = normalsOf(nodeDirection(tree, node));
+  const auto [u, v] = perpendiculars(nodeDirection(tree, node));
   const double tilt = std::tan(std::numbers::pi / 18) * random.uniform();
   const double angle = 2 * std::numbers::pi * random.uniform();
   seed.direction =

@@ -49,8 +49,8 @@ std::int32_t keptParent(const formats::CenterlineTree& tree, const formats::Bran
 
 // The first node that is `away` mm from the axis of the parent, or the last within
 // `kFarthestStart` times `parentRadius` along the branch.
-std::uint32_t clearOf(const formats::CenterlineTree& tree, const formats::Branch& branch,
-                      const formats::Branch& parent, double away, double parentRadius) {
+std::uint32_t firstNodeAway(const formats::CenterlineTree& tree, const formats::Branch& branch,
+                            const formats::Branch& parent, double away, double parentRadius) {
   const auto farthest =
       branch.firstNode +
       static_cast<std::uint32_t>(
@@ -66,7 +66,7 @@ std::uint32_t clearOf(const formats::CenterlineTree& tree, const formats::Branch
 }
 
 Vector3d clickAt(const formats::CenterlineTree& tree, std::uint32_t node, Random& random) {
-  const auto [u, v] = normalsOf(nodeDirection(tree, node));
+  const auto [u, v] = perpendiculars(nodeDirection(tree, node));
   const double angle = 2 * std::numbers::pi * random.uniform();
   return nodeCentre(tree, node) +
          kOffAxis * radiusAt(tree, node) * (std::cos(angle) * u + std::sin(angle) * v);
@@ -90,8 +90,8 @@ SeedBranch click(const formats::CenterlineTree& tree, const formats::Branch& bra
   }
   const auto parentNode = static_cast<std::uint32_t>(branch.parentNode);
   const double parentRadius = radiusAt(tree, parentNode);
-  const std::uint32_t node = clearOf(tree, branch, tree.branches[tree.branch[parentNode]],
-                                     random.uniform(1.5, 1.75) * parentRadius, parentRadius);
+  const std::uint32_t node = firstNodeAway(tree, branch, tree.branches[tree.branch[parentNode]],
+                                           random.uniform(1.5, 1.75) * parentRadius, parentRadius);
   seed.points.push_back({clickAt(tree, node, random), std::nullopt});
   const auto kept = static_cast<std::uint32_t>(keptNode);
   if (radiusAt(tree, node) < 0.5 * radiusAt(tree, kept))

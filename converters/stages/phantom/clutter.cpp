@@ -24,7 +24,7 @@ constexpr double kVoidCore = 1.5;   // radii to either side, where the loss is f
 constexpr double kVoidLoss = 0.95;  // share of the contrast that flow loses
 constexpr std::uint64_t kStream = 0x636c7574746572ULL;  // a stream of its own for each kind
 
-Random randomOf(Clutter kind, std::uint64_t seed) {
+Random seededRandom(Clutter kind, std::uint64_t seed) {
   return Random(seed, kStream + static_cast<std::uint64_t>(kind));
 }
 
@@ -41,28 +41,28 @@ struct Shapes {
   std::optional<Image> inside;       ///< occupancy of the vessels, where it is not the image's
 };
 
-Shapes shapesOf(const std::set<Clutter>& kinds, const Design& design, const VolumeGeometry& grid,
-                std::uint64_t seed, Progress& progress) {
+Shapes makeShapes(const std::set<Clutter>& kinds, const Design& design, const VolumeGeometry& grid,
+                  std::uint64_t seed, Progress& progress) {
   const double voxel = grid.spacing.x();
   const formats::CenterlineTree& tree = design.tree;
   Shapes shapes;
   const auto drawn = [&](Clutter kind, double reach, auto make) -> std::optional<Image> {
     if (!kinds.contains(kind)) return std::nullopt;
-    Random random = randomOf(kind, seed);
-    const std::optional<Stretch> stretch = pickStretch(tree, reach, random);
+    Random random = seededRandom(kind, seed);
+    const std::optional<BranchStretch> stretch = pickStretch(tree, reach, random);
     if (!stretch || stretch->first == stretch->last) return std::nullopt;
     return drawOccupancy(make(tree, *stretch, voxel, random), grid, progress);
   };
   shapes.vein = drawn(Clutter::Vein, kVeinReach, veinAlong);
   shapes.stent = drawn(Clutter::Stent, kStentReach, stentIn);
   if (kinds.contains(Clutter::Bone)) {
-    Random random = randomOf(Clutter::Bone, seed);
+    Random random = seededRandom(Clutter::Bone, seed);
     const double extent = voxel * *std::max_element(grid.size.begin(), grid.size.end());
     if (const auto stretch = pickStretch(tree, 0, random))
       shapes.bone.emplace(tree, *stretch, extent, voxel, random);
   }
   if (kinds.contains(Clutter::Streaks)) {
-    Random random = randomOf(Clutter::Streaks, seed);
+    Random random = seededRandom(Clutter::Streaks, seed);
     if (const auto stretch = pickStretch(tree, 0, random))
       shapes.streaks.emplace(tree, *stretch, voxel, random);
   }
@@ -119,8 +119,8 @@ std::set<Clutter> parseClutter(const std::string& list) {
 
 void loseFlow(const std::set<Clutter>& kinds, std::uint64_t seed, Design& design) {
   if (!kinds.contains(Clutter::Void)) return;
-  Random random = randomOf(Clutter::Void, seed);
-  const std::optional<Stretch> stretch = pickStretch(design.tree, kVoidReach, random);
+  Random random = seededRandom(Clutter::Void, seed);
+  const std::optional<BranchStretch> stretch = pickStretch(design.tree, kVoidReach, random);
   if (!stretch) return;
   const formats::CenterlineTree& tree = design.tree;
   const auto radius = static_cast<double>(tree.radius[stretch->middle]);
@@ -144,7 +144,7 @@ std::size_t clutterSteps(const std::set<Clutter>& kinds, const Design& design,
 void addClutter(const std::set<Clutter>& kinds, const Design& design, const VolumeGeometry& grid,
                 std::uint64_t seed, Image& image, Progress& progress) {
   if (kinds.empty()) return;
-  const Shapes shapes = shapesOf(kinds, design, grid, seed, progress);
+  const Shapes shapes = makeShapes(kinds, design, grid, seed, progress);
   tbb::parallel_for(0, grid.size[2], [&](int z) {
     progress.check();
     for (int y = 0; y < grid.size[1]; ++y) {

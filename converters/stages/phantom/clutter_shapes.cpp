@@ -27,8 +27,8 @@ constexpr double kLeastWire = 0.3;   // voxels: thinner wires vanish between sub
 constexpr double kSlabShare = 0.35;  // half width of the bone, as a share of the volume's edge
 
 // A unit vector across the vessel at a node.
-Vector3d sideOf(const formats::CenterlineTree& tree, std::uint32_t node, Random& random) {
-  const auto [u, v] = normalsOf(nodeDirection(tree, node));
+Vector3d randomSide(const formats::CenterlineTree& tree, std::uint32_t node, Random& random) {
+  const auto [u, v] = perpendiculars(nodeDirection(tree, node));
   const double angle = 2 * kPi * random.uniform();
   return std::cos(angle) * u + std::sin(angle) * v;
 }
@@ -40,13 +40,13 @@ double shareWithin(double distance, double voxel) {
 
 // Unit vectors across the vessel at each node of a stretch, which turn with it and no more.
 std::vector<std::pair<Vector3d, Vector3d>> framesAlong(const formats::CenterlineTree& tree,
-                                                       const Stretch& stretch) {
+                                                       const BranchStretch& stretch) {
   std::vector<std::pair<Vector3d, Vector3d>> frames;
-  Vector3d u = normalsOf(nodeDirection(tree, stretch.first)).first;
+  Vector3d u = perpendiculars(nodeDirection(tree, stretch.first)).first;
   for (std::uint32_t n = stretch.first; n <= stretch.last; ++n) {
     const Vector3d w = nodeDirection(tree, n);
     const Vector3d across = u - u.dot(w) * w;
-    u = across.norm() > 1e-6 ? across.normalized() : normalsOf(w).first;
+    u = across.norm() > 1e-6 ? across.normalized() : perpendiculars(w).first;
     frames.emplace_back(u, w.cross(u));
   }
   return frames;
@@ -54,8 +54,8 @@ std::vector<std::pair<Vector3d, Vector3d>> framesAlong(const formats::Centerline
 
 }  // namespace
 
-std::optional<Stretch> pickStretch(const formats::CenterlineTree& tree, double reach,
-                                   Random& random) {
+std::optional<BranchStretch> pickStretch(const formats::CenterlineTree& tree, double reach,
+                                         Random& random) {
   std::vector<float> radii = tree.radius;
   if (radii.empty()) return std::nullopt;
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
@@ -76,14 +76,14 @@ std::optional<Stretch> pickStretch(const formats::CenterlineTree& tree, double r
       static_cast<std::uint32_t>(std::min(1e9, reach * radiusOf(tree, middle) / height));
   const std::uint32_t before = middle - branch.firstNode,
                       after = branch.firstNode + branch.nodeCount - 1 - middle;
-  return Stretch{middle, middle - std::min(before, steps), middle + std::min(after, steps)};
+  return BranchStretch{middle, middle - std::min(before, steps), middle + std::min(after, steps)};
 }
 
-Bone::Bone(const formats::CenterlineTree& tree, const Stretch& stretch, double extent, double voxel,
-           Random& random)
+Bone::Bone(const formats::CenterlineTree& tree, const BranchStretch& stretch, double extent,
+           double voxel, Random& random)
     : m_voxel(voxel) {
   const double radius = radiusOf(tree, stretch.middle);
-  m_axis = sideOf(tree, stretch.middle, random);
+  m_axis = randomSide(tree, stretch.middle, random);
   const double gap = random.uniform(0, 0.5) * radius;
   m_half = kSlabShare * extent;
   m_bend = 2 * m_half;
@@ -114,13 +114,13 @@ double Bone::at(const Vector3d& place) const {
   return shareWithin(-inner, m_voxel) * (cortex * kCortex + (1 - cortex) * spongy(place));
 }
 
-Streaks::Streaks(const formats::CenterlineTree& tree, const Stretch& stretch, double voxel,
+Streaks::Streaks(const formats::CenterlineTree& tree, const BranchStretch& stretch, double voxel,
                  Random& random)
     : m_voxel(voxel) {
   const double radius = radiusOf(tree, stretch.middle);
   m_radius = std::max(0.75 * radius, 2 * voxel);
   m_centre = nodeCentre(tree, stretch.middle) +
-             (4 * radius + m_radius) * sideOf(tree, stretch.middle, random);
+             (4 * radius + m_radius) * randomSide(tree, stretch.middle, random);
   m_phase = 2 * kPi * random.uniform();
   m_phase2 = 2 * kPi * random.uniform();
 }
@@ -140,7 +140,7 @@ double Streaks::streak(const Vector3d& place) const {
   return kStreak * (1 - across * across) * m_radius / away * rays;
 }
 
-Design veinAlong(const formats::CenterlineTree& tree, const Stretch& stretch, double voxel,
+Design veinAlong(const formats::CenterlineTree& tree, const BranchStretch& stretch, double voxel,
                  Random& random) {
   const auto frames = framesAlong(tree, stretch);
   const double begin = 2 * kPi * random.uniform();
@@ -160,7 +160,7 @@ Design veinAlong(const formats::CenterlineTree& tree, const Stretch& stretch, do
   return builder.design();
 }
 
-Design stentIn(const formats::CenterlineTree& tree, const Stretch& stretch, double voxel,
+Design stentIn(const formats::CenterlineTree& tree, const BranchStretch& stretch, double voxel,
                Random& random) {
   const auto frames = framesAlong(tree, stretch);
   const double begin = 2 * kPi * random.uniform();

@@ -14,7 +14,7 @@
 namespace lumen::convert {
 
 /// A node of a vessel, and the nodes of its branch around it.
-struct Stretch {
+struct BranchStretch {
   std::uint32_t middle = 0;
   std::uint32_t first = 0, last = 0;  ///< within the branch of `middle`
 };
@@ -22,15 +22,15 @@ struct Stretch {
 /// A random node in the middle half of a branch that is no aneurysm, no narrower than half of the
 /// nodes are, with the nodes of its branch that lie within `reach` radii of it along the branch.
 /// None for a design without such a branch.
-std::optional<Stretch> pickStretch(const formats::CenterlineTree& tree, double reach,
-                                   Random& random);
+std::optional<BranchStretch> pickStretch(const formats::CenterlineTree& tree, double reach,
+                                         Random& random);
 
 /// A curved slab: part of a shell around a centre.
 class Bone {
 public:
   /// Its inner face passes the wall of the vessel at `stretch` at 0 to half a radius, and bends around it.
-  Bone(const formats::CenterlineTree& tree, const Stretch& stretch, double extent, double voxel,
-       Random& random);
+  Bone(const formats::CenterlineTree& tree, const BranchStretch& stretch, double extent,
+       double voxel, Random& random);
   /// Intensity at a place, as a share of the vessels' contrast; 0 outside.
   [[nodiscard]] double at(const Eigen::Vector3d& place) const;
 
@@ -50,7 +50,7 @@ private:
 class Streaks {
 public:
   /// The ball lies three radii off the wall of the vessel at `stretch`.
-  Streaks(const formats::CenterlineTree& tree, const Stretch& stretch, double voxel,
+  Streaks(const formats::CenterlineTree& tree, const BranchStretch& stretch, double voxel,
           Random& random);
   /// Intensity of the ball; 0 outside.
   [[nodiscard]] double ball(const Eigen::Vector3d& place) const;
@@ -64,11 +64,11 @@ private:
 
 /// A tube along the vessel of `stretch`, 1.3 times as wide, that winds half around it at a tenth of
 /// the sum of both radii off its wall.
-Design veinAlong(const formats::CenterlineTree& tree, const Stretch& stretch, double voxel,
+Design veinAlong(const formats::CenterlineTree& tree, const BranchStretch& stretch, double voxel,
                  Random& random);
 
 /// Wires in the wall of `stretch`: four helices in either direction, at 45 degrees.
-Design stentIn(const formats::CenterlineTree& tree, const Stretch& stretch, double voxel,
+Design stentIn(const formats::CenterlineTree& tree, const BranchStretch& stretch, double voxel,
                Random& random);
 
 }  // namespace lumen::convert

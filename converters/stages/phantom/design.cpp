@@ -123,18 +123,19 @@ void TreeBuilder::link(std::uint32_t from, std::uint32_t to) {
 
 void fadeContrast(Design& design, double share) {
   const formats::CenterlineTree& tree = design.tree;
-  std::vector<double> way;
+  std::vector<double> fromRoot;
   double farthest = 0;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
     const auto parent = static_cast<std::uint32_t>(tree.parent[n]);
-    way.push_back(tree.parent[n] == formats::kNoParent
-                      ? 0
-                      : way[parent] + (nodeCentre(tree, n) - nodeCentre(tree, parent)).norm());
-    farthest = std::max(farthest, way.back());
+    fromRoot.push_back(tree.parent[n] == formats::kNoParent
+                           ? 0
+                           : fromRoot[parent] +
+                                 (nodeCentre(tree, n) - nodeCentre(tree, parent)).norm());
+    farthest = std::max(farthest, fromRoot.back());
   }
   if (share == 0 || farthest == 0) return;
-  for (std::size_t n = 0; n < way.size(); ++n)
-    design.contrast[n] *= static_cast<float>(1 - share * way[n] / farthest);
+  for (std::size_t n = 0; n < fromRoot.size(); ++n)
+    design.contrast[n] *= static_cast<float>(1 - share * fromRoot[n] / farthest);
 }
 
 Eigen::Vector3d nodeCentre(const formats::CenterlineTree& tree, std::uint32_t node) {
@@ -151,7 +152,7 @@ double radiusOf(const formats::CenterlineTree& tree, std::uint32_t node) {
   return static_cast<double>(tree.radius[node]);
 }
 
-std::pair<Eigen::Vector3d, Eigen::Vector3d> normalsOf(const Eigen::Vector3d& w) {
+std::pair<Eigen::Vector3d, Eigen::Vector3d> perpendiculars(const Eigen::Vector3d& w) {
   const Eigen::Vector3d other =
       std::abs(w.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   const Eigen::Vector3d u = w.cross(other).normalized();

@@ -82,7 +82,7 @@ double radiusOf(const formats::CenterlineTree& tree, std::uint32_t node);
 
 /// Two unit vectors that make a right-handed orthonormal frame with the unit vector `w`. Not
 /// planeBasis() of vectors.h, which turns them otherwise: phantoms would change.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> normalsOf(const Eigen::Vector3d& w);
+std::pair<Eigen::Vector3d, Eigen::Vector3d> perpendiculars(const Eigen::Vector3d& w);
 
 /// Uniform in the cube [-1, 1)^3. The coordinates are drawn one after the other: the order in which
 /// a call's arguments are evaluated depends on the compiler.

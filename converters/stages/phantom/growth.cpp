@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d acrossOf(const Vector3d& v, const Vector3d& tangent) {
+Vector3d partAcross(const Vector3d& v, const Vector3d& tangent) {
   return v - v.dot(tangent) * tangent;
 }
 
@@ -49,7 +49,7 @@ private:
     if (m_others.clearance < m_surroundings.gap()) return false;
     m_ownParent = {};
     if (m_request.parent >= 0) {
-      m_ownParent = m_surroundings.nearestOf(m_request.parent, m_point, m_radius);
+      m_ownParent = m_surroundings.nearestOnBranch(m_request.parent, m_point, m_radius);
       const bool clear = m_ownParent.clearance >= m_surroundings.gap();
       if (m_left && !clear) return false;
       if (!m_left && !clear && m_arc > m_request.freeLength) return false;
@@ -77,17 +77,18 @@ private:
     for (double& coordinate : noise) coordinate = m_random.normal();
     m_wander += -m_wander * (m_step / memory) + sigma * std::sqrt(2 * m_step / memory) * noise;
     if (m_arc < m_request.straight) return;
-    Vector3d curvature = acrossOf(m_wander, m_tangent);
-    curvature += 0.4 * strongest * acrossOf((m_request.target - m_point).normalized(), m_tangent);
+    Vector3d curvature = partAcross(m_wander, m_tangent);
+    curvature += 0.4 * strongest * partAcross((m_request.target - m_point).normalized(), m_tangent);
     // turn away from walls that are near, the parent's own once it is left behind
     const double comfort = m_surroundings.gap() + 2.5 * m_radius + 1.2;
     const auto avoid = [&](const Surroundings::Nearest& near) {
       const double closeness = 1 - near.clearance / comfort;
-      if (closeness > 0) curvature += 1.5 * strongest * closeness * acrossOf(near.away, m_tangent);
+      if (closeness > 0)
+        curvature += 1.5 * strongest * closeness * partAcross(near.away, m_tangent);
     };
     avoid(m_others);
     if (m_left) avoid(m_ownParent);
-    curvature += strongest * acrossOf(inwards(), m_tangent);
+    curvature += strongest * partAcross(inwards(), m_tangent);
     const double size = curvature.norm();
     if (size > strongest) curvature *= strongest / size;
     m_tangent = (m_tangent + m_step * curvature).normalized();
@@ -136,8 +137,8 @@ template <class Accept>
 Surroundings::Nearest Surroundings::nearest(const Vector3d& point, double radius,
                                             Accept accept) const {
   Nearest best;
-  const Ball* found = nullptr;
-  for (const Ball& ball : m_balls) {
+  const BranchBall* found = nullptr;
+  for (const BranchBall& ball : m_balls) {
     if (!accept(ball.branch)) continue;
     const double reach = best.clearance + ball.radius + radius;
     const double squared = (point - ball.centre).squaredNorm();
@@ -154,8 +155,8 @@ Surroundings::Nearest Surroundings::nearestBut(int except, const Vector3d& point
   return nearest(point, radius, [except](int branch) { return branch != except; });
 }
 
-Surroundings::Nearest Surroundings::nearestOf(int branch, const Vector3d& point,
-                                              double radius) const {
+Surroundings::Nearest Surroundings::nearestOnBranch(int branch, const Vector3d& point,
+                                                    double radius) const {
   return nearest(point, radius, [branch](int other) { return other == branch; });
 }
 

@@ -31,7 +31,8 @@ public:
   /// The ball nearest to that of `radius` at `point` among the branches other than `except`.
   [[nodiscard]] Nearest nearestBut(int except, const Eigen::Vector3d& point, double radius) const;
   /// The ball nearest to that of `radius` at `point` among the balls of `branch` only.
-  [[nodiscard]] Nearest nearestOf(int branch, const Eigen::Vector3d& point, double radius) const;
+  [[nodiscard]] Nearest nearestOnBranch(int branch, const Eigen::Vector3d& point,
+                                        double radius) const;
   /// How far the ball lies within the box, mm; negative if it sticks out.
   [[nodiscard]] double depthInBox(const Eigen::Vector3d& point, double radius) const;
 
@@ -43,14 +44,14 @@ private:
   template <class Accept>
   [[nodiscard]] Nearest nearest(const Eigen::Vector3d& point, double radius, Accept accept) const;
 
-  struct Ball {
+  struct BranchBall {
     Eigen::Vector3d centre;
     double radius;
     int branch;
   };
   double m_gap;
   Eigen::Vector3d m_low, m_high;
-  std::vector<Ball> m_balls;
+  std::vector<BranchBall> m_balls;
 };
 
 /// Lengths in mm.

@@ -114,7 +114,7 @@ int pickParent(PatientTree& tree) {
     const double radius = branch.path[branch.path.size() / 2].radius;
     const bool bears = branch.kind == formats::BranchKind::Vessel &&
                        0.8 * branch.path.front().radius > tree.scale.smallestRadius;
-    weights.push_back(bears ? tree.lengthOf(static_cast<int>(b)) * std::sqrt(radius) /
+    weights.push_back(bears ? tree.measureLength(static_cast<int>(b)) * std::sqrt(radius) /
                                   static_cast<double>(1 + branch.origins.size())
                             : 0.0);
     sum += weights.back();
@@ -198,14 +198,14 @@ Vector3d PatientTree::tangentAt(int branch, std::size_t index) const {
   return (path[after].position - path[before].position).normalized();
 }
 
-double PatientTree::lengthOf(int branch) const {
+double PatientTree::measureLength(int branch) const {
   return step * static_cast<double>(branches[static_cast<std::size_t>(branch)].path.size() - 1);
 }
 
 std::optional<double> PatientTree::pickOrigin(int branch) {
   const GrownBranch& from = branches[static_cast<std::size_t>(branch)];
   const double first = 6 * from.path.front().radius,
-               last = lengthOf(branch) - 4 * from.path.back().radius;
+               last = measureLength(branch) - 4 * from.path.back().radius;
   if (last <= first) return std::nullopt;
   const double arc = random.uniform(first, last);
   const double apart = 4.5 * from.path[indexAt(branch, arc)].radius;

@@ -46,7 +46,7 @@ struct PatientTree {
   /// The point of a branch at an arc length, and the unit tangent there.
   [[nodiscard]] std::size_t indexAt(int branch, double arc) const;
   [[nodiscard]] Eigen::Vector3d tangentAt(int branch, std::size_t index) const;
-  [[nodiscard]] double lengthOf(int branch) const;
+  [[nodiscard]] double measureLength(int branch) const;
   /// An arc length from which a child of the branch may leave: away from its ends and from other
   /// children.
   std::optional<double> pickOrigin(int branch);

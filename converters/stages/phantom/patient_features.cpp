@@ -76,7 +76,7 @@ bool pickKiss(PatientTree& tree, Kiss& kiss) {
   const std::optional<double> origin = tree.pickOrigin(kiss.parent);
   if (!origin) return false;
   kiss.origin = tree.indexAt(kiss.parent, *origin);
-  const double length = tree.lengthOf(kiss.host),
+  const double length = tree.measureLength(kiss.host),
                begin = 2 + 4 * host.path.front().radius + 0.2 * tree.scale.contact;
   if (length < begin + tree.scale.contact + 2) return false;
   const double start = random.uniform(begin, length - tree.scale.contact - 1.9);
@@ -89,7 +89,7 @@ bool pickKiss(PatientTree& tree, Kiss& kiss) {
   if (ratio < 0.5 || ratio > 1.5) return false;
   const double away = (host.path[kiss.first].position - parent.path[kiss.origin].position).norm();
   if (away < 8 * kiss.radius || away > 60 * kiss.radius) return false;
-  const auto [u, v] = normalsOf(tree.tangentAt(kiss.host, kiss.first));
+  const auto [u, v] = perpendiculars(tree.tangentAt(kiss.host, kiss.first));
   const double angle = random.uniform(0, 2 * std::numbers::pi);
   kiss.side = std::cos(angle) * u + std::sin(angle) * v;
   return true;
@@ -149,7 +149,7 @@ bool leavesParent(const PatientTree& tree, const Kiss& kiss, const Path& path) {
   bool left = false;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool clear =
-        tree.surroundings.nearestOf(kiss.parent, path[i].position, kiss.radius).clearance >=
+        tree.surroundings.nearestOnBranch(kiss.parent, path[i].position, kiss.radius).clearance >=
         tree.surroundings.gap();
     if (left && !clear) return false;
     if (!clear && static_cast<double>(i) * tree.step > reach) return false;
@@ -166,7 +166,7 @@ bool fits(const PatientTree& tree, const Kiss& kiss, const Path& path) {
     for (std::size_t b = 0; b < tree.branches.size(); ++b) {
       const int branch = static_cast<int>(b);
       if (branch == kiss.parent) continue;
-      const double clearance = tree.surroundings.nearestOf(branch, p, kiss.radius).clearance;
+      const double clearance = tree.surroundings.nearestOnBranch(branch, p, kiss.radius).clearance;
       if (clearance < (branch == kiss.host ? -0.02 * kiss.radius : tree.surroundings.gap()))
         return false;
     }
@@ -196,7 +196,7 @@ Path departurePath(PatientTree& tree, const Kiss& kiss, const Path& contact) {
 }  // namespace
 
 bool addAneurysm(PatientTree& tree, int parent) {
-  const double length = tree.lengthOf(parent);
+  const double length = tree.measureLength(parent);
   for (int i = 0; i < kAneurysmTries; ++i) {
     const double arc = tree.random.uniform(0.3, 0.7) * length;
     const std::size_t at = tree.indexAt(parent, arc),
@@ -211,7 +211,7 @@ bool addAneurysm(PatientTree& tree, int parent) {
     if (curvature * tightestBend(path[at].radius) <
         0.6 * (1 - static_cast<double>(i) / kAneurysmTries))
       continue;
-    Vector3d out = -bend + 1e-9 * normalsOf(tangent).first;
+    Vector3d out = -bend + 1e-9 * perpendiculars(tangent).first;
     out = (out - out.dot(tangent) * tangent).normalized();
     const double radius = path[at].radius, sac = 1.5 * radius, neck = 0.55 * radius;
     GrownBranch branch;

@@ -8,7 +8,7 @@
 #include "converters/base/option_name.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/phantom/clutter.h"
-#include "converters/stages/phantom/scene.h"
+#include "converters/stages/phantom/phantom_scene.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 
@@ -61,7 +61,7 @@ void checkOptions(const PhantomOptions& options) {
   (void)parseClutter(options.clutter);
 }
 
-formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
+formats::Case describeTruth(const PhantomScene& scene, const PhantomOptions& options) {
   formats::Case truth;
   truth.tree = scene.design.tree;
   formats::Step step;
@@ -80,7 +80,7 @@ formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
   return truth;
 }
 
-VolumeGeometry geometryOf(const Scene& scene, const Image& image) {
+VolumeGeometry geometryOf(const PhantomScene& scene, const Image& image) {
   VolumeGeometry geometry = scene.grid;
   geometry.size[2] = image.size[2];
   geometry.spacing.z() *= scene.slice;
@@ -181,7 +181,7 @@ const std::vector<std::string>& phantomNames() {
 
 Phantom makePhantom(const PhantomOptions& options, Progress& progress) {
   checkOptions(options);
-  Scene scene =
+  PhantomScene scene =
       options.tree.empty() ? sceneOfName(options, progress) : sceneOfTree(options, progress);
   const std::set<Clutter> clutter = parseClutter(options.clutter);
   // drawing, two passes of the blur, and the noise each report every slice

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr float kFar = 1e6F;
+constexpr float kUndrawn = 1e6F;
 constexpr int kSubvoxels = 3;             // along each edge
 constexpr double kHalfDiagonal = 0.8661;  // half diagonal of a unit cube
 constexpr int kColumns = 64;              // adjacent lines that one pass across rows takes together
@@ -33,7 +33,7 @@ struct Segment {
   Vector3d low, high;  // mm: the box of the cone and of the voxels that it may share
 };
 
-std::vector<Segment> segmentsOf(const formats::CenterlineTree& tree, double margin) {
+std::vector<Segment> makeSegments(const formats::CenterlineTree& tree, double margin) {
   std::vector<Segment> segments;
   for (const formats::Branch& branch : tree.branches)
     for (std::uint32_t n = branch.firstNode; n + 1 < branch.firstNode + branch.nodeCount; ++n) {
@@ -69,8 +69,8 @@ void drawSegment(const Segment& segment, const VolumeGeometry& grid, int zFirst,
 }
 
 // Integrates occupancy times contrast over the voxel around `centre`.
-double occupancyOf(const TubeTreeDistance& wall, const std::vector<float>& contrast,
-                   const Vector3d& centre, double voxel, std::vector<std::uint32_t>& near) {
+double integrateOccupancy(const TubeTreeDistance& wall, const std::vector<float>& contrast,
+                          const Vector3d& centre, double voxel, std::vector<std::uint32_t>& near) {
   const double step = voxel / kSubvoxels;
   wall.collect(centre, kHalfDiagonal * voxel, near);
   double sum = 0;
@@ -78,7 +78,7 @@ double occupancyOf(const TubeTreeDistance& wall, const std::vector<float>& contr
     for (int j = 0; j < kSubvoxels; ++j)
       for (int i = 0; i < kSubvoxels; ++i) {
         const Vector3d offset = step * Vector3d(i - 1, j - 1, k - 1);
-        const WallHit hit = wall.nearestOf(near, centre + offset);
+        const WallHit hit = wall.nearestAmong(near, centre + offset);
         const double inside = std::clamp(0.5 - hit.distance / step, 0.0, 1.0);
         const double a = static_cast<double>(contrast[hit.node]);
         const double b =
@@ -173,9 +173,9 @@ void addBias(float* row, int n, int y, double z, const std::array<Wave, 4>& wave
 
 Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress) {
   const auto [nx, ny, nz] = grid.size;
-  Image image{grid.cells().size, std::vector<float>(grid.voxelCount(), kFar)};
+  Image image{grid.cells().size, std::vector<float>(grid.voxelCount(), kUndrawn)};
   const double rim = kHalfDiagonal * grid.spacing.x();
-  const std::vector<Segment> segments = segmentsOf(design.tree, rim);
+  const std::vector<Segment> segments = makeSegments(design.tree, rim);
   const TubeTreeDistance wall(design.tree);
   const bool uniform = std::all_of(design.contrast.begin(), design.contrast.end(),
                                    [](float c) { return c == 1.0F; });
@@ -200,8 +200,8 @@ Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& 
           else if (distance <= -rim && uniform)
             row[x] = 1;
           else
-            row[x] = static_cast<float>(occupancyOf(wall, design.contrast, centreOf(grid, x, y, z),
-                                                    grid.spacing.x(), near));
+            row[x] = static_cast<float>(integrateOccupancy(
+                wall, design.contrast, centreOf(grid, x, y, z), grid.spacing.x(), near));
         }
       }
       progress.advance();

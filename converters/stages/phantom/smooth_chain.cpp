@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSigma = 1.5;  // samples: the steps of voxels go, bends of a few samples stay
-constexpr int kReach = 6;
+constexpr int kKernelSamples = 6;
 
 // The value at a sample beyond an end: of positions such that the end stays where it is, of radii
 // that of the end.
@@ -30,7 +30,7 @@ Path smoothed(const Path& chain) {
   for (int i = 0; i < static_cast<int>(chain.size()); ++i) {
     PathPoint sum{Vector3d::Zero(), 0};
     double weights = 0;
-    for (int k = -kReach; k <= kReach; ++k) {
+    for (int k = -kKernelSamples; k <= kKernelSamples; ++k) {
       const double weight = formats::repeatableExp(-0.5 * k * k / (kSigma * kSigma));
       const PathPoint sample = sampleAt(chain, i + k);
       sum.position += weight * sample.position;
@@ -45,7 +45,7 @@ Path smoothed(const Path& chain) {
 }
 
 // The knots' parameters: chord lengths, of coincident knots a little.
-std::vector<double> intervalsOf(const Path& knots) {
+std::vector<double> computeIntervals(const Path& knots) {
   const double least = 1e-6 * pathLength(knots) + 1e-12;
   std::vector<double> h;
   for (std::size_t i = 1; i < knots.size(); ++i)
@@ -71,7 +71,7 @@ std::vector<Vector3d> secondDerivatives(const Path& knots, const std::vector<dou
 
 // Slopes of the monotone cubic: the weighted harmonic mean of the two secants, 0 where they differ
 // in sign and at the ends.
-std::vector<double> slopesOf(const Path& knots, const std::vector<double>& h) {
+std::vector<double> computeSlopes(const Path& knots, const std::vector<double>& h) {
   std::vector<double> slopes(knots.size(), 0.0);
   for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
     const double a = (knots[i].radius - knots[i - 1].radius) / h[i - 1];
@@ -85,7 +85,7 @@ std::vector<double> slopesOf(const Path& knots, const std::vector<double>& h) {
 
 Path splined(const Path& knots, double step) {
   if (knots.size() < 2) return knots;
-  const std::vector<double> h = intervalsOf(knots), slopes = slopesOf(knots, h);
+  const std::vector<double> h = computeIntervals(knots), slopes = computeSlopes(knots, h);
   const std::vector<Vector3d> second = secondDerivatives(knots, h);
   Path path{knots.front()};
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {

@@ -56,7 +56,7 @@ private:
       m_report.duplicatePoints += m_same[i] != i ? 1 : 0;
     m_report.vertices = m_mesh.position.size();
     m_report.triangles = m_mesh.triangle.size();
-    const Box3d box = boxOf(m_mesh);
+    const Box3d box = boundingBox(m_mesh);
     m_report.low = box.low;
     m_report.high = box.high;
   }
@@ -99,13 +99,14 @@ private:
   }
 
   void joinCorners(const EdgeUse& a, const EdgeUse& b) {
-    const bool sameWay = startOf(m_clean.triangle, a.side) == startOf(m_clean.triangle, b.side);
-    if (sameWay) {
+    const bool isSameDirection =
+        startOf(m_clean.triangle, a.side) == startOf(m_clean.triangle, b.side);
+    if (isSameDirection) {
       ++m_report.misorientedEdges;
       m_twisted[a.low] = true;
     }
-    m_corners.join(a.side, sameWay ? b.side : nextSide(b.side));
-    m_corners.join(nextSide(a.side), sameWay ? nextSide(b.side) : b.side);
+    m_corners.join(a.side, isSameDirection ? b.side : nextSide(b.side));
+    m_corners.join(nextSide(a.side), isSameDirection ? nextSide(b.side) : b.side);
   }
 
   /// Points whose triangles are several fans.

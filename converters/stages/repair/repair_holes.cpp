@@ -35,7 +35,7 @@ struct LoopShape {
   double length = 0;
 };
 
-LoopShape shapeOf(const TriangleMesh& mesh, const BoundaryLoop& loop) {
+LoopShape judgeLoop(const TriangleMesh& mesh, const BoundaryLoop& loop) {
   LoopShape shape;
   const std::size_t n = loop.vertex.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -51,7 +51,7 @@ LoopShape shapeOf(const TriangleMesh& mesh, const BoundaryLoop& loop) {
 bool isHole(const TriangleMesh& mesh, const BoundaryLoop& loop,
             const std::vector<std::uint32_t>& sides) {
   if (sides.size() == 3) return true;  // a triangle that is missing
-  const LoopShape shape = shapeOf(mesh, loop);
+  const LoopShape shape = judgeLoop(mesh, loop);
   const double area = shape.area.norm();
   const double circle = shape.length * shape.length / (4 * std::numbers::pi);
   if (!(area > kCrack * circle)) return true;
@@ -84,7 +84,7 @@ std::vector<std::vector<std::uint32_t>> loopSides(const MeshInRepair& work) {
   return loops;
 }
 
-BoundaryLoop loopOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& sides) {
+BoundaryLoop makeLoop(const TriangleMesh& mesh, const std::vector<std::uint32_t>& sides) {
   BoundaryLoop loop;
   for (const std::uint32_t s : sides) loop.vertex.push_back(startOf(mesh.triangle, s));
   measureLoop(mesh, loop);
@@ -152,7 +152,7 @@ private:
   std::vector<std::size_t> m_middle;
 };
 
-std::vector<Triangle> fanOf(TriangleMesh& mesh, const BoundaryLoop& loop) {
+std::vector<Triangle> makeFan(TriangleMesh& mesh, const BoundaryLoop& loop) {
   const auto centre = static_cast<std::uint32_t>(mesh.position.size());
   mesh.position.push_back(loop.centre);
   std::vector<Triangle> fan;
@@ -183,7 +183,7 @@ void measureLoop(const TriangleMesh& mesh, BoundaryLoop& loop) {
 
 std::vector<BoundaryLoop> findBoundaryLoops(const MeshInRepair& work) {
   std::vector<BoundaryLoop> loops;
-  for (const auto& sides : loopSides(work)) loops.push_back(loopOf(work.mesh, sides));
+  for (const auto& sides : loopSides(work)) loops.push_back(makeLoop(work.mesh, sides));
   return loops;
 }
 
@@ -192,11 +192,11 @@ void fillHoles(MeshInRepair& work) {
   std::size_t filled = 0;
   double widest = 0;
   for (const auto& sides : loopSides(work)) {
-    const BoundaryLoop loop = loopOf(work.mesh, sides);
+    const BoundaryLoop loop = makeLoop(work.mesh, sides);
     if (!isHole(work.mesh, loop, sides)) continue;
     if (uses.empty()) uses = edgeUses(work.mesh.triangle);
     std::vector<Triangle> patch = HoleFilling(work.mesh, uses, loop.vertex).triangles();
-    if (patch.empty()) patch = fanOf(work.mesh, loop);
+    if (patch.empty()) patch = makeFan(work.mesh, loop);
     work.mesh.triangle.insert(work.mesh.triangle.end(), patch.begin(), patch.end());
     work.source.resize(work.mesh.triangle.size(), RepairResult::kFilled);
     widest = std::max(widest, 2 * loop.radius);

@@ -34,7 +34,7 @@ std::vector<Part> measured(const MeshInRepair& work, const std::vector<std::uint
   std::vector<Part> parts(count);
   const std::vector<Eigen::Vector3d>& position = work.mesh.position;
   std::vector<std::uint32_t> partOfPoint(position.size(), 0);
-  const Eigen::Vector3d origin = boxOf(work.mesh).low;
+  const Eigen::Vector3d origin = boundingBox(work.mesh).low;
   for (std::size_t t = 0; t < work.mesh.triangle.size(); ++t) {
     Part& p = parts[part[t]];
     const Triangle& corner = work.mesh.triangle[t];
@@ -60,7 +60,7 @@ std::vector<Part> measured(const MeshInRepair& work, const std::vector<std::uint
 
 }  // namespace
 
-std::vector<std::uint32_t> partsOf(const MeshInRepair& work, std::size_t& count) {
+std::vector<std::uint32_t> labelParts(const MeshInRepair& work, std::size_t& count) {
   std::vector<std::uint32_t> part(work.mesh.triangle.size(), kNoSide), open;
   count = 0;
   for (std::uint32_t seed = 0; seed < part.size(); ++seed) {
@@ -84,9 +84,9 @@ std::vector<std::uint32_t> partsOf(const MeshInRepair& work, std::size_t& count)
 
 std::size_t settleParts(MeshInRepair& work, const std::string& name) {
   std::size_t count = 0;
-  const std::vector<std::uint32_t> part = partsOf(work, count);
+  const std::vector<std::uint32_t> part = labelParts(work, count);
   const std::vector<Part> parts = measured(work, part, count);
-  const double tiny = kTinyPart * boxOf(work.mesh).size().norm();
+  const double tiny = kTinyPart * boundingBox(work.mesh).size().norm();
   std::size_t sheets = 0, small = 0, turned = 0;
   std::vector<bool> dropPart(count, false);
   for (std::size_t p = 0; p < count; ++p) {

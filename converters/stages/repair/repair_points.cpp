@@ -80,7 +80,7 @@ std::size_t MeshInRepair::dropTriangles(const std::vector<bool>& drop) {
 void mergePoints(MeshInRepair& work) {
   std::size_t merged = renumber(work, equalPoints(work.mesh.position));
   dropUnusedPoints(work);
-  const double tolerance = kSamePoint * boxOf(work.mesh).size().norm();
+  const double tolerance = kSamePoint * boundingBox(work.mesh).size().norm();
   if (tolerance > 0) {
     // again in cells that are shifted by half, so that no pair is torn by the border of a cell
     for (int shift = 0; shift < 4; ++shift) {

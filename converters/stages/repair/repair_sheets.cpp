@@ -80,7 +80,7 @@ struct Leaf {
 };
 
 /// The triangles of an edge by their angle around it, seen against its direction.
-std::vector<Leaf> leavesOf(const MeshInRepair& work, std::span<const EdgeUse> edge) {
+std::vector<Leaf> sortLeaves(const MeshInRepair& work, std::span<const EdgeUse> edge) {
   const std::vector<Eigen::Vector3d>& position = work.mesh.position;
   const Eigen::Vector3d& low = position[edge[0].low];
   const Eigen::Vector3d axis = (position[edge[0].high] - low).normalized();
@@ -155,10 +155,10 @@ std::size_t orientSheets(MeshInRepair& work, const std::string& name) {
 std::size_t cutEdges(MeshInRepair& work) {
   const bool insideOut = signedVolume(work.mesh) < 0;
   std::size_t cut = 0, parts = 0;
-  const std::vector<std::uint32_t> part = partsOf(work, parts);
+  const std::vector<std::uint32_t> part = labelParts(work, parts);
   forEachEdge(edgeUses(work.mesh.triangle), [&](std::span<const EdgeUse> edge) {
     if (edge.size() <= 2) return;
-    pairLeaves(work, pairSheets(work, leavesOf(work, edge), part), insideOut);
+    pairLeaves(work, pairSheets(work, sortLeaves(work, edge), part), insideOut);
     ++cut;
   });
   return cut;

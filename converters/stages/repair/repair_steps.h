@@ -56,7 +56,7 @@ void fillHoles(MeshInRepair& work);
 
 // repair_parts.cpp
 /// The part of each triangle: triangles joined by `opposite`, numbered from 0 in their order.
-std::vector<std::uint32_t> partsOf(const MeshInRepair& work, std::size_t& count);
+std::vector<std::uint32_t> labelParts(const MeshInRepair& work, std::size_t& count);
 /// Drops parts that are tiny or enclose nothing, and turns the others outward. Refuses a mesh of
 /// which no part is left. Returns the number of parts that are left.
 std::size_t settleParts(MeshInRepair& work, const std::string& name);

@@ -22,9 +22,9 @@ constexpr std::int32_t kMaxPosition = 1 << 19;           // keys have 19 bits an
 constexpr std::size_t kMaxCubes = std::size_t{1} << 25;  // 2 GB with their vertices
 constexpr std::size_t kMaxNodes = std::size_t{1} << 29;  // near the cubes of a level, in all: 2 GB
 constexpr std::size_t kBatch = 256;                      // cubes between two looks at the progress
-constexpr double kReach = 2.4;   // radii from its centre to which a node's model is followed
-constexpr double kNear = 1.35;   // radii within which a node determines the fineness of the lattice
-constexpr double kSafety = 1.5;  // the distance is an estimate: of half a cube's diagonal
+constexpr double kModelRadii = 2.4;  // radii from its centre to which a node's model is followed
+constexpr double kFineRadii = 1.35;  // radii in which a node decides the lattice's fineness
+constexpr double kSafety = 1.5;      // the distance is an estimate: of half a cube's diagonal
 constexpr double kHalfDiagonal = 0.8660254037844386;
 
 }  // namespace
@@ -101,8 +101,8 @@ private:
         (hasWall ? ": a thinner wall" : ""));
   }
 
-  [[nodiscard]] double reachOf(std::uint32_t node) const {
-    return (kReach + m_field.options().offsetShare) * m_tree.radius[node] +
+  [[nodiscard]] double nodeReach(std::uint32_t node) const {
+    return (kModelRadii + m_field.options().offsetShare) * m_tree.radius[node] +
            0.5 * m_tree.height[node] + m_field.options().offset;
   }
   [[nodiscard]] double edgeOf(const LatticeCube& cube) const {
@@ -118,7 +118,7 @@ private:
     const double finest = m_share * *least;
     Box3d box;
     for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i)
-      box.add(toEigen(m_tree.centre[i]), reachOf(i));
+      box.add(toEigen(m_tree.centre[i]), nodeReach(i));
     m_lattice.m_step = 0.5 * finest;
     std::int32_t size = 2;
     while (size * m_lattice.m_step < m_share * *greatest && size < kMaxPosition) size *= 2;
@@ -135,12 +135,12 @@ private:
     const double edge = size * m_lattice.m_step;
     double entries = 0;
     for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i)
-      entries += std::pow(2 * reachOf(i) / edge + 2, 3);
+      entries += std::pow(2 * nodeReach(i) / edge + 2, 3);
     if (!(entries < static_cast<double>(kMaxNodes))) throw tooFine();
     for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i) {
       m_progress.check();
       const Eigen::Vector3d c = toEigen(m_tree.centre[i]) - m_lattice.m_origin;
-      const double reach = reachOf(i);
+      const double reach = nodeReach(i);
       Position first{}, last{};
       for (std::size_t a = 0; a < 3; ++a) {
         const auto e = static_cast<Eigen::Index>(a);
@@ -160,8 +160,8 @@ private:
   // From a node's centre to the nearest point of a cube, mm.
   [[nodiscard]] double distanceTo(const LatticeCube& cube, std::uint32_t node) const {
     const double half = 0.5 * edgeOf(cube);
-    const Eigen::Vector3d way = (toEigen(m_tree.centre[node]) - middleOf(cube)).cwiseAbs();
-    return (way.array() - half).max(0.0).matrix().norm();
+    const Eigen::Vector3d apart = (toEigen(m_tree.centre[node]) - middleOf(cube)).cwiseAbs();
+    return (apart.array() - half).max(0.0).matrix().norm();
   }
 
   // Keeps the nodes that reach the cube; the one of least power at its centre becomes its node.
@@ -169,7 +169,7 @@ private:
     const Eigen::Vector3d middle = middleOf(cube.cube);
     double least = INFINITY;
     std::erase_if(cube.near, [&](std::uint32_t i) {
-      if (distanceTo(cube.cube, i) > reachOf(i)) return true;
+      if (distanceTo(cube.cube, i) > nodeReach(i)) return true;
       const double square = (toEigen(m_tree.centre[i]) - middle).squaredNorm();
       const double r = m_tree.radius[i];
       if (square - r * r < least) {
@@ -186,7 +186,8 @@ private:
     double thinnest = INFINITY;
     for (const std::uint32_t i : cube.near) {
       const double r = m_tree.radius[i];
-      const double near = (kNear + m_field.options().offsetShare) * r + m_field.options().offset;
+      const double near =
+          (kFineRadii + m_field.options().offsetShare) * r + m_field.options().offset;
       if (r < thinnest && distanceTo(cube.cube, i) < near) thinnest = r;
     }
     if (edge <= m_share * thinnest || cube.cube.size <= 2) return true;

@@ -11,29 +11,29 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kLength = 4;  // radii: shorter ones lie within a parent's lumen
-constexpr double kNear = 2;    // radii
+constexpr double kLeastLengthRadii = 4;  // radii: shorter ones lie within a parent's lumen
+constexpr double kNearRadii = 2;
 
 // Nodes first .. last - 1 of one branch.
-struct Stretch {
+struct BareStretch {
   std::uint32_t first, last;
   double length;  // mm
 };
 
-std::vector<Stretch> withoutVertices(const formats::CenterlineTree& tree,
-                                     const formats::Branch& branch,
-                                     const std::vector<bool>& hasVertex) {
-  std::vector<Stretch> found;
+std::vector<BareStretch> withoutVertices(const formats::CenterlineTree& tree,
+                                         const formats::Branch& branch,
+                                         const std::vector<bool>& hasVertex) {
+  std::vector<BareStretch> found;
   const std::uint32_t end = branch.firstNode + branch.nodeCount;
   for (std::uint32_t i = branch.firstNode; i < end; ++i) {
     if (hasVertex[i]) continue;
-    Stretch stretch{i, i, 0};
+    BareStretch stretch{i, i, 0};
     for (; stretch.last < end && !hasVertex[stretch.last]; ++stretch.last)
       if (stretch.last > i)
         stretch.length +=
             (toEigen(tree.centre[stretch.last]) - toEigen(tree.centre[stretch.last - 1])).norm();
     const double radius = tree.radius[(stretch.first + stretch.last) / 2];
-    if (stretch.length > kLength * radius) found.push_back(stretch);
+    if (stretch.length > kLeastLengthRadii * radius) found.push_back(stretch);
     i = stretch.last;
   }
   return found;
@@ -54,10 +54,10 @@ std::vector<std::string> bareStretches(const CaseSurface& surface,
   for (const std::uint32_t node : surface.node) hasVertex[node] = true;
   std::vector<std::string> sentences;
   for (const formats::Branch& branch : tree.branches)
-    for (const Stretch& stretch : withoutVertices(tree, branch, hasVertex)) {
+    for (const BareStretch& stretch : withoutVertices(tree, branch, hasVertex)) {
       const std::uint32_t middle = (stretch.first + stretch.last) / 2;
       const Eigen::Vector3d centre = toEigen(tree.centre[middle]);
-      const double near = kNear * tree.radius[middle];
+      const double near = kNearRadii * tree.radius[middle];
       if (std::any_of(surface.mesh.position.begin(), surface.mesh.position.end(),
                       [&](const Eigen::Vector3d& p) { return (p - centre).norm() < near; }))
         continue;

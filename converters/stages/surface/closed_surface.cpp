@@ -39,7 +39,7 @@ constexpr double kWallSag = 0.03;
 // vessel still has six sides or more.
 constexpr double kQuickShare = 2.0;
 
-double gapOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
+double chooseGap(const formats::Case& source, const ClosedSurfaceOptions& options) {
   if (options.gap) return *options.gap;
   if (source.metadata.voxelSize) return 0.1 * *source.metadata.voxelSize;
   const auto& radius = source.tree.radius;
@@ -47,9 +47,9 @@ double gapOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
 }
 
 // Two walls need more of it than none.
-SheetOptions gapsOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
+SheetOptions chooseGaps(const formats::Case& source, const ClosedSurfaceOptions& options) {
   const Length wall = options.thickness.value_or(Length{});
-  return {.gap = std::max(gapOf(source, options), kSharedWall * wall.mm),
+  return {.gap = std::max(chooseGap(source, options), kSharedWall * wall.mm),
           .gapShare = kSharedWall * wall.radii};
 }
 
@@ -68,7 +68,7 @@ public:
         m_options(options),
         m_progress(progress),
         m_blended(formats::caseField(source)),
-        m_field(source, m_blended, gapsOf(source, options)) {}
+        m_field(source, m_blended, chooseGaps(source, options)) {}
 
   ClosedSurface run() {
     SurfaceReport& report = m_result.report;
@@ -189,7 +189,7 @@ void requireModels(const formats::Case& source) {
 SurfaceMesh quickSurface(const formats::Case& source, Progress& progress) {
   requireModels(source);
   const field::BlendedField blended = formats::caseField(source);
-  const SheetField field(source, blended, {gapOf(source, {}), 0, 0});
+  const SheetField field(source, blended, {chooseGap(source, {}), 0, 0});
   ExtractionReport ignored;
   return toSurfaceMesh(extractSurface(field, kQuickShare, ignored, progress), field, progress);
 }

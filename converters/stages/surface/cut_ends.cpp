@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kWideEnough = 0.8;  // radii: narrower is where the field closes the vessel
 constexpr int kMoves = 8;            // an eighth of a radius each
-constexpr double kReach = 3;         // radii along the branch in which an end's vertices have nodes
+constexpr double kReachRadii = 3;    // radii along the branch in which an end's vertices have nodes
 
 // The cuts at one end: one for each surface.
 struct Cuts {
@@ -59,7 +59,7 @@ public:
         m_progress(progress) {
     for (const FieldSurface& surface : surfaces) {
       m_fans.emplace_back(*surface.surface);
-      m_verticesOf.push_back(verticesOf(*surface.surface));
+      m_verticesOf.push_back(verticesNearEnds(*surface.surface));
       surface.surface->groups = {{"wall", FaceKind::Wall}};
       surface.surface->ends.clear();
     }
@@ -68,7 +68,7 @@ public:
   EndsReport run() {
     for (const EndPlane& plane : m_planes) {
       m_progress.check();
-      m_nodes = nodesNearEnd(m_source, plane, kReach * radiusOf(plane));
+      m_nodes = nodesNearEnd(m_source, plane, kReachRadii * radiusOf(plane));
       const auto cuts = findCuts(plane);
       if (cuts)
         closeFlat(plane, *cuts);
@@ -88,10 +88,10 @@ private:
   }
 
   // The vertices of the nodes that are near an end.
-  std::map<std::uint32_t, std::vector<std::uint32_t>> verticesOf(const CaseSurface& surface) {
+  std::map<std::uint32_t, std::vector<std::uint32_t>> verticesNearEnds(const CaseSurface& surface) {
     std::vector<bool> isNear(m_source.tree.nodeCount(), false);
     for (const EndPlane& plane : m_planes)
-      for (const std::uint32_t node : nodesNearEnd(m_source, plane, kReach * radiusOf(plane)))
+      for (const std::uint32_t node : nodesNearEnd(m_source, plane, kReachRadii * radiusOf(plane)))
         isNear[node] = true;
     std::map<std::uint32_t, std::vector<std::uint32_t>> found;
     for (std::uint32_t v = 0; v < surface.node.size(); ++v)
@@ -125,19 +125,19 @@ private:
         return std::nullopt;
       }
     }
-    cuts.width = std::sqrt(areaOf(cuts.cut[0].loop) / M_PI) / radiusOf(plane);
+    cuts.width = std::sqrt(signedArea(cuts.cut[0].loop) / M_PI) / radiusOf(plane);
     return cuts;
   }
 
   std::optional<Cuts> findCuts(const EndPlane& plane) {
     std::optional<Cuts> best;
     for (int move = 0; move <= kMoves; ++move) {
-      const double way = move * radiusOf(plane) / kMoves;
-      const auto moved = movedInward(m_source, plane, way);
+      const double distance = move * radiusOf(plane) / kMoves;
+      const auto moved = movedInward(m_source, plane, distance);
       if (!moved) break;
       auto cuts = cutAll(*moved);
       if (!cuts || (best && best->width >= cuts->width)) continue;
-      cuts->moved = way;
+      cuts->moved = distance;
       best = std::move(cuts);
       if (best->width >= kWideEnough) break;
     }
@@ -182,7 +182,7 @@ private:
   }
 
   // The faces behind the plane, as far as they belong to the end; or those around its tip.
-  std::vector<std::uint32_t> facesOf(std::size_t s, const EndPlane& plane) const {
+  std::vector<std::uint32_t> findFaces(std::size_t s, const EndPlane& plane) const {
     const SurfaceFans& fans = m_fans[s];
     const CaseSurface& surface = fans.surface();
     bool leaves = false;
@@ -213,14 +213,14 @@ private:
   void keepRound(const EndPlane& plane) {
     std::string what = plane.isInlet ? "the beginning of branch " : "the end of branch ";
     what += quoted(labelOf(plane));
-    const auto faces = facesOf(0, plane);
+    const auto faces = findFaces(0, plane);
     if (faces.empty()) {
       m_report.messages.push_back(what + " has no surface: it lies within another vessel");
       return;
     }
     const std::uint32_t group = addGroup("cap-" + labelOf(plane), FaceKind::Cap, plane);
     for (std::size_t s = 0; s < m_fans.size(); ++s)
-      for (const std::uint32_t t : s == 0 ? faces : facesOf(s, plane))
+      for (const std::uint32_t t : s == 0 ? faces : findFaces(s, plane))
         if (m_fans[s].surface().group[t] == 0) m_fans[s].surface().group[t] = group;
     ++m_report.rounded;
     m_report.messages.push_back(what + " stays round: " + reasonOf(m_reason));
@@ -266,7 +266,7 @@ std::vector<std::string> cutLike(CaseSurface& outer, const SheetField& field, Ca
     progress.check();
     const EndPlane plane{end.branch, end.node, group.kind == FaceKind::Inlet, end.centre,
                          end.normal};
-    const auto nodes = nodesNearEnd(field.source(), plane, kReach * field.radius(end.node));
+    const auto nodes = nodesNearEnd(field.source(), plane, kReachRadii * field.radius(end.node));
     std::vector<std::uint32_t> candidates;
     for (std::uint32_t v = 0; v < nodeOf.size(); ++v)
       if (std::binary_search(nodes.begin(), nodes.end(), nodeOf[v])) candidates.push_back(v);
@@ -292,7 +292,7 @@ void openEnds(CaseSurface& surface) {
   fans.compact();
 }
 
-std::vector<std::vector<std::uint32_t>> rimsOf(const CaseSurface& surface) {
+std::vector<std::vector<std::uint32_t>> findRims(const CaseSurface& surface) {
   std::vector<std::map<std::uint32_t, std::vector<std::uint32_t>>> edges(surface.groups.size());
   for (std::size_t t = 0; t < surface.group.size(); ++t) {
     if (!isFlat(surface, surface.group[t])) continue;

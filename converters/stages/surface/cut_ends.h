@@ -52,6 +52,6 @@ void openEnds(CaseSurface& surface);
 /// The rim of each end, in the order of ends: for a flat one the loop of vertices around its faces,
 /// counter-clockwise seen from outside; for a rounded one nothing. Throws Error(Failed) unless the
 /// edges around a flat end make one loop.
-std::vector<std::vector<std::uint32_t>> rimsOf(const CaseSurface& surface);
+std::vector<std::vector<std::uint32_t>> findRims(const CaseSurface& surface);
 
 }  // namespace lumen::convert

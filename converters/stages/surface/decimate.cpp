@@ -18,7 +18,7 @@ constexpr double kBoundShare = 0.98;  // share for sampled points; the rest is f
 constexpr int kAttempts = 3;          // where that was not enough
 
 // The outward direction, and the length of edges, at each vertex.
-RemeshState stateOf(CaseSurface& surface) {
+RemeshState makeState(CaseSurface& surface) {
   const TriangleMesh& mesh = surface.mesh;
   const std::size_t vertices = mesh.position.size();
   RemeshState state{surface, std::vector<double>(vertices, 0), {}, {}, {}, {}};
@@ -54,11 +54,11 @@ std::vector<bool> flatGroups(const CaseSurface& surface) {
 
 void collapse(CaseSurface& surface, const SheetField& field, const CollapseBounds& bounds,
               const Progress& progress) {
-  RemeshState state = stateOf(surface);
+  RemeshState state = makeState(surface);
   const PieceRules rules = pieceRules(surface, field, progress);
   TriangleList all(surface.mesh.triangle.size());
   std::iota(all.begin(), all.end(), 0U);
-  std::vector<Piece> piece{cutOut(state, all)};
+  std::vector<RemeshPiece> piece{cutOut(state, all)};
   RemeshMesh mesh(piece[0], rules);
   collapseCheapest(mesh, bounds, progress);
   mesh.garbage_collection();

@@ -29,14 +29,14 @@ bool eachPoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::
   return parts % 3 == 0 || visit(Eigen::Vector3d((a + b + c) / 3));
 }
 
-double longestOf(const TriangleMesh& mesh, const Triangle& t) {
+double longestEdge(const TriangleMesh& mesh, const Triangle& t) {
   double square = 0;
   for (std::size_t i = 0; i < 3; ++i)
     square = std::max(square, (mesh.position[t[i]] - mesh.position[t[(i + 1) % 3]]).squaredNorm());
   return std::sqrt(square);
 }
 
-int partsOf(double length, double spacing) {
+int countSteps(double length, double spacing) {
   return std::clamp(static_cast<int>(std::ceil(length / spacing)), 2, kMostParts);
 }
 
@@ -50,14 +50,14 @@ double farthest(const TriangleMesh& from, const std::vector<std::uint32_t>& grou
     const Triangle& t = from.triangle[f];
     const auto &a = from.position[t[0]], &b = from.position[t[1]], &c = from.position[t[2]];
     const NearestPoint middle = tree.nearest((a + b + c) / 3);
-    const double finest = longestOf(to, to.triangle[middle.triangle]);
+    const double finest = longestEdge(to, to.triangle[middle.triangle]);
     const auto look = [&](const Eigen::Vector3d& p) {
       most[f] = std::max(most[f], tree.nearest(p).distance);
       return true;
     };
-    const double longest = longestOf(from, t);
+    const double longest = longestEdge(from, t);
     for (const auto& corner : {a, b, c}) look(corner);
-    eachPoint(a, b, c, partsOf(kDenser * longest, std::min(longest, finest)), look);
+    eachPoint(a, b, c, countSteps(kDenser * longest, std::min(longest, finest)), look);
   });
   return most.empty() ? 0 : *std::max_element(most.begin(), most.end());
 }
@@ -94,7 +94,7 @@ void Deviation::add(std::uint32_t face, std::uint32_t group, const Eigen::Vector
 double Deviation::distance(const Eigen::Vector3d& p, std::uint32_t triangle) const {
   const Triangle& t = m_original.triangle[triangle];
   const auto& corner = m_original.position;
-  return (nearestPointOf(p, corner[t[0]], corner[t[1]], corner[t[2]]) - p).norm();
+  return (nearestPointOnTriangle(p, corner[t[0]], corner[t[1]], corner[t[2]]) - p).norm();
 }
 
 // The distance from one triangle is greatest at an end, so an edge is near it if both ends are.
@@ -122,7 +122,7 @@ bool Deviation::isNear(const GroupedFace& face, double bound) const {
     if (!isEdgeNear(near[i], p[t[i]], near[(i + 1) % 3], p[t[(i + 1) % 3]], bound, kDeepest))
       return false;
   const double spacing = std::min({m_spacing[t[0]], m_spacing[t[1]], m_spacing[t[2]]});
-  const int parts = partsOf(longestOf(m_original, t), spacing);
+  const int parts = countSteps(longestEdge(m_original, t), spacing);
   return eachPoint(p[t[0]], p[t[1]], p[t[2]], parts, [&](const Eigen::Vector3d& point) {
     return m_tree.nearest(point, bound).distance <= bound;
   });
@@ -139,8 +139,8 @@ bool Deviation::isWithin(double bound, std::span<const std::uint32_t> before,
       for (const GroupedFace& f : now) {
         if (f.group != m_points[i].group) continue;
         const Eigen::Vector3d& p = m_points[i].position;
-        const Eigen::Vector3d at =
-            nearestPointOf(p, corner[f.corner[0]], corner[f.corner[1]], corner[f.corner[2]]);
+        const Eigen::Vector3d at = nearestPointOnTriangle(p, corner[f.corner[0]],
+                                                          corner[f.corner[1]], corner[f.corner[2]]);
         const double square = (at - p).squaredNorm();
         if (square >= least) continue;
         least = square;

@@ -46,7 +46,8 @@ std::vector<std::uint32_t> trianglesAt(const SurfaceFans& fans,
 }
 
 // The Euler characteristic of the vertices with the edges and triangles between them.
-std::ptrdiff_t eulerOf(const SurfaceFans& fans, const std::vector<std::uint32_t>& part) {
+std::ptrdiff_t eulerCharacteristic(const SurfaceFans& fans,
+                                   const std::vector<std::uint32_t>& part) {
   std::ptrdiff_t halfEdges = 0, faces = 0;
   for (const std::uint32_t t : trianglesAt(fans, part)) {
     const Triangle& corner = fans.surface().mesh.triangle[t];
@@ -59,10 +60,10 @@ std::ptrdiff_t eulerOf(const SurfaceFans& fans, const std::vector<std::uint32_t>
 }
 
 // One way of cutting off a part, with one bound for moving vertices onto the plane.
-class Planner {
+class EndCutPlanner {
 public:
-  Planner(const SurfaceFans& fans, const SheetField& field, const EndPlane& plane,
-          const std::vector<std::uint32_t>& part)
+  EndCutPlanner(const SurfaceFans& fans, const SheetField& field, const EndPlane& plane,
+                const std::vector<std::uint32_t>& part)
       : m_fans(fans), m_mesh(fans.surface().mesh), m_field(field), m_plane(plane), m_part(part) {}
 
   std::optional<EndCut> plan(double snap, bool project) {
@@ -112,12 +113,12 @@ private:
       std::map<std::uint32_t, double> nearest;
       std::map<std::uint32_t, Eigen::Vector3d> place;
       eachCrossing([&](std::uint32_t v, std::uint32_t w) {
-        const double share = crossing(v, w), way = isBeyond ? share : 1 - share;
+        const double share = crossing(v, w), shareMoved = isBeyond ? share : 1 - share;
         // a vertex in the plane is on it, whatever the bound
-        if (m_onPlane.count(v) > 0 || (way > 0 && way >= snap)) return;
-        const auto [entry, isNew] = nearest.try_emplace(isBeyond ? v : w, way);
-        if (!isNew && entry->second <= way) return;
-        entry->second = way;
+        if (m_onPlane.count(v) > 0 || (shareMoved > 0 && shareMoved >= snap)) return;
+        const auto [entry, isNew] = nearest.try_emplace(isBeyond ? v : w, shareMoved);
+        if (!isNew && entry->second <= shareMoved) return;
+        entry->second = shareMoved;
         place[entry->first] = pointOn(v, w);
       });
       m_onPlane.merge(place);
@@ -248,7 +249,7 @@ private:
     m_cut.loop.emplace_back(along.dot(offset), across.dot(offset));
   }
 
-  [[nodiscard]] Eigen::Vector3d areaOf(const Triangle& t) const {
+  [[nodiscard]] Eigen::Vector3d areaVector(const Triangle& t) const {
     return (placeOf(t[1]) - placeOf(t[0])).cross(placeOf(t[2]) - placeOf(t[0]));
   }
 
@@ -260,10 +261,10 @@ private:
           .cross(m_mesh.position[c[2]] - m_mesh.position[c[0]]);
     };
     for (const std::uint32_t t : triangles)
-      if (!holds(m_cut.removed, t) && !(before(t).dot(areaOf(m_mesh.triangle[t])) > 0))
+      if (!holds(m_cut.removed, t) && !(before(t).dot(areaVector(m_mesh.triangle[t])) > 0))
         return false;
     for (std::size_t k = 0; k < m_cut.kept.size(); ++k)
-      if (!(before(m_keptOf[k]).dot(areaOf(m_cut.kept[k])) > 0)) return false;
+      if (!(before(m_keptOf[k]).dot(areaVector(m_cut.kept[k])) > 0)) return false;
     return true;
   }
 
@@ -338,8 +339,8 @@ std::variant<EndCut, NoCut> planCut(const SurfaceFans& fans, const SheetField& f
   const auto part = partBeyond(fans, plane, nodes, candidates, leaves);
   if (part.empty()) return NoCut::Before;
   if (leaves) return NoCut::Other;
-  if (eulerOf(fans, part) != 1) return NoCut::Handle;
-  Planner planner(fans, field, plane, part);
+  if (eulerCharacteristic(fans, part) != 1) return NoCut::Handle;
+  EndCutPlanner planner(fans, field, plane, part);
   for (const double snap : kSnaps)
     for (const bool project : {true, false})
       if (auto cut = planner.plan(snap, project)) return std::move(*cut);

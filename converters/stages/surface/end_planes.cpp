@@ -84,7 +84,7 @@ std::vector<EndPlane> endPlanes(const formats::Case& source) {
 }
 
 std::optional<EndPlane> movedInward(const formats::Case& source, const EndPlane& plane,
-                                    double way) {
+                                    double distance) {
   const formats::CenterlineTree& tree = source.tree;
   const formats::Branch& branch = tree.branches[plane.branch];
   const std::int64_t step = plane.isInlet ? 1 : -1, first = branch.firstNode;
@@ -95,12 +95,12 @@ std::optional<EndPlane> movedInward(const formats::Case& source, const EndPlane&
     const Eigen::Vector3d ahead = toEigen(tree.centre[here]) - moved.centre;
     const double length = ahead.norm();
     moved.normal = outwardAt(source, here, !plane.isInlet);
-    if (length >= way) {
-      if (length > 0) moved.centre += way / length * ahead;
+    if (length >= distance) {
+      if (length > 0) moved.centre += distance / length * ahead;
       return moved;
     }
     moved.centre += ahead;
-    way -= length;
+    distance -= length;
   }
   return std::nullopt;
 }
@@ -113,9 +113,10 @@ std::vector<std::uint32_t> nodesNearEnd(const formats::Case& source, const EndPl
   const auto length = [&tree](std::uint32_t node) {  // from the node to the one behind it
     return (toEigen(tree.centre[node + 1]) - toEigen(tree.centre[node])).norm();
   };
-  for (double way = 0; first > branch.firstNode && (way += length(first - 1)) <= reach;) --first;
-  for (double way = 0;
-       last + 1 < branch.firstNode + branch.nodeCount && (way += length(last)) <= reach;)
+  for (double along = 0; first > branch.firstNode && (along += length(first - 1)) <= reach;)
+    --first;
+  for (double along = 0;
+       last + 1 < branch.firstNode + branch.nodeCount && (along += length(last)) <= reach;)
     ++last;
   std::vector<std::uint32_t> nodes(last - first + 1);
   std::iota(nodes.begin(), nodes.end(), first);

@@ -38,9 +38,10 @@ std::optional<EndPlane> freeEnd(const formats::Case& source, const formats::Neig
 /// another one is joined to its last node or a link ends there.
 std::vector<EndPlane> endPlanes(const formats::Case& source);
 
-/// The plane across the same vessel `way` mm farther in, along its centerline. Nothing beyond the
-/// other end of the branch.
-std::optional<EndPlane> movedInward(const formats::Case& source, const EndPlane& plane, double way);
+/// The plane across the same vessel `distance` mm farther in, along its centerline. Nothing beyond
+/// the other end of the branch.
+std::optional<EndPlane> movedInward(const formats::Case& source, const EndPlane& plane,
+                                    double distance);
 
 /// The nodes of the branch whose distance along it from the plane's node is at most `reach` mm,
 /// ascending.

@@ -17,20 +17,22 @@ namespace {
 constexpr double kNearEnd = 0.03;     // share of an edge: crossings keep off its ends
 constexpr std::size_t kBlock = 1024;  // vertices between two reports of progress
 
-class Extraction {
+class SurfaceExtraction {
 public:
-  Extraction(const SheetField& field, double share, ExtractionReport& report, Progress& progress)
+  SurfaceExtraction(const SheetField& field, double share, ExtractionReport& report,
+                    Progress& progress)
       : m_field(field), m_report(report), m_progress(progress), m_lattice(field, share, progress) {}
 
   CaseSurface run() {
-    m_lumens = lumensOf(m_lattice);
+    m_lumens = labelLumens(m_lattice);
     m_trees = joinTrees(m_lattice, m_field, m_lumens, m_report.openedEdges);
     m_report.trees = m_trees.size();
     m_progress.check();
     march();
     bool isGrown = false;
     for (const TreeLumen& tree : m_trees) {
-      if (tree.lumen == kOutside || eulerOf(tree.lumen) == 2 - 2 * std::ptrdiff_t(tree.links))
+      if (tree.lumen == kOutside ||
+          eulerCharacteristic(tree.lumen) == 2 - 2 * std::ptrdiff_t(tree.links))
         continue;
       m_progress.check();
       const auto cuts = growTree(m_lattice, m_field, tree, m_lumens);
@@ -59,11 +61,12 @@ private:
   }
 
   // Euler characteristic of the closed surfaces around a lumen: each edge is that of two triangles.
-  [[nodiscard]] std::ptrdiff_t eulerOf(std::uint32_t lumen) const {
-    const auto isOf = [&](const Crossing& c) { return m_lumens[c.inside] == lumen; };
-    const auto vertices = std::count_if(m_crossings.begin(), m_crossings.end(), isOf);
-    const auto triangles = std::count_if(m_triangles.begin(), m_triangles.end(),
-                                         [&](const CrossingTriangle& t) { return isOf(t[0]); });
+  [[nodiscard]] std::ptrdiff_t eulerCharacteristic(std::uint32_t lumen) const {
+    const auto isInLumen = [&](const Crossing& c) { return m_lumens[c.inside] == lumen; };
+    const auto vertices = std::count_if(m_crossings.begin(), m_crossings.end(), isInLumen);
+    const auto triangles =
+        std::count_if(m_triangles.begin(), m_triangles.end(),
+                      [&](const CrossingTriangle& t) { return isInLumen(t[0]); });
     return vertices - triangles / 2;
   }
 
@@ -136,7 +139,7 @@ private:
 
 CaseSurface extractSurface(const SheetField& field, double share, ExtractionReport& report,
                            Progress& progress) {
-  return Extraction(field, share, report, progress).run();
+  return SurfaceExtraction(field, share, report, progress).run();
 }
 
 }  // namespace lumen::convert

@@ -179,7 +179,7 @@ bool isSimple(const Loop2& loop) {
   return true;
 }
 
-double areaOf(const Loop2& loop) {
+double signedArea(const Loop2& loop) {
   double twice = 0;
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
     const Point a = loop[i] - loop[0], b = loop[i + 1] - loop[0];
@@ -203,9 +203,9 @@ FlatMesh triangulateRegion(const Loop2& outer, const std::vector<Loop2>& holes, 
   mesh.point = outer;
   Ring ring;
   for (std::uint32_t i = 0; i < outer.size(); ++i) ring.push_back(i);
-  if (!isSimple(outer) || !(areaOf(outer) > 0)) return {};
+  if (!isSimple(outer) || !(signedArea(outer) > 0)) return {};
   for (const Loop2& hole : holes) {
-    if (!isSimple(hole) || !(areaOf(hole) < 0) || !isWithin(hole, outer)) return {};
+    if (!isSimple(hole) || !(signedArea(hole) < 0) || !isWithin(hole, outer)) return {};
     Ring around;
     for (const Point& p : hole) {
       around.push_back(static_cast<std::uint32_t>(mesh.point.size()));

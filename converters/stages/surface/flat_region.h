@@ -23,7 +23,7 @@ struct FlatMesh {
 bool isSimple(const Loop2& loop);
 
 /// The area that a loop encloses, negative if it runs clockwise.
-double areaOf(const Loop2& loop);
+double signedArea(const Loop2& loop);
 
 /// True if `inner` lies within `outer` and touches it nowhere; both are simple.
 bool isWithin(const Loop2& inner, const Loop2& outer);

@@ -164,7 +164,7 @@ private:
 std::vector<std::string> extendEnds(CaseSurface& surface, const formats::Case& source,
                                     const std::vector<EndLength>& lengths) {
   std::vector<std::string> messages;
-  const auto rims = rimsOf(surface);
+  const auto rims = findRims(surface);
   const auto wanted = lengthsOf(surface, source, lengths, rims, messages);
   std::vector<std::vector<std::uint32_t>> faces(surface.groups.size());
   for (std::uint32_t t = 0; t < surface.group.size(); ++t) faces[surface.group[t]].push_back(t);

@@ -69,9 +69,9 @@ FlowTube::FlowTube(const SurfaceFans& fans, const SurfaceEnd& end,
   smoothSlopes();
   Loop2 loop;
   for (const Vector& p : m_point) loop.push_back(flat(p));
-  m_radius = std::sqrt(areaOf(loop) / M_PI);
+  m_radius = std::sqrt(signedArea(loop) / M_PI);
   m_centre = centroidOf(loop);
-  m_turn = turnOf(loop);
+  m_turn = measureTurn(loop);
 }
 
 std::size_t FlowTube::rows(double length) const {
@@ -136,7 +136,7 @@ void FlowTube::smoothSlopes() {
 }
 
 // The angle on the circle at which the rim begins: the mean over all vertices.
-double FlowTube::turnOf(const Loop2& loop) const {
+double FlowTube::measureTurn(const Loop2& loop) const {
   double x = 0, y = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Eigen::Vector2d offset = loop[i] - m_centre;

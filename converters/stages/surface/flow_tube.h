@@ -40,7 +40,7 @@ private:
   [[nodiscard]] Eigen::Vector3d slopeAt(const SurfaceFans& fans,
                                         const std::vector<std::uint32_t>& rim, std::size_t i) const;
   void smoothSlopes();
-  [[nodiscard]] double turnOf(const Loop2& loop) const;
+  [[nodiscard]] double measureTurn(const Loop2& loop) const;
   [[nodiscard]] double indexAt(double around) const;
 
   SurfaceEnd m_end;

@@ -25,10 +25,10 @@ struct LinkFacts {
   [[nodiscard]] bool isBridge() const { return parts == 2 && euler == 2; }
 };
 
-class Growth {
+class TreeGrowth {
 public:
-  Growth(const SampledLattice& lattice, const SheetField& field, std::uint32_t lumen,
-         const std::vector<std::uint32_t>& lumens)
+  TreeGrowth(const SampledLattice& lattice, const SheetField& field, std::uint32_t lumen,
+             const std::vector<std::uint32_t>& lumens)
       : m_lattice(lattice), m_field(field) {
     number(lumen, lumens);
     gather(lumens, lumen);
@@ -86,14 +86,14 @@ private:
   }
 
   [[nodiscard]] LinkFacts link(std::uint32_t v) const {
-    constexpr std::size_t kMost = 64;
-    std::array<std::uint32_t, kMost> vertex{};
-    std::array<std::uint8_t, kMost> set{};
+    constexpr std::size_t kMostNeighbours = 64;
+    std::array<std::uint32_t, kMostNeighbours> vertex{};
+    std::array<std::uint8_t, kMostNeighbours> set{};
     std::size_t count = 0;
     const auto place = [&](std::uint32_t w) -> std::size_t {
       for (std::size_t i = 0; i < count; ++i)
         if (vertex[i] == w) return i;
-      if (count == kMost) return kMost;
+      if (count == kMostNeighbours) return kMostNeighbours;
       set[count] = static_cast<std::uint8_t>(count);
       vertex[count] = w;
       return count++;
@@ -108,7 +108,7 @@ private:
       std::size_t grown = 0;
       for (const std::uint32_t w : m_tetrahedron[m_at[k]])
         if (w != v && w != kOther && m_isGrown[w] && areJoined(v, w)) at[grown++] = place(w);
-      if (grown > 0 && at[grown - 1] == kMost) return {};
+      if (grown > 0 && at[grown - 1] == kMostNeighbours) return {};
       int edges = 0;
       for (std::size_t i = 0; i < grown; ++i)
         for (std::size_t j = i + 1; j < grown; ++j) {
@@ -190,7 +190,7 @@ std::vector<Eigen::Vector3d> growTree(SampledLattice& lattice, const SheetField&
                                       const TreeLumen& tree,
                                       const std::vector<std::uint32_t>& lumens) {
   const std::vector<std::uint32_t> left =
-      Growth(lattice, field, tree.lumen, lumens).run(tree.start, tree.links);
+      TreeGrowth(lattice, field, tree.lumen, lumens).run(tree.start, tree.links);
   // one place for vertices that lie together
   std::vector<Eigen::Vector3d> places;
   for (const std::uint32_t v : left) {

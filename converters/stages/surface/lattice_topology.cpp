@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumensOf() and joinTrees(); growTree() is in grow_tree.cpp.
+// labelLumens() and joinTrees(); growTree() is in grow_tree.cpp.
 #include "converters/stages/surface/lattice_topology.h"
 
 #include <algorithm>
@@ -45,7 +45,8 @@ void openEdge(SampledLattice& lattice, const SheetField& field, std::uint32_t fr
   }
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> edgesOf(const formats::CenterlineTree& tree) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> findEdges(
+    const formats::CenterlineTree& tree) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
     if (tree.parent[i] >= 0) edges.emplace_back(static_cast<std::uint32_t>(tree.parent[i]), i);
@@ -53,11 +54,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> edgesOf(const formats::Cent
   return edges;
 }
 
-std::vector<TreeLumen> treesOf(const formats::CenterlineTree& tree) {
+std::vector<TreeLumen> findTrees(const formats::CenterlineTree& tree) {
   DisjointSets sets(tree.nodeCount());
   std::vector<std::size_t> loops(tree.nodeCount(), 0);
   std::vector<std::uint32_t> closing;
-  for (const auto& [a, b] : edgesOf(tree)) {
+  for (const auto& [a, b] : findEdges(tree)) {
     if (sets.find(a) == sets.find(b)) closing.push_back(a);
     sets.join(a, b);
   }
@@ -70,7 +71,7 @@ std::vector<TreeLumen> treesOf(const formats::CenterlineTree& tree) {
 
 }  // namespace
 
-std::vector<std::uint32_t> lumensOf(const SampledLattice& lattice) {
+std::vector<std::uint32_t> labelLumens(const SampledLattice& lattice) {
   DisjointSets sets(lattice.size());
   lattice.eachTetrahedronInTurn([&](const SampledLattice::Tetrahedron& t) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -95,17 +96,17 @@ std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SheetField& fiel
     return at[node] == kOutside ? kOutside : lumens[at[node]];
   };
   opened = 0;
-  for (const auto& [a, b] : edgesOf(tree)) {
+  for (const auto& [a, b] : findEdges(tree)) {
     if (lumenAt(a) != kOutside && lumenAt(a) == lumenAt(b)) continue;
     openEdge(lattice, field, a, b);
     ++opened;
   }
   if (opened > 0) {
     lattice.update();
-    lumens = lumensOf(lattice);
+    lumens = labelLumens(lattice);
     for (std::uint32_t i = 0; i < at.size(); ++i) at[i] = places.at(i);
   }
-  std::vector<TreeLumen> trees = treesOf(tree);
+  std::vector<TreeLumen> trees = findTrees(tree);
   std::vector<bool> isKept(lattice.size(), false);
   for (TreeLumen& one : trees) {
     one.start = at[one.node];

@@ -14,14 +14,14 @@ namespace lumen::convert {
 
 /// The connected parts of the inside: for each vertex the least one of its part, or kOutside.
 constexpr std::uint32_t kOutside = UINT32_MAX;
-std::vector<std::uint32_t> lumensOf(const SampledLattice& lattice);
+std::vector<std::uint32_t> labelLumens(const SampledLattice& lattice);
 
 /// A connected component of the centerline tree.
 struct TreeLumen {
   std::uint32_t node = 0;   ///< the first node
   std::size_t links = 0;    ///< number of loops that its edges and links close
   std::uint32_t start = 0;  ///< a vertex in its lumen, at the first node
-  std::uint32_t lumen = 0;  ///< its part, as numbered by lumensOf()
+  std::uint32_t lumen = 0;  ///< its part, as numbered by labelLumens()
 };
 
 /// Opens the tree edges along which no lumen leads from end to end, by a passage as wide as a cube,

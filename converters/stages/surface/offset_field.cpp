@@ -14,12 +14,12 @@ namespace {
 
 // Ratio of path to width at which the walls of two legs of a fork of 20 degrees come apart: 1 /
 // sin(10 degrees).
-constexpr double kLeastWay = 6;
+constexpr double kLeastPathWidths = 6;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-constexpr double kReach = 3;            // thicknesses: no wall reaches farther
-constexpr double kOnEdge = 1e-6;        // share of a triangle: a foot so near to an edge is on it
-constexpr double kRounding = 1 + 1e-9;  // factor of a thickness that is interpolated
-constexpr double kOnWall = 1e-9;        // mm: where the line to the foot has no direction
+constexpr double kReachThicknesses = 3;  // thicknesses: no wall reaches farther
+constexpr double kOnEdge = 1e-6;         // share of a triangle: a foot so near to an edge is on it
+constexpr double kRounding = 1 + 1e-9;   // factor of a thickness that is interpolated
+constexpr double kOnWall = 1e-9;         // mm: where the line to the foot has no direction
 
 // The corners' angles are the weights (J. Baerentzen and H. Aanaes, *Signed distance computation
 // using the angle weighted pseudonormal*, 2005).
@@ -45,7 +45,7 @@ OffsetField::OffsetField(const formats::Case& source, const field::BlendedField&
                  {.gap = gap,
                   .offset = thickness.mm,
                   .offsetShare = thickness.radii,
-                  .leastWay = kLeastWay}),
+                  .leastPath = kLeastPathWidths}),
       m_inner(inner),
       m_tree(inner.mesh),
       m_normal(vertexNormals(inner.mesh)) {
@@ -93,17 +93,18 @@ OffsetField::Foot OffsetField::footOn(std::uint32_t triangle, const Eigen::Vecto
     outward += share[static_cast<Eigen::Index>(i)] * m_normal[t[i]];
   }
   if (share.minCoeff() > kOnEdge) outward = normal;
-  const Eigen::Vector3d way = point - at;
-  const double distance = way.norm();
-  const bool isInside = way.dot(outward) < 0;
+  const Eigen::Vector3d fromFoot = point - at;
+  const double distance = fromFoot.norm();
+  const bool isInside = fromFoot.dot(outward) < 0;
   foot.distance = isInside ? -distance : distance;
-  foot.gradient = distance > kOnWall ? Eigen::Vector3d(way / foot.distance) : outward.normalized();
+  foot.gradient =
+      distance > kOnWall ? Eigen::Vector3d(fromFoot / foot.distance) : outward.normalized();
   return foot;
 }
 
 template <class Takes>
-OffsetField::Foot OffsetField::footOf(const Eigen::Vector3d& point, double reach,
-                                      const Takes& takes) const {
+OffsetField::Foot OffsetField::nearestFoot(const Eigen::Vector3d& point, double reach,
+                                           const Takes& takes) const {
   double most = reach * reach, nearest = std::numeric_limits<double>::infinity(), least = nearest;
   Foot best, plain;
   const auto visit = [&](std::uint32_t t, const Eigen::Vector3d& at, double squared) {
@@ -131,16 +132,16 @@ OffsetField::Foot OffsetField::footOf(const Eigen::Vector3d& point, double reach
   return plain.distance < 0 ? plain : best;
 }
 
-SheetSample OffsetField::sampleOf(const Eigen::Vector3d& point, const Foot& own) const {
+SheetSample OffsetField::sampleFrom(const Eigen::Vector3d& point, const Foot& own) const {
   SheetSample sample;
   sample.wall = own.distance - own.thickness;
   sample.distance = sample.wall;
   sample.gradient = own.gradient;
   sample.node = own.node;
-  if (!mayTouch(own.node) || own.distance > kReach * m_thickest) return sample;
+  if (!mayTouch(own.node) || own.distance > kReachThicknesses * m_thickest) return sample;
   const double reach = std::max(own.distance, 0.0) + m_thickest + options().gap;
   const Foot other =
-      footOf(point, reach, [&](std::uint32_t node) { return isOther(own.node, node); });
+      nearestFoot(point, reach, [&](std::uint32_t node) { return isOther(own.node, node); });
   if (other.node == kNone) return sample;
   const double harmonic = 1 / (1 / own.thickness + 1 / other.thickness);
   const double apart =
@@ -156,7 +157,7 @@ SheetSample OffsetField::sampleOf(const Eigen::Vector3d& point, const Foot& own)
 }
 
 OffsetField::Foot OffsetField::ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const {
-  return footOf(point, kAnywhere, [&](std::uint32_t other) { return !isOther(node, other); });
+  return nearestFoot(point, kAnywhere, [&](std::uint32_t other) { return !isOther(node, other); });
 }
 
 double OffsetField::fromLumen(const Eigen::Vector3d& point, std::uint32_t node) const {
@@ -164,11 +165,11 @@ double OffsetField::fromLumen(const Eigen::Vector3d& point, std::uint32_t node) 
 }
 
 SheetSample OffsetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
-  return sampleOf(point, ownFoot(point, node));
+  return sampleFrom(point, ownFoot(point, node));
 }
 
 SheetSample OffsetField::deepest(const Eigen::Vector3d& point, std::uint32_t /*node*/) const {
-  return sampleOf(point, footOf(point, kAnywhere, [](std::uint32_t) { return true; }));
+  return sampleFrom(point, nearestFoot(point, kAnywhere, [](std::uint32_t) { return true; }));
 }
 
 bool OffsetField::isReached(const Eigen::Vector3d& /*point*/, std::uint32_t from,

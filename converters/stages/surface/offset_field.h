@@ -49,11 +49,12 @@ private:
   [[nodiscard]] bool isOther(std::uint32_t a, std::uint32_t b) const;
   /// The foot with the least d - t within `reach`, among those whose node `takes` accepts.
   template <class Takes>
-  [[nodiscard]] Foot footOf(const Eigen::Vector3d& point, double reach, const Takes& takes) const;
+  [[nodiscard]] Foot nearestFoot(const Eigen::Vector3d& point, double reach,
+                                 const Takes& takes) const;
   [[nodiscard]] Foot ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] Foot footOn(std::uint32_t triangle, const Eigen::Vector3d& at,
                             const Eigen::Vector3d& point) const;
-  [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, const Foot& own) const;
+  [[nodiscard]] SheetSample sampleFrom(const Eigen::Vector3d& point, const Foot& own) const;
 
   const CaseSurface& m_inner;
   TriangleTree m_tree;

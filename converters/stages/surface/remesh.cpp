@@ -47,7 +47,7 @@ void moveOntoField(RemeshState& state, const PieceRules& rules) {
 // Works on pieces at the same time.
 void workOn(RemeshState& state, std::vector<TriangleList> lists, const PieceRules& rules,
             PieceWork work, Progress& progress) {
-  std::vector<Piece> pieces(lists.size());
+  std::vector<RemeshPiece> pieces(lists.size());
   const auto workOnPiece = [&](std::size_t i) {
     progress.check();
     pieces[i] = cutOut(state, lists[i]);
@@ -59,7 +59,7 @@ void workOn(RemeshState& state, std::vector<TriangleList> lists, const PieceRule
   putBack(state, lists, pieces);
 }
 
-double leastAngleOf(const TriangleMesh& mesh, const Triangle& t) {
+double leastCornerAngle(const TriangleMesh& mesh, const Triangle& t) {
   return leastAngle(mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]);
 }
 
@@ -80,12 +80,12 @@ std::vector<std::uint8_t> sharpVertices(const RemeshState& state, const PieceRul
   return sharp;
 }
 
-RemeshReport reportOf(const RemeshState& state, const PieceRules& rules) {
+RemeshReport makeReport(const RemeshState& state, const PieceRules& rules) {
   RemeshReport report;
   const CaseSurface& surface = state.surface;
   std::vector<std::uint8_t> isOff = state.isOffField;
   for (std::size_t t = 0; t < surface.group.size(); ++t) {
-    if (leastAngleOf(surface.mesh, surface.mesh.triangle[t]) < kSharpAngle) ++report.sharp;
+    if (leastCornerAngle(surface.mesh, surface.mesh.triangle[t]) < kSharpAngle) ++report.sharp;
     if (rules.plane[surface.group[t]])
       for (const std::uint32_t v : surface.mesh.triangle[t]) isOff[v] = 0;
   }
@@ -117,7 +117,7 @@ RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLen
   for (int round = 0; round < kStretchRounds; ++round)
     workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kStretchRings), rules,
            PieceWork::Stretch, progress);
-  return reportOf(state, rules);
+  return makeReport(state, rules);
 }
 
 }  // namespace lumen::convert

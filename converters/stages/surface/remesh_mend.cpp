@@ -111,7 +111,7 @@ void mendFace(Mesh& mesh, Mesh::FaceHandle face) {
 bool needsMending(const Mesh& mesh, Mesh::FaceHandle face) {
   for (const Mesh::VertexHandle v : mesh.verticesOf(face))
     if (mesh.is_boundary(v)) return false;
-  return mesh.qualityOf(face) < kMendBelow;
+  return mesh.measureQuality(face) < kMendBelow;
 }
 
 std::vector<Mesh::FaceHandle> facesToMend(const Mesh& mesh) {

@@ -35,7 +35,7 @@ bool isTurned(const Eigen::Vector3d& normal, const RemeshMesh::Corners& before,
 
 }  // namespace
 
-RemeshMesh::RemeshMesh(const Piece& piece, const PieceRules& rules) : m_rules(rules) {
+RemeshMesh::RemeshMesh(const RemeshPiece& piece, const PieceRules& rules) : m_rules(rules) {
   reserve(2 * piece.vertex.size(), 6 * piece.vertex.size(), 4 * piece.vertex.size());
   for (const PieceVertex& vertex : piece.vertex) {
     auto& kept = data(add_vertex(vertex.position));
@@ -90,8 +90,8 @@ void RemeshMesh::findKinds() {
   }
 }
 
-Piece RemeshMesh::toPiece() const {
-  Piece piece;
+RemeshPiece RemeshMesh::toPiece() const {
+  RemeshPiece piece;
   std::vector<std::uint32_t> index(n_vertices(), kNewVertex);
   for (const VertexHandle v : vertices()) {
     const auto& from = data(v);
@@ -128,7 +128,7 @@ RemeshMesh::Corners RemeshMesh::cornersOf(FaceHandle face) const {
   return {point(v[0]), point(v[1]), point(v[2])};
 }
 
-RemeshMesh::EdgeHandle RemeshMesh::longestOf(FaceHandle face) const {
+RemeshMesh::EdgeHandle RemeshMesh::longestEdge(FaceHandle face) const {
   EdgeHandle longest;
   for (const EdgeHandle edge : fe_range(face))
     if (!longest.is_valid() || lengthOf(edge) > lengthOf(longest)) longest = edge;
@@ -141,19 +141,19 @@ Eigen::Vector3d RemeshMesh::outward(std::uint32_t group,
   return data(vertices[0]).gradient + data(vertices[1]).gradient + data(vertices[2]).gradient;
 }
 
-double RemeshMesh::qualityOf(const Corners& c, const Eigen::Vector3d& outward) const {
+double RemeshMesh::measureQuality(const Corners& c, const Eigen::Vector3d& outward) const {
   return (c[1] - c[0]).cross(c[2] - c[0]).dot(outward) < 0 ? 0 : squaredSine(c[0], c[1], c[2]);
 }
 
-double RemeshMesh::qualityOf(FaceHandle face) const {
-  return qualityOf(cornersOf(face), outward(data(face).group, verticesOf(face)));
+double RemeshMesh::measureQuality(FaceHandle face) const {
+  return measureQuality(cornersOf(face), outward(data(face).group, verticesOf(face)));
 }
 
 double RemeshMesh::starQuality(VertexHandle vertex, const Eigen::Vector3d& position) const {
   double least = 4;
   eachFaceAround(vertex, [&](FaceHandle face, VertexHandle a, VertexHandle b) {
     const Eigen::Vector3d out = outward(data(face).group, {vertex, a, b});
-    least = std::min(least, qualityOf({position, point(a), point(b)}, out));
+    least = std::min(least, measureQuality({position, point(a), point(b)}, out));
   });
   return least;
 }
@@ -192,7 +192,7 @@ RemeshMesh::Outcome RemeshMesh::afterCollapse(HalfedgeHandle h) const {
     auto v = verticesOf(face);
     const Corners c = cornersOf(face);
     const std::uint32_t group = data(face).group;
-    outcome.before = std::min(outcome.before, qualityOf(c, outward(group, v)));
+    outcome.before = std::min(outcome.before, measureQuality(c, outward(group, v)));
     if (std::find(v.begin(), v.end(), kept) != v.end()) continue;
     Corners moved = c;
     for (std::size_t i = 0; i < 3; ++i)
@@ -202,7 +202,7 @@ RemeshMesh::Outcome RemeshMesh::afterCollapse(HalfedgeHandle h) const {
       }
     const Eigen::Vector3d out = outward(group, v);
     if (isTurned(normalOf(moved), c, out)) outcome.isTurned = true;
-    outcome.quality = std::min(outcome.quality, qualityOf(moved, out));
+    outcome.quality = std::min(outcome.quality, measureQuality(moved, out));
   }
   for (const VertexHandle w : vv_range(gone))
     outcome.longest = std::max(outcome.longest, (point(w) - point(kept)).norm() * 2 /
@@ -258,13 +258,13 @@ RemeshMesh::Outcome RemeshMesh::afterFlip(EdgeHandle edge) const {
       new1{to, left, right};
   Outcome outcome{false, 4, 4, 0};
   for (const Corner& v : {old0, old1})
-    outcome.before = std::min(outcome.before, qualityOf(cornersAt(v), outward(group, v)));
+    outcome.before = std::min(outcome.before, measureQuality(cornersAt(v), outward(group, v)));
   // Neither new face may be worse than the worse of the two before.
   const Corners before0 = cornersAt(old0), before1 = cornersAt(old1);
   for (const Corner& v : {new0, new1}) {
     const Eigen::Vector3d out = outward(group, v), normal = normalOf(cornersAt(v));
     if (isTurned(normal, before0, out) && isTurned(normal, before1, out)) outcome.isTurned = true;
-    outcome.quality = std::min(outcome.quality, qualityOf(cornersAt(v), out));
+    outcome.quality = std::min(outcome.quality, measureQuality(cornersAt(v), out));
   }
   outcome.longest =
       (point(left) - point(right)).norm() * 2 / (data(left).target + data(right).target);

@@ -55,8 +55,8 @@ class RemeshMesh : public OpenMesh::TriMesh_ArrayKernelT<RemeshTraits> {
 public:
   using Corners = std::array<Eigen::Vector3d, 3>;
 
-  RemeshMesh(const Piece& piece, const PieceRules& rules);
-  [[nodiscard]] Piece toPiece() const;
+  RemeshMesh(const RemeshPiece& piece, const PieceRules& rules);
+  [[nodiscard]] RemeshPiece toPiece() const;
   [[nodiscard]] const PieceRules& rules() const { return m_rules; }
   /// One element of a long loop is done: now and then throws Error(Cancelled) if it is to stop.
   void pulse() {
@@ -80,14 +80,14 @@ public:
       h = opposite_halfedge_handle(before);
     } while (h != first);
   }
-  [[nodiscard]] EdgeHandle longestOf(FaceHandle face) const;
+  [[nodiscard]] EdgeHandle longestEdge(FaceHandle face) const;
 
   /// The direction in which a face of these vertices should look, of any length: zero if unknown.
   [[nodiscard]] Eigen::Vector3d outward(std::uint32_t group,
                                         const std::array<VertexHandle, 3>& vertices) const;
   /// The squared sine of a face's least angle; 0 if it is turned away from where it should look.
-  [[nodiscard]] double qualityOf(FaceHandle face) const;
-  [[nodiscard]] double qualityOf(const Corners& corners, const Eigen::Vector3d& outward) const;
+  [[nodiscard]] double measureQuality(FaceHandle face) const;
+  [[nodiscard]] double measureQuality(const Corners& corners, const Eigen::Vector3d& outward) const;
   /// The least quality of the faces around a vertex, as if it were at `position`.
   [[nodiscard]] double starQuality(VertexHandle vertex, const Eigen::Vector3d& position) const;
 

@@ -35,7 +35,8 @@ void remeshToTargets(RemeshMesh& mesh, bool isFirst, const Progress& progress) {
 
 }  // namespace
 
-void remeshPiece(Piece& piece, const PieceRules& rules, PieceWork work, const Progress& progress) {
+void remeshPiece(RemeshPiece& piece, const PieceRules& rules, PieceWork work,
+                 const Progress& progress) {
   RemeshMesh mesh(piece, rules);
   if (work == PieceWork::Remesh || work == PieceWork::Seam)
     remeshToTargets(mesh, work == PieceWork::Remesh, progress);

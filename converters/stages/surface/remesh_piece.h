@@ -29,7 +29,7 @@ struct PieceVertex {
 
 /// A manifold with boundary. Vertices of the boundary are not touched, and no edge is made between
 /// two of them, so that pieces which share them can be put together again.
-struct Piece {
+struct RemeshPiece {
   std::vector<PieceVertex> vertex;
   std::vector<Triangle> triangle;    ///< indices into `vertex`
   std::vector<std::uint32_t> group;  ///< group of each triangle
@@ -51,6 +51,7 @@ enum class PieceWork : std::uint8_t {
 };
 
 /// Remeshes a piece in place; vertices that vanish are removed, new ones are at the end.
-void remeshPiece(Piece& piece, const PieceRules& rules, PieceWork work, const Progress& progress);
+void remeshPiece(RemeshPiece& piece, const PieceRules& rules, PieceWork work,
+                 const Progress& progress);
 
 }  // namespace lumen::convert

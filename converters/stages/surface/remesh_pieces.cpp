@@ -41,7 +41,7 @@ LocalMesh localMesh(const TriangleMesh& mesh, const TriangleList& list) {
   return local;
 }
 
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
   while (parent[v] != v) v = parent[v] = parent[parent[v]];
   return v;
 }
@@ -65,7 +65,7 @@ std::vector<std::uint32_t> pinchedVertices(const std::vector<Triangle>& triangle
   return pinched;
 }
 
-PieceVertex vertexOf(const RemeshState& state, std::uint32_t v) {
+PieceVertex makeVertex(const RemeshState& state, std::uint32_t v) {
   return {state.surface.mesh.position[v],
           state.gradient[v],
           state.target[v],
@@ -106,7 +106,7 @@ void dropUnused(RemeshState& state) {
   for (std::uint32_t v = 0; v < index.size(); ++v) {
     if (index[v] == 0) continue;
     index[v] = count;
-    if (count != v) keep(state, count, vertexOf(state, v));
+    if (count != v) keep(state, count, makeVertex(state, v));
     ++count;
   }
   resize(state, count);
@@ -163,12 +163,12 @@ std::vector<TriangleList> piecesAround(const TriangleMesh& mesh, std::vector<std
     const Triangle& t = mesh.triangle[f];
     if (!touches(t)) continue;
     inside.push_back(f);
-    const std::uint32_t root = rootOf(parent, t[0]);
-    parent[rootOf(parent, t[1])] = root;
-    parent[rootOf(parent, t[2])] = root;
+    const std::uint32_t root = findRoot(parent, t[0]);
+    parent[findRoot(parent, t[1])] = root;
+    parent[findRoot(parent, t[2])] = root;
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
-  for (const std::uint32_t f : inside) order.emplace_back(rootOf(parent, mesh.triangle[f][0]), f);
+  for (const std::uint32_t f : inside) order.emplace_back(findRoot(parent, mesh.triangle[f][0]), f);
   std::sort(order.begin(), order.end());
   std::vector<TriangleList> pieces;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -179,7 +179,7 @@ std::vector<TriangleList> piecesAround(const TriangleMesh& mesh, std::vector<std
   return pieces;
 }
 
-Piece cutOut(const RemeshState& state, TriangleList& triangles) {
+RemeshPiece cutOut(const RemeshState& state, TriangleList& triangles) {
   const TriangleMesh& mesh = state.surface.mesh;
   LocalMesh local = localMesh(mesh, triangles);
   for (auto pinched = pinchedVertices(local.triangle); !pinched.empty();
@@ -192,15 +192,15 @@ Piece cutOut(const RemeshState& state, TriangleList& triangles) {
     });
     local = localMesh(mesh, triangles);
   }
-  Piece piece;
-  for (const std::uint32_t v : local.home) piece.vertex.push_back(vertexOf(state, v));
+  RemeshPiece piece;
+  for (const std::uint32_t v : local.home) piece.vertex.push_back(makeVertex(state, v));
   piece.triangle = std::move(local.triangle);
   for (const std::uint32_t t : triangles) piece.group.push_back(state.surface.group[t]);
   return piece;
 }
 
 void putBack(RemeshState& state, std::span<const TriangleList> triangles,
-             std::span<const Piece> pieces) {
+             std::span<const RemeshPiece> pieces) {
   CaseSurface& surface = state.surface;
   std::vector<std::uint8_t> replaced(surface.mesh.triangle.size(), 0);
   for (const TriangleList& list : triangles)
@@ -213,7 +213,7 @@ void putBack(RemeshState& state, std::span<const TriangleList> triangles,
   }
   surface.mesh.triangle.resize(kept);
   surface.group.resize(kept);
-  for (const Piece& piece : pieces) {
+  for (const RemeshPiece& piece : pieces) {
     std::vector<std::uint32_t> index;
     auto next = static_cast<std::uint32_t>(surface.mesh.position.size());
     for (const PieceVertex& vertex : piece.vertex)

@@ -35,10 +35,10 @@ std::vector<TriangleList> piecesAround(const TriangleMesh& mesh, std::vector<std
 
 /// Copies triangles out as a piece. Those at a vertex where the piece would be no manifold are
 /// taken off the list and left alone.
-Piece cutOut(const RemeshState& state, TriangleList& triangles);
+RemeshPiece cutOut(const RemeshState& state, TriangleList& triangles);
 
 /// Puts pieces in the place of the triangles that were cut out as them.
 void putBack(RemeshState& state, std::span<const TriangleList> triangles,
-             std::span<const Piece> pieces);
+             std::span<const RemeshPiece> pieces);
 
 }  // namespace lumen::convert

@@ -31,11 +31,11 @@ double radiusAt(const formats::CenterlineTree& tree, const formats::Neighbours& 
   double best = (point - from).squaredNorm(), radius = tree.radius[node];
   for (const std::uint32_t other : edges.of(node)) {
     if (tree.branch[other] != tree.branch[node]) continue;
-    const Eigen::Vector3d way = centreOf(tree, other) - from;
-    const double length2 = way.squaredNorm();
+    const Eigen::Vector3d chord = centreOf(tree, other) - from;
+    const double length2 = chord.squaredNorm();
     if (!(length2 > 0)) continue;
-    const double share = std::clamp((point - from).dot(way) / length2, 0.0, 1.0);
-    const double distance = (point - from - share * way).squaredNorm();
+    const double share = std::clamp((point - from).dot(chord) / length2, 0.0, 1.0);
+    const double distance = (point - from - share * chord).squaredNorm();
     if (distance >= best) continue;
     best = distance;
     radius = (1 - share) * tree.radius[node] + share * tree.radius[other];

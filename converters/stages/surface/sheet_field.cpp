@@ -29,12 +29,12 @@ SheetField::SheetField(const formats::Case& source, const field::BlendedField& f
                        const SheetOptions& options)
     : m_source(source), m_field(field), m_options(options), m_edges(source.tree) {
   findTouchingNodes(source.tree, kTouchingReach + options.offsetShare,
-                    options.gap + 2 * options.offset, options.leastWay, m_touchingOffset,
+                    options.gap + 2 * options.offset, options.leastPath, m_touchingOffset,
                     m_touching);
 }
 
 // docs/method.md, section 4.2, with the node's radius as the scale.
-SheetField::Wall SheetField::wallOf(const Eigen::Vector3d& point, std::uint32_t node) const {
+SheetField::Wall SheetField::nearestWall(const Eigen::Vector3d& point, std::uint32_t node) const {
   const field::Jet<1> f = m_field.blended(toVec(point), node);
   const Eigen::Vector3d gradient(f.gradient);
   const double slope = gradient.norm(), level = m_field.level(), r = radius(node);
@@ -68,7 +68,7 @@ bool SheetField::areOneSheet(const Eigen::Vector3d& point, std::uint32_t a, std:
   bool found = false;
   field::visitActiveNodes(a, [&](std::uint32_t k, field::ActiveNodes& active) {
     if (k == b) found = true;
-    return !found && field::weightOf<1>(m_field, k, point.data(), active).value > 0;
+    return !found && field::blendWeight<1>(m_field, k, point.data(), active).value > 0;
   });
   return found;
 }
@@ -81,12 +81,12 @@ bool SheetField::isReached(const Eigen::Vector3d& point, std::uint32_t from,
 template <class Visit>
 void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node,
                                 Visit&& visit) const {
-  constexpr std::size_t kMost = 8;  // sheets of one point
-  std::array<std::uint32_t, kMost> seen{};
+  constexpr std::size_t kMostSheets = 8;  // sheets of one point
+  std::array<std::uint32_t, kMostSheets> seen{};
   std::size_t count = 0;
   for (std::uint32_t e = m_touchingOffset[node]; e < m_touchingOffset[node + 1]; ++e) {
     const std::uint32_t other = m_touching[e];
-    if (count == kMost) return;
+    if (count == kMostSheets) return;
     if (!isLeast(point, other) || areOneSheet(point, node, other)) continue;
     const bool isKnown = std::any_of(seen.begin(), seen.begin() + count,
                                      [&](std::uint32_t k) { return areOneSheet(point, k, other); });
@@ -96,7 +96,7 @@ void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node
   }
 }
 
-SheetField::Axis SheetField::axisOf(const Eigen::Vector3d& point, std::uint32_t node) const {
+SheetField::Axis SheetField::nearestAxis(const Eigen::Vector3d& point, std::uint32_t node) const {
   const Eigen::Vector3d centre = Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
   const Eigen::Vector3d out = point - centre;
   const double r = radius(node);
@@ -115,10 +115,10 @@ SheetField::Axis SheetField::axisOf(const Eigen::Vector3d& point, std::uint32_t 
   return best;
 }
 
-std::pair<SheetField::Axis, SheetField::Axis> SheetField::axesOf(const Eigen::Vector3d& point,
-                                                                 std::uint32_t a,
-                                                                 std::uint32_t b) const {
-  std::pair<Axis, Axis> axes{axisOf(point, a), axisOf(point, b)};
+std::pair<SheetField::Axis, SheetField::Axis> SheetField::nearestAxes(const Eigen::Vector3d& point,
+                                                                      std::uint32_t a,
+                                                                      std::uint32_t b) const {
+  std::pair<Axis, Axis> axes{nearestAxis(point, a), nearestAxis(point, b)};
   Axis& first = a > b ? axes.first : axes.second;
   if (first.share < kCore) {
     first.share -= 1 - first.share / kCore;
@@ -129,7 +129,7 @@ std::pair<SheetField::Axis, SheetField::Axis> SheetField::axesOf(const Eigen::Ve
 
 void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
                           std::uint32_t node) const {
-  const auto [own, other] = axesOf(point, sample.node, node);
+  const auto [own, other] = nearestAxes(point, sample.node, node);
   const double harmonic = 1 / (1 / own.radius + 1 / other.radius);
   const Eigen::Vector3d gradient =
       harmonic * (own.gradient / own.radius - other.gradient / other.radius);
@@ -144,8 +144,8 @@ void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
   sample.other = node;
 }
 
-SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const {
-  const Wall wall = wallOf(point, node);
+SheetSample SheetField::sampleSheet(const Eigen::Vector3d& point, std::uint32_t node) const {
+  const Wall wall = nearestWall(point, node);
   SheetSample sample;
   sample.distance = wall.distance;
   sample.gradient = wall.gradient;
@@ -155,7 +155,7 @@ SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t nod
 }
 
 SheetSample SheetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
-  SheetSample sample = sampleOf(point, m_field.follow(toVec(point), node));
+  SheetSample sample = sampleSheet(point, m_field.follow(toVec(point), node));
   eachOtherSheet(point, sample.node, [&](std::uint32_t other) { separate(sample, point, other); });
   return sample;
 }
@@ -166,10 +166,10 @@ SheetSample SheetField::deepest(const Eigen::Vector3d& point, std::uint32_t node
   bool isAlone = true;
   eachOtherSheet(point, here, [&](std::uint32_t other) {
     isAlone = false;
-    const auto [nearest, next] = axesOf(point, best, other);
+    const auto [nearest, next] = nearestAxes(point, best, other);
     if (next.share < nearest.share) best = other;
   });
-  return isAlone ? sampleOf(point, here) : at(point, best);
+  return isAlone ? sampleSheet(point, here) : at(point, best);
 }
 
 std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start,
@@ -186,8 +186,8 @@ std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start
     const double square = along.squaredNorm();
     if (!(square > 1e-4)) return std::nullopt;
     const double longest = kLongestStep * r;
-    const double way = std::clamp(-foot.sample.distance / std::sqrt(square), -longest, longest);
-    foot.position += way / std::sqrt(square) * along;
+    const double move = std::clamp(-foot.sample.distance / std::sqrt(square), -longest, longest);
+    foot.position += move / std::sqrt(square) * along;
     if ((foot.position - start).squaredNorm() > kFarthest * kFarthest * r * r) return std::nullopt;
   }
   return std::nullopt;

@@ -29,7 +29,7 @@ struct SheetOptions {
   double offsetShare = 0;
   /// Least length of the path along the tree between vessels that touch, as a multiple of the width
   /// of both.
-  double leastWay = 0;
+  double leastPath = 0;
 };
 
 /// Values of a SheetField at a point.
@@ -83,7 +83,7 @@ public:
 
   /// Distance of a point from the axis at a node, as a share of the radius there.
   [[nodiscard]] double axisShare(const Eigen::Vector3d& point, std::uint32_t node) const {
-    return axisOf(point, node).share;
+    return nearestAxis(point, node).share;
   }
 
   /// Whether another vessel may be near a node.
@@ -126,15 +126,15 @@ private:
     double radius = 1;                                   ///< at the foot
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, away from the axis
   };
-  [[nodiscard]] Wall wallOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] Wall nearestWall(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] bool isLeast(const Eigen::Vector3d& point, std::uint32_t node) const;
-  [[nodiscard]] Axis axisOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] Axis nearestAxis(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// `sample` kept off the sheet of node `other`.
   void separate(SheetSample& sample, const Eigen::Vector3d& point, std::uint32_t other) const;
   /// The axes of two sheets, for comparison: the one with precedence is nearer within its core.
-  [[nodiscard]] std::pair<Axis, Axis> axesOf(const Eigen::Vector3d& point, std::uint32_t a,
-                                             std::uint32_t b) const;
-  [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] std::pair<Axis, Axis> nearestAxes(const Eigen::Vector3d& point, std::uint32_t a,
+                                                  std::uint32_t b) const;
+  [[nodiscard]] SheetSample sampleSheet(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// The nodes besides `node` that a sheet of the point ends at, one for each sheet.
   template <class Visit>
   void eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node, Visit&& visit) const;
@@ -148,10 +148,10 @@ private:
 
 /// For each node, in CSR form, the nodes whose lumen may touch its own although they are not near
 /// along the tree: their centres are closer than `reach` times the sum of both radii plus `margin`
-/// mm, and the path along the tree is longer than 1.3 times that distance, and than `leastWay`
+/// mm, and the path along the tree is longer than 1.3 times that distance, and than `leastPath`
 /// times the sum of the radii plus `margin`. Symmetric, ascending.
 void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
-                       double leastWay, std::vector<std::uint32_t>& offset,
+                       double leastPath, std::vector<std::uint32_t>& offset,
                        std::vector<std::uint32_t>& node);
 
 }  // namespace lumen::convert

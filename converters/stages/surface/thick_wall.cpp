@@ -97,7 +97,7 @@ CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer,
                       const formats::Case& source) {
   if (!haveSameEnds(inner, outer))
     throw failed("the inner and the outer surface of the wall have not the same ends");
-  const Rims innerRims = rimsOf(inner), outerRims = rimsOf(outer);
+  const Rims innerRims = findRims(inner), outerRims = findRims(outer);
   CaseSurface solid = bothWalls(inner, outer);
   SurfaceFans fans(solid);
   const auto base = static_cast<std::uint32_t>(inner.mesh.position.size());

@@ -23,7 +23,7 @@ Float3 toFloat3(const Eigen::Vector3d& v) {
 
 /// Sums of the normals of triangles, by their areas: those of the wall, and those of ends where
 /// there is none.
-std::vector<Eigen::Vector3d> normalsOf(const CaseSurface& surface) {
+std::vector<Eigen::Vector3d> sumNormals(const CaseSurface& surface) {
   const std::vector<Eigen::Vector3d>& position = surface.mesh.position;
   std::vector<Eigen::Vector3d> normal(position.size(), Eigen::Vector3d::Zero());
   std::vector<bool> hasWall(position.size(), false);
@@ -49,7 +49,7 @@ std::vector<Eigen::Vector3d> normalsOf(const CaseSurface& surface) {
 SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, Progress& progress) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
-  const std::vector<Eigen::Vector3d> normal = normalsOf(surface);
+  const std::vector<Eigen::Vector3d> normal = sumNormals(surface);
   const std::vector<Eigen::Vector3d>& position = surface.mesh.position;
   SurfaceMesh result;
   result.triangle = surface.mesh.triangle;

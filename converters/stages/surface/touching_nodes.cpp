@@ -56,39 +56,39 @@ private:
 };
 
 // Paths along the tree from one node, up to the lengths that matter.
-class Ways {
+class TreeDistances {
 public:
-  Ways(const formats::CenterlineTree& tree, const formats::Neighbours& edges)
-      : m_tree(tree), m_edges(edges), m_way(tree.nodeCount(), -1) {}
+  TreeDistances(const formats::CenterlineTree& tree, const formats::Neighbours& edges)
+      : m_tree(tree), m_edges(edges), m_length(tree.nodeCount(), -1) {}
 
   void from(std::uint32_t start, double farthest) {
-    for (const std::uint32_t node : m_reached) m_way[node] = -1;
+    for (const std::uint32_t node : m_reached) m_length[node] = -1;
     m_reached.assign(1, start);
-    m_way[start] = 0;
+    m_length[start] = 0;
     for (std::size_t head = 0; head < m_reached.size(); ++head) {
       const std::uint32_t at = m_reached[head];
-      if (m_way[at] > farthest) continue;
+      if (m_length[at] > farthest) continue;
       for (const std::uint32_t next : m_edges.of(at)) {
-        if (m_way[next] >= 0) continue;
-        m_way[next] = m_way[at] + distanceOf(m_tree, at, next);
+        if (m_length[next] >= 0) continue;
+        m_length[next] = m_length[at] + distanceOf(m_tree, at, next);
         m_reached.push_back(next);
       }
     }
   }
   // Negative if the path is longer than the requested length.
-  [[nodiscard]] double to(std::uint32_t node) const { return m_way[node]; }
+  [[nodiscard]] double to(std::uint32_t node) const { return m_length[node]; }
 
 private:
   const formats::CenterlineTree& m_tree;
   const formats::Neighbours& m_edges;
-  std::vector<double> m_way;
+  std::vector<double> m_length;
   std::vector<std::uint32_t> m_reached;
 };
 
 }  // namespace
 
 void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
-                       double leastWay, std::vector<std::uint32_t>& offset,
+                       double leastPath, std::vector<std::uint32_t>& offset,
                        std::vector<std::uint32_t>& node) {
   const std::size_t count = tree.nodeCount();
   const formats::Neighbours edges(tree);
@@ -96,18 +96,18 @@ void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double
   const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
   const NodeGrid grid(tree, count == 0 ? 1 : 2 * reach * *middle + margin);
-  Ways ways(tree, edges);
+  TreeDistances distances(tree, edges);
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < count; ++i) {
     const double own = tree.radius[i], farthest = 2 * reach * own + margin;
-    ways.from(i, std::max(kDetour * farthest, leastWay * (2 * own + margin)));
+    distances.from(i, std::max(kDetour * farthest, leastPath * (2 * own + margin)));
     // wide nodes search for narrow ones, not the reverse
     grid.visitNear(i, farthest, [&](std::uint32_t j) {
       const double sum = own + tree.radius[j];
       if (tree.radius[j] > own || (tree.radius[j] == own && j >= i)) return;
-      const double distance = distanceOf(tree, i, j), way = ways.to(j);
+      const double distance = distanceOf(tree, i, j), length = distances.to(j);
       if (distance >= reach * sum + margin) return;
-      if (way >= 0 && way <= std::max(kDetour * distance, leastWay * (sum + margin))) return;
+      if (length >= 0 && length <= std::max(kDetour * distance, leastPath * (sum + margin))) return;
       pairs.emplace_back(i, j);
       pairs.emplace_back(j, i);
     });

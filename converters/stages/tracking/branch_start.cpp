@@ -123,7 +123,7 @@ std::vector<NearbyPlace> placesNearby(const TrackContext& context, const Vector3
 
 }  // namespace
 
-std::optional<Vector3d> directionOf(const SeedBranch& seed) {
+std::optional<Vector3d> statedDirection(const SeedBranch& seed) {
   if (seed.direction) return seed.direction;
   if (seed.points.size() < 2) return std::nullopt;
   return (seed.points[1].position - seed.points[0].position).normalized();
@@ -166,8 +166,8 @@ BranchStart startChild(TrackRun& run, const SeedBranch& seed, const TrackedBranc
   const Vector3d outward = seed.direction.value_or(toClick);
   const double offset = run.context.options.branchOffset;
   const NodeGuess atParent{root.position + offset * root.radius * outward, outward};
-  const NodeGuess atClick{click.position, directionOf(seed).value_or(toClick), 0,
-                          directionOf(seed).has_value()};
+  const NodeGuess atClick{click.position, statedDirection(seed).value_or(toClick), 0,
+                          statedDirection(seed).has_value()};
   const bool far = root.distance > kFarClickOffsets * offset * root.radius;
   std::vector<NodeGuess> guesses{atParent, atClick};
   if (far) std::swap(guesses[0], guesses[1]);

@@ -25,7 +25,7 @@ struct BranchStart {
 };
 
 /// Direction of a vessel at its first point (unit, LPS), if the seed gives one or a second point.
-std::optional<Eigen::Vector3d> directionOf(const SeedBranch& seed);
+std::optional<Eigen::Vector3d> statedDirection(const SeedBranch& seed);
 
 /// One node at a click. Without a radius, trial radii from about one voxel up; the first that is
 /// accepted, else the best. `smooth`: `direction` is known, not a guess.

@@ -90,8 +90,8 @@ struct Fall {
 /// The distance from the place `peak`, refined by a parabola through the falls around it, to the
 /// place where the profile passes halfway between the greatest mean over a voxel before it and the
 /// least one behind; 0 if it does not.
-double halfLevelOf(const std::vector<double>& profile, const std::vector<double>& fall,
-                   std::size_t peak) {
+double findHalfLevel(const std::vector<double>& profile, const std::vector<double>& fall,
+                     std::size_t peak) {
   const auto reach = static_cast<std::size_t>(kLevelReachVoxels / kSpacingVoxels);
   const auto box = static_cast<std::size_t>(1.0 / kSpacingVoxels);
   const std::size_t half = box / 2, first = peak - std::min(peak, reach);
@@ -117,7 +117,7 @@ double halfLevelOf(const std::vector<double>& profile, const std::vector<double>
          steepest;
 }
 
-Fall fallOf(std::vector<double> profile, double sign) {
+Fall findFall(std::vector<double> profile, double sign) {
   for (double& value : profile) value *= sign;
   const std::size_t n = profile.size();
   std::vector<double> fall(n, 0.0);
@@ -137,14 +137,14 @@ Fall fallOf(std::vector<double> profile, double sign) {
   };
   return {static_cast<double>(right - left) - 2.0 + crossing(right, right - 1) +
               crossing(left, left + 1),
-          halfLevelOf(profile, fall, peak)};
+          findHalfLevel(profile, fall, peak)};
 }
 
 /// Standard deviation of the blur under which a disc falls fastest at `seen` from its centre, by a
 /// curve that is `width` wide at half its height; 0 if the disc is too narrow to show it. For wide
 /// discs 1/s^2 = 1/g^2 + 1/(2 seen^2), where g is the Gaussian's of that width; below, a table of
 /// the closed form (see cylinderRadius) for radii of 1.5, 1.75, 2, 2.5 and 3 standard deviations.
-double spreadOf(double seen, double width) {
+double blurSpread(double seen, double width) {
   struct Entry {
     double ratio, share;
   };
@@ -244,12 +244,12 @@ std::optional<WallShape> measureWalls(const BsplineVolume& volume,
   const double voxel = volume.geometry().voxelSize();
   std::vector<double> spreads, halfLevels;
   for (const TrackedNode* node : widestNodes(vessels, voxel)) {
-    const Fall fall = fallOf(meanProfile(volume, *node), dark ? -1.0 : 1.0);
+    const Fall fall = findFall(meanProfile(volume, *node), dark ? -1.0 : 1.0);
     if (fall.width == 0) continue;
-    const double spread = spreadOf(node->radius, fall.width * kSpacingVoxels * voxel);
+    const double spread = blurSpread(node->radius, fall.width * kSpacingVoxels * voxel);
     if (!(spread > 0)) continue;
     spreads.push_back(spread);
-    const Fall even = fallOf(blurredDisc(node->radius, spread, kSpacingVoxels * voxel), 1);
+    const Fall even = findFall(blurredDisc(node->radius, spread, kSpacingVoxels * voxel), 1);
     halfLevels.push_back((fall.halfLevel - even.halfLevel) * kSpacingVoxels * voxel);
   }
   if (spreads.size() < kFewestNodes) return std::nullopt;

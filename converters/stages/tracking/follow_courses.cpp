@@ -69,7 +69,7 @@ struct OutsideStretch {
   double besides = 0;  ///< greatest radius of the vessels beside it, mm
 };
 
-OutsideStretch outsideOf(std::span<const Lumen> before, const std::vector<TrackedNode>& nodes) {
+OutsideStretch findOutside(std::span<const Lumen> before, const std::vector<TrackedNode>& nodes) {
   OutsideStretch best, here;
   double widest = 0;
   for (std::size_t i = 0; i <= nodes.size(); ++i) {
@@ -77,7 +77,7 @@ OutsideStretch outsideOf(std::span<const Lumen> before, const std::vector<Tracke
     widest = std::max(widest, around);
     if (i < nodes.size() && around == 0) continue;
     here.end = i;
-    here.length = lengthOf(std::span(nodes).subspan(here.first, here.end - here.first));
+    here.length = measureLength(std::span(nodes).subspan(here.first, here.end - here.first));
     if (here.length > best.length) best = here;
     here.first = i + 1;
   }
@@ -89,7 +89,7 @@ OutsideStretch outsideOf(std::span<const Lumen> before, const std::vector<Tracke
 /// these are wide, or than it is wide itself, is a bump of their wall.
 void dropInside(std::span<const Lumen> before, double voxel, TrackedBranch& branch) {
   if (branch.nodes.empty() || before.empty()) return;
-  const OutsideStretch out = outsideOf(before, branch.nodes);
+  const OutsideStretch out = findOutside(before, branch.nodes);
   std::vector<double> radii;
   for (std::size_t i = out.first; i < out.end; ++i) radii.push_back(branch.nodes[i].radius);
   const double own = radii.empty() ? 0 : upperMedian(radii);
@@ -193,7 +193,7 @@ std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const 
   std::vector<Lumen> known;
   for (std::size_t k = 0; k < tree.known; ++k) known.emplace_back(tree.branches[k]);
   std::vector<SeedBranch> out;
-  std::unordered_map<std::string, std::string> lastOf;  // the last stretch of each course
+  std::unordered_map<std::string, std::string> lastStretch;  // the last stretch of each course
   for (SeedBranch& course : courses) {
     SeedBranch stretch;
     std::size_t count = 0;
@@ -204,9 +204,9 @@ std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const 
         ++count;
         // one that begins at its parent's axis hangs on that; all others are roots, to be joined
         const bool isWhole = stretch.points.front().position == course.points.front().position;
-        if (isWhole && course.parent && lastOf.contains(*course.parent))
-          stretch.parent = lastOf.at(*course.parent);
-        lastOf[course.label] = stretch.label;
+        if (isWhole && course.parent && lastStretch.contains(*course.parent))
+          stretch.parent = lastStretch.at(*course.parent);
+        lastStretch[course.label] = stretch.label;
         out.push_back(std::move(stretch));
       }
       stretch = {};

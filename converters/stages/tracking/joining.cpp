@@ -95,7 +95,7 @@ void makeRoot(TrackedBranch& branch, const ChainPoint& parent) {
 /// The lumen of a branch at its first node.
 LumenLevels levelsAtStart(const TrackContext& context, const TrackedBranch& branch) {
   const std::size_t near = std::min(branch.nodes.size(), kLevelNodes);
-  return levelsOf(context.volume, std::span(branch.nodes).first(near));
+  return measureLevels(context.volume, std::span(branch.nodes).first(near));
 }
 
 bool isGap(const TrackedNode& a, const TrackedNode& b) {
@@ -117,7 +117,7 @@ void fillGaps(TrackRun& run, TrackedBranch& branch) {
     const std::size_t low = i + 1 > kLevelNodes ? i + 1 - kLevelNodes : 0;
     const std::size_t high = std::min(nodes.size(), i + 1 + kLevelNodes);
     const LumenLevels levels =
-        levelsOf(run.context.volume, std::span(nodes).subspan(low, high - low));
+        measureLevels(run.context.volume, std::span(nodes).subspan(low, high - low));
     const Vector3d to = nodes[i + 1].centre;
     const PathGoal goal{to, 0};
     const Line line = lineTo(run.context, levels, nodes[i].centre, {&goal, 1}, nodes[i].radius);

@@ -76,11 +76,11 @@ public:
         m_isOther(search.count(), false),
         m_part(search.count(), PathPart::Own),
         m_length(search.count(), 0.0F) {
-    for (const Ball& ball : start.others)
+    for (const WorldBall& ball : start.others)
       for (const std::size_t voxel : search.voxelsIn(ball)) m_isOther[voxel] = true;
-    for (const Ball& ball : start.closed)
+    for (const WorldBall& ball : start.closed)
       for (const std::size_t voxel : search.voxelsIn(ball)) search.exclude(voxel);
-    for (const Ball& ball : start.behind)
+    for (const WorldBall& ball : start.behind)
       for (const std::size_t voxel : search.voxelsIn(ball))
         if (along(voxel) < 0) search.exclude(voxel);
   }
@@ -120,8 +120,8 @@ private:
 };
 
 /// Voxels at the front of a search, in groups that touch; each in the order of their cost.
-std::vector<std::vector<std::size_t>> groupsOf(const CubeSearch& search,
-                                               const std::vector<std::size_t>& front) {
+std::vector<std::vector<std::size_t>> groupTouching(const CubeSearch& search,
+                                                    const std::vector<std::size_t>& front) {
   std::vector<std::vector<std::size_t>> groups;
   for (const std::size_t voxel : front) {
     std::size_t into = groups.size();
@@ -145,7 +145,7 @@ std::vector<std::vector<std::size_t>> groupsOf(const CubeSearch& search,
 }
 
 /// The radius of a disc as large as N voxels that lie side by side, mm.
-double breadthOf(std::size_t voxels, const VolumeGeometry& geometry) {
+double radiusOfDisc(std::size_t voxels, const VolumeGeometry& geometry) {
   const double face = std::pow(geometry.spacing.prod(), 2.0 / 3.0);
   return std::sqrt(static_cast<double>(voxels) * face / std::numbers::pi);
 }
@@ -153,13 +153,13 @@ double breadthOf(std::size_t voxels, const VolumeGeometry& geometry) {
 }  // namespace
 
 void addLumen(std::span<const TrackedNode> nodes, const VolumeGeometry& geometry,
-              std::vector<Ball>& balls) {
+              std::vector<WorldBall>& balls) {
   const double blur = 0.5 * geometry.voxelSize();
   for (const TrackedNode& node : nodes)
     balls.push_back({node.centre, kRimRadii * node.radius + blur});
 }
 
-LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> nodes) {
+LumenLevels measureLevels(const BsplineVolume& volume, std::span<const TrackedNode> nodes) {
   const VolumeGeometry& geometry = volume.geometry();
   std::vector<double> middle, wall;
   for (const TrackedNode& node : nodes) {
@@ -201,7 +201,7 @@ std::optional<Path> findPath(const TrackContext& context, const LumenLevels& lev
     }
     return SearchStep::GoOn;
   };
-  search.run(VoxelPrice{context, levels}, CheapestPaths::kFar, visit, context.progress);
+  search.run(VoxelPrice{context, levels}, CheapestPaths::kInfiniteCost, visit, context.progress);
   if (!std::isfinite(best)) return {};
   Path path = smoothed(context, levels, search.pathTo(bestVoxel));
   path.goal = bestGoal;
@@ -229,9 +229,9 @@ PathsBeyond pathsBeyond(const TrackContext& context, const LumenLevels& levels,
   };
   search.run(VoxelPrice{context, levels}, static_cast<float>(kBeyondWallPrice), visit,
              context.progress);
-  for (const auto& group : groupsOf(search, front)) {
+  for (const auto& group : groupTouching(search, front)) {
     beyond.paths.push_back(smoothed(context, levels, search.pathTo(group.front())));
-    beyond.paths.back().breadth = breadthOf(group.size(), context.volume.geometry());
+    beyond.paths.back().breadth = radiusOfDisc(group.size(), context.volume.geometry());
   }
   return beyond;
 }

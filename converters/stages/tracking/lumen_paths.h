@@ -25,11 +25,11 @@ constexpr std::size_t kLevelNodes = 12;
 
 /// Medians over nodes: of the intensity at their centres, and at their wall points. Both zero if
 /// none has wall points.
-LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> nodes);
+LumenLevels measureLevels(const BsplineVolume& volume, std::span<const TrackedNode> nodes);
 
 /// Adds balls that hold the lumen around nodes, with the blur of its rim.
 void addLumen(std::span<const TrackedNode> nodes, const VolumeGeometry& geometry,
-              std::vector<Ball>& balls);
+              std::vector<WorldBall>& balls);
 
 struct Path {
   std::vector<Eigen::Vector3d> points;  ///< from the start, mm, LPS, smoothed
@@ -56,10 +56,10 @@ std::optional<Path> findPath(const TrackContext& context, const LumenLevels& lev
 /// The start of paths, and the obstacles that they keep away from.
 struct PathStart {
   Eigen::Vector3d place = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
-  std::vector<Ball> closed;  ///< no path leads into these
-  std::vector<Ball> behind;  ///< nor into the part of these behind the plane through the place
-  std::vector<Ball> others;  ///< other vessels: a path may cross them once, ...
-  double through = 0;        ///< ... if it enters them within this length, mm
+  std::vector<WorldBall> closed;  ///< no path leads into these
+  std::vector<WorldBall> behind;  ///< nor into the part of these behind the plane through the place
+  std::vector<WorldBall> others;  ///< other vessels: a path may cross them once, ...
+  double through = 0;             ///< ... if it enters them within this length, mm
 };
 
 struct PathsBeyond {

@@ -116,12 +116,12 @@ using Fits = std::vector<std::optional<TrackedNode>>;
 
 /// The median radius of the fitted nodes around one, or 0 if there are too few.
 double radiusAround(const Fits& nodes, std::size_t at) {
-  constexpr std::size_t kReach = 6, kFewest = 4;
+  constexpr std::size_t kNodesAround = 6, kFewestAround = 4;
   std::vector<double> radii;
-  const std::size_t end = std::min(nodes.size(), at + kReach + 1);
-  for (std::size_t i = at < kReach ? 0 : at - kReach; i < end; ++i)
+  const std::size_t end = std::min(nodes.size(), at + kNodesAround + 1);
+  for (std::size_t i = at < kNodesAround ? 0 : at - kNodesAround; i < end; ++i)
     if (nodes[i]) radii.push_back(nodes[i]->radius);
-  return radii.size() < kFewest ? 0 : upperMedian(radii);
+  return radii.size() < kFewestAround ? 0 : upperMedian(radii);
 }
 
 void dropTurnedBack(Fits& nodes) {
@@ -136,7 +136,7 @@ AxisPoint axisAt(const TrackedNode& node) {
   return {node.centre, node.direction, node.radius};
 }
 
-double lengthOf(std::span<const Station> course) {
+double measureLength(std::span<const Station> course) {
   double length = 0;
   for (std::size_t i = 1; i < course.size(); ++i)
     length += (course[i].position - course[i - 1].position).norm();
@@ -181,7 +181,7 @@ void bridge(std::vector<Station>& stations, Fits& nodes, const Fit& fit) {
     const auto course = std::span(stations).subspan(a, i - a + 1);
     const std::vector<Station> moved = movedCourse(*nodes[a], *nodes[i], course);
     const std::vector<Station> curve =
-        curveBetween(axisAt(*nodes[a]), axisAt(*nodes[i]), moved.size(), lengthOf(course));
+        curveBetween(axisAt(*nodes[a]), axisAt(*nodes[i]), moved.size(), measureLength(course));
     const std::vector<Station>& taken = isNear(curve, moved) ? curve : moved;
     for (std::size_t k = 0; k < taken.size(); ++k) {
       stations[a + 1 + k] = taken[k];

@@ -35,7 +35,7 @@ NodeGuess predictNode(const TrackOptions& options, const TrackedNode& from, doub
 
 /// The course of a track (unit): between its last direction and the chord over its last radius
 /// and a half. On a thin vessel the two together err less than either alone.
-Eigen::Vector3d courseOf(std::span<const TrackedNode> nodes);
+Eigen::Vector3d courseDirection(std::span<const TrackedNode> nodes);
 
 /// True for a poor fit that is suddenly wide: it lies around the vessel and another that touches
 /// it.

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 
 /// Half of the width of a passage that continues within the sac, in radii of the least ball.
-constexpr double kHalfWay = 0.25;
+constexpr double kHalfPassageRadii = 0.25;
 /// Voxels: extent of the sac beyond the reach of a ball of half a passage's width, for corners.
 constexpr double kCorner = 1.5;
 /// Voxels in a box: beyond, a radius was mistyped.
@@ -113,7 +113,7 @@ bool isInReach(std::span<const SacBall> balls, const Vector3d& p) {
 }
 
 /// The sum of the steps from a cell to those beside it that are in no lumen.
-Vector3d outsideOf(const SacRegion& region, const Cell& cell) {
+Vector3d sumOutward(const SacRegion& region, const Cell& cell) {
   Vector3d sum = Vector3d::Zero();
   for (const Cell& step : kFaceSteps) {
     const Cell next = cell + step;
@@ -138,11 +138,11 @@ Vector3d downhill(const TrackContext& context, const Vector3d& at) {
 }
 
 /// Adds the place of the steepest fall on a line through the wall; `values` is a buffer.
-void addWall(const TrackContext& context, const Vector3d& at, const Vector3d& way,
+void addWall(const TrackContext& context, const Vector3d& at, const Vector3d& direction,
              std::vector<float>& values, SacWall& wall) {
   const VolumeGeometry& geometry = context.volume.geometry();
   const float sign = context.options.dark ? -1.0F : 1.0F;
-  context.volume.sampleLine(at - kInward * way, kProfileStep * way, values);
+  context.volume.sampleLine(at - kInward * direction, kProfileStep * direction, values);
   std::size_t best = 0;
   float strongest = 0;
   for (std::size_t n = kHalfFall; n + kHalfFall < values.size(); ++n) {
@@ -154,7 +154,7 @@ void addWall(const TrackContext& context, const Vector3d& at, const Vector3d& wa
   }
   if (best == 0) return;
   const double along = static_cast<double>(best) * kProfileStep - kInward;
-  wall.points.push_back(geometry.worldFromIndex(at + along * way));
+  wall.points.push_back(geometry.worldFromIndex(at + along * direction));
   wall.strength.push_back(static_cast<double>(strongest) /
                           (2 * kHalfFall * kProfileStep * geometry.voxelSize()));
 }
@@ -164,7 +164,7 @@ void addWall(const TrackContext& context, const Vector3d& at, const Vector3d& wa
 double leastPassage(std::span<const SacBall> balls) {
   double least = kNoPlace;
   for (const SacBall& ball : balls) least = std::min(least, ball.radius);
-  return kHalfWay * least;
+  return kHalfPassageRadii * least;
 }
 
 std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
@@ -198,17 +198,17 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
   return region;
 }
 
-SacWall wallOf(const TrackContext& context, const SacRegion& region) {
+SacWall measureSacWall(const TrackContext& context, const SacRegion& region) {
   SacWall wall;
   std::vector<float> values(kProfile);
   for (std::size_t i = 0; i < region.isSac.size(); ++i) {
     if ((i & kOften) == 0) context.progress.check();
     if (!region.isSac[i]) continue;
     const Cell cell = region.box.cell(i);
-    const Vector3d outside = outsideOf(region, cell);
+    const Vector3d outside = sumOutward(region, cell);
     if ((outside.array() == 0).all()) continue;
-    const Vector3d at = cell.cast<double>(), way = downhill(context, at);
-    if (way.dot(outside) > 0) addWall(context, at, way, values, wall);
+    const Vector3d at = cell.cast<double>(), direction = downhill(context, at);
+    if (direction.dot(outside) > 0) addWall(context, at, direction, values, wall);
   }
   return wall;
 }

@@ -57,7 +57,7 @@ struct SacWall {
   std::vector<Eigen::Vector3d> points;  ///< mm, LPS
   std::vector<double> strength;
 };
-SacWall wallOf(const TrackContext& context, const SacRegion& region);
+SacWall measureSacWall(const TrackContext& context, const SacRegion& region);
 
 /// A subset of the points whose members are at least `apart` mm from each other, such that each of
 /// `points` has a member at most as far away.

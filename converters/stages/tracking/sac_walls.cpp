@@ -41,7 +41,7 @@ struct Sac {
 };
 
 /// A piece of a vessel between two of its nodes.
-struct Piece {
+struct VesselPiece {
   Vector3d start, chord;
   double radius, change;
 
@@ -54,30 +54,30 @@ struct Piece {
 
 /// The new aneurysms that are joined to one another, with their vessels, for each that is joined to
 /// none.
-std::vector<Sac> sacsOf(const TrackedTree& tree) {
+std::vector<Sac> findSacs(const TrackedTree& tree) {
   const std::vector<TrackedBranch>& all = tree.branches;
   const auto isVessel = [&](int i) { return i >= 0 && tree.isVessel(static_cast<std::size_t>(i)); };
   const auto isAneurysm = [&](int i) {
     return i >= static_cast<int>(tree.known) && !isVessel(i) &&
            !all[static_cast<std::size_t>(i)].nodes.empty();
   };
-  const auto headOf = [&](int i) {
+  const auto findHead = [&](int i) {
     while (isAneurysm(all[static_cast<std::size_t>(i)].parentBranch))
       i = all[static_cast<std::size_t>(i)].parentBranch;
     return static_cast<std::size_t>(i);
   };
-  std::vector<Sac> sacOf(all.size());
+  std::vector<Sac> sacAtHead(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int self = static_cast<int>(i), parent = all[i].parentBranch;
     if (isAneurysm(self)) {
-      sacOf[headOf(self)].parts.push_back(i);
-      if (isVessel(parent)) sacOf[i].vessels.push_back(static_cast<std::size_t>(parent));
+      sacAtHead[findHead(self)].parts.push_back(i);
+      if (isVessel(parent)) sacAtHead[i].vessels.push_back(static_cast<std::size_t>(parent));
     } else if (isAneurysm(parent)) {
-      sacOf[headOf(parent)].vessels.push_back(i);
+      sacAtHead[findHead(parent)].vessels.push_back(i);
     }
   }
-  std::erase_if(sacOf, [](const Sac& sac) { return sac.parts.empty(); });
-  return sacOf;
+  std::erase_if(sacAtHead, [](const Sac& sac) { return sac.parts.empty(); });
+  return sacAtHead;
 }
 
 /// True if the lumen ends all around a node, but for a third.
@@ -99,10 +99,10 @@ bool isTube(const TrackContext& context, double wallLevel, const TrackedNode& no
 
 /// The pieces of vessels near a sac that bound it. Vessels that open into it bound it only where
 /// they are measured tubes; their nodes near the sac are added to `mouth`.
-std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const Sac& sac,
-                            std::span<const SacBall> balls, std::vector<TrackedBranch>& all,
-                            std::vector<TrackedNode*>& mouth) {
-  std::vector<Piece> pieces;
+std::vector<VesselPiece> findBounds(const TrackContext& context, double wallLevel, const Sac& sac,
+                                    std::span<const SacBall> balls, std::vector<TrackedBranch>& all,
+                                    std::vector<TrackedNode*>& mouth) {
+  std::vector<VesselPiece> pieces;
   const auto isFar = [&](const TrackedNode& node) {
     return std::none_of(balls.begin(), balls.end(), [&](const SacBall& ball) {
       return (node.centre - ball.centre).norm() <
@@ -137,8 +137,8 @@ std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const
 }
 
 /// Wall points of a region whose strength is at least the required one, evenly spread.
-std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& region) {
-  const SacWall wall = wallOf(context, region);
+std::vector<Vector3d> chooseWallPoints(const TrackContext& context, const SacRegion& region) {
+  const SacWall wall = measureSacWall(context, region);
   std::vector<Vector3d> strong;
   if (wall.points.empty()) return strong;
   const double strongest = *std::max_element(wall.strength.begin(), wall.strength.end());
@@ -222,14 +222,15 @@ void capture(const TrackContext& context, const Sac& sac, std::vector<TrackedBra
       clicked.push_back(node);
       balls.push_back({node.centre, node.radius});
     }
-  const double wallLevel = levelsOf(context.volume, clicked).wall;
+  const double wallLevel = measureLevels(context.volume, clicked).wall;
   std::vector<TrackedNode*> owners;
-  const std::vector<Piece> pieces = boundsOf(context, wallLevel, sac, balls, all, owners);
+  const std::vector<VesselPiece> pieces = findBounds(context, wallLevel, sac, balls, all, owners);
   const auto region = growSac(context, wallLevel, balls, [&](const Vector3d& p) {
-    return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& x) { return x.holds(p); });
+    return std::any_of(pieces.begin(), pieces.end(),
+                       [&](const VesselPiece& x) { return x.holds(p); });
   });
   if (!region) return;
-  const std::vector<Vector3d> points = pointsOf(context, *region);
+  const std::vector<Vector3d> points = chooseWallPoints(context, *region);
   if (points.empty()) return;
   const double least = leastPassage(balls);
   for (const TrackedNode* node : owners) balls.push_back({node->centre, node->radius});
@@ -247,7 +248,7 @@ void capture(const TrackContext& context, const Sac& sac, std::vector<TrackedBra
 }  // namespace
 
 void captureSacs(const TrackContext& context, TrackedTree& tree) {
-  for (const Sac& sac : sacsOf(tree)) capture(context, sac, tree.branches);
+  for (const Sac& sac : findSacs(tree)) capture(context, sac, tree.branches);
 }
 
 }  // namespace lumen::convert

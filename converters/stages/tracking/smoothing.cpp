@@ -33,7 +33,7 @@ constexpr double kEmptyShare = 0.25;
 constexpr std::uint64_t kStream = ~std::uint64_t{0};
 
 /// Voxels: length of the rays that sample the surroundings of a click.
-constexpr int kReach = 16;
+constexpr int kRayVoxels = 16;
 /// The most clicks whose contrast is measured, to bound the time.
 constexpr std::size_t kMostClicks = 256;
 /// Quantile of a ray's samples that is the vessel's surroundings, even if the ray runs along it for
@@ -55,7 +55,7 @@ constexpr double kSampling = 0.5;
 constexpr double kBearable = 1.5;
 
 /// The number of places that the noise floor of a volume is taken from.
-std::size_t placesOf(const VolumeGeometry& geometry) {
+std::size_t countPlaces(const VolumeGeometry& geometry) {
   const double voxels =
       kRayRadii * kRadiusVoxels * geometry.voxelSize() / geometry.spacing.minCoeff();
   const double share = std::min(1.0, kLongRay / voxels);
@@ -76,7 +76,7 @@ double strengthAround(const BsplineVolume& volume, const TrackOptions& options,
 /// The difference between a click and the lower quartile of the samples of rays around it.
 float contrastAt(const BsplineVolume& volume, const Eigen::Vector3d& click, float sign) {
   const VolumeGeometry& geometry = volume.geometry();
-  std::vector<float> values(kReach + 1), inside, around;
+  std::vector<float> values(kRayVoxels + 1), inside, around;
   for (const Eigen::Vector3d& ray : icosphere(icosphereOrder(kRays))) {
     const Eigen::Vector3d step = (geometry.direction.transpose() * ray * geometry.voxelSize())
                                      .cwiseQuotient(geometry.spacing);
@@ -95,7 +95,7 @@ double noiseFloor(const BsplineVolume& volume, const TrackOptions& options,
                   const Progress& progress) {
   const VolumeGeometry& geometry = volume.geometry();
   Random random(options.seed, kStream);
-  std::vector<Eigen::Vector3d> places(placesOf(geometry));
+  std::vector<Eigen::Vector3d> places(countPlaces(geometry));
   for (Eigen::Vector3d& index : places)
     for (int a = 0; a < 3; ++a)
       index[a] =

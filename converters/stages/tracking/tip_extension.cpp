@@ -35,13 +35,13 @@ constexpr std::size_t kStrayedNodes = 12;
 
 /// The tip of a track, from which paths must not lead back into the track.
 PathStart pathStartAtTip(const TrackContext& context, std::span<const TrackedNode> nodes,
-                         std::span<const Ball> others) {
+                         std::span<const WorldBall> others) {
   const TrackedNode& tip = nodes.back();
-  PathStart start{tip.centre, courseOf(nodes), {}, {}, {}, kThroughRadii * tip.radius};
+  PathStart start{tip.centre, courseDirection(nodes), {}, {}, {}, kThroughRadii * tip.radius};
   start.others.assign(others.begin(), others.end());
-  std::vector<Ball> own;
+  std::vector<WorldBall> own;
   addLumen(nodes, context.volume.geometry(), own);
-  for (const Ball& ball : own) {
+  for (const WorldBall& ball : own) {
     const bool isNear = (ball.centre - tip.centre).norm() < kNearTipRadii * tip.radius;
     (isNear ? start.behind : start.closed).push_back(ball);
   }
@@ -62,9 +62,10 @@ bool isSameVessel(std::span<const TrackedNode> before, std::span<const TrackedNo
 }
 
 /// The number of nodes of a track before those at its tip that lie in the lumen of others.
-std::size_t countBeforeOthers(std::span<const TrackedNode> nodes, std::span<const Ball> others) {
+std::size_t countBeforeOthers(std::span<const TrackedNode> nodes,
+                              std::span<const WorldBall> others) {
   const auto isIn = [&](const TrackedNode& node) {
-    return std::any_of(others.begin(), others.end(), [&](const Ball& ball) {
+    return std::any_of(others.begin(), others.end(), [&](const WorldBall& ball) {
       return (node.centre - ball.centre).norm() < ball.radius;
     });
   };
@@ -117,11 +118,11 @@ bool appendAlongPath(TrackRun& run, std::vector<TrackedNode>& nodes, std::span<c
 
 /// Appends nodes along a path beyond the tip of a branch, and records the length for which the
 /// lumen is seen to continue.
-bool extendOnce(TrackRun& run, TrackedBranch& branch, std::span<const Ball> others) {
+bool extendOnce(TrackRun& run, TrackedBranch& branch, std::span<const WorldBall> others) {
   const TrackContext& context = run.context;
   std::vector<TrackedNode>& nodes = branch.nodes;
   const LumenLevels levels =
-      levelsOf(context.volume, std::span(nodes).last(std::min(nodes.size(), kLevelNodes)));
+      measureLevels(context.volume, std::span(nodes).last(std::min(nodes.size(), kLevelNodes)));
   const TrackedNode& tip = nodes.back();
   const double least = kBeyondVoxels * context.volume.geometry().voxelSize();
   const PathStart start = pathStartAtTip(context, nodes, others);
@@ -130,7 +131,7 @@ bool extendOnce(TrackRun& run, TrackedBranch& branch, std::span<const Ball> othe
     PathsBeyond beyond = pathsBeyond(context, levels, start, distance);
     branch.goesOn = beyond.visible > kRoundEndRadii * tip.radius ? beyond.visible : 0;
     if (beyond.isAll) return false;
-    sortStraightestFirst(beyond.paths, courseOf(nodes));
+    sortStraightestFirst(beyond.paths, courseDirection(nodes));
     if (appendAlongPath(run, nodes, beyond.paths)) return true;
   }
   return false;
@@ -138,7 +139,7 @@ bool extendOnce(TrackRun& run, TrackedBranch& branch, std::span<const Ball> othe
 
 }  // namespace
 
-void extendTip(TrackRun& run, TrackedBranch& branch, std::span<const Ball> others,
+void extendTip(TrackRun& run, TrackedBranch& branch, std::span<const WorldBall> others,
                FinishedBranches finished) {
   std::vector<TrackedNode>& nodes = branch.nodes;
   while (branch.stopReason == StopReason::NoValidCylinder ||

@@ -15,7 +15,7 @@ namespace lumen::convert {
 /// there tracks as usual. `others`: lumen of other vessels. Writes the stop reason, and to `goesOn`
 /// the length for which the lumen is seen to continue beyond the tip. Every round makes the track
 /// longer, so that it ends. Throws Error(Cancelled).
-void extendTip(TrackRun& run, TrackedBranch& branch, std::span<const Ball> others,
+void extendTip(TrackRun& run, TrackedBranch& branch, std::span<const WorldBall> others,
                FinishedBranches finished);
 
 }  // namespace lumen::convert

@@ -24,14 +24,14 @@ constexpr double kStuntedRadii = 4;
 
 BranchStart startAtSeed(TrackRun& run, const SeedBranch& seed, const TrackedBranch* parent) {
   if (parent) return startChild(run, seed, *parent);
-  const auto direction = directionOf(seed);
+  const auto direction = statedDirection(seed);
   return startAtClick(run, seed.points[0], direction.value_or(Vector3d::UnitZ()),
                       direction.has_value());
 }
 
 /// The reason why a branch cannot continue from its start; empty if it can.
-std::string failureOf(const TrackContext& context, const BranchStart& start,
-                      FinishedBranches finished) {
+std::string findFailure(const TrackContext& context, const BranchStart& start,
+                        FinishedBranches finished) {
   if (start.nodes.empty())
     return start.inParent ? "what fits at the seed lies in its parent's lumen; click farther along "
                             "the branch, and give its radius if it is thin"
@@ -78,7 +78,7 @@ TrackedBranch trackFromStart(TrackRun& run, const SeedBranch& seed, const Tracke
                              BranchStart start, FinishedBranches finished) {
   TrackedBranch branch;
   branch.parentNode = start.parentNode;
-  branch.failure = failureOf(run.context, start, finished);
+  branch.failure = findFailure(run.context, start, finished);
   if (!branch.failure.empty()) return branch;
   branch.nodes = std::move(start.nodes);
   branch.clickNode = branch.nodes.size() - 1;

@@ -93,7 +93,7 @@ void giveTail(std::vector<TrackedBranch>& branches, int from, std::size_t node,
   const std::size_t click = std::min(taker.clickNode, taker.nodes.size());
   const auto own = std::span(taker.nodes).subspan(click);
   const auto tail = std::span(giver.nodes).subspan(node);
-  if (own.size() > 1 && lengthOf(own) >= lengthOf(tail)) {
+  if (own.size() > 1 && measureLength(own) >= measureLength(tail)) {
     taker.nodes.erase(taker.nodes.begin(),
                       taker.nodes.begin() + static_cast<std::ptrdiff_t>(click));
   } else {
@@ -136,7 +136,8 @@ void giveTails(const OneDepth& depth) {
 }
 
 /// The first of some branches in whose core a node lies; -1 if there is none.
-int holderOf(const OneDepth& depth, std::span<const std::size_t> others, const TrackedNode& node) {
+int findHolder(const OneDepth& depth, std::span<const std::size_t> others,
+               const TrackedNode& node) {
   for (const std::size_t other : others) {
     const TrackedBranch* branch = &depth.tree.branches[other];
     if (inCore({&branch, 1}, node)) return static_cast<int>(other);
@@ -154,7 +155,7 @@ void trimDuplicates(const OneDepth& depth) {
     if (nodes.empty()) continue;
     std::vector<std::size_t> others = kept;
     if (branch.isTail) std::erase(others, static_cast<std::size_t>(branch.parentBranch));
-    const auto met = [&](const TrackedNode& n) { return holderOf(depth, others, n) >= 0; };
+    const auto met = [&](const TrackedNode& n) { return findHolder(depth, others, n) >= 0; };
     const auto click = nodes.begin() + static_cast<std::ptrdiff_t>(branch.clickNode);
     const auto end = std::find_if(click, nodes.end(), met);
     const auto begin = std::find_if(std::make_reverse_iterator(click), nodes.rend(), met).base();
@@ -163,7 +164,7 @@ void trimDuplicates(const OneDepth& depth) {
     if (cut > 0) branch.startReason = StopReason::MetBranch;
     if (end == click) {
       branch.failure = kTrackedAlready;
-      branch.trackedBy = holderOf(depth, others, *click);
+      branch.trackedBy = findHolder(depth, others, *click);
       nodes.clear();
     } else {
       nodes.erase(end, nodes.end());

@@ -62,7 +62,7 @@ WallShape trackTree(const TrackingVolume& volume, TrackBranches trackBranches,
   reviewWalls(context, tree);
   if (isFound) dropUnsupported(tree);
   progress.end();
-  const WallShape shape = volume.wallShape() ? *volume.wallShape() : wallShapeOf(volume, tree);
+  const WallShape shape = volume.wallShape() ? *volume.wallShape() : measureWallShape(volume, tree);
   const std::vector<TrackedBranch> before(
       tree.branches.begin(), tree.branches.begin() + static_cast<std::ptrdiff_t>(tree.known));
   captureSacs(context, tree);
@@ -178,14 +178,14 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
 
 }  // namespace
 
-TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                      const TrackOptions& options, Progress& progress) {
+TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                           const TrackOptions& options, Progress& progress) {
   return newCase(volume, seeds, options, trackByDepth, {}, progress);
 }
 
-TrackResult trackCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
-                         const PlaceTest& isNoVessel, const TrackOptions& options,
-                         Progress& progress) {
+TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
+                              const PlaceTest& isNoVessel, const TrackOptions& options,
+                              Progress& progress) {
   return newCase(volume, courses, options, followCourses, isNoVessel, progress);
 }
 
@@ -233,10 +233,10 @@ void nameAnew(const formats::Case& known, std::vector<SeedBranch>& seeds) {
 
 }  // namespace
 
-AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& known,
-                          const std::vector<SeedBranch>& seeds, Progress& progress) {
+AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
+                               const std::vector<SeedBranch>& seeds, Progress& progress) {
   requireNewLabels(known, seeds);
-  TrackedTree tree = trackedTreeOf(known);
+  TrackedTree tree = makeTrackedTree(known);
   appendParentsFirst(seeds, tree.seeds);
   AddedTracks out = intoCase(volume, known, tree, trackByDepth, {}, progress);
   for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
@@ -245,10 +245,10 @@ AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& kno
   return out;
 }
 
-AddedTracks trackCoursesIntoCase(const TrackingVolume& volume, const formats::Case& known,
-                                 const std::vector<SeedBranch>& courses,
-                                 const PlaceTest& isNoVessel, Progress& progress) {
-  TrackedTree tree = trackedTreeOf(known);
+AddedTracks addTracksAlongCourses(const TrackingVolume& volume, const formats::Case& known,
+                                  const std::vector<SeedBranch>& courses,
+                                  const PlaceTest& isNoVessel, Progress& progress) {
+  TrackedTree tree = makeTrackedTree(known);
   std::vector<SeedBranch> stretches = stretchesOutside(courses, tree);
   nameAnew(known, stretches);
   tree.seeds.insert(tree.seeds.end(), stretches.begin(), stretches.end());

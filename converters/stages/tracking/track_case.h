@@ -25,16 +25,16 @@ struct TrackResult : TrackRemarks {
 /// Tracks every seed. The result does not depend on the number of threads. Throws
 /// Error(InvalidInput) for options out of range and for voxels with one edge over 1000 times as
 /// long as another, and Error(Cancelled).
-TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                      const TrackOptions& options, Progress& progress);
+TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                           const TrackOptions& options, Progress& progress);
 
 /// Fits vessels along courses: the points of each seed, with radii, lead along the whole vessel, from
 /// its parent's axis to its tip. Vessels whose walls the volume does not show are left out, as
 /// failures. No node is put where `isNoVessel`. The result does not depend on the
-/// number of threads. Throws as trackCase() does.
-TrackResult trackCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
-                         const PlaceTest& isNoVessel, const TrackOptions& options,
-                         Progress& progress);
+/// number of threads. Throws as trackFromSeeds() does.
+TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
+                              const PlaceTest& isNoVessel, const TrackOptions& options,
+                              Progress& progress);
 
 struct AddedTracks : TrackRemarks {
   /// The known nodes and branches, under their indices, and the new ones behind them. New nodes
@@ -54,14 +54,14 @@ struct AddedTracks : TrackRemarks {
 /// clicks with radii. The "edit" step of the result lists the tracked seeds. The result does not
 /// depend on the number of threads. Throws Error(InvalidInput) if a seed has the label of a branch
 /// or of another seed, or an unknown parent, and Error(Cancelled).
-AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& known,
-                          const std::vector<SeedBranch>& seeds, Progress& progress);
+AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
+                               const std::vector<SeedBranch>& seeds, Progress& progress);
 
-/// Adds the vessels along courses, as trackCourses() fits them, to a case as trackIntoCase() does:
-/// the stretches that the case does not have. New vessels are named vessel-N by numbers that the
-/// case does not use. Throws as trackIntoCase() does.
-AddedTracks trackCoursesIntoCase(const TrackingVolume& volume, const formats::Case& known,
-                                 const std::vector<SeedBranch>& courses,
-                                 const PlaceTest& isNoVessel, Progress& progress);
+/// Adds the vessels along courses, as trackAlongCourses() fits them, to a case as
+/// addTracksFromSeeds() does: the stretches that the case does not have. New vessels are named
+/// vessel-N by numbers that the case does not use. Throws as addTracksFromSeeds() does.
+AddedTracks addTracksAlongCourses(const TrackingVolume& volume, const formats::Case& known,
+                                  const std::vector<SeedBranch>& courses,
+                                  const PlaceTest& isNoVessel, Progress& progress);
 
 }  // namespace lumen::convert

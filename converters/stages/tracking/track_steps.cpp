@@ -134,7 +134,7 @@ Step trackOneStep(TrackRun& run, std::vector<TrackedNode>& nodes, std::size_t& l
   const TrackOptions& options = context.options;
   const std::size_t before = nodes.size();
   if (before >= static_cast<std::size_t>(options.maxNodes)) return {StopReason::StepLimit};
-  const NodeGuess guess = predictNode(options, nodes.back(), 1, courseOf(nodes));
+  const NodeGuess guess = predictNode(options, nodes.back(), 1, courseDirection(nodes));
   if (!context.volume.geometry().containsWorld(guess.centre)) return {StopReason::LeftVolume};
   std::optional<TrackedNode> node = fitNode(run, guess, leastInlierRate(options)).node;
   if (node && isSwollen(options, nodes, *node)) node.reset();
@@ -188,7 +188,7 @@ std::vector<TrackedNode> trackBackTo(TrackRun& run, const TrackedNode& start,
   const bool arrived =
       back.stopReason == StopReason::MetBranch || reached.distance < kArrivedRadii * reached.radius;
   const double straight = closestOnChain(goal.nodes, start.centre).distance;
-  if (!arrived || lengthOf(back.nodes) > kLongestDetour * straight) back.nodes.resize(1);
+  if (!arrived || measureLength(back.nodes) > kLongestDetour * straight) back.nodes.resize(1);
   reverseTrack(back.nodes);
   return std::move(back.nodes);
 }

@@ -28,8 +28,8 @@ TrackedNode reversed(TrackedNode node) {
 }
 
 bool isAhead(const TrackedNode& node, const TrackedNode& next) {
-  const Eigen::Vector3d way = next.centre - node.centre;
-  return way.dot(node.direction) > 0 && way.dot(next.direction) > 0;
+  const Eigen::Vector3d chord = next.centre - node.centre;
+  return chord.dot(node.direction) > 0 && chord.dot(next.direction) > 0;
 }
 
 std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes) {
@@ -81,7 +81,7 @@ void reverseTrack(std::vector<TrackedNode>& nodes) {
   for (TrackedNode& node : nodes) node = reversed(std::move(node));
 }
 
-double lengthOf(std::span<const TrackedNode> nodes) {
+double measureLength(std::span<const TrackedNode> nodes) {
   double length = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i)
     length += (nodes[i].centre - nodes[i - 1].centre).norm();

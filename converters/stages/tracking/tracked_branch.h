@@ -69,7 +69,7 @@ void dropTurnedBack(TrackedBranch& branch);
 void dropDome(TrackedBranch& branch);
 
 /// The sum of the distances between consecutive nodes, mm.
-double lengthOf(std::span<const TrackedNode> nodes);
+double measureLength(std::span<const TrackedNode> nodes);
 
 /// A place on a chain of nodes.
 struct ChainPoint {

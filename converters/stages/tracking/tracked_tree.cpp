@@ -102,10 +102,10 @@ void remark(const SeedBranch& seed, const TrackedBranch& branch, TrackRemarks& o
 
 }  // namespace
 
-TrackedTree trackedTreeOf(const formats::Case& vesselCase) {
+TrackedTree makeTrackedTree(const formats::Case& vesselCase) {
   TrackedTree out;
   const formats::CenterlineTree& tree = vesselCase.tree;
-  const auto origins = formats::nodeOriginsOf(vesselCase);
+  const auto origins = formats::readNodeOrigins(vesselCase);
   for (const formats::Branch& record : tree.branches) {
     SeedBranch seed;
     seed.label = record.label;
@@ -133,7 +133,7 @@ void appendTracks(const TrackedTree& tree, formats::Case& target) {
   std::vector<std::int32_t> firstNode(tree.branches.size());
   for (std::size_t i = 0; i < tree.known; ++i)
     firstNode[i] = static_cast<std::int32_t>(target.tree.branches[i].firstNode);
-  std::vector<formats::NodeOrigin> origins = formats::nodeOriginsOf(target);
+  std::vector<formats::NodeOrigin> origins = formats::readNodeOrigins(target);
   for (const std::size_t i : parentsFirst(tree)) {
     firstNode[i] = static_cast<std::int32_t>(target.tree.nodeCount());
     appendBranch(tree.seeds[i], tree.branches[i], firstNode, target);

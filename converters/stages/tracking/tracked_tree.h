@@ -29,7 +29,7 @@ struct TrackedTree {
 /// All branches of a valid case, in its order, as known ones. Each seed has one point, at the first
 /// node of its branch. Values that a case does not hold are 0: the strength of walls, and how far
 /// points lie along the axis.
-TrackedTree trackedTreeOf(const formats::Case& vesselCase);
+TrackedTree makeTrackedTree(const formats::Case& vesselCase);
 
 /// Appends the new branches that have nodes, with their points, to a case that has points: in the
 /// seeds' order, but every parent, which has nodes, before its children. The known branches are

@@ -62,7 +62,7 @@ TrackOptions optionsFor(const formats::Case& tracked) {
 }
 
 /// The middle of every vessel, as clicks.
-std::vector<SeedBranch> clicksOf(const formats::Case& tracked) {
+std::vector<SeedBranch> middlesAsClicks(const formats::Case& tracked) {
   std::vector<SeedBranch> clicks;
   for (const formats::Branch& branch : tracked.tree.branches) {
     if (branch.kind != formats::BranchKind::Vessel) continue;
@@ -108,7 +108,7 @@ std::optional<TrackOptions> recordedTrackOptions(const formats::Case& vesselCase
   return o;
 }
 
-WallShape wallShapeOf(const TrackingVolume& volume, const TrackedTree& tree) {
+WallShape measureWallShape(const TrackingVolume& volume, const TrackedTree& tree) {
   std::vector<const TrackedBranch*> vessels;
   for (std::size_t i = 0; i < tree.seeds.size(); ++i)
     if (tree.isVessel(i)) vessels.push_back(&tree.branches[i]);
@@ -139,9 +139,10 @@ TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracke
     : m_options(optionsFor(tracked)) {
   m_options.check(volume.geometry.spacing.minCoeff());
   checkVoxels(volume.geometry.spacing);
-  m_smoothed = smoothForNoise(volume, volume.geometry, clicksOf(tracked), m_options, progress);
+  m_smoothed =
+      smoothForNoise(volume, volume.geometry, middlesAsClicks(tracked), m_options, progress);
   m_options.smoothing = m_smoothed.smoothing;
-  m_wallShape = wallShapeOf(*this, trackedTreeOf(tracked));
+  m_wallShape = measureWallShape(*this, makeTrackedTree(tracked));
   if (!m_options.pointSpread) return;
   m_wallShape->pointSpread = *m_options.pointSpread;
   if (*m_options.pointSpread == 0) m_wallShape->halfLevel = 0;

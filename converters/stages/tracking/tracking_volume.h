@@ -23,8 +23,8 @@ namespace lumen::convert {
 class TrackingVolume {
 public:
   /// Prepares the volume for a case that was tracked in it: smoothed as its last "track" step
-  /// states, with that step's options. Throws as trackCase() does, and Error(InvalidInput) if the
-  /// case has no such step.
+  /// states, with that step's options. Throws as trackFromSeeds() does, and Error(InvalidInput) if
+  /// the case has no such step.
   TrackingVolume(const Volume& volume, const formats::Case& tracked, Progress& progress);
   /// Prepares a volume without a case: smoothed as the noise around these clicks requires.
   TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
@@ -54,7 +54,7 @@ private:
 
 /// The shape by which the walls of vessels are corrected, measured on the branches of a tree; where
 /// too few of them show it, the blur is at least that of the voxel's own box and of the smoothing.
-WallShape wallShapeOf(const TrackingVolume& volume, const TrackedTree& tree);
+WallShape measureWallShape(const TrackingVolume& volume, const TrackedTree& tree);
 
 /// A doubt about a volume in which vessels are to be tracked, as a sentence without the file's
 /// name: its voxels have two values only, as a mask has. Throws Error(InvalidInput), with such a

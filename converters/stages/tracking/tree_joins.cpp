@@ -51,7 +51,7 @@ public:
       action(members[m], run);
     });
   }
-  [[nodiscard]] std::size_t rootOf(std::size_t i) const {
+  [[nodiscard]] std::size_t findRoot(std::size_t i) const {
     while (m_tree.branches[i].parentBranch >= 0)
       i = static_cast<std::size_t>(m_tree.branches[i].parentBranch);
     return i;
@@ -94,7 +94,7 @@ struct Snapshot {
     }
   }
   std::vector<TrackedBranch> lines;
-  std::vector<std::vector<Ball>> balls;
+  std::vector<std::vector<WorldBall>> balls;
 };
 
 /// Cuts off stretches into which an earlier vessel has grown too. `before`: node counts until then.
@@ -124,7 +124,7 @@ void extendTipsIf(const TrackContext& context, const Vessels& vessels,
   vessels.forEach(Use::Extension, vessels.newMembers(), [&](std::size_t i, TrackRun& run) {
     if (!may(vessels[i])) return;
     std::vector<const TrackedBranch*> finished;
-    std::vector<Ball> others;
+    std::vector<WorldBall> others;
     for (std::size_t m = 0; m < members.size(); ++m) {
       if (members[m] == i) continue;
       finished.push_back(&snapshot.lines[m]);
@@ -142,7 +142,7 @@ int metAt(const Vessels& vessels, std::size_t root, const TrackedNode& end, Stop
   int best = -1;
   double nearest = kAtEndRadii;
   for (const std::size_t i : vessels.members()) {
-    if (vessels.rootOf(i) == root) continue;
+    if (vessels.findRoot(i) == root) continue;
     const ChainPoint at = closestOnChain(vessels[i].nodes, end.centre);
     if (at.distance >= nearest * at.radius) continue;
     const double ahead = (at.position - end.centre).dot(end.direction);
@@ -177,7 +177,7 @@ std::optional<PathToBranch> pathToOtherTree(const TrackContext& context, const V
                                             std::size_t root) {
   std::vector<int> others;
   for (const std::size_t i : vessels.members())
-    if (vessels.rootOf(i) != root) others.push_back(static_cast<int>(i));
+    if (vessels.findRoot(i) != root) others.push_back(static_cast<int>(i));
   return pathToOther(context, vessels.branches(), others, vessels[root]);
 }
 
@@ -221,7 +221,7 @@ void joinLevel(const Vessels& vessels, const std::vector<int>& levels, int level
   std::vector<std::vector<int>> others(vessels.branches().size());
   for (const std::size_t i : due)
     for (const std::size_t other : vessels.members())
-      if (levels[other] < level && vessels.rootOf(other) == vessels.rootOf(i))
+      if (levels[other] < level && vessels.findRoot(other) == vessels.findRoot(i))
         others[i].push_back(static_cast<int>(other));
   vessels.forEach(Use::Join, due, [&](std::size_t i, TrackRun& run) {
     joinToParent(run, vessels.branches(), others[i], vessels[i]);
@@ -232,7 +232,7 @@ void joinLevel(const Vessels& vessels, const std::vector<int>& levels, int level
 
 namespace {
 
-bool isBothWays(const TrackedBranch& branch) {
+bool isTrackedBothWays(const TrackedBranch& branch) {
   return branch.parentBranch < 0 && branch.startReason != StopReason::Unknown;
 }
 
@@ -242,7 +242,7 @@ void trimTips(const TrackContext& context, TrackedTree& tree) {
   const Vessels vessels(context, tree);
   for (const std::size_t i : vessels.newMembers()) {
     dropDome(vessels[i]);
-    if (isBothWays(vessels[i])) {
+    if (isTrackedBothWays(vessels[i])) {
       turnRound(vessels[i]);
       dropDome(vessels[i]);
       turnRound(vessels[i]);
@@ -256,11 +256,11 @@ void extendTips(const TrackContext& context, TrackedTree& tree) {
   extendTipsIf(context, vessels, [](const TrackedBranch&) { return true; });
   for (const std::size_t i : vessels.newMembers()) {
     dropDome(vessels[i]);
-    if (isBothWays(vessels[i])) turnRound(vessels[i]);
+    if (isTrackedBothWays(vessels[i])) turnRound(vessels[i]);
   }
-  extendTipsIf(context, vessels, isBothWays);
+  extendTipsIf(context, vessels, isTrackedBothWays);
   for (const std::size_t i : vessels.newMembers()) {
-    if (isBothWays(vessels[i])) {
+    if (isTrackedBothWays(vessels[i])) {
       dropDome(vessels[i]);
       turnRound(vessels[i]);
     }

@@ -179,7 +179,7 @@ Vector3d chordAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
 }
 
 /// The number of sectors in which the node's own wall points lie.
-std::size_t sectorsOf(const TrackedNode& node, const Vector3d& axis) {
+std::size_t countSectors(const TrackedNode& node, const Vector3d& axis) {
   std::vector<WallPlace> places;
   for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p)});
   measureAbout(node.centre, axis, places);
@@ -206,7 +206,7 @@ std::optional<TrackedNode> fitSection(TrackRun& run, const TrackedNode& node,
     return std::abs(p.distance - wall) > run.context.search.band * wall;
   });
   const std::size_t sectors = sectorsWith(places);
-  if (sectors < kLeastSectors || sectors < sectorsOf(node, axis) ||
+  if (sectors < kLeastSectors || sectors < countSectors(node, axis) ||
       static_cast<double>(places.size()) < kMorePoints * static_cast<double>(node.points.size()))
     return std::nullopt;
   TrackedNode out = node;

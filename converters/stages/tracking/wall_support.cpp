@@ -48,7 +48,8 @@ double wallLevel(const BsplineVolume& volume, const TrackedNode& node, double si
 }
 
 /// Samples spread evenly over the inside; those outside of the volume are left out.
-std::vector<Sample> insideOf(const BsplineVolume& volume, const TrackedNode& node, double sign) {
+std::vector<Sample> sampleInside(const BsplineVolume& volume, const TrackedNode& node,
+                                 double sign) {
   std::vector<Sample> samples;
   const auto [u, v] = planeBasis(node.direction);
   const auto add = [&](const Vector3d& position) {
@@ -73,7 +74,7 @@ std::vector<Sample> insideOf(const BsplineVolume& volume, const TrackedNode& nod
 
 /// The middle of the bright samples around the one nearest to `guess`: where the mean of those near
 /// it stays in place (mean shift; K. Fukunaga, L. Hostetler, 1975).
-Vector3d middleOf(const std::vector<Sample>& bright, const Vector3d& guess, double reach) {
+Vector3d findMiddle(const std::vector<Sample>& bright, const Vector3d& guess, double reach) {
   const auto nearer = [&](const Sample& a, const Sample& b) {
     return (a.position - guess).squaredNorm() < (b.position - guess).squaredNorm();
   };
@@ -99,14 +100,14 @@ WallSupport wallSupport(const BsplineVolume& volume, const TrackedNode& node, co
   WallSupport support{0, node.centre, node.radius};
   if (node.points.empty()) return support;
   const double level = wallLevel(volume, node, sign);
-  std::vector<Sample> samples = insideOf(volume, node, sign);
+  std::vector<Sample> samples = sampleInside(volume, node, sign);
   const std::size_t all = samples.size();
   std::erase_if(samples, [&](const Sample& s) { return s.value < level; });
   if (all == 0) return support;
   const double bright = static_cast<double>(samples.size()) / static_cast<double>(all);
   support.dark = 1.0 - bright;
   support.radius = node.radius * std::sqrt(bright);
-  if (!samples.empty()) support.middle = middleOf(samples, guess, kAttraction * node.radius);
+  if (!samples.empty()) support.middle = findMiddle(samples, guess, kAttraction * node.radius);
   return support;
 }
 

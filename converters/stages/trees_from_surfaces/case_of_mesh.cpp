@@ -97,7 +97,7 @@ MeshCase caseOfLumen(const ClosedMesh& surface, double resolution, const std::st
                        "it encloses no vessel");
   const VolumeGeometry grid = insideGrid(surface, std::max(width, resolution));
   progress.begin("tree", 0);
-  const VesselLines lines = centerline ? linesOf(centerline->file, centerline->name, lumen)
+  const VesselLines lines = centerline ? clipLines(centerline->file, centerline->name, lumen)
                                        : findLines(lumen, grid, progress);
   progress.end();
   if (lines.lines.empty())

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kNone = VesselPath::kNone;
 constexpr std::size_t kLeastPart = 27;  // voxels of a part that may be a vessel
-constexpr double kReach = 4;            // depths from where a path is trimmed to the vessel's end
+constexpr double kEndDepths = 4;        // depths from where a path is trimmed to the vessel's end
 
 /// From the inside as voxels to lines.
 class LineFinder {
@@ -40,13 +40,13 @@ public:
     std::size_t small = 0;
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
-      const std::vector<std::uint32_t> part = m_paths.partOf(i);
+      const std::vector<std::uint32_t> part = m_paths.connectedPart(i);
       for (const std::uint32_t j : part) isSeen[j] = true;
       if (part.size() < kLeastPart) {
         ++small;
         continue;
       }
-      addPart(rootOf(atEnd, part));
+      addPart(findRoot(atEnd, part));
     }
     if (small > 0)
       m_out.notes.push_back(std::to_string(small) + " part" + (small == 1 ? "" : "s") +
@@ -90,8 +90,8 @@ private:
   }
 
   /// The place where the widest vessel of a part enters it.
-  std::uint32_t rootOf(const std::vector<std::uint32_t>& atEnd,
-                       const std::vector<std::uint32_t>& part) {
+  std::uint32_t findRoot(const std::vector<std::uint32_t>& atEnd,
+                         const std::vector<std::uint32_t>& part) {
     std::vector<std::uint32_t> sorted = part;
     std::sort(sorted.begin(), sorted.end());
     std::uint32_t best = kNone;
@@ -111,7 +111,7 @@ private:
     const std::size_t first = m_out.lines.size();
     for (std::size_t w = 0; w < paths.size(); ++w) {
       m_progress.check();
-      m_out.lines.push_back(lineOf(paths, w, first));
+      m_out.lines.push_back(makeLine(paths, w, first));
     }
   }
 
@@ -137,7 +137,8 @@ private:
     return seen == order.end() ? from : line.point[seen->second];
   }
 
-  VesselLine lineOf(const std::vector<VesselPath>& paths, std::size_t w, std::size_t first) const {
+  VesselLine makeLine(const std::vector<VesselPath>& paths, std::size_t w,
+                      std::size_t first) const {
     const VesselPath& path = paths[w];
     VesselLine line;
     line.label = "vessel-" + std::to_string(first + w + 1);
@@ -160,8 +161,8 @@ private:
     const bool goesOn = path.meets != kNone || isMetAtTip(paths, w);
     if (!goesOn) trim(line, false, m_lumen);
     centre(line, parent, m_lumen);
-    if (!parent) extend(line, true, kReach, m_lumen);
-    if (!goesOn) extend(line, false, kReach, m_lumen);
+    if (!parent) extend(line, true, kEndDepths, m_lumen);
+    if (!goesOn) extend(line, false, kEndDepths, m_lumen);
     return line;
   }
 

@@ -18,10 +18,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLeastInside = 0.5;  // share of the points: below, another frame or surface
-constexpr double kReach = 2;          // depths from a line's last point to the vessel's end
+constexpr double kEndDepths = 2;      // depths from a line's last point to the vessel's end
 
-std::vector<std::uint8_t> insideOf(const CenterlineFile& file, const LumenGeometry& lumen,
-                                   const Vector3d& scale) {
+std::vector<std::uint8_t> markInside(const CenterlineFile& file, const LumenGeometry& lumen,
+                                     const Vector3d& scale) {
   std::vector<std::uint8_t> inside(file.points.size());
   tbb::parallel_for(std::size_t{0}, inside.size(), [&](std::size_t i) {
     inside[i] = lumen.tree().contains(scale.cwiseProduct(file.points[i].position)) ? 1 : 0;
@@ -60,7 +60,7 @@ void requireInside(const CenterlineFile& file, const std::string& name, const Lu
   std::string text = name + ": " + std::to_string(inside) + " of its " + std::to_string(all) +
                      " points lie inside of the surface; expected most of them";
   for (const Meant& meant : kMeant) {
-    const std::size_t would = countOf(insideOf(file, lumen, meant.scale));
+    const std::size_t would = countOf(markInside(file, lumen, meant.scale));
     if (would <= least) continue;
     throw invalidInput(text + "; " + meant.how + ", " +
                        (would == all ? "all" : std::to_string(would)) + " would: " + meant.remedy);
@@ -69,8 +69,8 @@ void requireInside(const CenterlineFile& file, const std::string& name, const Lu
 }
 
 /// The part of a chain from its first point inside to its last.
-std::vector<Vector3d> pointsOf(const CenterlineFile& file, const CenterlineChain& chain,
-                               const std::vector<std::uint8_t>& inside) {
+std::vector<Vector3d> pointsInside(const CenterlineFile& file, const CenterlineChain& chain,
+                                   const std::vector<std::uint8_t>& inside) {
   std::vector<Vector3d> points;
   std::size_t keep = 0;
   for (const std::int32_t i : chain.points) {
@@ -86,9 +86,9 @@ std::vector<Vector3d> pointsOf(const CenterlineFile& file, const CenterlineChain
 
 }  // namespace
 
-VesselLines linesOf(const CenterlineFile& centerline, const std::string& name,
-                    const LumenGeometry& lumen) {
-  const auto inside = insideOf(centerline, lumen, Vector3d::Ones());
+VesselLines clipLines(const CenterlineFile& centerline, const std::string& name,
+                      const LumenGeometry& lumen) {
+  const auto inside = markInside(centerline, lumen, Vector3d::Ones());
   const std::size_t count = countOf(inside);
   requireInside(centerline, name, lumen, count);
   VesselLines out;
@@ -100,7 +100,7 @@ VesselLines linesOf(const CenterlineFile& centerline, const std::string& name,
   for (const CenterlineChain& chain : centerlineChains(centerline)) {
     VesselLine line;
     line.parent = chain.parent < 0 ? -1 : lineOfChain[static_cast<std::size_t>(chain.parent)];
-    line.point = pointsOf(centerline, chain, inside);
+    line.point = pointsInside(centerline, chain, inside);
     const VesselLine* parent =
         line.parent < 0 ? nullptr : &out.lines[static_cast<std::size_t>(line.parent)];
     if (parent && !line.point.empty())
@@ -114,8 +114,8 @@ VesselLines linesOf(const CenterlineFile& centerline, const std::string& name,
     lineOfChain.push_back(static_cast<int>(out.lines.size()));
     line.label = "vessel-" + std::to_string(out.lines.size() + 1);
     centre(line, parent, lumen);
-    if (!parent) extend(line, true, kReach, lumen);
-    extend(line, false, kReach, lumen);
+    if (!parent) extend(line, true, kEndDepths, lumen);
+    extend(line, false, kEndDepths, lumen);
     out.lines.push_back(std::move(line));
   }
   if (out.lines.empty())

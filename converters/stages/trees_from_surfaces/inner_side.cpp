@@ -89,7 +89,7 @@ bool isWallWithThickness(const Facing& facing, std::size_t count) {
 }
 
 /// Pairs of triangles that share a side.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> neighboursOf(const TriangleMesh& mesh) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> findNeighbours(const TriangleMesh& mesh) {
   struct Side {
     std::uint32_t low, high, triangle;
     bool operator<(const Side& other) const {
@@ -150,7 +150,7 @@ struct MeshPart {
   bool isDropped = false;
 };
 
-std::vector<MeshPart> partsOf(const TriangleMesh& mesh) {
+std::vector<MeshPart> findParts(const TriangleMesh& mesh) {
   DisjointSets sets(mesh.position.size());
   for (const Triangle& t : mesh.triangle) {
     sets.join(t[0], t[1]);
@@ -211,7 +211,7 @@ bool encloses(const MeshPart& outer, const MeshPart& inner) {
 
 UnnestedMesh unnested(TriangleMesh mesh) {
   UnnestedMesh out;
-  std::vector<MeshPart> parts = partsOf(mesh);
+  std::vector<MeshPart> parts = findParts(mesh);
   for (MeshPart& outer : parts)
     for (MeshPart& inner : parts) {
       if (&inner == &outer || inner.isDropped || outer.isDropped) continue;
@@ -251,7 +251,7 @@ std::optional<TriangleMesh> innerSide(const ClosedMesh& surface, const TriangleT
     if (t % 256 == 0) progress.check();
     isInner[t] = surface.end[t] == ClosedMesh::kWall && facing.share(t) >= kMostly ? 1 : 0;
   });
-  const Pairs pairs = neighboursOf(surface.mesh);
+  const Pairs pairs = findNeighbours(surface.mesh);
   vote(isInner, pairs);
   keepGreatRegions(isInner, pairs, facing);
   double all = 0, taken = 0;

@@ -75,7 +75,7 @@ private:
 
   /// A side of a triangle, seen from the end of lower index, so that both triangles compute equal
   /// values.
-  [[nodiscard]] double sideOf(std::uint32_t i, std::uint32_t j, double pu, double pv) const {
+  [[nodiscard]] double edgeSide(std::uint32_t i, std::uint32_t j, double pu, double pv) const {
     return i < j ? side(corner(i), corner(j), pu, pv, m_u, m_v)
                  : -side(corner(j), corner(i), pu, pv, m_u, m_v);
   }
@@ -93,8 +93,8 @@ private:
     };
     for (int v = first(m_v); v <= last(m_v); ++v)
       for (int u = first(m_u); u <= last(m_u); ++u) {
-        const double wa = sideOf(t[1], t[2], u, v), wb = sideOf(t[2], t[0], u, v),
-                     wc = sideOf(t[0], t[1], u, v);
+        const double wa = edgeSide(t[1], t[2], u, v), wb = edgeSide(t[2], t[0], u, v),
+                     wc = edgeSide(t[0], t[1], u, v);
         const bool isIn = area > 0 ? wa > 0 && wb > 0 && wc > 0 : wa < 0 && wb < 0 && wc < 0;
         if (!isIn && !(wa == 0 || wb == 0 || wc == 0)) continue;
         if (!isIn && !onEdge(wa, wb, wc, area)) continue;

@@ -28,12 +28,12 @@ constexpr std::size_t kMostLabels = 255;
 constexpr std::size_t kMostListed = 10;
 constexpr double kGreyShare =
     1.0 / 3;  // share of neighbours that differ, beyond which voxels are no labels
-constexpr double kSpread = 0.7;    // voxels: the standard deviation that takes the steps away
-constexpr int kReach = 3;          // voxels: where its kernel ends
-constexpr int kHalo = 2 * kReach;  // reach of the kernel applied twice
-constexpr int kSlab = 32;          // slices that are smoothed at a time
+constexpr double kSpread = 0.7;   // voxels: the standard deviation that takes the steps away
+constexpr int kKernelVoxels = 3;  // voxels: where its kernel ends
+constexpr int kHalo = 2 * kKernelVoxels;  // reach of the kernel applied twice
+constexpr int kSlab = 32;                 // slices that are smoothed at a time
 // Least distance from the half level: a voxel's centre stays on its side, and no triangle vanishes.
-constexpr float kLeast = 0.05F;
+constexpr float kLeastFromLevel = 0.05F;
 // Least distance from the half level for lines one voxel wide, whose wall stays about half a voxel
 // away, as it was drawn.
 constexpr float kThin = 0.25F;
@@ -50,8 +50,8 @@ std::string listOf(const std::set<std::int64_t>& values) {
 
 /// The values but 0 that occur; beyond 255 of them, those that are wanted.
 template <class T>
-std::set<std::int64_t> valuesOf(const std::vector<T>& voxels, const LabelNames& wanted,
-                                const std::string& name) {
+std::set<std::int64_t> collectValues(const std::vector<T>& voxels, const LabelNames& wanted,
+                                     const std::string& name) {
   std::set<std::int64_t> values;
   T last{};
   for (const T voxel : voxels) {
@@ -91,7 +91,7 @@ public:
   LabelSamples(const LabelMask& mask, const Progress& progress)
       : m_mask(mask), m_progress(progress), m_size(mask.geometry.size) {
     for (std::size_t k = 0; k < m_kernel.size(); ++k) {
-      const double x = (static_cast<double>(k) - kReach) / kSpread;
+      const double x = (static_cast<double>(k) - kKernelVoxels) / kSpread;
       m_kernel[k] = static_cast<float>(std::exp(-0.5 * x * x));
     }
     float sum = 0;
@@ -178,7 +178,7 @@ private:
     smooth(twice);
     tbb::parallel_for(from, to, [&](int z) {
       for (int y = -1; y <= m_size[1]; ++y) {
-        const SampleGrid::Row& row = m_grid.rows[rowOf(y, z)];
+        const SampleGrid::SampleRow& row = m_grid.rows[rowOf(y, z)];
         for (int i = 0; i < row.count; ++i)
           m_grid.value[row.offset + static_cast<std::size_t>(i)] =
               sample(once, twice, row.first + i, y, z);
@@ -196,9 +196,10 @@ private:
     const std::array<int, 3> voxel{nearX, nearY, nearZ};
     const auto isIn = [this](int i, int j, int k) { return this->isIn(i, j, k); };
     if (!isIn(nearX, nearY, nearZ))
-      return joinsThinVoxels(voxel, isIn) ? 0.5F + kLeast : std::min(smoothed, 0.5F - kLeast);
+      return joinsThinVoxels(voxel, isIn) ? 0.5F + kLeastFromLevel
+                                          : std::min(smoothed, 0.5F - kLeastFromLevel);
     if (smoothed >= 0.5F + kThin) return smoothed;
-    return std::max(smoothed, 0.5F + (isThinVoxel(voxel, isIn) ? kThin : kLeast));
+    return std::max(smoothed, 0.5F + (isThinVoxel(voxel, isIn) ? kThin : kLeastFromLevel));
   }
 
   /// Smooths along each axis; beyond the volume the outermost values continue.
@@ -222,7 +223,7 @@ private:
                   std::vector<float>& line) const {
     bool isEven = true;
     for (std::size_t i = 0; i < line.size(); ++i) {
-      const std::size_t from = std::min(i < kReach ? 0 : i - kReach, length - 1);
+      const std::size_t from = std::min(i < kKernelVoxels ? 0 : i - kKernelVoxels, length - 1);
       line[i] = first[from * stride];
       isEven = isEven && !(line[i] < line[0]) && !(line[i] > line[0]);
     }
@@ -237,7 +238,7 @@ private:
   const LabelMask& m_mask;
   const Progress& m_progress;
   std::array<int, 3> m_size;
-  std::array<float, 2 * kReach + 1> m_kernel{};
+  std::array<float, 2 * kKernelVoxels + 1> m_kernel{};
   SampleGrid m_grid;
   int m_low = 0, m_slices = 0;  // range of the slab
 };
@@ -303,14 +304,14 @@ bool holdsLabels(const Volume& volume) {
       volume.voxels);
 }
 
-LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::string& name) {
+LabelMask makeLabelMask(const Volume& volume, const LabelNames& wanted, const std::string& name) {
   if (wanted.size() > kMostLabels)
     throw invalidInput(name + ": " + std::to_string(wanted.size()) +
                        " labels are wanted; expected at most " + std::to_string(kMostLabels));
   LabelMask mask{volume.geometry, {}, {}, {}, false};
   std::visit(
       [&](const auto& voxels) {
-        const std::set<std::int64_t> values = valuesOf(voxels, wanted, name);
+        const std::set<std::int64_t> values = collectValues(voxels, wanted, name);
         mask.isGrey = isGrey(voxels);
         LabelNames named = wanted;
         if (wanted.empty())
@@ -341,7 +342,7 @@ LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::stri
   return mask;
 }
 
-LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress) {
+LabelSurface makeLabelSurface(const LabelMask& mask, const Progress& progress) {
   const SampleGrid grid = LabelSamples(mask, progress).grid();
   std::vector<SampleState> state(grid.value.size());
   std::transform(grid.value.begin(), grid.value.end(), state.begin(), [](double value) {

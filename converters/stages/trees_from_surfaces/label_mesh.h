@@ -32,7 +32,7 @@ bool holdsLabels(const Volume& volume);
 /// Error(InvalidInput), `name` (of the file, printable) first, for voxels that are no whole
 /// numbers, more than 255 labels, and a label that no voxel has; this message lists the labels of
 /// the volume.
-LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::string& name);
+LabelMask makeLabelMask(const Volume& volume, const LabelNames& wanted, const std::string& name);
 
 struct LabelSurface {
   /// mm, LPS, oriented, manifold, and closed but where the volume cuts vessels off.
@@ -45,6 +45,6 @@ struct LabelSurface {
 /// changes sides. Vessels that the volume cuts off are open there, half a voxel beyond the last
 /// centres. Memory: a byte a voxel, and the surroundings of labels. The result has the same bits on
 /// any number of threads. Throws Error(Cancelled).
-LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress);
+LabelSurface makeLabelSurface(const LabelMask& mask, const Progress& progress);
 
 }  // namespace lumen::convert

@@ -39,7 +39,7 @@ public:
 
   /// The stretches of a branch that deserve a name each; one that covers it if there are none, or one.
   [[nodiscard]] std::vector<Run> stretches(const formats::Branch& branch) const {
-    std::vector<Run> runs = runsOf(branch);
+    std::vector<Run> runs = findRuns(branch);
     while (runs.size() > 1) {
       const auto shortest =
           std::min_element(runs.begin(), runs.end(), [this](const Run& a, const Run& b) {
@@ -52,7 +52,7 @@ public:
   }
 
   /// The place of the label after which a stretch is named; 0 for none.
-  [[nodiscard]] std::uint8_t labelOf(const Run& run, std::size_t labels) const {
+  [[nodiscard]] std::uint8_t chooseLabel(const Run& run, std::size_t labels) const {
     std::vector<double> lengths(labels + 1, 0.0);
     const std::uint32_t from = firstOwn(run);
     for (std::uint32_t n = from; n < run.end; ++n) lengths[m_label[n]] += share(n, from, run.end);
@@ -100,7 +100,7 @@ private:
     return run.first > 0 && m_tree.branch[run.first] == m_tree.branch[run.first - 1];
   }
 
-  [[nodiscard]] std::vector<Run> runsOf(const formats::Branch& branch) const {
+  [[nodiscard]] std::vector<Run> findRuns(const formats::Branch& branch) const {
     const std::uint32_t end = branch.firstNode + branch.nodeCount;
     std::vector<Run> runs{{0, branch.firstNode, end}};
     for (std::uint32_t n = firstOwn(runs[0]); n < end; ++n) {
@@ -175,7 +175,7 @@ Naming nameBranches(const LabelMask& mask, formats::Case& value) {
         part.stopReason = formats::StopReason::Unknown;
       if (runs.size() > 1) part.meanInlierRate = meanRate(tree, part);
       branches.push_back(part);
-      const std::uint8_t label = labelled.labelOf(run, mask.names.size());
+      const std::uint8_t label = labelled.chooseLabel(run, mask.names.size());
       wanted.push_back(label == 0 ? "" : mask.names[label - 1u]);
     }
   }

@@ -23,7 +23,7 @@ using formats::NodeOrigin;
 
 constexpr double kSpacing = 1.0;  // widths from one node to the next
 constexpr int kRayOrder = 3;      // an icosphere of 162 rays, as tracking has
-constexpr int kNear = 12;         // edges along the tree within which nodes share out the wall
+constexpr int kNearEdges = 12;    // edges along the tree within which nodes share out the wall
 // Share of the squared distance of two nodes by which a node's power may exceed the other's.
 // Halfway between them it is 0, at the other's own section 1.
 constexpr double kShared = 0.5;
@@ -45,7 +45,7 @@ struct Spread {
 };
 
 /// `total`: spacings along the line.
-Spread spreadOf(const VesselLine& line, double total) {
+Spread chooseSpread(const VesselLine& line, double total) {
   const double before = line.parent >= 0 ? 1 : line.reachesStart ? 0.5 : 0;
   const double after = line.reachesEnd ? 0.5 : 0;
   const double room = std::max(0.0, std::round(total - before - after));
@@ -77,7 +77,7 @@ std::vector<Station> stationsOn(const VesselLine& line, const VesselLine* parent
   const std::vector<Vector3d> even = evenly(line.point, lumen);
   const std::vector<double> widths = widthsAlong(even, lumen);
   const double perSpacing = kSpacing / kLineStep;  // points of `even`
-  const Spread spread = spreadOf(line, double(even.size() - 1) / perSpacing);
+  const Spread spread = chooseSpread(line, double(even.size() - 1) / perSpacing);
   std::vector<Station> out;
   for (std::size_t k = 0; k < spread.count; ++k) {
     const double at = std::clamp((spread.first + double(k) * spread.step) * perSpacing, 0.0,
@@ -164,7 +164,7 @@ public:
         m_rays(icosphere(kRayOrder)) {}
 
   [[nodiscard]] std::vector<formats::Vec3f> points(std::uint32_t node) const {
-    const std::vector<std::uint32_t> near = m_neighbours.within(node, kNear);
+    const std::vector<std::uint32_t> near = m_neighbours.within(node, kNearEdges);
     std::vector<formats::Vec3f> out;
     if (m_origins[node] != NodeOrigin::Measured) return out;
     for (const Vector3d& ray : m_rays) {

@@ -10,7 +10,7 @@ namespace lumen::convert {
 /// The voxels of a block of 2 x 2 x 2 with its lowest corner at (x, y, z), bit by bit, x first.
 /// `isIn(x, y, z)`: true for a voxel of the labels.
 template <class IsIn>
-unsigned blockOf(int x, int y, int z, const IsIn& isIn) {
+unsigned gatherBlock(int x, int y, int z, const IsIn& isIn) {
   unsigned bits = 0;
   for (unsigned i = 0; i < 8; ++i)
     if (isIn(x + static_cast<int>(i & 1U), y + static_cast<int>(i >> 1U & 1U),
@@ -35,8 +35,8 @@ constexpr bool isJoinedByFaces(unsigned bits) {
 template <class IsIn>
 bool isThinVoxel(const std::array<int, 3>& voxel, const IsIn& isIn) {
   for (int corner = 0; corner < 8; ++corner)
-    if (blockOf(voxel[0] - (corner & 1), voxel[1] - (corner >> 1 & 1), voxel[2] - (corner >> 2),
-                isIn) == 0xFFU)
+    if (gatherBlock(voxel[0] - (corner & 1), voxel[1] - (corner >> 1 & 1), voxel[2] - (corner >> 2),
+                    isIn) == 0xFFU)
       return false;
   return true;
 }
@@ -48,7 +48,7 @@ bool joinsThinVoxels(const std::array<int, 3>& voxel, const IsIn& isIn) {
   for (int corner = 0; corner < 8; ++corner) {
     const int x = voxel[0] - (corner & 1), y = voxel[1] - (corner >> 1 & 1),
               z = voxel[2] - (corner >> 2);
-    const unsigned bits = blockOf(x, y, z, isIn);
+    const unsigned bits = gatherBlock(x, y, z, isIn);
     if (isJoinedByFaces(bits)) continue;
     bool areThin = true;
     for (unsigned i = 0; i < 8 && areThin; ++i)

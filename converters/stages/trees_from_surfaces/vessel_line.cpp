@@ -24,10 +24,10 @@ constexpr int kLooks = 6;           // points that show the width behind a tip
 constexpr int kRounds = 4;          // rounds of centring
 constexpr int kSmoothings = 3;      // passes of smoothing in each round
 constexpr int kRays = 24;           // rays of a section
-constexpr double kClip = 1.6;      // medians of the rays: farther is another vessel, through a fork
-constexpr double kMost = 0.5;      // depths: the longest move of a point in a round
-constexpr double kChord = 1.0;     // depths on either side: the course at a point
-constexpr double kEndChord = 1.5;  // depths: the course at an end
+constexpr double kClip = 1.6;  // medians of the rays: farther is another vessel, through a fork
+constexpr double kMostMoveDepths = 0.5;  // depths: the longest move of a point in a round
+constexpr double kChord = 1.0;           // depths on either side: the course at a point
+constexpr double kEndChord = 1.5;        // depths: the course at an end
 
 /// (1, 2, 1)/4 on all but the ends.
 void smooth(std::vector<Vector3d>& line) {
@@ -83,7 +83,7 @@ const MeshEnd* endAt(const Vector3d& tip, const ClosedMesh& surface) {
 
 }  // namespace
 
-TriangleMesh LumenGeometry::wallOf(const ClosedMesh& surface) {
+TriangleMesh LumenGeometry::extractWall(const ClosedMesh& surface) {
   TriangleMesh wall{surface.mesh.position, {}};
   for (std::size_t t = 0; t < surface.end.size(); ++t)
     if (surface.end[t] == ClosedMesh::kWall) wall.triangle.push_back(surface.mesh.triangle[t]);
@@ -173,9 +173,10 @@ void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lum
       const bool isEnd = i == 0 || (i == last && line.meets >= 0);
       if (isInParent[i] || (isEnd && (parent || i == last))) return;
       const Vector3d axis = courseAt(point, i, kChord * depth);
-      const Vector3d way = sectionCentre(lumen, point[i], axis) - point[i];
-      const double most = kMost * depth;
-      moved[i] = point[i] + (way.norm() > most ? Vector3d(way * (most / way.norm())) : way);
+      const Vector3d toMiddle = sectionCentre(lumen, point[i], axis) - point[i];
+      const double most = kMostMoveDepths * depth;
+      moved[i] = point[i] + (toMiddle.norm() > most ? Vector3d(toMiddle * (most / toMiddle.norm()))
+                                                    : toMiddle);
     });
     point = std::move(moved);
     std::size_t out = 0;

@@ -30,7 +30,10 @@ class LumenGeometry {
 public:
   /// `surface` must stay; not all of it is ends.
   explicit LumenGeometry(const ClosedMesh& surface)
-      : m_surface(surface), m_wall(wallOf(surface)), m_tree(surface.mesh), m_wallTree(m_wall) {}
+      : m_surface(surface),
+        m_wall(extractWall(surface)),
+        m_tree(surface.mesh),
+        m_wallTree(m_wall) {}
   LumenGeometry(const LumenGeometry&) = delete;
   LumenGeometry& operator=(const LumenGeometry&) = delete;
   [[nodiscard]] const ClosedMesh& surface() const { return m_surface; }
@@ -45,7 +48,7 @@ public:
   }
 
 private:
-  static TriangleMesh wallOf(const ClosedMesh& surface);
+  static TriangleMesh extractWall(const ClosedMesh& surface);
   const ClosedMesh& m_surface;
   TriangleMesh m_wall;
   TriangleTree m_tree, m_wallTree;

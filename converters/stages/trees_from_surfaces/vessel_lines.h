@@ -24,7 +24,7 @@ VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, Pr
 /// The chains of a centerline (mm, LPS), without their parts outside. Throws Error(InvalidInput),
 /// `name` (of its file, printable) first, if less than half of its points lie inside; the message
 /// reports if more would with x and y negated or in another unit.
-VesselLines linesOf(const CenterlineFile& centerline, const std::string& name,
-                    const LumenGeometry& lumen);
+VesselLines clipLines(const CenterlineFile& centerline, const std::string& name,
+                      const LumenGeometry& lumen);
 
 }  // namespace lumen::convert

@@ -116,7 +116,7 @@ mjtNum staticDistanceOf(const mjtNum point[3], const mjtNum* attributes) {
   return gapAt(vessels().at(static_cast<int>(attributes[0])), point);
 }
 
-void boxOf(mjtNum box[6], const mjtNum* attributes) {
+void boundingBox(mjtNum box[6], const mjtNum* attributes) {
   const wall* w = vessels().at(static_cast<int>(attributes[0]));
   for (int a = 0; a < 6; ++a) box[a] = a < 3 ? 0 : 1;
   if (w != nullptr) wall_box(w, kAround * w->unit, box);
@@ -138,7 +138,7 @@ void registerVessel() {
   plugin.sdf_gradient = gradientOf;
   plugin.sdf_staticdistance = staticDistanceOf;
   plugin.sdf_attribute = attributesOf;
-  plugin.sdf_aabb = boxOf;
+  plugin.sdf_aabb = boundingBox;
   mjp_registerPlugin(&plugin);
 }
 

@@ -14,7 +14,7 @@ inline bool enterNode(const View& view, const D4& point, std::uint32_t& node, F4
     node = locateLeast(view.model, p);
   }
   x = relative(view.nodes[node], point);
-  return isWithin(x, static_cast<float>(kFar));
+  return isWithin(x, static_cast<float>(kFarthestMm));
 }
 
 // Fills a lane without a point with harmless numbers.
@@ -130,7 +130,7 @@ inline unsigned stayTogether(const View& view, bool hold, const Inputs& in, Grou
     store4(g.at[first + k], x);
     squares = squares + x * x;
   }
-  if (!isWithin(squares, static_cast<float>(kFar * kFar))) return kAll;
+  if (!isWithin(squares, static_cast<float>(kFarthestMm * kFarthestMm))) return kAll;
   if (hold) return 0;
   unsigned moving = 0;
   for (std::size_t k = 0; k < kTogether; ++k) {
@@ -149,7 +149,7 @@ inline void evaluateTogether(const View& view, const Inputs& in, Group& g, std::
     const Splats at(g.at[first + k]);
     const BlobBlock& block = view.blocks[node.block];
     const float shift = kIsShifted<K> ? leastExponent(&block, 1, at) : 0.0f;
-    terms[k] = termsOf<K>(block, at, shift);
+    terms[k] = computeTerms<K>(block, at, shift);
     g.shift[first + k] = shift;
     g.at[first + k][3] = node.place[3];
   }
@@ -200,7 +200,7 @@ LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned out
   unsigned rivals[kLanes], left = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if ((outOfRange >> i & 1U) != 0) continue;
-    rivals[i] = rivalsOf(view, in.node[i], Splats(g.at[i]), difference[i]);
+    rivals[i] = findRivals(view, in.node[i], Splats(g.at[i]), difference[i]);
     left |= (rivals[i] != 0 ? 1U : 0U) << i;
   }
   for (; left != 0; left &= left - 1) {

@@ -18,7 +18,7 @@ inline F4 weighAgainst(const NeighbourBlock& block, F8 difference, float& produc
   const F8 inverseTau = load(block.inverseTau);
   const F8 s = min(max(half + half * (difference * inverseTau), zero), one);
   const F8 sp = s * smoothStepOverCube(s), rest = one - s;
-  product = productOf((s * s) * sp);
+  product = multiplyLanes((s * s) * sp);
   // (d psi / d s) / psi * ds / d(p_k - p_node)
   const F8 q = (set1(15.0f) * (rest * rest)) * inverseTau / sp;
   return sums(zero, q * load(block.nx), q * load(block.ny), q * load(block.nz));
@@ -73,14 +73,14 @@ struct Mixture {
 
 template <class K>
 inline void addNode(const View& view, std::uint32_t node, F4 x, F4 weight, Mixture& sum) {
-  const float u = firstOf(weight);
+  const float u = firstLane(weight);
   if (!(u > 0)) return;
   float shift;
   const FieldNode& at = view.fieldNode(node);
   F4 field = evaluateNode<K>(view, at, x, shift);
   if (sum.empty) {
     sum.empty = false;
-    sum.f0 = firstOf(field);
+    sum.f0 = firstLane(field);
     sum.shift = shift;
   } else if constexpr (kIsShifted<K>) {
     const Factors factors = shareShift(sum.shift, shift);
@@ -90,13 +90,13 @@ inline void addNode(const View& view, std::uint32_t node, F4 x, F4 weight, Mixtu
     field = field * set4(factors.second);
   }
   sum.weight = sum.weight + weight;
-  sum.excess = sum.excess + set4(firstOf(field) - sum.f0) * weight;
+  sum.excess = sum.excess + set4(firstLane(field) - sum.f0) * weight;
   sum.field = sum.field + set4(u) * field;
   sum.radius += u * at.place[3];
 }
 
 inline Lane quotient(const Mixture& sum) {
-  const float inverse = 1.0f / firstOf(sum.weight), excess = firstOf(sum.excess) * inverse;
+  const float inverse = 1.0f / firstLane(sum.weight), excess = firstLane(sum.excess) * inverse;
   const F4 row = (sum.field + (sum.excess - set4(excess) * sum.weight)) * set4(inverse);
   return {withFirst(sum.f0 + excess, row), sum.shift, sum.radius * inverse};
 }
@@ -112,7 +112,7 @@ struct AddActiveNode {
     const F4 x = relative(view.nodes[k], point);
     const F4 weight = weigh(view, k, x, active);
     addNode<K>(view, k, x, weight, sum);
-    return firstOf(weight) > 0;
+    return firstLane(weight) > 0;
   }
 };
 
@@ -154,15 +154,16 @@ inline bool blendPair(const View& view, const D4& point, std::uint32_t node,
   const float psi = smoothStep(s);
   const float slope = (15.0f * ((s * s) * (rest * rest))) * inverseTau;
   const F4 excess = lane.field - field;
-  const F4 normal = rowOf(0.0f, block.nx[rival], block.ny[rival], block.nz[rival]);
-  lane.field = (field + set4(psi) * excess) + set4(slope * firstOf(excess)) * normal;
+  const F4 normal = makeRow(0.0f, block.nx[rival], block.ny[rival], block.nz[rival]);
+  lane.field = (field + set4(psi) * excess) + set4(slope * firstLane(excess)) * normal;
   lane.radius = where.place[3] + psi * (lane.radius - where.place[3]);
   return true;
 }
 
 // Bits of a node's rivals, and its differences of power, if it has one block of neighbours; else
 // all bits.
-inline unsigned rivalsOf(const View& view, std::uint32_t node, const Splats& x, float* difference) {
+inline unsigned findRivals(const View& view, std::uint32_t node, const Splats& x,
+                           float* difference) {
   const NodeRecord& record = view.nodes[node];
   if (record.neighbourBlocks != 1) return ~0U;
   const NeighbourBlock& block = view.neighbours[record.firstNeighbours];
@@ -186,7 +187,7 @@ template <class K>
 inline Lane evaluateBlended(const View& view, const D4& point, std::uint32_t node, F4 x) {
   Lane lane = evaluateLocal<K>(view, node, x);
   float difference[kLanes];
-  const unsigned rivals = rivalsOf(view, node, Splats(x), difference);
+  const unsigned rivals = findRivals(view, node, Splats(x), difference);
   if (rivals != 0) blendLane<K>(view, point, node, x, difference, rivals, lane);
   return lane;
 }

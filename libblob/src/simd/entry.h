@@ -16,9 +16,9 @@ inline float valueOfNode(const View& view, const FieldNode& node, F4 x) {
   F8 f = set1(0.0f);
   for (std::uint32_t b = node.block; b < node.block + node.blockCount; ++b) {
     const BlobBlock& block = view.blocks[b];
-    f = f + K::term(offsetsOf(block, at).u, load(block.a), load(block.w)).value;
+    f = f + K::term(computeOffsets(block, at).u, load(block.a), load(block.w)).value;
   }
-  return sumOf(f);
+  return sumLanes(f);
 }
 
 template <class K>
@@ -30,7 +30,7 @@ inline bool isInside(const blob_model& model, std::uint32_t flags, const double*
   if ((flags & BLOB_LOCAL) != 0) return valueOfNode<K>(view, view.fieldNode(node), x) > view.level;
   const Lane lane = evaluateBlended<K>(view, p, node, x);
   const float scale = kIsShifted<K> ? exponential(0.0f - lane.shift) : 1.0f;
-  return firstOf(lane.field) * scale > view.level;
+  return firstLane(lane.field) * scale > view.level;
 }
 
 // Bounds on a node's f in a ball: every blob's part falls with the distance from its centre, so the
@@ -41,7 +41,7 @@ inline void boundNode(const View& view, const FieldNode& node, F4 x, float radiu
   const Splats at(x + load4(node.place));
   F8 low = set1(0.0f), high = low;
   for (std::uint32_t b = node.block; b < node.block + node.blockCount; ++b) {
-    const Offsets d = offsetsOf(view.blocks[b], at);
+    const Offsets d = computeOffsets(view.blocks[b], at);
     const F8 a = load(view.blocks[b].a), w = load(view.blocks[b].w);
     const F8 r = sqrt((d.x * d.x + d.y * d.y) + d.z * d.z);
     const F8 far = r + set1(radius), near = max(r - set1(radius), set1(0.0f));
@@ -49,7 +49,8 @@ inline void boundNode(const View& view, const FieldNode& node, F4 x, float radiu
     high = high + K::term(a * (near * near), a, w).value;
   }
   constexpr float kRounding = 1e-5f;
-  const float lowSum = sumOf(low) * (1.0f - kRounding), highSum = sumOf(high) * (1.0f + kRounding);
+  const float lowSum = sumLanes(low) * (1.0f - kRounding),
+              highSum = sumLanes(high) * (1.0f + kRounding);
   least = lowSum < least ? lowSum : least;
   greatest = highSum > greatest ? highSum : greatest;
 }
@@ -111,10 +112,10 @@ template <class K>
 inline void queryColumns(const blob_model& model, std::uint32_t flags, const Job& job) {
   const View view(model);
   Batch batch;
-  constexpr std::size_t kMost = kGroups * kLanes;
-  for (std::size_t first = 0; first < job.columns.count; first += kMost) {
+  constexpr std::size_t kMostPoints = kGroups * kLanes;
+  for (std::size_t first = 0; first < job.columns.count; first += kMostPoints) {
     const std::size_t left = job.columns.count - first;
-    queryBatch<K>(view, flags, job, first, left < kMost ? left : kMost, batch);
+    queryBatch<K>(view, flags, job, first, left < kMostPoints ? left : kMostPoints, batch);
   }
 }
 

@@ -54,17 +54,17 @@ inline F8 powerOf2(F8 shifted) {
   const __m256i n = _mm256_add_epi32(_mm256_castps_si256(shifted.v), _mm256_set1_epi32(127));
   return {_mm256_castsi256_ps(_mm256_slli_epi32(n, 23))};
 }
-inline float productOf(F8 a) {
+inline float multiplyLanes(F8 a) {
   const __m256 b = _mm256_mul_ps(a.v, _mm256_permute_ps(a.v, 0x0E));  // lanes 0*2, 1*3 of each half
   const __m256 c = _mm256_mul_ps(b, _mm256_permute_ps(b, 0x01));
   return _mm_cvtss_f32(_mm_mul_ss(_mm256_castps256_ps128(c), _mm256_extractf128_ps(c, 1)));
 }
-inline float sumOf(F8 a) {
+inline float sumLanes(F8 a) {
   const __m256 b = _mm256_add_ps(a.v, _mm256_permute_ps(a.v, 0x0E));
   const __m256 c = _mm256_add_ps(b, _mm256_permute_ps(b, 0x01));
   return _mm_cvtss_f32(_mm_add_ss(_mm256_castps256_ps128(c), _mm256_extractf128_ps(c, 1)));
 }
-inline float leastOf(F8 a) {
+inline float leastLane(F8 a) {
   __m128 b = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
   b = _mm_min_ps(b, _mm_movehl_ps(b, b));
   return _mm_cvtss_f32(_mm_min_ss(b, _mm_shuffle_ps(b, b, 1)));
@@ -82,7 +82,7 @@ inline F4 load4(const float* p) {
 inline void store4(float* p, F4 a) {
   _mm_storeu_ps(p, a.v);
 }
-inline float firstOf(F4 a) {
+inline float firstLane(F4 a) {
   return _mm_cvtss_f32(a.v);
 }
 inline F4 operator+(F4 a, F4 b) {
@@ -106,7 +106,7 @@ inline D4 load3(const double* p) {
   return {_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_load_sd(p + 2), 1)};
 }
 /// a - b as floats.
-inline F4 differenceOf(D4 a, D4 b) {
+inline F4 subtractToFloat(D4 a, D4 b) {
   return {_mm256_cvtpd_ps(_mm256_sub_pd(a.v, b.v))};
 }
 /// Copy of one of the four numbers in all lanes.
@@ -115,7 +115,7 @@ inline F8 splat(F4 a) {
   return {_mm256_permutevar8x32_ps(_mm256_castps128_ps256(a.v), _mm256_set1_epi32(lane))};
 }
 /// A row of four numbers.
-inline F4 rowOf(float a, float b, float c, float d) {
+inline F4 makeRow(float a, float b, float c, float d) {
   return {_mm_setr_ps(a, b, c, d)};
 }
 /// Copy of a with another first number.

@@ -90,13 +90,13 @@ inline F8 powerOf2(F8 shifted) {
 inline float sum4(F4 a) {
   return (a[0] + a[2]) + (a[1] + a[3]);
 }
-inline float productOf(F8 a) {
+inline float multiplyLanes(F8 a) {
   return ((a.lo[0] * a.lo[2]) * (a.lo[1] * a.lo[3])) * ((a.hi[0] * a.hi[2]) * (a.hi[1] * a.hi[3]));
 }
-inline float sumOf(F8 a) {
+inline float sumLanes(F8 a) {
   return sum4(a.lo) + sum4(a.hi);
 }
-inline float leastOf(F8 a) {
+inline float leastLane(F8 a) {
   const F4 b = select4(a.lo < a.hi, a.lo, a.hi);
   const float x = b[0] < b[1] ? b[0] : b[1], y = b[2] < b[3] ? b[2] : b[3];
   return x < y ? x : y;
@@ -124,7 +124,7 @@ inline F4 load4(const float* p) {
 inline void store4(float* p, F4 a) {
   std::memcpy(p, &a, sizeof a);
 }
-inline float firstOf(F4 a) {
+inline float firstLane(F4 a) {
   return a[0];
 }
 /// Eight rows of four numbers as four columns, and back.
@@ -157,7 +157,7 @@ inline D4 load3(const double* p) {
   return {{p[0], p[1], p[2], 0.0}};
 }
 /// a - b as floats.
-inline F4 differenceOf(const D4& a, const D4& b) {
+inline F4 subtractToFloat(const D4& a, const D4& b) {
   return F4{static_cast<float>(a.v[0] - b.v[0]), static_cast<float>(a.v[1] - b.v[1]),
             static_cast<float>(a.v[2] - b.v[2]), static_cast<float>(a.v[3] - b.v[3])};
 }
@@ -167,7 +167,7 @@ inline F8 splat(F4 a) {
   return set1(a[lane]);
 }
 /// A row of four numbers.
-inline F4 rowOf(float a, float b, float c, float d) {
+inline F4 makeRow(float a, float b, float c, float d) {
   return F4{a, b, c, d};
 }
 /// Copy of a with another first number.

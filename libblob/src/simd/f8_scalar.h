@@ -75,13 +75,13 @@ inline F8 powerOf2(F8 shifted) {
   return shifted;
 }
 // The order in which every back end adds or multiplies its lanes.
-inline float sumOf(F8 a) {
+inline float sumLanes(F8 a) {
   return ((a.v[0] + a.v[2]) + (a.v[1] + a.v[3])) + ((a.v[4] + a.v[6]) + (a.v[5] + a.v[7]));
 }
-inline float productOf(F8 a) {
+inline float multiplyLanes(F8 a) {
   return ((a.v[0] * a.v[2]) * (a.v[1] * a.v[3])) * ((a.v[4] * a.v[6]) * (a.v[5] * a.v[7]));
 }
-inline float leastOf(F8 a) {
+inline float leastLane(F8 a) {
   float least = a.v[0];
   LUMEN_EACH least = a.v[i] < least ? a.v[i] : least;
   return least;
@@ -99,7 +99,7 @@ inline F4 load4(const float* p) {
 inline void store4(float* p, F4 a) {
   for (int i = 0; i < 4; ++i) p[i] = a.v[i];
 }
-inline float firstOf(F4 a) {
+inline float firstLane(F4 a) {
   return a.v[0];
 }
 inline F4 operator+(F4 a, F4 b) {
@@ -126,7 +126,7 @@ inline D4 load3(const double* p) {
   return {{p[0], p[1], p[2], 0.0}};
 }
 /// a - b as floats.
-inline F4 differenceOf(const D4& a, const D4& b) {
+inline F4 subtractToFloat(const D4& a, const D4& b) {
   F4 r;
   for (int i = 0; i < 4; ++i) r.v[i] = static_cast<float>(a.v[i] - b.v[i]);
   return r;
@@ -137,7 +137,7 @@ inline F8 splat(F4 a) {
   return set1(a.v[lane]);
 }
 /// A row of four numbers.
-inline F4 rowOf(float a, float b, float c, float d) {
+inline F4 makeRow(float a, float b, float c, float d) {
   return {{a, b, c, d}};
 }
 /// Copy of a with another first number.
@@ -155,7 +155,7 @@ inline void storeAsDoubles(double* p, F4 a) {
 }
 /// The sums of a, b, c and d.
 inline F4 sums(F8 a, F8 b, F8 c, F8 d) {
-  return {{sumOf(a), sumOf(b), sumOf(c), sumOf(d)}};
+  return {{sumLanes(a), sumLanes(b), sumLanes(c), sumLanes(d)}};
 }
 /// Eight rows of four numbers as four columns, and back.
 inline void fromRows(const float (*rows)[4], F8 columns[4]) {

@@ -22,7 +22,7 @@ struct View {
 
 // A point relative to a node's centre; the fourth number is of any value.
 inline F4 relative(const NodeRecord& node, const D4& point) {
-  return differenceOf(point, load4(node.centre));
+  return subtractToFloat(point, load4(node.centre));
 }
 
 // A row's first three numbers, each in all lanes.
@@ -43,7 +43,7 @@ struct Offsets {
   F8 x, y, z, u;
 };
 
-inline Offsets offsetsOf(const BlobBlock& block, const Splats& at) {
+inline Offsets computeOffsets(const BlobBlock& block, const Splats& at) {
   Offsets d;
   d.x = at.x - load(block.x);
   d.y = at.y - load(block.y);
@@ -56,10 +56,10 @@ inline Offsets offsetsOf(const BlobBlock& block, const Splats& at) {
 inline float leastExponent(const BlobBlock* blocks, std::uint32_t count, const Splats& at) {
   F8 least = set1(3e38f);
   for (std::uint32_t b = 0; b < count; ++b) {
-    const F8 u = offsetsOf(blocks[b], at).u;
+    const F8 u = computeOffsets(blocks[b], at).u;
     least = min(select(less(set1(0.0f), load(blocks[b].w)), u, set1(3e38f)), least);
   }
-  return leastOf(least);
+  return leastLane(least);
 }
 
 // The parts of eight blobs in f and grad f.
@@ -70,8 +70,8 @@ struct Terms {
 // Terms of a block. Padding is no nearer than the nearest blob: else its exponential could be
 // infinite, and NaN times a width of zero.
 template <class K>
-inline Terms termsOf(const BlobBlock& block, const Splats& at, float shift) {
-  Offsets d = offsetsOf(block, at);
+inline Terms computeTerms(const BlobBlock& block, const Splats& at, float shift) {
+  Offsets d = computeOffsets(block, at);
   if constexpr (kIsShifted<K>) d.u = max(d.u - set1(shift), set1(0.0f));
   const BlobTerm<F8> term = K::term(d.u, load(block.a), load(block.w));
   return {term.value, term.slope * d.x, term.slope * d.y, term.slope * d.z};
@@ -81,9 +81,9 @@ inline Terms termsOf(const BlobBlock& block, const Splats& at, float shift) {
 template <class K>
 inline F4 sumBlocks(const BlobBlock* blocks, std::uint32_t count, const Splats& at, float shift) {
   if (count == 0) return set4(0.0f);
-  Terms sum = termsOf<K>(blocks[0], at, shift);
+  Terms sum = computeTerms<K>(blocks[0], at, shift);
   for (std::uint32_t b = 1; b < count; ++b) {
-    const Terms next = termsOf<K>(blocks[b], at, shift);
+    const Terms next = computeTerms<K>(blocks[b], at, shift);
     sum.f = sum.f + next.f;
     sum.x = sum.x + next.x;
     sum.y = sum.y + next.y;

@@ -48,9 +48,9 @@ void again(const TrackingVolume& volume, const formats::Case& whole, const std::
   refit(value, change.stale, recordedFitOptions(value), silent);
   const double refitting = since(clock);
   const VesselAtClick vessel = vesselAtClick(volume, click);
-  const double snapping = since(clock);
+  const double finding = since(clock);
   seed.points.push_back({click, std::nullopt});
-  const AddedTracks tracks = trackIntoCase(volume, value, {seed}, silent);
+  const AddedTracks tracks = addTracksFromSeeds(volume, value, {seed}, silent);
   const double tracking = since(clock);
   std::vector<std::uint32_t> before(tracks.result.tree.nodeCount(), UINT32_MAX);
   for (std::uint32_t n = 0; n < tracks.firstNewNode; ++n) before[n] = n;
@@ -68,9 +68,8 @@ void again(const TrackingVolume& volume, const formats::Case& whole, const std::
       label.c_str(), formats::branchLength(whole.tree, old),
       isNew ? formats::branchLength(out.tree, out.tree.branches.back()) : 0,
       isNew ? out.tree.branches.back().parentNode : -2, deleting, refitting, change.stale.size(),
-      snapping, vessel.found ? "" : "!", tracking, comparing, fitting, stale.size(),
-      reach.reachable, reach.total,
-      tracks.failures.empty() ? "" : tracks.failures[0].reason.c_str());
+      finding, vessel.found ? "" : "!", tracking, comparing, fitting, stale.size(), reach.reachable,
+      reach.total, tracks.failures.empty() ? "" : tracks.failures[0].reason.c_str());
 }
 
 int run(int count, char** arguments) {

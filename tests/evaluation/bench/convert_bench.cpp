@@ -83,7 +83,7 @@ void convertOnce(const std::string& stem, int threads) {
     volume = convert::readVolume(stem + ".nrrd", convert::VolumeFormat::Nrrd, {}, progress);
   });
   const auto seeds = convert::readSeeds(stem + ".json");
-  stage("track", [&] { value = convert::trackCase(volume, seeds, {}, progress).result; });
+  stage("track", [&] { value = convert::trackFromSeeds(volume, seeds, {}, progress).result; });
   stage("fit", [&] { convert::fit(value, {}, progress); });
   stage("write", [&] {
     const auto written = formats::writeCaseFile(value, stem + ".lumen");

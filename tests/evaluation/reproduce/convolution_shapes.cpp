@@ -116,8 +116,8 @@ std::vector<double> fittedWidths(const std::vector<Vector3d>& skeleton, std::vec
   return width;
 }
 
-ConvolutionShape shapeOf(const std::string& name, const std::vector<Vector3d>& skeleton,
-                         std::size_t startBlobs, bool open) {
+ConvolutionShape measureShape(const std::string& name, const std::vector<Vector3d>& skeleton,
+                              std::size_t startBlobs, bool open) {
   const std::vector<double> width(skeleton.size(), commonWidth(skeleton));
   return {name, skeleton, modelOf(skeleton, width), startBlobs, open};
 }
@@ -156,13 +156,15 @@ std::vector<Vector3d> ConvolutionShape::samples(Random& random) const {
 }
 
 std::vector<ConvolutionShape> convolutionShapes() {
-  return {shapeOf("arc", arc(Vector3d::Zero(), 0, pi, 100), 5, false), bifurcation(),
-          shapeOf("capsule", segment(), 2, false), shapeOf("open capsule", segment(), 2, true)};
+  return {measureShape("arc", arc(Vector3d::Zero(), 0, pi, 100), 5, false), bifurcation(),
+          measureShape("capsule", segment(), 2, false),
+          measureShape("open capsule", segment(), 2, true)};
 }
 
 Vector3d besideSkeleton(const std::vector<Vector3d>& skeleton, Random& random) {
-  const Vector3d way(random.normal(), random.normal(), random.normal());
-  return skeleton[random.below(static_cast<std::uint32_t>(skeleton.size()))] + way.normalized();
+  const Vector3d direction(random.normal(), random.normal(), random.normal());
+  return skeleton[random.below(static_cast<std::uint32_t>(skeleton.size()))] +
+         direction.normalized();
 }
 
 }  // namespace lumen::reproduce

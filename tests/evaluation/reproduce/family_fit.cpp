@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kSamples = 1000;
 
 /// Begin and end, as indices, of the arcs or segments of a skeleton: the bifurcation has two.
-std::vector<std::pair<std::size_t, std::size_t>> partsOf(const ConvolutionShape& shape) {
+std::vector<std::pair<std::size_t, std::size_t>> findParts(const ConvolutionShape& shape) {
   const std::size_t count = shape.skeleton.size();
   if (shape.name != "bifurcation") return {{0, count}};
   return {{0, count / 2}, {count / 2, count}};
@@ -34,8 +34,9 @@ std::optional<Vector3d> circleOf(const std::vector<Vector3d>& line, std::size_t 
 }
 
 /// Displacements of the surface along its outward normal at `at`, one column for every change.
-Eigen::MatrixXd shiftsOf(const ConvolutionShape& shape, const std::vector<ShapeChange>& changes,
-                         const std::vector<Vector3d>& at) {
+Eigen::MatrixXd computeShifts(const ConvolutionShape& shape,
+                              const std::vector<ShapeChange>& changes,
+                              const std::vector<Vector3d>& at) {
   Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()),
                                                  static_cast<Eigen::Index>(changes.size()));
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -57,10 +58,10 @@ Eigen::MatrixXd shiftsOf(const ConvolutionShape& shape, const std::vector<ShapeC
 
 }  // namespace
 
-std::vector<ShapeChange> familyOf(const ConvolutionShape& shape) {
+std::vector<ShapeChange> makeFamily(const ConvolutionShape& shape) {
   std::vector<ShapeChange> changes;
   const std::vector<Vector3d>& line = shape.skeleton;
-  for (const auto& [first, end] : partsOf(shape)) {
+  for (const auto& [first, end] : findParts(shape)) {
     const auto add = [&, from = first, to = end](const auto& velocity, double widthRate) {
       ShapeChange change{std::vector<Vector3d>(line.size(), Vector3d::Zero()),
                          std::vector<double>(line.size(), 0.0)};
@@ -93,11 +94,11 @@ std::vector<ShapeChange> familyOf(const ConvolutionShape& shape) {
 
 FamilyFit::FamilyFit(const ConvolutionShape& shape, const std::vector<Vector3d>& points,
                      Random random) {
-  const std::vector<ShapeChange> changes = familyOf(shape);
+  const std::vector<ShapeChange> changes = makeFamily(shape);
   // changes that hardly move the surface, such as the spin of a capsule, are none
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
   solver.setThreshold(1e-6);
-  solver.compute(shiftsOf(shape, changes, points));
+  solver.compute(computeShifts(shape, changes, points));
   m_solve = solver.pseudoInverse();
   m_rank = static_cast<std::size_t>(solver.rank());
   ParticleOptions options;
@@ -106,7 +107,7 @@ FamilyFit::FamilyFit(const ConvolutionShape& shape, const std::vector<Vector3d>&
       shape.surface(), [&](Random& r) { return besideSkeleton(shape.skeleton, r); }, options,
       random);
   std::erase_if(samples, [&](const Vector3d& p) { return !shape.contains(p); });
-  m_shifts = shiftsOf(shape, changes, samples);
+  m_shifts = computeShifts(shape, changes, samples);
 }
 
 std::vector<double> FamilyFit::distances(const Eigen::VectorXd& noise) const {

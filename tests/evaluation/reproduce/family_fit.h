@@ -18,7 +18,7 @@ struct ShapeChange {
 
 /// The changes that keep a shape what it is: every arc or segment moves, turns, and changes its
 /// radius of curvature, its length and its width.
-std::vector<ShapeChange> familyOf(const ConvolutionShape& shape);
+std::vector<ShapeChange> makeFamily(const ConvolutionShape& shape);
 
 /// The error of the fit of a family, to first order in the noise.
 class FamilyFit {

@@ -45,11 +45,11 @@ std::optional<Vector3d> ImplicitSurface::project(const Vector3d& p, double longe
 std::optional<Vector3d> ImplicitSurface::nearest(const Vector3d& p, double longestStep) const {
   std::optional<Vector3d> q = project(p, longestStep);
   for (int i = 0; q && i < kSlides; ++i) {
-    const Vector3d normal = at(*q).gradient.normalized(), way = p - *q;
-    const Vector3d slide = way - normal * normal.dot(way);
-    if (slide.norm() <= 1e-4 * way.norm() + kOnSurface) break;
+    const Vector3d normal = at(*q).gradient.normalized(), offset = p - *q;
+    const Vector3d slide = offset - normal * normal.dot(offset);
+    if (slide.norm() <= 1e-4 * offset.norm() + kOnSurface) break;
     const std::optional<Vector3d> next = project(*q + slide, longestStep);
-    if (!next || (p - *next).norm() >= way.norm()) break;
+    if (!next || (p - *next).norm() >= offset.norm()) break;
     q = next;
   }
   return q;

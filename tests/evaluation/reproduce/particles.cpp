@@ -63,8 +63,8 @@ void repel(const ImplicitSurface& surface, double sigma, double longestStep,
     Vector3d push = Vector3d::Zero();
     cubes.forNear(points[i], [&](const Vector3d& other, std::size_t j) {
       if (i == j) return;
-      const Vector3d way = points[i] - other;
-      push += std::exp(-way.squaredNorm() / (2 * sigma * sigma)) * way;
+      const Vector3d offset = points[i] - other;
+      push += std::exp(-offset.squaredNorm() / (2 * sigma * sigma)) * offset;
     });
     const Vector3d normal = surface.at(points[i]).gradient.normalized();
     push -= normal * normal.dot(push);

@@ -71,8 +71,9 @@ std::vector<Patient> syntheticPatients(Progress& progress) {
     options.size = kPatientSize;
     options.seed = seed;
     const convert::Phantom phantom = convert::makePhantom(options, progress);
-    patients.push_back({"synthetic patient " + std::to_string(seed),
-                        convert::trackCase(phantom.volume, phantom.seeds, {}, progress).result});
+    patients.push_back(
+        {"synthetic patient " + std::to_string(seed),
+         convert::trackFromSeeds(phantom.volume, phantom.seeds, {}, progress).result});
   }
   return patients;
 }

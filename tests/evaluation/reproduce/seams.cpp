@@ -29,11 +29,11 @@ public:
         m_first(first),
         m_radius(std::max(double{m_tree.radius[first]}, double{m_tree.radius[second]})) {
     const Vector3d from = toEigen(m_tree.centre[first]);
-    const Vector3d way = toEigen(m_tree.centre[second]) - from;
-    const double distance = way.norm();
+    const Vector3d chord = toEigen(m_tree.centre[second]) - from;
+    const double distance = chord.norm();
     if (!(distance > 0)) return;
     const double r0 = m_tree.radius[first], r1 = m_tree.radius[second];
-    const Vector3d normal = way / distance;
+    const Vector3d normal = chord / distance;
     m_origin = from + 0.5 * (distance + (r0 - r1) * (r0 + r1) / distance) * normal;
     m_side = normal.unitOrthogonal();
     m_up = normal.cross(m_side);

@@ -25,8 +25,8 @@
 namespace lumen::reproduce {
 namespace {
 
-constexpr std::size_t kRays = 12;  // across the vessel, from each node
-constexpr double kFar = 1e-3;      // of the radius: farther is not on the field
+constexpr std::size_t kRays = 12;        // across the vessel, from each node
+constexpr double kOffFieldRadii = 1e-3;  // of the radius: farther is not on the field
 
 Eigen::Vector3d toVector(const formats::Vec3f& v) {
   return {v.x, v.y, v.z};
@@ -101,22 +101,24 @@ void keepFarther(Farthest& most, const Farthest& other) {
 
 // Where the ray leaves the lumen of the node's sheet; nothing within three radii.
 std::optional<Eigen::Vector3d> wallAlong(const convert::SheetField& field, std::uint32_t node,
-                                         const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
+                                         const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& outwards) {
   if (field.at(from, node).distance >= 0) return std::nullopt;
   double inside = 0, outside = 0;
   const double radius = field.radius(node);
-  for (outside = 0.1; field.at(from + outside * radius * way, node).distance < 0; outside += 0.1) {
+  for (outside = 0.1; field.at(from + outside * radius * outwards, node).distance < 0;
+       outside += 0.1) {
     inside = outside;
     if (outside > 3) return std::nullopt;
   }
   for (int step = 0; step < 30; ++step) {
     const double middle = (inside + outside) / 2;
-    (field.at(from + middle * radius * way, node).distance < 0 ? inside : outside) = middle;
+    (field.at(from + middle * radius * outwards, node).distance < 0 ? inside : outside) = middle;
   }
-  const Eigen::Vector3d wall = from + inside * radius * way;
+  const Eigen::Vector3d wall = from + inside * radius * outwards;
   // The sheet that the node answers for jumps where a cursor takes another way: that is no wall.
-  return std::abs(field.at(wall, node).distance) < kFar * radius ? std::optional(wall)
-                                                                 : std::nullopt;
+  return std::abs(field.at(wall, node).distance) < kOffFieldRadii * radius ? std::optional(wall)
+                                                                           : std::nullopt;
 }
 
 void measureField(const convert::SheetField& field, const WrittenSurface& surface,
@@ -211,7 +213,7 @@ FieldFacts distanceFrom(const convert::SheetField& field, const WrittenSurface& 
   FieldFacts facts;
   for (std::size_t v = 0; v < ofVertex.size(); ++v) {
     facts.vertices += isWall[v];
-    if (ofVertex[v].radii > kFar) ++facts.verticesFar;
+    if (ofVertex[v].radii > kOffFieldRadii) ++facts.verticesFar;
     keepFarther(facts.vertex, ofVertex[v]);
   }
   for (const Farthest& middle : ofMiddle) keepFarther(facts.middle, middle);
@@ -219,7 +221,7 @@ FieldFacts distanceFrom(const convert::SheetField& field, const WrittenSurface& 
   return facts;
 }
 
-EndFacts endsOf(const formats::Case& source, const WrittenSurface& surface) {
+EndFacts measureEnds(const formats::Case& source, const WrittenSurface& surface) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> vertices;
   for (std::size_t t = 0; t < surface.group.size(); ++t)
     if (surface.group[t] != 0)

@@ -38,7 +38,7 @@ struct ShapeFacts {
   double medianAngle = 0, leastAngle = 0;  ///< of the triangles' least angles, degrees
 };
 
-ShapeFacts shapeOf(const convert::TriangleMesh& mesh);
+ShapeFacts measureShape(const convert::TriangleMesh& mesh);
 
 /// For each tree of the case that has models: 2 less twice the number of loops that its links close.
 std::vector<std::ptrdiff_t> eulerOfTrees(const formats::Case& source);
@@ -70,6 +70,6 @@ struct EndFacts {
       0;  ///< greatest angle of a flat one's normal and the vessel at the nearest node, degrees
 };
 
-EndFacts endsOf(const formats::Case& source, const WrittenSurface& surface);
+EndFacts measureEnds(const formats::Case& source, const WrittenSurface& surface);
 
 }  // namespace lumen::reproduce

@@ -27,9 +27,9 @@ Json factsOf(const formats::Case& source, const std::string& file, double gap) {
   const reproduce::WrittenSurface surface = reproduce::readSurface(file);
   const field::BlendedField blended = formats::caseField(source);
   const convert::SheetField field(source, blended, {gap, 0, 0});
-  const reproduce::ShapeFacts shape = reproduce::shapeOf(surface.mesh);
+  const reproduce::ShapeFacts shape = reproduce::measureShape(surface.mesh);
   const reproduce::FieldFacts off = reproduce::distanceFrom(field, surface);
-  const reproduce::EndFacts ends = reproduce::endsOf(source, surface);
+  const reproduce::EndFacts ends = reproduce::measureEnds(source, surface);
   return {{"triangles", surface.mesh.triangle.size()},
           {"closed", shape.closed},
           {"manifold", shape.isMesh},

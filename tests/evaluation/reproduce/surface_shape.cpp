@@ -61,7 +61,7 @@ void measureParts(const Mesh& mesh, ShapeFacts& facts) {
 
 }  // namespace
 
-ShapeFacts shapeOf(const convert::TriangleMesh& mesh) {
+ShapeFacts measureShape(const convert::TriangleMesh& mesh) {
   ShapeFacts facts;
   const convert::TriangleQuality quality = convert::triangleQuality(mesh);
   facts.medianAngle = quality.medianAngle;

@@ -82,7 +82,7 @@ TrackOutcome trackAndScore(const convert::Phantom& phantom, Progress& progress,
                            const convert::TrackOptions& options) {
   const formats::CenterlineTree& truth = phantom.truth.tree;
   const convert::TrackResult tracked =
-      convert::trackCase(phantom.volume, phantom.seeds, options, progress);
+      convert::trackFromSeeds(phantom.volume, phantom.seeds, options, progress);
   const convert::Comparison comparison =
       convert::compareCases(tracked.result, phantom.truth, progress);
   const formats::CenterlineTree& found = tracked.result.tree;

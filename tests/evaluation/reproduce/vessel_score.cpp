@@ -63,15 +63,15 @@ public:
     }
     m_open = false;
   }
-  std::vector<Piece> longestFirst() {
+  std::vector<AxisPiece> longestFirst() {
     std::stable_sort(m_all.begin(), m_all.end(),
-                     [](const Piece& p, const Piece& q) { return p.length > q.length; });
+                     [](const AxisPiece& p, const AxisPiece& q) { return p.length > q.length; });
     return std::move(m_all);
   }
 
 private:
-  std::vector<Piece> m_all;
-  Piece m_piece;
+  std::vector<AxisPiece> m_all;
+  AxisPiece m_piece;
   bool m_open = false;
 };
 

@@ -15,7 +15,7 @@
 namespace lumen::reproduce {
 
 /// A stretch of an axis.
-struct Piece {
+struct AxisPiece {
   std::string branch;              ///< its label
   double from = 0, to = 0;         ///< mm along the branch
   double length = 0;               ///< mm
@@ -31,9 +31,9 @@ struct VesselScore {
   double length = 0;   ///< of the case's axes
   double falseLength =
       0;  ///< of that, farther than half a voxel from the lumen of every true vessel
-  double reachable = 0, reachableOf = 0;  ///< formats::measureReachability()
-  double wallMedian = 0, radiusBias = 0;  ///< convert::compareCases()
-  std::vector<Piece> uncovered, wrong;    ///< longest first
+  double reachable = 0, reachableOf = 0;    ///< formats::measureReachability()
+  double wallMedian = 0, radiusBias = 0;    ///< convert::compareCases()
+  std::vector<AxisPiece> uncovered, wrong;  ///< longest first
 };
 
 /// `clicked`: labels of true branches. Aneurysms do not count among them: their axis is a

@@ -192,13 +192,13 @@ Table overview(const std::vector<Result>& results) {
 }
 
 Table places(const std::string& title, const std::vector<Result>& results,
-             std::vector<Piece> VesselScore::*pieces) {
+             std::vector<AxisPiece> VesselScore::*pieces) {
   Table table{
       title,
       {"case", "branch", "its click", "from mm", "to mm", "length mm", "place", "radius mm"},
       {}};
   for (const Result& r : results)
-    for (const Piece& p : r.score.*pieces)
+    for (const AxisPiece& p : r.score.*pieces)
       table.rows.push_back({r.name, p.branch, r.failed.contains(p.branch) ? "failed" : "started",
                             oneDecimal(p.from), oneDecimal(p.to), oneDecimal(p.length),
                             oneDecimal(p.place.x()) + ", " + oneDecimal(p.place.y()) + ", " +

@@ -32,10 +32,10 @@ TEST(BlobNearest, LiesOnTheWallAndTheWayThereIsTheNormal) {
     blob_sample at;
     blob_query(model.get(), 0, found.point, &node, &at);
     ASSERT_NEAR(at.distance, 0, 2e-5);
-    const double way[3] = {p[0] - found.point[0], p[1] - found.point[1], p[2] - found.point[2]};
+    const double offset[3] = {p[0] - found.point[0], p[1] - found.point[1], p[2] - found.point[2]};
     if (std::abs(found.distance) < 0.05) continue;
     double along = 0;
-    for (int i = 0; i < 3; ++i) along += way[i] * at.normal[i] / found.distance;
+    for (int i = 0; i < 3; ++i) along += offset[i] * at.normal[i] / found.distance;
     ASSERT_NEAR(along, 1.0, 2e-3) << found.distance;
   }
 }

@@ -22,13 +22,14 @@ struct DeleteMujoco {
 
 /// A ball of 0.3 mm at the middle of the first of two tubes that touch, their axes 2.75 mm apart
 /// along y. Lengths are `unit` for a millimetre.
-struct Scene {
+struct TwoTubesScene {
   Model tubes = makeTubes({0, 2.75F});
   double unit;
   std::unique_ptr<mjModel, DeleteMujoco> m;
   std::unique_ptr<mjData, DeleteMujoco> d;
 
-  explicit Scene(double unitOfMillimetre, const std::string& shape = "type='sphere' size='0.3'")
+  explicit TwoTubesScene(double unitOfMillimetre,
+                         const std::string& shape = "type='sphere' size='0.3'")
       : unit(unitOfMillimetre) {
     const std::string text =
         "<mujoco><option timestep='0.0005' gravity='0 0 0'/><default><geom solref='0.001 "
@@ -47,9 +48,9 @@ struct Scene {
     d.reset(mj_makeData(m.get()));
     EXPECT_TRUE(vessel_attach(m.get(), "vessel", tubes.get(), unit));
   }
-  ~Scene() { vessel_detach(); }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
+  ~TwoTubesScene() { vessel_detach(); }
+  TwoTubesScene(const TwoTubesScene&) = delete;
+  TwoTubesScene& operator=(const TwoTubesScene&) = delete;
 
   void run(double seconds) {
     while (d->time < seconds) mj_step(m.get(), d.get());
@@ -57,7 +58,7 @@ struct Scene {
 };
 
 TEST(MujocoVessel, ABallThatOvershootsIntoATouchingVesselComesBack) {
-  Scene scene(1);
+  TwoTubesScene scene(1);
   mj_forward(scene.m.get(), scene.d.get());
   scene.d->qvel[1] = 3000;  // 1.5 mm a step: over the wall and into the other lumen
   double farthest = 0;
@@ -71,7 +72,7 @@ TEST(MujocoVessel, ABallThatOvershootsIntoATouchingVesselComesBack) {
 }
 
 TEST(MujocoVessel, TheContactIsOnTheWallWithTheNormalOutwards) {
-  Scene scene(1);
+  TwoTubesScene scene(1);
   scene.d->qpos[1] = -1.2;
   mj_forward(scene.m.get(), scene.d.get());
   ASSERT_EQ(scene.d->ncon, 1);
@@ -83,7 +84,7 @@ TEST(MujocoVessel, TheContactIsOnTheWallWithTheNormalOutwards) {
 }
 
 TEST(MujocoVessel, AMillimetreMayBeTwoUnits) {
-  Scene scene(2);  // the wall is at 2.8: nothing touches
+  TwoTubesScene scene(2);  // the wall is at 2.8: nothing touches
   scene.d->qpos[0] = 20;
   scene.d->qpos[1] = -1.2;
   mj_forward(scene.m.get(), scene.d.get());
@@ -94,13 +95,13 @@ TEST(MujocoVessel, AMillimetreMayBeTwoUnits) {
 }
 
 TEST(MujocoVessel, ACapsuleAcrossTheTubeTouchesWithBothEnds) {
-  Scene scene(1, "type='capsule' size='0.3 1.2' euler='90 0 0'");
+  TwoTubesScene scene(1, "type='capsule' size='0.3 1.2' euler='90 0 0'");
   mj_forward(scene.m.get(), scene.d.get());
   EXPECT_EQ(scene.d->ncon, 2);
 }
 
 TEST(MujocoVessel, AVesselMustBeABoxOfTheModel) {
-  Scene scene(1);
+  TwoTubesScene scene(1);
   EXPECT_FALSE(vessel_attach(scene.m.get(), "absent", scene.tubes.get(), 1));
 }
 

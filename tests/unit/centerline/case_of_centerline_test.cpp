@@ -36,7 +36,7 @@ TEST(CaseOfCenterline, LongSegmentsGetNodesAndAllAreGiven) {
     EXPECT_NEAR(value.tree.radius[n], 1 + value.tree.centre[n].z / 30, 1e-6);
     EXPECT_NEAR(value.tree.direction[n].z, 1, 1e-6);
   }
-  for (const auto origin : formats::nodeOriginsOf(value))
+  for (const auto origin : formats::readNodeOrigins(value))
     EXPECT_EQ(origin, formats::NodeOrigin::Given);
 }
 
@@ -143,7 +143,7 @@ TEST(RealCenterlines, VmtksLinesOfTheAortaAreOneTreeWhetherSplitOrNot) {
     if (!std::filesystem::exists(kShared / name)) GTEST_SKIP() << name << " is missing";
     const CenterlineFile file = readVtpCenterline(kShared / name);
     EXPECT_EQ(centerlineChains(file).size(), 2U) << name;
-    EXPECT_NEAR(extentOf(file).most, 7.578, 1e-3) << name;
+    EXPECT_NEAR(measureExtent(file).most, 7.578, 1e-3) << name;
   }
 }
 

@@ -119,9 +119,9 @@ TEST(WriteCenterline, LinesHaveTheArraysOfVmtk) {
   const VtkPolyData data = parseVtkXml(text, "x.vtp", names);
   ASSERT_EQ(data.cellData.size(), 4U);
   // four tips, each with its own way from a root
-  std::set<double> ways(data.cellArray("CenterlineIds")->values.begin(),
-                        data.cellArray("CenterlineIds")->values.end());
-  EXPECT_EQ(ways.size(), 4U);
+  std::set<double> centerlines(data.cellArray("CenterlineIds")->values.begin(),
+                               data.cellArray("CenterlineIds")->values.end());
+  EXPECT_EQ(centerlines.size(), 4U);
   const auto& group = data.cellArray("GroupIds")->values;
   const auto& blanking = data.cellArray("Blanking")->values;
   std::set<std::pair<double, double>> groups;
@@ -133,9 +133,9 @@ TEST(WriteCenterline, LinesHaveTheArraysOfVmtk) {
   EXPECT_EQ(
       std::count_if(groups.begin(), groups.end(), [](const auto& g) { return g.second == 1; }), 2);
   // consecutive tracts of a way meet
-  const auto& way = data.cellArray("CenterlineIds")->values;
+  const auto& centerline = data.cellArray("CenterlineIds")->values;
   for (std::size_t cell = 1; cell < data.lines.size(); ++cell)
-    if (way[cell] == way[cell - 1]) {
+    if (centerline[cell] == centerline[cell - 1]) {
       EXPECT_EQ(data.lines.point[data.lines.begin(cell)],
                 data.lines.point[data.lines.end[cell - 1] - 1]);
     }

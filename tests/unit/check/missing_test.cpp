@@ -145,8 +145,8 @@ TEST(Missing, WhatIsWiderThanTheCaseIsARegionAndAllBeyondIt) {
   const Vector3d along = toEigen(tube.tree().direction[0]);
   tube.paint([&](const Vector3d& p) {
     const Vector3d from = p - centre;
-    const double way = from.dot(along);
-    const bool stick = way > 0 && way < ball + 2 && (from - way * along).norm() < thin;
+    const double ahead = from.dot(along);
+    const bool stick = ahead > 0 && ahead < ball + 2 && (from - ahead * along).norm() < thin;
     return from.norm() < ball || stick ? kBright : kDark;
   });
   const CheckReport report = tube.report();

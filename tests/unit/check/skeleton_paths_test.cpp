@@ -20,7 +20,7 @@ VolumeGeometry gridOf(int edge, double spacing) {
 }
 
 std::vector<SkeletonPath> pathsOf(const VoxelSet& set, std::size_t root, std::size_t least) {
-  const std::vector<float> depths = depthsOf(
+  const std::vector<float> depths = measureDepths(
       set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, Progress());
   std::vector<std::uint8_t> free(set.size(), 1);
   std::vector<SkeletonPath> paths;

@@ -30,7 +30,7 @@ Fitted fitted(const std::string& name, int size) {
   options.size = size;
   Progress progress;
   Fitted result{makePhantom(options, progress), {}};
-  result.value = trackCase(result.phantom.volume, result.phantom.seeds, {}, progress).result;
+  result.value = trackFromSeeds(result.phantom.volume, result.phantom.seeds, {}, progress).result;
   fit(result.value, {}, progress);
   return result;
 }

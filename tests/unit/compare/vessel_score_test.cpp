@@ -47,7 +47,7 @@ TEST(VesselScore, WhatIsMissedIsListedWithItsPlaceLongestFirst) {
   addLine(found, "b01", {10, 1, 0}, {10, 3, 0}, 0.5, 20);
   const VesselScore score = scored(found);
   ASSERT_EQ(score.uncovered.size(), 2U);
-  const Piece& child = score.uncovered[0];
+  const AxisPiece& child = score.uncovered[0];
   EXPECT_EQ(child.branch, "b01");
   EXPECT_NEAR(child.from, 3.5, 0.11);  // the axis ends a radius before
   EXPECT_NEAR(child.to, 10, 1e-6);

@@ -169,7 +169,7 @@ TEST(JoinBranch, BridgesTheGapWithNodesHalfARadiusApart) {
   const auto& branch = branchOf(value, "d");
   EXPECT_EQ(branch.parentNode, 0);
   ASSERT_EQ(branch.nodeCount, 10U);
-  const auto origins = formats::nodeOriginsOf(value);
+  const auto origins = formats::readNodeOrigins(value);
   for (std::uint32_t i = 0; i < 10; ++i) {
     const std::uint32_t node = branch.firstNode + i;
     const bool isNew = i < 5;
@@ -320,7 +320,7 @@ TEST(MoveNode, GivesARoundSectionWithoutTheWallPointsThatWereThere) {
   EXPECT_EQ(value.tree.centre[5], (formats::Vec3f{2.6F, 0.2F, 0}));
   EXPECT_EQ(value.tree.radius[5], 1.5F);
   EXPECT_EQ(value.tree.direction[5], (formats::Vec3f{1, 0, 0}));
-  EXPECT_EQ(formats::nodeOriginsOf(value)[5], NodeOrigin::Given);
+  EXPECT_EQ(formats::readNodeOrigins(value)[5], NodeOrigin::Given);
   EXPECT_EQ(value.points->offset[6], value.points->offset[5]);
   // those of other nodes lie beyond the planes halfway to them
   EXPECT_EQ(value.points->position.size(), 2U * 25);

@@ -27,7 +27,7 @@ using formats::Case;
 
 Case converted(const Volume& volume, const std::vector<SeedBranch>& seeds) {
   Progress silent;
-  Case value = trackCase(volume, seeds, TrackOptions{}, silent).result;
+  Case value = trackFromSeeds(volume, seeds, TrackOptions{}, silent).result;
   fit(value, {}, silent);
   return value;
 }
@@ -90,7 +90,7 @@ TEST(OneClick, TracksWhatTheCheckMisses) {
   SeedBranch seed;
   seed.label = "missed";
   for (const Eigen::Vector3d& p : clicks.points) seed.points.push_back({p, std::nullopt});
-  const AddedTracks tracks = trackIntoCase(volume, fork.value, {seed}, silent);
+  const AddedTracks tracks = addTracksFromSeeds(volume, fork.value, {seed}, silent);
   ASSERT_TRUE(tracks.failures.empty()) << tracks.failures[0].reason;
   EXPECT_TRUE(tracks.missedPoints.empty());
 
@@ -118,7 +118,7 @@ TEST(OneClick, IsTakenBackByDeletingTheBranch) {
   seed.points.push_back(
       {toEigen(truth.centre[branch.firstNode + branch.nodeCount / 2]), std::nullopt});
   const TrackingVolume volume(fork.phantom.volume, fork.value, silent);
-  const AddedTracks tracks = trackIntoCase(volume, fork.value, {seed}, silent);
+  const AddedTracks tracks = addTracksFromSeeds(volume, fork.value, {seed}, silent);
   Case value = tracks.result;
   refit(value, staleAfter(fork.value, tracks), recordedFitOptions(value), silent);
   const Change change = deleteBranch(value, tracks.firstNewBranch);
@@ -184,7 +184,7 @@ TEST(OneClick, OnAReal3draJoinsItsVesselToTheTree) {
   const TrackingVolume tracking(volume, known, silent);
   click.parent.reset();
   click.points.resize(1);
-  const AddedTracks tracks = trackIntoCase(tracking, known, {click}, silent);
+  const AddedTracks tracks = addTracksFromSeeds(tracking, known, {click}, silent);
   ASSERT_TRUE(tracks.failures.empty()) << tracks.failures[0].reason;
   Case value = tracks.result;
   refit(value, staleAfter(known, tracks), recordedFitOptions(value), silent);

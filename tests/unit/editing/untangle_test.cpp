@@ -40,7 +40,7 @@ Case withoutModels(Case value) {
   return value;
 }
 
-std::string faultOf(const Case& value) {
+std::string findFault(const Case& value) {
   const auto valid = formats::validate(value);
   return valid ? "" : valid.error().text();
 }
@@ -65,7 +65,7 @@ Case crossing(float after) {
 TEST(Untangle, AVesselThatCrossesAnotherIsOneOfItsOwn) {
   Case value = crossing(1);
   EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
-  EXPECT_EQ(faultOf(value), "");
+  EXPECT_EQ(findFault(value), "");
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_EQ(rootsOf(value), 2U);
   // a bridge leads across
@@ -82,7 +82,7 @@ TEST(Untangle, AVesselAlongsideThatASlantReachesIsOneOfItsOwn) {
   addBeads(value, "back", along({-0.5, 1.7, 0}, {-1, 0, 0}, 20), 0.7F, 47);
   value = withoutModels(value);
   EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
-  EXPECT_EQ(faultOf(value), "");
+  EXPECT_EQ(findFault(value), "");
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_EQ(rootsOf(value), 2U);
 }
@@ -110,7 +110,7 @@ TEST(Untangle, TipsThatFaceOneAnotherAreOneVessel) {
   value = withoutModels(value);
   EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
   EXPECT_EQ(value.tree.branches.size(), 1U);
-  EXPECT_EQ(faultOf(value), "");
+  EXPECT_EQ(findFault(value), "");
   // directions agree with the order of nodes
   for (std::size_t n = 1; n < value.tree.nodeCount(); ++n) {
     const float step = value.tree.centre[n].x - value.tree.centre[n - 1].x;
@@ -143,7 +143,7 @@ TEST(Untangle, AJoinThatClosesALoopIsALink) {
   }
   value = withoutModels(value);
   EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
-  EXPECT_EQ(faultOf(value), "");
+  EXPECT_EQ(findFault(value), "");
   EXPECT_EQ(value.tree.links.size(), 1U);
   EXPECT_EQ(rootsOf(value), 1U);
 }

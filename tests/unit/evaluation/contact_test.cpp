@@ -143,7 +143,7 @@ TEST(ContactWires, LieFromTheAxisToJustPastTheWallAndMoveALittle) {
   options.seed = 2;
   EXPECT_NE(makeWires(owned.source.tree, owned.vessel.model, options).position, wires.position);
   const ExactField exact(owned.source);
-  const std::vector<Truth> truth = truthOf(exact, wires, wires.frames() - 1, 20);
+  const std::vector<Truth> truth = computeTruth(exact, wires, wires.frames() - 1, 20);
   const auto share = [&](auto holds) {
     return static_cast<double>(std::count_if(truth.begin(), truth.end(), holds)) / 1000;
   };

@@ -137,7 +137,7 @@ TEST(DistanceGrid, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(DistanceGrid, PartHasTheSamplesOfTheWhole) {
   const Lattice whole = latticeOver(kissingBox(), 0.5, 0.25);
-  const Lattice part = partOf(whole, {{3, 1, -0.5}, {16, 2, 0.5}}, 0.3);
+  const Lattice part = cropLattice(whole, {{3, 1, -0.5}, {16, 2, 0.5}}, 0.3);
   for (int a = 0; a < 3; ++a) {
     const double steps = (part.first[a] - whole.first[a]) / 0.25;
     EXPECT_NEAR(steps, std::round(steps), 1e-9);

@@ -30,7 +30,7 @@ TEST(Insertion, LiesAsFarInsideTheRootAsItNeedsAndFollowsTheWidestVessel) {
   EXPECT_EQ(in.direction, Eigen::Vector3d::UnitZ());
   EXPECT_DOUBLE_EQ(in.radius, 2);
   // to the last node, at z = 29, less its radius
-  EXPECT_DOUBLE_EQ(in.way, 29 - 1.5 - 2);
+  EXPECT_DOUBLE_EQ(in.pathLength, 29 - 1.5 - 2);
 }
 
 TEST(Insertion, IsAtTheBranchThatIsNamed) {

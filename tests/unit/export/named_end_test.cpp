@@ -84,7 +84,7 @@ formats::CenterlineTree chain(std::size_t nodes) {
 }  // namespace
 
 TEST(NamedEnd, OfASurfaceHasItsMiddleItsWayOutAndItsArea) {
-  const auto ends = endsOf(box());
+  const auto ends = findEnds(box());
   ASSERT_EQ(ends.size(), 2U);
   EXPECT_EQ(ends[0].name, "inlet");
   EXPECT_TRUE(ends[0].position.isApprox(Eigen::Vector3d(2, 1, 0)));
@@ -96,7 +96,7 @@ TEST(NamedEnd, OfASurfaceHasItsMiddleItsWayOutAndItsArea) {
 }
 
 TEST(NamedEnd, OfAThickWallLooksOutOfTheVessel) {
-  const auto ends = endsOf(thickTube());
+  const auto ends = findEnds(thickTube());
   ASSERT_EQ(ends.size(), 2U);
   EXPECT_EQ(ends[0].name, "inlet");
   EXPECT_TRUE(ends[0].direction.isApprox(-Eigen::Vector3d::UnitZ()));
@@ -107,7 +107,7 @@ TEST(NamedEnd, OfAThickWallLooksOutOfTheVessel) {
 }
 
 TEST(NamedEnd, OfATreeAreItsFirstAndLastNodes) {
-  const auto ends = endsOf(chain(4));
+  const auto ends = findEnds(chain(4));
   ASSERT_EQ(ends.size(), 2U);
   EXPECT_EQ(ends[0].name, "inlet");
   EXPECT_EQ(ends[0].direction, -Eigen::Vector3d::UnitZ());
@@ -119,7 +119,7 @@ TEST(NamedEnd, OfATreeAreItsFirstAndLastNodes) {
 TEST(NamedEnd, OfATreeIsNoneWhereALinkGoesOn) {
   auto tree = chain(4);
   tree.links = {{{1, 3}}};
-  EXPECT_EQ(endsOf(tree).size(), 1U);
+  EXPECT_EQ(findEnds(tree).size(), 1U);
 }
 
 }  // namespace lumen::convert

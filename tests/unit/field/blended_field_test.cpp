@@ -61,7 +61,7 @@ std::vector<Place> placesIn(const Tree& tree, const BlendedField& field, int cou
   return places;
 }
 
-blob_sample sampleOf(const Model& model, std::uint32_t flags, const Place& place) {
+blob_sample samplePlace(const Model& model, std::uint32_t flags, const Place& place) {
   blob_sample sample;
   const double p[3] = {place.at.x, place.at.y, place.at.z};
   std::uint32_t cursor = place.node;
@@ -84,7 +84,7 @@ TEST_P(FieldOfKernel, LocalIsThatOfLibblob) {
     const Model model = tree.build();
     const BlendedField field = fieldOf(tree);
     for (const Place& place : placesIn(tree, field, 300))
-      expectSame(field.local(place.at, place.node), sampleOf(model, BLOB_LOCAL, place));
+      expectSame(field.local(place.at, place.node), samplePlace(model, BLOB_LOCAL, place));
   }
 }
 
@@ -95,7 +95,7 @@ TEST_P(FieldOfKernel, BlendedIsThatOfEveryBackEnd) {
     for (const blob_simd simd : {BLOB_SIMD_SCALAR, BLOB_SIMD_BEST}) {
       const Model model = tree.build(simd);
       for (const Place& place : placesIn(tree, field, 300))
-        expectSame(field.blended(place.at, place.node), sampleOf(model, BLOB_BLENDED, place));
+        expectSame(field.blended(place.at, place.node), samplePlace(model, BLOB_BLENDED, place));
     }
   }
 }
@@ -153,8 +153,8 @@ TEST(BlendedField, NothingJumpsAtSeams) {
       for (const std::uint32_t other : field.neighbours(place.node)) {
         const auto powerOf = [&](std::uint32_t k, const Vec& x) {
           const double* c = field.centre(k);
-          const Vec way = x - Vec{c[0], c[1], c[2]};
-          return dot(way, way) - double{tree.radius[k]} * tree.radius[k];
+          const Vec fromCentre = x - Vec{c[0], c[1], c[2]};
+          return dot(fromCentre, fromCentre) - double{tree.radius[k]} * tree.radius[k];
         };
         // onto the radical plane, along the line of centres
         const double *a = field.centre(place.node), *b = field.centre(other);

@@ -22,7 +22,7 @@ TreeView viewOf(const Tree& tree) {
 }
 
 Neighbourhood neighboursIn(const Tree& tree) {
-  return neighbourhoodOf(viewOf(tree), edgesOf(viewOf(tree)));
+  return findNeighbourhood(viewOf(tree), findEdges(viewOf(tree)));
 }
 
 std::vector<std::uint32_t> neighboursOf(const Neighbourhood& all, std::uint32_t node) {
@@ -154,14 +154,14 @@ TEST(Spacing, IsTheGreatestSquareOfANodesEdges) {
   tree.addNode({1, 0, 0}, 1.0, 0);
   tree.addNode({1, 0, 3}, 1.0, 1);
   const TreeView view = viewOf(tree);
-  EXPECT_EQ(spacingsOf(view, edgesOf(view)), (std::vector<double>{1, 9, 9}));
+  EXPECT_EQ(measureSpacings(view, findEdges(view)), (std::vector<double>{1, 9, 9}));
 }
 
 TEST(Lenders, OfTwoNodesEquallyNearTheLowerOneLends) {
   Tree tree;
   for (int i = 0; i < 3; ++i) tree.addNode({1.0 * i, 0, 0}, 1.0, i - 1);
   const std::uint32_t offset[] = {0, 1, 1, 2};
-  EXPECT_EQ(lendersOf(edgesOf(viewOf(tree)), offset), (std::vector<std::uint32_t>{0, 0, 2}));
+  EXPECT_EQ(findLenders(findEdges(viewOf(tree)), offset), (std::vector<std::uint32_t>{0, 0, 2}));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Phantom phantom(const std::string& name) {
 }
 
 formats::Case treeOf(const Volume& volume, Progress& progress) {
-  return trackCourses(volume, findVessels(volume, false, progress).courses, {}, {}, progress)
+  return trackAlongCourses(volume, findVessels(volume, false, progress).courses, {}, {}, progress)
       .result;
 }
 
@@ -66,11 +66,11 @@ TEST(TrackCourses, ACandidateWithoutAWallIsNoVesselAndItsChildrenHangOnTheOneBef
     return seed;
   };
   Progress silent;
-  const TrackResult out = trackCourses(volume,
-                                       {course("trunk", {4, 6, 0.8}, {4, 6, 11.8}, {}),
-                                        course("nothing", {4, 6, 6}, {4, 12, 6}, "trunk"),
-                                        course("child", {4, 6, 6}, {10.8, 6, 8.9}, "nothing")},
-                                       {}, {}, silent);
+  const TrackResult out = trackAlongCourses(volume,
+                                            {course("trunk", {4, 6, 0.8}, {4, 6, 11.8}, {}),
+                                             course("nothing", {4, 6, 6}, {4, 12, 6}, "trunk"),
+                                             course("child", {4, 6, 6}, {10.8, 6, 8.9}, "nothing")},
+                                            {}, {}, silent);
   ASSERT_EQ(out.failures.size(), 1U);
   EXPECT_EQ(out.failures[0].label, "nothing");
   const auto& tree = out.result.tree;
@@ -92,7 +92,7 @@ TEST(TrackCourses, ACandidateOnTheWallOfItsParentIsABump) {
   for (int i = 0; i <= 40; ++i) trunk.points.push_back({{6, 6, 0.8 + i * 0.275}, 1.5});
   for (int i = 0; i <= 10; ++i) bump.points.push_back({{6 + i * 0.16, 6, 6 + i * 0.1}, 1.0});
   Progress silent;
-  const TrackResult out = trackCourses(volume, {trunk, bump}, {}, {}, silent);
+  const TrackResult out = trackAlongCourses(volume, {trunk, bump}, {}, {}, silent);
   EXPECT_EQ(out.result.tree.branches.size(), 1U);
 }
 
@@ -123,15 +123,15 @@ TEST(TrackCourses, NoNodeIsPutWhereNoVesselIs) {
   course.label = "course";
   for (int i = 0; i <= 40; ++i) course.points.push_back({{6, 6, 0.8 + i * 0.275}, 1.5});
   Progress silent;
-  const auto reachOf = [&](const PlaceTest& isNoVessel) {
+  const auto trackedReach = [&](const PlaceTest& isNoVessel) {
     double reach = 0;
-    const auto out = trackCourses(volume, {course}, isNoVessel, {}, silent).result;
+    const auto out = trackAlongCourses(volume, {course}, isNoVessel, {}, silent).result;
     for (const formats::Vec3f& centre : out.tree.centre)
       reach = std::max(reach, static_cast<double>(centre.z));
     return reach;
   };
-  EXPECT_GT(reachOf({}), 11);
-  const double stopped = reachOf([](const Vector3d& p) { return p.z() > 7; });
+  EXPECT_GT(trackedReach({}), 11);
+  const double stopped = trackedReach([](const Vector3d& p) { return p.z() > 7; });
   EXPECT_GT(stopped, 5);
   EXPECT_LE(stopped, 7);
 }
@@ -139,9 +139,9 @@ TEST(TrackCourses, NoNodeIsPutWhereNoVesselIs) {
 TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
   Progress silent;
   const Phantom made = phantom("bifurcation");
-  const TrackResult clicked = trackCase(made.volume, {made.seeds[0]}, {}, silent);
+  const TrackResult clicked = trackFromSeeds(made.volume, {made.seeds[0]}, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
-  const AddedTracks added = trackCoursesIntoCase(
+  const AddedTracks added = addTracksAlongCourses(
       tracking, clicked.result, findVessels(made.volume, false, silent).courses, {}, silent);
   const auto &before = clicked.result.tree, &after = added.result.tree;
   ASSERT_GT(after.branches.size(), before.branches.size());
@@ -155,9 +155,9 @@ TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
 TEST(TrackCoursesIntoCase, AddsNothingToAWholeTree) {
   Progress silent;
   const Phantom made = phantom("bifurcation");
-  const TrackResult clicked = trackCase(made.volume, made.seeds, {}, silent);
+  const TrackResult clicked = trackFromSeeds(made.volume, made.seeds, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
-  const AddedTracks added = trackCoursesIntoCase(
+  const AddedTracks added = addTracksAlongCourses(
       tracking, clicked.result, findVessels(made.volume, false, silent).courses, {}, silent);
   EXPECT_EQ(added.result, clicked.result);
 }

@@ -36,24 +36,24 @@ double gradient(Energy& energy, const std::vector<Blob>& blobs, bool widths,
   return value;
 }
 
-double energyAt(Energy& energy, const std::vector<Blob>& from, const std::vector<double>& way,
+double energyAt(Energy& energy, const std::vector<Blob>& from, const std::vector<double>& direction,
                 double t, std::vector<Blob>& to) {
   to = from;
-  for (std::size_t i = 0; i < way.size(); ++i) unknown(to, i) += t * way[i];
+  for (std::size_t i = 0; i < direction.size(); ++i) unknown(to, i) += t * direction[i];
   const bool legal = std::all_of(to.begin(), to.end(), [](const Blob& b) { return b.width > 0; });
   return legal ? energy.evaluate(to) : 1e300;
 }
 
 /// The best step found by doubling from a short one, then halving around it.
-double lineSearch(Energy& energy, std::vector<Blob>& blobs, const std::vector<double>& way,
+double lineSearch(Energy& energy, std::vector<Blob>& blobs, const std::vector<double>& direction,
                   double value) {
   double longest = 0;
-  for (const double w : way) longest = std::max(longest, std::abs(w));
+  for (const double w : direction) longest = std::max(longest, std::abs(w));
   if (longest == 0) return value;
   std::vector<Blob> trial, best = blobs;
   double step = 1e-4 / longest, at = 0;
   for (int i = 0; i < 40 && step > 1e-12 / longest; ++i) {
-    const double next = energyAt(energy, blobs, way, at + step, trial);
+    const double next = energyAt(energy, blobs, direction, at + step, trial);
     if (next < value) {
       value = next;
       at += step;
@@ -75,7 +75,7 @@ double minimiseByConjugateGradients(Energy& energy, std::vector<Blob>& blobs, in
   energy.freeze(blobs, 0);
   double value = energy.evaluate(blobs);
   for (int half = 0; half < 2 * rounds; ++half) {
-    std::vector<double> g(n), previous(n), way(n, 0.0);
+    std::vector<double> g(n), previous(n), direction(n, 0.0);
     for (int step = 0; step < steps; ++step) {
       gradient(energy, blobs, half % 2 == 1, g);
       double above = 0, below = 0;
@@ -84,8 +84,8 @@ double minimiseByConjugateGradients(Energy& energy, std::vector<Blob>& blobs, in
         below += previous[i] * previous[i];
       }
       const double beta = step > 0 && below > 0 ? std::max(0.0, above / below) : 0;
-      for (std::size_t i = 0; i < n; ++i) way[i] = beta * way[i] - g[i];
-      value = lineSearch(energy, blobs, way, value);
+      for (std::size_t i = 0; i < n; ++i) direction[i] = beta * direction[i] - g[i];
+      value = lineSearch(energy, blobs, direction, value);
       previous = g;
     }
   }

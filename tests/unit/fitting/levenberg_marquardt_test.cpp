@@ -187,7 +187,7 @@ TEST(LevenbergMarquardt, CentresStayWithinReachAlongEveryAxis) {
 }
 
 TEST(LevenbergMarquardt, CentresStayInABallAlongEveryAxis) {
-  const std::vector<Ball> balls{{{0, 0, 0}, 0.5}};
+  const std::vector<FitBall> balls{{{0, 0, 0}, 0.5}};
   MinimiseOptions options;
   options.maxIterations = 100;
   options.lumen = balls;
@@ -201,9 +201,9 @@ TEST(LevenbergMarquardt, CentresStayInABallAlongEveryAxis) {
 
 TEST(LevenbergMarquardt, CentresStayInTheUnionOfTheBalls) {
   const std::vector<Vec3d> points = tubePoints(8, 0);
-  const std::vector<Ball> balls{{{-0.2, 0, 0}, 0.1}, {{0.2, 0, 0}, 0.1}};
+  const std::vector<FitBall> balls{{{-0.2, 0, 0}, 0.1}, {{0.2, 0, 0}, 0.1}};
   const auto outside = [&](const Blob& b) {
-    return std::none_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+    return std::none_of(balls.begin(), balls.end(), [&](const FitBall& ball) {
       return std::hypot(b.x - ball.centre.x, b.y, b.z) <= ball.radius + 1e-12;
     });
   };

@@ -151,8 +151,8 @@ TEST(LocalModel, AWrongStartingRadiusDoesNotMatter) {
 /// (-2, 3.5, 0): a branch whose first click was far from the fork.
 struct FarFork {
   std::vector<Vec3d> points;
-  std::vector<Ball> lumen{{{0, 0, 0}, 0.15},   {{-2, 3.5, 0}, 0.3}, {{0.15, 0, 0}, 0.15},
-                          {{-2, 3.8, 0}, 0.3}, {{-2, 3.2, 0}, 0.3}, {{0.3, 0, 0}, 0.15}};
+  std::vector<FitBall> lumen{{{0, 0, 0}, 0.15},   {{-2, 3.5, 0}, 0.3}, {{0.15, 0, 0}, 0.15},
+                             {{-2, 3.8, 0}, 0.3}, {{-2, 3.2, 0}, 0.3}, {{0.3, 0, 0}, 0.15}};
   FarFork() {
     Random random(10);
     for (int i = 0; i < 150; ++i) {

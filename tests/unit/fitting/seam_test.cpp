@@ -48,7 +48,7 @@ TEST(Seam, LiesOnTheRadicalPlane) {
 
 TEST(Seam, LeavesOutWhatBelongsToAnotherNode) {
   const std::vector<Blob> model{sphere(1)};
-  const std::vector<Ball> others{{{0.6, 1, 0}, 1}};
+  const std::vector<FitBall> others{{{0.6, 1, 0}, 1}};
   const auto seam = seamPoints({}, {{{0, 0, 0}, 1}, model}, {{{1.2, 0, 0}, 1}, model}, others);
   ASSERT_FALSE(seam.empty());
   EXPECT_LT(seam.size(), kSeamRays);

@@ -238,8 +238,9 @@ TrackedShape trackShape(const std::string& name, double radius, const TrackingOp
   } else {
     out.shape.tubes = {straight({-4 * r, 0, 0}, {12 * r, 0, 0}, r)};
     if (name == "bifurcation") {
-      const Vec3d way{0.5, std::sqrt(0.75), 0};
-      out.shape.tubes.push_back(straight({4 * r, 0, 0}, Vec3d{4 * r, 0, 0} + 9 * r * way, 0.7 * r));
+      const Vec3d slant{0.5, std::sqrt(0.75), 0};
+      out.shape.tubes.push_back(
+          straight({4 * r, 0, 0}, Vec3d{4 * r, 0, 0} + 9 * r * slant, 0.7 * r));
     }
     addBranch(out, out.shape.tubes[0], 4 * r, 12 * r, formats::kNoParent, options, random);
     if (name == "bifurcation") {

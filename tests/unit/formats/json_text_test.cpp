@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 
 // Puts the events together again.
-class Builder final : public JsonEvents {
+class JsonBuilder final : public JsonEvents {
 public:
   bool null() override { return put(nullptr); }
   bool boolean(bool value) override { return put(value); }
@@ -74,7 +74,7 @@ const char* const kTexts[] = {
     " \r\n\t[ 0.5 , [ ] , { \"\" : \"x\" } ] "};
 
 void compare(const std::string& text) {
-  Builder builder;
+  JsonBuilder builder;
   const auto fault = readJsonText(text, builder);
   const json other = json::parse(text, nullptr, false);
   // the other takes a zero byte for the end, and a byte order mark
@@ -140,12 +140,12 @@ TEST(JsonText, IsRefusedAtItsFirstByteThatCannotBeRight) {
                                                        {"+1", 0},
                                                        {"\xef\xbb\xbf[]", 0}};
   for (const auto& [text, at] : cases) {
-    Builder builder;
+    JsonBuilder builder;
     const auto fault = readJsonText(text, builder);
     ASSERT_TRUE(fault) << text;
     EXPECT_EQ(fault->at, at) << text << ": " << fault->message;
   }
-  Builder builder;
+  JsonBuilder builder;
   EXPECT_EQ(readJsonText("{\n  \"a\": }", builder)->message,
             "line 2, column 8: found \"}\", expected a value");
 }

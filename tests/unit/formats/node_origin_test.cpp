@@ -31,20 +31,20 @@ Case mixedNodes() {
 }
 
 TEST(NodeOrigin, IsMeasuredWhereTheCaseDoesNotSay) {
-  EXPECT_EQ(nodeOriginsOf(threeNodes()), std::vector<NodeOrigin>(3, NodeOrigin::Measured));
+  EXPECT_EQ(readNodeOrigins(threeNodes()), std::vector<NodeOrigin>(3, NodeOrigin::Measured));
 }
 
 TEST(NodeOrigin, IsGivenBackByBothEncodings) {
   const Case value = mixedNodes();
-  EXPECT_EQ(nodeOriginsOf(value), kMixed);
+  EXPECT_EQ(readNodeOrigins(value), kMixed);
   const auto binary = decodeCase(encodeBinary(value));
   ASSERT_TRUE(binary);
-  EXPECT_EQ(nodeOriginsOf(*binary), kMixed);
+  EXPECT_EQ(readNodeOrigins(*binary), kMixed);
   const std::string text = encodeJson(value);
   const auto bytes = std::as_bytes(std::span(text));
   const auto json = decodeCase(bytes);
   ASSERT_TRUE(json);
-  EXPECT_EQ(nodeOriginsOf(*json), kMixed);
+  EXPECT_EQ(readNodeOrigins(*json), kMixed);
 }
 
 TEST(NodeOrigin, LeavesNothingBehindWhenAllNodesAreMeasured) {
@@ -107,7 +107,7 @@ TEST(NodeOrigin, OfAnotherExtensionMeansNothing) {
   value.metadata.extensionsUsed = {"ACME_node"};
   value.nodeArrays = {{"ACME_node.origin", 1, "", std::vector<std::uint32_t>{7, 8, 9}}};
   EXPECT_TRUE(validate(value));
-  EXPECT_EQ(nodeOriginsOf(value), std::vector<NodeOrigin>(3, NodeOrigin::Measured));
+  EXPECT_EQ(readNodeOrigins(value), std::vector<NodeOrigin>(3, NodeOrigin::Measured));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string contentOf(const fs::path& file) {
+std::string fileText(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
@@ -80,7 +80,7 @@ protected:
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(m_folder))
       if (entry.is_regular_file())
-        all[fs::relative(entry.path(), m_folder).string()] = contentOf(entry.path());
+        all[fs::relative(entry.path(), m_folder).string()] = fileText(entry.path());
     return all;
   }
   fs::path m_folder;
@@ -126,9 +126,9 @@ TEST_F(SiteTest, AGalleryOfManyPagesListsEveryCaseOnce) {
     records.push_back(madeRecord(std::string("c").append(std::to_string(1000 + i))));
   library(records);
   EXPECT_EQ(write().pages, records.size() + 3);
-  const std::string all = contentOf(m_folder / "index.html") +
-                          contentOf(m_folder / "site/page/2.html") +
-                          contentOf(m_folder / "site/page/3.html");
+  const std::string all = fileText(m_folder / "index.html") +
+                          fileText(m_folder / "site/page/2.html") +
+                          fileText(m_folder / "site/page/3.html");
   for (const CaseRecord& record : records) {
     const std::string link = casePagePath(record.id) + "\"";
     const std::size_t at = all.find(link);
@@ -140,18 +140,18 @@ TEST_F(SiteTest, AGalleryOfManyPagesListsEveryCaseOnce) {
 TEST_F(SiteTest, ALibraryWithoutCasesHasAnEmptyGallery) {
   library({});
   EXPECT_EQ(write().pages, 1U);
-  EXPECT_NE(contentOf(m_folder / "index.html").find(">0 cases<"), std::string::npos);
+  EXPECT_NE(fileText(m_folder / "index.html").find(">0 cases<"), std::string::npos);
 }
 
 TEST_F(SiteTest, ARecordThatLibraryJsonDoesNotStateIsRefusedAndTheOldPagesStay) {
   library({madeRecord("a")});
   write();
-  const std::string before = contentOf(m_folder / "site/case/a.html");
-  std::string text = contentOf(m_folder / "data/a/record.json");
+  const std::string before = fileText(m_folder / "site/case/a.html");
+  std::string text = fileText(m_folder / "data/a/record.json");
   text[text.find("Left")] = 'l';
   put(m_folder / "data/a/record.json", text);
   EXPECT_NE(refusal(ErrorKind::InvalidInput).find("data/a/record.json"), std::string::npos);
-  EXPECT_EQ(contentOf(m_folder / "site/case/a.html"), before);
+  EXPECT_EQ(fileText(m_folder / "site/case/a.html"), before);
   for (const auto& entry : fs::directory_iterator(m_folder))
     EXPECT_FALSE(entry.path().filename().string().starts_with(".lumen-")) << entry.path();
 }
@@ -164,11 +164,11 @@ TEST_F(SiteTest, WhatSomebodyElseMadeIsNotReplacedAndLinksAreNotFollowed) {
   put(m_folder / "elsewhere.txt", "<script src=\"site/gallery.js\"");
   fs::create_symlink("elsewhere.txt", m_folder / "index.html");
   refusal(ErrorKind::Usage);
-  EXPECT_EQ(contentOf(m_folder / "elsewhere.txt"), "<script src=\"site/gallery.js\"");
+  EXPECT_EQ(fileText(m_folder / "elsewhere.txt"), "<script src=\"site/gallery.js\"");
   fs::remove(m_folder / "index.html");
   put(m_folder / "site/mine.html", "mine");
   refusal(ErrorKind::Usage);
-  EXPECT_EQ(contentOf(m_folder / "site/mine.html"), "mine");
+  EXPECT_EQ(fileText(m_folder / "site/mine.html"), "mine");
   fs::remove_all(m_folder / "site");
   fs::create_directory_symlink("data", m_folder / "site");
   refusal(ErrorKind::Usage);

@@ -31,7 +31,7 @@ struct MeshFacts {
   std::set<std::uint32_t> boundary;  ///< vertices of boundary edges
 };
 
-inline MeshFacts factsOf(const convert::TriangleMesh& patch) {
+inline MeshFacts measureFacts(const convert::TriangleMesh& patch) {
   MeshFacts facts;
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed;
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;

@@ -33,7 +33,7 @@ TEST(PartsOf, AFaceBelongsToTheBranchOfTwoOfItsVertices) {
   // vertices of b twice; of three branches
   surface.triangle = {{0, 1, 2}, {3, 0, 1}};
   surface.group = {0, 0};
-  const auto parts = partsOf(surface, MeshPer::Branch);
+  const auto parts = splitMesh(surface, MeshPer::Branch);
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].branch, 1U);
   EXPECT_EQ(parts[0].vertex, (std::vector<std::uint32_t>{0, 1, 2}));
@@ -43,7 +43,7 @@ TEST(PartsOf, AFaceBelongsToTheBranchOfTwoOfItsVertices) {
 
 TEST(PartsOf, EachGroupHasItsVerticesOnceAndThoseOfRimsAreInTwo) {
   const SurfaceMesh surface = test::cappedTube({"a"});
-  const auto parts = partsOf(surface, MeshPer::Whole);
+  const auto parts = splitMesh(surface, MeshPer::Whole);
   ASSERT_EQ(parts.size(), 3U);
   std::size_t vertices = 0, triangles = 0;
   for (const MeshPart& part : parts) {

@@ -27,7 +27,7 @@ double distance(const Float3& a, const Float3& b) {
 }
 
 /// The place nearest to `p` of a surface.
-Float3 nearestOf(const SurfaceMesh& surface, const Float3& p) {
+Float3 nearestVertex(const SurfaceMesh& surface, const Float3& p) {
   return *std::min_element(
       surface.position.begin(), surface.position.end(),
       [&](const Float3& a, const Float3& b) { return distance(a, p) < distance(b, p); });
@@ -38,7 +38,7 @@ test::Faces snapped(const test::Faces& faces, const SurfaceMesh& surface, double
   test::Faces result;
   for (auto [number, corners] : faces) {
     for (Float3& corner : corners) {
-      const Float3 near = nearestOf(surface, corner);
+      const Float3 near = nearestVertex(surface, corner);
       EXPECT_LT(distance(near, corner), bound);
       corner = near;
     }
@@ -121,7 +121,7 @@ TEST(GltfDraco, KeepsPartsTogetherWhereTheyMeet) {
     for (const tinygltf::Primitive& primitive : mesh.primitives)
       for (const Float3& p :
            dracoValues<float, 3>(*decodeDraco(model, primitive), primitive, "POSITION"))
-        decoded[nearestOf(surface, p)].insert(p);
+        decoded[nearestVertex(surface, p)].insert(p);
   EXPECT_EQ(decoded.size(), surface.position.size());
   for (const auto& [place, points] : decoded) EXPECT_EQ(points.size(), 1U);
 }
@@ -238,7 +238,7 @@ TEST(GltfMeshopt, RoundsMoreCoarselyOnlyWhereTwentyFourBitsDoNotSuffice) {
   const std::size_t positions =
       glb.content()["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
   for (const Float3& p : glb.values<Float3>(positions))
-    EXPECT_LT(distance(nearestOf(surface, p), p), 1.0 / 256);
+    EXPECT_LT(distance(nearestVertex(surface, p), p), 1.0 / 256);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void expectVerticesAndFaces(TriMesh& mesh, const SurfaceMesh& surface) {
   EXPECT_EQ(found, true_);
 }
 
-std::vector<std::string> linesOf(const std::string& text, const std::string& start) {
+std::vector<std::string> splitLines(const std::string& text, const std::string& start) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);)
@@ -63,7 +63,7 @@ TEST(Obj, ReadsBackWithItsNormals) {
   const std::string text = encodeObj(surface);
   TriMesh mesh = readBack(text, ".OBJ");
   expectVerticesAndFaces(mesh, surface);
-  EXPECT_EQ(linesOf(text, "# millimetres, LPS").size(), 1U);
+  EXPECT_EQ(splitLines(text, "# millimetres, LPS").size(), 1U);
   // the rims' vertices have the ends' normals last
   EXPECT_EQ(mesh.normal(TriMesh::VertexHandle(0)), TriMesh::Normal(0, 0, -1));
   EXPECT_EQ(mesh.normal(TriMesh::VertexHandle(13)), TriMesh::Normal(surface.normal[13].data()));
@@ -71,7 +71,7 @@ TEST(Obj, ReadsBackWithItsNormals) {
 
 TEST(Obj, NamesItsGroupsInOneWordEach) {
   const std::string text = encodeObj(cappedTube({"side a\nv 1 2 3", "b"}));
-  EXPECT_EQ(linesOf(text, "g "),
+  EXPECT_EQ(splitLines(text, "g "),
             (std::vector<std::string>{"wall", "inlet-side_a_v_1_2_3", "outlet-b"}));
 }
 
@@ -90,9 +90,9 @@ TEST(Ply, HasRadiusConfidenceAndBranchOfVerticesAndGroupsOfFaces) {
   const std::string bytes = encodePly(surface);
   const std::string end = "end_header\n";
   const std::size_t header = bytes.find(end) + end.size();
-  EXPECT_EQ(linesOf(bytes.substr(0, header), "comment group "),
+  EXPECT_EQ(splitLines(bytes.substr(0, header), "comment group "),
             (std::vector<std::string>{"1 wall", "2 inlet-low", "3 outlet-high"}));
-  EXPECT_EQ(linesOf(bytes.substr(0, header), "comment branch "),
+  EXPECT_EQ(splitLines(bytes.substr(0, header), "comment branch "),
             (std::vector<std::string>{"0 low", "1 high"}));
   const std::size_t vertices = surface.position.size(), faces = surface.triangle.size();
   ASSERT_EQ(bytes.size(), header + 36 * vertices + 17 * faces);
@@ -136,10 +136,10 @@ TEST(Stl, HasOneSolidForEachGroupOnRequest) {
   const SurfaceMesh surface = cappedTube(hostileLabels());
   const std::string text = encodeStl(surface, true);
   const std::vector<std::string> names{"wall", "inlet-a_solid_b_c", "outlet-_"};
-  EXPECT_EQ(linesOf(text, "solid "), names);
-  EXPECT_EQ(linesOf(text, "endsolid "), names);
-  EXPECT_EQ(linesOf(text, "facet normal ").size(), surface.triangle.size());
-  EXPECT_EQ(linesOf(text, "vertex ").size(), 3 * surface.triangle.size());
+  EXPECT_EQ(splitLines(text, "solid "), names);
+  EXPECT_EQ(splitLines(text, "endsolid "), names);
+  EXPECT_EQ(splitLines(text, "facet normal ").size(), surface.triangle.size());
+  EXPECT_EQ(splitLines(text, "vertex ").size(), 3 * surface.triangle.size());
 }
 
 TEST(Vtp, IsXmlWithoutNamesInIt) {

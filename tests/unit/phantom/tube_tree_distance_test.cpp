@@ -116,7 +116,7 @@ TEST(TubeTreeDistance, CollectedSegmentsGiveTheSameAnswerNearTheirCentre) {
     wall.collect(centre, 0.3, segments);
     const Vector3d point = centre + 0.17 * Vector3d(random.uniform(-1, 1), random.uniform(-1, 1),
                                                     random.uniform(-1, 1));
-    const WallHit one = wall.nearest(point), other = wall.nearestOf(segments, point);
+    const WallHit one = wall.nearest(point), other = wall.nearestAmong(segments, point);
     EXPECT_EQ(one.distance, other.distance);
     EXPECT_EQ(one.node, other.node);
   }

@@ -39,14 +39,14 @@ TEST(Marks, TheDrawnBarIsAsLongAsItStates) {
 }
 
 TEST(Marks, SidesAreThoseOfThePatient) {
-  EXPECT_EQ(sideOf({1, 0, 0}), "L");
-  EXPECT_EQ(sideOf({-1, 0, 0}), "R");
-  EXPECT_EQ(sideOf({0, 1, 0}), "P");
-  EXPECT_EQ(sideOf({0, -1, 0}), "A");
-  EXPECT_EQ(sideOf({0, 0, 1}), "S");
-  EXPECT_EQ(sideOf({0, 0, -1}), "I");
-  EXPECT_EQ(sideOf(Eigen::Vector3d(-0.6, -0.8, 0)), "AR");
-  EXPECT_EQ(sideOf(Eigen::Vector3d(0.95, 0.312, 0)), "L");
+  EXPECT_EQ(sidesTowards({1, 0, 0}), "L");
+  EXPECT_EQ(sidesTowards({-1, 0, 0}), "R");
+  EXPECT_EQ(sidesTowards({0, 1, 0}), "P");
+  EXPECT_EQ(sidesTowards({0, -1, 0}), "A");
+  EXPECT_EQ(sidesTowards({0, 0, 1}), "S");
+  EXPECT_EQ(sidesTowards({0, 0, -1}), "I");
+  EXPECT_EQ(sidesTowards(Eigen::Vector3d(-0.6, -0.8, 0)), "AR");
+  EXPECT_EQ(sidesTowards(Eigen::Vector3d(0.95, 0.312, 0)), "L");
 }
 
 // From in front: R at the left edge, L at the right one.

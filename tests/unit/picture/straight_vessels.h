@@ -24,11 +24,11 @@ inline formats::Case straightVessels(const std::vector<StraightVessel>& vessels,
     formats::Branch branch;
     branch.label = "vessel " + std::to_string(tree.branches.size());
     branch.firstNode = static_cast<std::uint32_t>(tree.nodeCount());
-    const Eigen::Vector3d way = vessel.to - vessel.from;
-    const int steps = static_cast<int>(way.norm() / (0.5 * radius));
+    const Eigen::Vector3d chord = vessel.to - vessel.from;
+    const int steps = static_cast<int>(chord.norm() / (0.5 * radius));
     for (int i = 0; i <= steps; ++i) {
-      tree.centre.push_back(toVec3f(vessel.from + way * i / steps));
-      tree.direction.push_back(toVec3f(way.normalized()));
+      tree.centre.push_back(toVec3f(vessel.from + chord * i / steps));
+      tree.direction.push_back(toVec3f(chord.normalized()));
       tree.radius.push_back(static_cast<float>(radius));
       tree.height.push_back(static_cast<float>(radius));
       tree.parent.push_back(i == 0 ? formats::kNoParent

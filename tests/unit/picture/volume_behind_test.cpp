@@ -126,10 +126,10 @@ TEST(GreyWindow, IsFromTheMedianToTheHighestThousandth) {
   std::vector<float> values(1001);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
   values.push_back(-INFINITY);
-  const GreyWindow window = windowOf(values);
+  const GreyWindow window = chooseWindow(values);
   EXPECT_EQ(window.black, 500);
   EXPECT_EQ(window.white, 999);
-  EXPECT_LT(windowOf({5, 5, 5}).black, windowOf({5, 5, 5}).white);
+  EXPECT_LT(chooseWindow({5, 5, 5}).black, chooseWindow({5, 5, 5}).white);
   const Picture picture = greyPicture({-INFINITY, 400, 2000}, 3, 1, window);
   EXPECT_EQ(picture.pixels[0], (Rgb{0, 0, 0}));
   EXPECT_EQ(picture.pixels[1], (Rgb{0, 0, 0}));

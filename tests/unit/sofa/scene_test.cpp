@@ -12,13 +12,13 @@ namespace lumen::convert {
 
 namespace {
 
-SceneInput input(InstrumentKind kind, double way = 60) {
+SceneInput input(InstrumentKind kind, double pathLength = 60) {
   SceneInput result;
   result.insertion.position = {1, 2, 3};
   result.insertion.direction = {0, 0, 1};
-  result.insertion.way = way;
+  result.insertion.pathLength = pathLength;
   result.branch = "a \"--\" <b>";
-  result.instruments = makeInstruments(kind, way + 20, 4);
+  result.instruments = makeInstruments(kind, pathLength + 20, 4);
   result.box = {{0, 0, 0}, {10, 10, 10}};
   return result;
 }

@@ -15,8 +15,8 @@
 namespace lumen::convert {
 namespace {
 
-using test::factsOf;
 using test::FieldOfCase;
+using test::measureFacts;
 
 CaseSurface fineTube(const FieldOfCase& of) {
   CaseSurface surface = test::closedSurface(of, 0.25, 0);
@@ -28,7 +28,7 @@ CaseSurface fineTube(const FieldOfCase& of) {
 }
 
 void expectClosed(const CaseSurface& surface) {
-  const test::MeshFacts facts = factsOf(surface.mesh);
+  const test::MeshFacts facts = measureFacts(surface.mesh);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(facts.euler, 2);

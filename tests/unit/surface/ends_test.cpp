@@ -31,7 +31,7 @@ double areaOf(const CaseSurface& surface, std::uint32_t group) {
   TriangleMesh part{surface.mesh.position, {}};
   for (std::size_t t = 0; t < surface.group.size(); ++t)
     if (surface.group[t] == group) part.triangle.push_back(surface.mesh.triangle[t]);
-  return test::factsOf(part).area;
+  return test::measureFacts(part).area;
 }
 
 std::vector<std::string> namesOf(const CaseSurface& surface) {
@@ -41,7 +41,7 @@ std::vector<std::string> namesOf(const CaseSurface& surface) {
 }
 
 void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
-  const test::MeshFacts facts = test::factsOf(surface.mesh);
+  const test::MeshFacts facts = test::measureFacts(surface.mesh);
   EXPECT_EQ(facts.euler, euler);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
@@ -113,7 +113,7 @@ TEST(CutEnds, ATubeBecomesACylinder) {
 TEST(CutEnds, TheRimLiesOnTheField) {
   test::ClosedCase closed(test::tubeCase(10));
   cut(closed);
-  for (const auto& rim : rimsOf(closed.surface)) {
+  for (const auto& rim : findRims(closed.surface)) {
     ASSERT_GE(rim.size(), 8U);
     for (const std::uint32_t v : rim)
       EXPECT_LT(
@@ -184,9 +184,9 @@ TEST(OpenEnds, LeaveABoundaryAtEachRim) {
   test::ClosedCase closed(test::forkCase());
   cut(closed);
   std::size_t rimVertices = 0;
-  for (const auto& rim : rimsOf(closed.surface)) rimVertices += rim.size();
+  for (const auto& rim : findRims(closed.surface)) rimVertices += rim.size();
   openEnds(closed.surface);
-  const test::MeshFacts facts = test::factsOf(closed.surface.mesh);
+  const test::MeshFacts facts = test::measureFacts(closed.surface.mesh);
   EXPECT_EQ(facts.boundaryEdges, rimVertices);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(facts.euler, 2 - 3);

@@ -21,11 +21,11 @@ double areaOf(const CaseSurface& surface, std::uint32_t group) {
   TriangleMesh part{surface.mesh.position, {}};
   for (std::size_t t = 0; t < surface.group.size(); ++t)
     if (surface.group[t] == group) part.triangle.push_back(surface.mesh.triangle[t]);
-  return test::factsOf(part).area;
+  return test::measureFacts(part).area;
 }
 
 void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
-  const test::MeshFacts facts = test::factsOf(surface.mesh);
+  const test::MeshFacts facts = test::measureFacts(surface.mesh);
   EXPECT_EQ(facts.euler, euler);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
@@ -35,7 +35,7 @@ void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
 TEST(ExtendEnds, AddsTubesOfTheOpeningsArea) {
   test::ClosedCase closed(test::forkCase());
   cut(closed);
-  const double before = test::factsOf(closed.surface.mesh).volume;
+  const double before = test::measureFacts(closed.surface.mesh).volume;
   std::vector<SurfaceEnd> ends = closed.surface.ends;
   double added = 0;
   std::vector<double> area;
@@ -46,7 +46,7 @@ TEST(ExtendEnds, AddsTubesOfTheOpeningsArea) {
   EXPECT_TRUE(extendEnds(closed.surface, closed.source, {{"", {0, 5}}}).empty());
   expectClosed(closed.surface, 2);
   // the blend may be a little wider or narrower than the tube
-  EXPECT_NEAR(test::factsOf(closed.surface.mesh).volume, before + added, 0.05 * added);
+  EXPECT_NEAR(test::measureFacts(closed.surface.mesh).volume, before + added, 0.05 * added);
   for (std::size_t e = 0; e < ends.size(); ++e) {
     const SurfaceEnd& end = closed.surface.ends[e];
     EXPECT_EQ(end.group, ends[e].group);
@@ -61,7 +61,7 @@ TEST(ExtendEnds, TheTubesEndIsACircleInAPlane) {
   test::ClosedCase closed(test::tubeCase(10));
   cut(closed);
   extendEnds(closed.surface, closed.source, {{"tube", {4, 0}}});
-  const auto rims = rimsOf(closed.surface);
+  const auto rims = findRims(closed.surface);
   ASSERT_EQ(rims.size(), 2U);
   for (std::size_t e = 0; e < 2; ++e) {
     const SurfaceEnd& end = closed.surface.ends[e];
@@ -81,7 +81,7 @@ TEST(ExtendEnds, LeavesAlongTheWallsTangent) {
   // At the rim the tube's triangles turn by little more than the wall's do at the row before.
   test::ClosedCase closed(test::tubeCase(10));
   cut(closed);
-  const auto rims = rimsOf(closed.surface);
+  const auto rims = findRims(closed.surface);
   std::vector<Eigen::Vector3d> at;
   for (std::size_t i = 0; i < rims[1].size(); ++i)
     at.push_back(closed.surface.mesh.position[rims[1][i]]);

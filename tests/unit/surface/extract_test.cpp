@@ -50,7 +50,7 @@ struct Extracted {
 };
 
 void expectClosed(const Extracted& made) {
-  const test::MeshFacts facts = test::factsOf(made.surface.mesh);
+  const test::MeshFacts facts = test::measureFacts(made.surface.mesh);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_GT(facts.volume, 0);

@@ -28,7 +28,7 @@ struct Facts {
   std::ptrdiff_t euler = 0;
 };
 
-Facts factsOf(const FlatMesh& mesh) {
+Facts measureFacts(const FlatMesh& mesh) {
   Facts facts;
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const Triangle& t : mesh.triangle)
@@ -58,16 +58,16 @@ TEST(TriangulateRegion, AHoleIsSeenPastTheSidesOfWallsAlone) {
                    {-1, 2},    {10, 2.05},   {10, 10}, {-1.95, 10}, {-2, -1},  {-2.05, 10},
                    {-10, 10},  {-10, -1.95}, {1, -2},  {-10, -2.05}};
   const Loop2 hole = circle(0.2, 8, -1);
-  const Facts facts = factsOf(triangulateRegion(room, {hole}, 1));
-  EXPECT_NEAR(facts.area, areaOf(room) + areaOf(hole), 1e-9);
+  const Facts facts = measureFacts(triangulateRegion(room, {hole}, 1));
+  EXPECT_NEAR(facts.area, signedArea(room) + signedArea(hole), 1e-9);
   EXPECT_EQ(facts.euler, 0);
 }
 
 TEST(TriangulateRegion, OfADiscIsNearlyEquilateral) {
   const Loop2 loop = circle(1, 40);
   const FlatMesh mesh = triangulateRegion(loop, {}, 2 * M_PI / 40);
-  const Facts facts = factsOf(mesh);
-  EXPECT_NEAR(facts.area, areaOf(loop), 1e-12);
+  const Facts facts = measureFacts(mesh);
+  EXPECT_NEAR(facts.area, signedArea(loop), 1e-12);
   EXPECT_EQ(facts.boundaryEdges, 40U);
   EXPECT_EQ(facts.euler, 1);
   EXPECT_GT(facts.leastAngle, 30);
@@ -80,15 +80,15 @@ TEST(TriangulateRegion, FollowsLoopsThatAreNotConvex) {
     const double angle = 2 * M_PI * i / 24, radius = i % 2 == 0 ? 1 : 0.3;
     star.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
-  const Facts facts = factsOf(triangulateRegion(star, {}, 0.2));
-  EXPECT_NEAR(facts.area, areaOf(star), 1e-12);
+  const Facts facts = measureFacts(triangulateRegion(star, {}, 0.2));
+  EXPECT_NEAR(facts.area, signedArea(star), 1e-12);
   EXPECT_EQ(facts.boundaryEdges, 24U);
   EXPECT_EQ(facts.euler, 1);
 }
 
 TEST(TriangulateRegion, TakesPointsOnOneLine) {
   const Loop2 square{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-  const Facts facts = factsOf(triangulateRegion(square, {}, 10));
+  const Facts facts = measureFacts(triangulateRegion(square, {}, 10));
   EXPECT_NEAR(facts.area, 4, 1e-12);
   EXPECT_EQ(facts.boundaryEdges, 8U);
 }
@@ -97,8 +97,8 @@ TEST(TriangulateRegion, LeavesOutHoles) {
   const Loop2 outer = circle(1, 50);
   Loop2 hole = circle(0.6, 30, -1);
   for (Eigen::Vector2d& p : hole) p.x() += 0.25;
-  const Facts facts = factsOf(triangulateRegion(outer, {hole}, 0.125));
-  EXPECT_NEAR(facts.area, areaOf(outer) + areaOf(hole), 1e-12);
+  const Facts facts = measureFacts(triangulateRegion(outer, {hole}, 0.125));
+  EXPECT_NEAR(facts.area, signedArea(outer) + signedArea(hole), 1e-12);
   EXPECT_EQ(facts.boundaryEdges, 80U);
   EXPECT_EQ(facts.euler, 0);
 }

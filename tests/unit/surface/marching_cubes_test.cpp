@@ -66,7 +66,7 @@ TEST(MarchingCubes, NoiseGivesAClosedManifoldAndMeetsAllCases) {
   EXPECT_EQ(differentCases(grid, kSize), 256U);
   const auto state = allInside(grid);
   TriangleMesh patch = marchingCubes(grid, state, straight);
-  const test::MeshFacts facts = test::factsOf(patch);
+  const test::MeshFacts facts = test::measureFacts(patch);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_GT(facts.volume, 0);
@@ -83,7 +83,7 @@ TEST(MarchingCubes, OneInsideSampleIsAnOctahedron) {
   EXPECT_EQ(patch.position.size(), 6U);
   EXPECT_EQ(patch.triangle.size(), 8U);
   // Half-diagonals of 1/2: volume (4/3) a^3 = 1/6.
-  EXPECT_NEAR(test::factsOf(patch).volume, 1.0 / 6, 1e-12);
+  EXPECT_NEAR(test::measureFacts(patch).volume, 1.0 / 6, 1e-12);
 }
 
 TEST(MarchingCubes, ASurfaceThroughSamplesKeepsItsVerticesApart) {
@@ -107,7 +107,7 @@ TEST(MarkLumen, KeepsOnlyWhatHangsTogetherWithTheSeed) {
   const SampleGrid grid = cubeGrid(14, twoBalls);
   const auto state = markLumen(grid, 0, {3.2, 4, 4}, 1);
   const TriangleMesh patch = marchingCubes(grid, state, straight);
-  const test::MeshFacts facts = test::factsOf(patch);
+  const test::MeshFacts facts = test::measureFacts(patch);
   EXPECT_EQ(facts.euler, 2);
   for (const Eigen::Vector3d& p : patch.position) EXPECT_LT(p.x(), 5.5);
   EXPECT_GT(std::count(state.begin(), state.end(), SampleState::OtherInside), 0);
@@ -141,7 +141,7 @@ TEST(MarkLumen, CutsANoiseFieldIntoClosedSurfaces) {
   const SampleGrid grid = noise(16, 3);
   for (const Eigen::Vector3d& seed : {Eigen::Vector3d(3, 3, 3), Eigen::Vector3d(8, 9, 10)}) {
     const auto state = markLumen(grid, 0.5, seed, 2);
-    const test::MeshFacts facts = test::factsOf(marchingCubes(
+    const test::MeshFacts facts = test::measureFacts(marchingCubes(
         grid, state, [](const Eigen::Vector3d&, double fa, const Eigen::Vector3d&, double fb) {
           return (0.5 - fa) / (fb - fa);
         }));

@@ -17,7 +17,7 @@ TriangleMesh tetrahedron() {
 TEST(Clip, LeavesTheInnerPartWithItsNewVerticesOnThePlane) {
   TriangleMesh patch = tetrahedron();
   clip(patch, {Eigen::Vector3d::UnitX(), 0.5}, 0);
-  const test::MeshFacts facts = test::factsOf(patch);
+  const test::MeshFacts facts = test::measureFacts(patch);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(facts.boundary.size(), 3U);  // a triangle of the tetrahedron's cross-section
   for (const std::uint32_t v : facts.boundary) EXPECT_EQ(patch.position[v].x(), 0.5);
@@ -62,11 +62,11 @@ TEST(RoundToFloat, JoinsVerticesThatBecomeOneAndKeepsTheSurfaceClosed) {
   // resolves.
   TriangleMesh patch{{{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}, {2 - 1e-12, 1 + 1e-12, 1}},
                      {{0, 2, 4}, {0, 4, 1}, {0, 1, 3}, {0, 3, 2}, {1, 4, 3}, {4, 2, 3}}};
-  EXPECT_EQ(test::factsOf(patch).boundaryEdges, 0U);
+  EXPECT_EQ(test::measureFacts(patch).boundaryEdges, 0U);
   roundToFloat(patch);
   EXPECT_EQ(patch.position.size(), 4U);
   EXPECT_EQ(patch.triangle.size(), 4U);
-  EXPECT_EQ(test::factsOf(patch).boundaryEdges, 0U);
+  EXPECT_EQ(test::measureFacts(patch).boundaryEdges, 0U);
 }
 
 TEST(SeparateFans, SplitsAVertexWhereTwoSurfacesTouch) {
@@ -80,7 +80,7 @@ TEST(SeparateFans, SplitsAVertexWhereTwoSurfacesTouch) {
   separateFans(patch);
   ASSERT_EQ(patch.position.size(), 8U);
   EXPECT_EQ(patch.position[7], Eigen::Vector3d(0, 0, 0));
-  EXPECT_EQ(test::factsOf(patch).euler, 4);  // two spheres
+  EXPECT_EQ(test::measureFacts(patch).euler, 4);  // two spheres
 }
 
 TEST(SeparateFans, CutsAnEdgeOfFourTriangles) {
@@ -91,9 +91,9 @@ TEST(SeparateFans, CutsAnEdgeOfFourTriangles) {
   for (const Triangle& t :
        {Triangle{0, 5, 4}, Triangle{0, 4, 3}, Triangle{0, 3, 5}, Triangle{4, 5, 3}})
     patch.triangle.push_back(t);
-  EXPECT_EQ(test::factsOf(patch).badEdges, 1U);
+  EXPECT_EQ(test::measureFacts(patch).badEdges, 1U);
   separateFans(patch);
-  EXPECT_EQ(test::factsOf(patch).badEdges, 0U);
+  EXPECT_EQ(test::measureFacts(patch).badEdges, 0U);
 }
 
 }  // namespace

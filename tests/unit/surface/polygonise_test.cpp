@@ -19,7 +19,7 @@
 namespace lumen::convert {
 namespace {
 
-using test::factsOf;
+using test::measureFacts;
 using test::toPatch;
 
 Patches patchesOf(const formats::Case& source, double cell = 0) {
@@ -27,12 +27,12 @@ Patches patchesOf(const formats::Case& source, double cell = 0) {
   return polygonise(source, {cell}, progress);
 }
 
-SurfaceMesh surfaceOf(const formats::Case& source) {
+SurfaceMesh polygoniseCase(const formats::Case& source) {
   return patchesOf(source).surface;
 }
 
 TriangleMesh onlyPatch(const formats::Case& source) {
-  const SurfaceMesh surface = surfaceOf(source);
+  const SurfaceMesh surface = polygoniseCase(source);
   EXPECT_EQ(surface.groups.size(), 1U);
   return toPatch(surface);
 }
@@ -48,7 +48,7 @@ TEST(Polygonise, ABlobIsASphere) {
   const Eigen::Vector3d centre(0.03F, 0.05F, 0.07F);
   for (const Eigen::Vector3d& p : patch.position)
     EXPECT_NEAR((p - centre).norm(), radius, 1e-3 * kCell);
-  const test::MeshFacts facts = factsOf(patch);
+  const test::MeshFacts facts = measureFacts(patch);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(facts.euler, 2);
@@ -60,7 +60,7 @@ TEST(Polygonise, ABlobIsASphere) {
 }
 
 TEST(Polygonise, NormalsPointOutwardWithUnitLength) {
-  const SurfaceMesh surface = surfaceOf(test::sphereCase(1.0, 0.43));
+  const SurfaceMesh surface = polygoniseCase(test::sphereCase(1.0, 0.43));
   const Eigen::Vector3f centre(0.03F, 0.05F, 0.07F);
   for (std::size_t v = 0; v < surface.position.size(); ++v) {
     const Eigen::Vector3f normal(surface.normal[v].data());
@@ -73,7 +73,7 @@ TEST(Polygonise, NormalsPointOutwardWithUnitLength) {
 TEST(Polygonise, PatchesOfATubeMeetOnTheRadicalPlanesAndItsEndsAreFlat) {
   // Nodes at x = 0.03 + i: planes halfway; ends half a height (1) beyond the last nodes.
   const TriangleMesh patch = onlyPatch(test::tubeCase(4));
-  const test::MeshFacts facts = factsOf(patch);
+  const test::MeshFacts facts = measureFacts(patch);
   EXPECT_EQ(facts.badEdges, 0U);
   std::set<std::ptrdiff_t> found;
   for (const std::uint32_t v : facts.boundary) {
@@ -135,7 +135,7 @@ std::uint32_t leastPowerIn(const formats::Case& source, const formats::Branch& b
 TEST(Polygonise, VerticesLieOnTheBlendedSurface) {
   const formats::Case source = disagreeingFork();
   const field::BlendedField surface = formats::caseField(source);
-  const SurfaceMesh mesh = surfaceOf(source);
+  const SurfaceMesh mesh = polygoniseCase(source);
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {
     const Float3& vertex = mesh.position[v];
     const field::Vec p{vertex[0], vertex[1], vertex[2]};
@@ -168,7 +168,7 @@ TEST(Polygonise, KissingVesselsStayTwoGroups) {
   test::addVessel(source, "left", test::straightPath({0, 0, 0}, {1, 0, 0}, 6), 1.0, 2.0);
   test::addVessel(source, "right", test::straightPath({0.013, 2, 0.017}, {1, 0, 0}, 6), 1.0, 2.0);
   test::addModels(source);
-  const SurfaceMesh surface = surfaceOf(source);
+  const SurfaceMesh surface = polygoniseCase(source);
   std::array<std::set<std::array<float, 3>>, 2> points;
   for (std::size_t f = 0; f < surface.triangle.size(); ++f)
     for (const std::uint32_t v : surface.triangle[f]) {
@@ -188,12 +188,12 @@ TEST(Polygonise, KissingVesselsStayTwoGroups) {
 
 TEST(Polygonise, VerticesHaveTheRadiusAndTheInlierRateOfTheirPlaceAlongTheVessel) {
   formats::Case source = test::tubeCase(5);
-  EXPECT_TRUE(surfaceOf(source).confidence.empty());
+  EXPECT_TRUE(polygoniseCase(source).confidence.empty());
   for (std::size_t i = 0; i < 5; ++i) {
     source.tree.radius[i] = 1 + 0.1F * static_cast<float>(i);
     source.tree.inlierRate.push_back(0.5F + 0.1F * static_cast<float>(i));
   }
-  const SurfaceMesh surface = surfaceOf(source);
+  const SurfaceMesh surface = polygoniseCase(source);
   for (std::size_t v = 0; v < surface.position.size(); ++v) {
     const float along = std::clamp(surface.position[v][0] - 0.03F, 0.0F, 4.0F);
     EXPECT_NEAR(surface.radius[v], 1 + 0.1 * along, 1e-5);
@@ -207,7 +207,7 @@ TEST(Polygonise, DropsWhatDoesNotHangTogetherWithTheNodesLumen) {
   source.models->centre.push_back({0.03F, 4.05F, 0.07F});
   source.models->width.push_back(0.43F);
   const TriangleMesh patch = onlyPatch(source);
-  EXPECT_EQ(factsOf(patch).euler, 2);
+  EXPECT_EQ(measureFacts(patch).euler, 2);
   for (const Eigen::Vector3d& p : patch.position) EXPECT_LT(p.y(), 2);
 }
 
@@ -218,8 +218,8 @@ TEST(Polygonise, ANodeWithoutBlobsIsCoveredByItsNeighbours) {
   models.centre.erase(models.centre.begin() + first, models.centre.begin() + first + count);
   models.width.erase(models.width.begin() + first, models.width.begin() + first + count);
   for (std::size_t i = 3; i < models.offset.size(); ++i) models.offset[i] -= count;
-  const test::MeshFacts whole = factsOf(onlyPatch(test::tubeCase(5)));
-  EXPECT_NEAR(factsOf(onlyPatch(source)).area, whole.area, 0.02 * whole.area);
+  const test::MeshFacts whole = measureFacts(onlyPatch(test::tubeCase(5)));
+  EXPECT_NEAR(measureFacts(onlyPatch(source)).area, whole.area, 0.02 * whole.area);
 }
 
 TEST(Polygonise, AVesselThinnerThanACellStaysInOnePiece) {
@@ -227,7 +227,7 @@ TEST(Polygonise, AVesselThinnerThanACellStaysInOnePiece) {
   source.metadata.voxelSize = 0.2;
   test::addVessel(source, "thin", test::straightPath({0, 0, 0}, {0.12, 0.03, 0.02}, 20), 0.1, 0.2);
   test::addModels(source);
-  const double area = factsOf(onlyPatch(source)).area;
+  const double area = measureFacts(onlyPatch(source)).area;
   const double length = 19 * std::hypot(0.12, 0.03, 0.02) + 0.2;
   EXPECT_NEAR(area, 2 * std::numbers::pi * 0.1 * length, 0.1 * area);
 }
@@ -240,7 +240,7 @@ TEST(Polygonise, GivesTheSameBytesOnOneThreadAndOnTwo) {
   std::array<std::string, 2> bytes;
   for (const std::size_t threads : {1U, 2U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    bytes[threads - 1] = encodeGltf(std::array{surfaceOf(source)}, true, {});
+    bytes[threads - 1] = encodeGltf(std::array{polygoniseCase(source)}, true, {});
   }
   EXPECT_EQ(bytes[0], bytes[1]);
 }

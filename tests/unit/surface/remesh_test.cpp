@@ -25,8 +25,8 @@
 namespace lumen::convert {
 namespace {
 
-using test::factsOf;
 using test::FieldOfCase;
+using test::measureFacts;
 
 // A wide vessel, and a thin one that leaves it at a right angle.
 formats::Case forkCase() {
@@ -45,7 +45,7 @@ CaseSurface roughFork(const FieldOfCase& of) {
 }
 
 void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
-  const test::MeshFacts facts = factsOf(surface.mesh);
+  const test::MeshFacts facts = measureFacts(surface.mesh);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(facts.euler, euler);
@@ -57,8 +57,8 @@ void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
   EXPECT_EQ(surface.group.size(), surface.mesh.triangle.size());
 }
 
-TriangleQuality qualityOf(const CaseSurface& surface, const FieldOfCase& of,
-                          const EdgeLength& edge = {}) {
+TriangleQuality measureQuality(const CaseSurface& surface, const FieldOfCase& of,
+                               const EdgeLength& edge = {}) {
   return triangleQuality(surface.mesh, targetLengths(surface, of.sheet, edge));
 }
 
@@ -71,12 +71,12 @@ void expectForUse(const TriangleQuality& quality) {
 TEST(Remesh, GivesAForkTrianglesForUse) {
   const FieldOfCase of(forkCase());
   CaseSurface surface = roughFork(of);
-  EXPECT_GT(qualityOf(surface, of).sharp, 100U) << "the input is not rough";
+  EXPECT_GT(measureQuality(surface, of).sharp, 100U) << "the input is not rough";
   Progress progress;
   const RemeshReport report = remesh(surface, of.sheet, {}, progress);
   expectClosed(surface, 2);
-  expectForUse(qualityOf(surface, of));
-  EXPECT_NEAR(qualityOf(surface, of).edgeMedian, 1, 0.15);
+  expectForUse(measureQuality(surface, of));
+  EXPECT_NEAR(measureQuality(surface, of).edgeMedian, 1, 0.15);
   EXPECT_EQ(report.sharp, 0U);
   EXPECT_EQ(report.offField, 0U);
 }
@@ -129,8 +129,8 @@ TEST(TargetLengths, GrowByAQuarterOfTheWayAtMost) {
   for (const Triangle& t : surface.mesh.triangle)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = t[i], w = t[(i + 1) % 3];
-      const double way = (surface.mesh.position[v] - surface.mesh.position[w]).norm();
-      EXPECT_LE(target[v], target[w] + 0.25 * way + 1e-12);
+      const double separation = (surface.mesh.position[v] - surface.mesh.position[w]).norm();
+      EXPECT_LE(target[v], target[w] + 0.25 * separation + 1e-12);
     }
 }
 
@@ -162,7 +162,7 @@ CaseSurface cutTube(const FieldOfCase& of) {
 }
 
 // Vertices of triangles of two groups, by group.
-std::map<std::uint32_t, std::set<std::uint32_t>> rimsOf(const CaseSurface& surface) {
+std::map<std::uint32_t, std::set<std::uint32_t>> findRims(const CaseSurface& surface) {
   std::vector<std::set<std::uint32_t>> groups(surface.node.size());
   for (std::size_t t = 0; t < surface.group.size(); ++t)
     for (const std::uint32_t v : surface.mesh.triangle[t]) groups[v].insert(surface.group[t]);
@@ -179,7 +179,7 @@ TEST(Remesh, KeepsRimsAndThePlanesOfEnds) {
   Progress progress;
   const RemeshReport report = remesh(surface, of.sheet, {}, progress);
   expectClosed(surface, 2);
-  expectForUse(qualityOf(surface, of));
+  expectForUse(measureQuality(surface, of));
   EXPECT_EQ(report.offField, 0U);
   for (std::size_t t = 0; t < surface.group.size(); ++t) {
     if (surface.group[t] == 0) continue;
@@ -187,7 +187,7 @@ TEST(Remesh, KeepsRimsAndThePlanesOfEnds) {
     for (const std::uint32_t v : surface.mesh.triangle[t])
       EXPECT_NEAR(end.normal.dot(surface.mesh.position[v] - end.centre), 0, 1e-9);
   }
-  const auto rims = rimsOf(surface);
+  const auto rims = findRims(surface);
   ASSERT_EQ(rims.size(), 2U);
   for (const auto& [group, vertices] : rims) {
     EXPECT_NEAR(static_cast<double>(vertices.size()), 2 * std::numbers::pi / 0.25, 4);
@@ -229,7 +229,7 @@ TEST(Remesh, VesselsThatTouchKeepTheirNodes) {
   Progress progress;
   remesh(surface, of.sheet, {}, progress);
   expectClosed(surface, 4);
-  expectForUse(qualityOf(surface, of));
+  expectForUse(measureQuality(surface, of));
   for (std::size_t v = 0; v < surface.node.size(); ++v) {
     const bool isRight = surface.mesh.position[v].y() > 1.025;
     EXPECT_EQ(of.source.tree.branch[surface.node[v]], isRight ? 1U : 0U);
@@ -251,7 +251,7 @@ TEST(Remesh, ThreadsGiveTheSameBytes) {
   EXPECT_EQ(results[0].mesh.position, results[1].mesh.position);
   EXPECT_EQ(results[0].node, results[1].node);
   expectClosed(results[0], 2);
-  expectForUse(qualityOf(results[0], of));
+  expectForUse(measureQuality(results[0], of));
 }
 
 TEST(Remesh, StopsWhenCancelled) {

@@ -45,20 +45,20 @@ double areaOf(const CaseSurface& surface, std::uint32_t group) {
   TriangleMesh part{surface.mesh.position, {}};
   for (std::size_t t = 0; t < surface.group.size(); ++t)
     if (surface.group[t] == group) part.triangle.push_back(surface.mesh.triangle[t]);
-  return test::factsOf(part).area;
+  return test::measureFacts(part).area;
 }
 
 TEST(ThickWall, OfATubeIsAPipe) {
   const Walls walls(test::tubeCase(10), 0.3);
   EXPECT_EQ(walls.report.flat, 2U);
   const CaseSurface pipe = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
-  const test::MeshFacts facts = test::factsOf(pipe.mesh);
+  const test::MeshFacts facts = test::measureFacts(pipe.mesh);
   EXPECT_EQ(facts.euler, 0);  // a torus
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(selfIntersections(pipe.mesh).pairs.size(), 0U);
-  const double outer = test::factsOf(walls.outer.mesh).volume;
-  const double inner = test::factsOf(walls.inner.surface.mesh).volume;
+  const double outer = test::measureFacts(walls.outer.mesh).volume;
+  const double inner = test::measureFacts(walls.inner.surface.mesh).volume;
   EXPECT_NEAR(facts.volume, outer - inner, 1e-9 * outer);
   ASSERT_EQ(pipe.groups.size(), 4U);
   EXPECT_EQ(pipe.groups[0].name, "wall");
@@ -77,7 +77,7 @@ TEST(ThickWall, OfAForkHasAHandleForEachEndButOne) {
   const Walls walls(test::forkCase(), 0.25);
   EXPECT_EQ(walls.report.flat, 3U);
   const CaseSurface solid = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
-  const test::MeshFacts facts = test::factsOf(solid.mesh);
+  const test::MeshFacts facts = test::measureFacts(solid.mesh);
   EXPECT_EQ(facts.euler, 2 + 2 - 2 * 3);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
@@ -89,7 +89,7 @@ TEST(ThickWall, ARoundEndIsClosedOnBothSides) {
   const Walls walls(source, 0.2);
   EXPECT_EQ(walls.report.flat, 0U);
   const CaseSurface shell = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
-  const test::MeshFacts facts = test::factsOf(shell.mesh);
+  const test::MeshFacts facts = test::measureFacts(shell.mesh);
   EXPECT_EQ(facts.euler, 4);  // two spheres
   EXPECT_GT(facts.volume, 0);
   EXPECT_EQ(shell.groups.size(), 2U);
@@ -155,7 +155,7 @@ private:
   std::atomic<std::size_t> m_left{0};
 };
 
-ClosedSurface wallOf(const formats::Case& source, const Length& thickness) {
+ClosedSurface makeWall(const formats::Case& source, const Length& thickness) {
   ClosedSurfaceOptions options;
   options.thickness = thickness;
   Progress silent;
@@ -163,7 +163,7 @@ ClosedSurface wallOf(const formats::Case& source, const Length& thickness) {
 }
 
 void expectSolid(const SurfaceMesh& solid, std::ptrdiff_t euler) {
-  const test::MeshFacts facts = test::factsOf(meshOf(solid));
+  const test::MeshFacts facts = test::measureFacts(meshOf(solid));
   EXPECT_EQ(facts.euler, euler);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
@@ -186,7 +186,7 @@ TEST(ThickWall, EachOfItsLongStagesReportsProgress) {
 
 TEST(ThickWall, IsAsThickAsWasAskedInTheCornerOfAForkToo) {
   for (const double thickness : {0.1, 0.5, 1.5}) {
-    const ClosedSurface made = wallOf(test::forkCase(), {thickness, 0});
+    const ClosedSurface made = makeWall(test::forkCase(), {thickness, 0});
     expectSolid(made.levels[0], 2 + 2 - 2 * 3);
     const auto shares = thicknesses(made.levels[0], thickness);
     EXPECT_NEAR(at(shares, 0.5), 1, 0.02) << thickness;
@@ -226,7 +226,7 @@ TEST(ThickWall, IsThinnerWhereVesselsTouchAndSaysSo) {
   test::addVessel(source, "left", test::straightPath({0, 0, 0}, {1, 0, 0}, 12), 1.0, 1.0);
   test::addVessel(source, "right", test::straightPath({0, 2.3, 0}, {1, 0, 0}, 12), 1.0, 1.0);
   test::addModels(source);
-  const ClosedSurface made = wallOf(source, {0.5, 0});
+  const ClosedSurface made = makeWall(source, {0.5, 0});
   expectSolid(made.levels[0], 0 + 0);
   const auto shares = thicknesses(made.levels[0], 0.5);
   EXPECT_NEAR(at(shares, 0.5), 1, 0.02);

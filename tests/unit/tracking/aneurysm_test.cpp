@@ -93,7 +93,7 @@ TEST(Aneurysm, IsTheSameWhereVesselsAreDark) {
   TrackOptions options;
   options.dark = true;
   Progress silent;
-  const TrackResult dark = trackCase(volume, sac.seeds(), options, silent);
+  const TrackResult dark = trackFromSeeds(volume, sac.seeds(), options, silent);
   // the centres of a lobe follow from depths, of which the last bits differ
   EXPECT_NEAR(static_cast<double>(dark.result.tree.nodeCount()),
               static_cast<double>(bright.result.tree.nodeCount()), 1);
@@ -112,8 +112,8 @@ TEST(Aneurysm, WallPointsLieInNoLumenAndOnNoOtherVessel) {
 using Wall = std::function<double(const Vector3d&)>;
 
 /// Pushes a point from a node to a place; the least of f - T, mm, where the truth is a voxel inside.
-double leastOnWay(const formats::Case& value, const field::BlendedField& field, std::uint32_t node,
-                  const Vector3d& to, const Wall& wall) {
+double leastOnPath(const formats::Case& value, const field::BlendedField& field, std::uint32_t node,
+                   const Vector3d& to, const Wall& wall) {
   constexpr int kSteps = 64;
   const Vector3d from = toEigen(value.tree.centre[node]);
   double least = std::numeric_limits<double>::infinity();
@@ -130,14 +130,14 @@ double leastOnWay(const formats::Case& value, const field::BlendedField& field, 
 /// From every node of the sac to the axis of the vessel that runs along z at x = `side`.
 void expectNoWallBetween(const formats::Case& value, double side, const Wall& wall) {
   const field::BlendedField field = formats::caseField(value);
-  int ways = 0;
+  int paths = 0;
   for (std::uint32_t n = 0; n < value.tree.nodeCount(); ++n) {
     if (value.tree.branches[value.tree.branch[n]].kind != BranchKind::Aneurysm) continue;
     for (const double z : {5.9, 6.4, 6.9})
-      EXPECT_GT(leastOnWay(value, field, n, {side, 6.4, z}, wall), 0) << "from node " << n;
-    ++ways;
+      EXPECT_GT(leastOnPath(value, field, n, {side, 6.4, z}, wall), 0) << "from node " << n;
+    ++paths;
   }
-  EXPECT_GT(ways, 0);
+  EXPECT_GT(paths, 0);
   const auto reach = formats::measureReachability(value.tree, field);
   EXPECT_EQ(reach.reachable, reach.total);
 }
@@ -195,8 +195,8 @@ TEST(Aneurysm, NoWallStandsAtTheEndsOfALongNeck) {
   const field::BlendedField field = formats::caseField(value);
   for (double z = 4.8; z < 8.1; z += 0.2)
     for (double y = 6; y < 6.9; y += 0.2)
-      EXPECT_GT(leastOnWay(value, field, static_cast<std::uint32_t>(value.tree.nodeCount() - 1),
-                           {kSide, y, z}, wall),
+      EXPECT_GT(leastOnPath(value, field, static_cast<std::uint32_t>(value.tree.nodeCount() - 1),
+                            {kSide, y, z}, wall),
                 0)
           << "to " << y << " " << z;
 }

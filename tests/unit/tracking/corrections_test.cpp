@@ -94,7 +94,7 @@ TrackResult trackTube(const Volume& volume, std::optional<double> pointSpread, d
   options.pointSpread = pointSpread;
   options.step = step;
   Progress silent;
-  return trackCase(volume, {seed}, options, silent);
+  return trackFromSeeds(volume, {seed}, options, silent);
 }
 
 double storedSpread(const TrackResult& tracked) {

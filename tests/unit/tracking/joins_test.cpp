@@ -112,8 +112,8 @@ TEST(Joins, AChildIsLedToTheAxisOfItsParent) {
   const auto at = static_cast<std::size_t>(tree.branches[1].parentNode);
   EXPECT_LT((toEigen(tree.centre[first]) - toEigen(tree.centre[at])).norm(), 0.8);
   expectNoLongEdge(tree);
-  EXPECT_EQ(formats::nodeOriginsOf(out.result)[first], NodeOrigin::Bridged);
-  EXPECT_EQ(formats::nodeOriginsOf(out.result).back(), NodeOrigin::Measured);
+  EXPECT_EQ(formats::readNodeOrigins(out.result)[first], NodeOrigin::Bridged);
+  EXPECT_EQ(formats::readNodeOrigins(out.result).back(), NodeOrigin::Measured);
 }
 
 TEST(Joins, AGapIsFilledWithBridgedNodes) {
@@ -126,7 +126,7 @@ TEST(Joins, AGapIsFilledWithBridgedNodes) {
   const TrackResult out = trackOne(volume, {seed});
   EXPECT_GT(out.result.tree.centre.back().z, 11.0F);
   expectNoLongEdge(out.result.tree);
-  const auto origins = formats::nodeOriginsOf(out.result);
+  const auto origins = formats::readNodeOrigins(out.result);
   for (std::size_t i = 0; i < origins.size(); ++i) {
     const bool isInGap = out.result.tree.centre[i].z > 6.4F && out.result.tree.centre[i].z < 6.8F;
     if (isInGap) {

@@ -25,7 +25,7 @@ Tracked trackFile(const std::string& volume, VolumeFormat format, const std::str
   const auto seeds = readSeeds(std::filesystem::path(LUMEN_TEST_DATA) / seedsFile);
   const auto file = std::filesystem::path(LUMEN_SHARED_DATA) / volume;
   const Volume read = readVolume(file, format, ReadVolumeOptions{}, silent);
-  return {trackCase(read, seeds, TrackOptions{}, silent), seeds.size()};
+  return {trackFromSeeds(read, seeds, TrackOptions{}, silent), seeds.size()};
 }
 
 std::vector<TrackedNode> chainOf(const formats::Case& tracked, const std::string& label) {
@@ -42,7 +42,7 @@ std::vector<TrackedNode> chainOf(const formats::Case& tracked, const std::string
   return chain;
 }
 
-double lengthOf(const std::vector<TrackedNode>& chain) {
+double measureLength(const std::vector<TrackedNode>& chain) {
   double length = 0;
   for (std::size_t i = 1; i < chain.size(); ++i)
     length += (chain[i].centre - chain[i - 1].centre).norm();
@@ -70,7 +70,7 @@ TEST_F(Angiogram3dra, AtLeastNineInTenClicksTrackAVessel) {
 
 TEST_F(Angiogram3dra, TheCarotidRunsThroughItsSiphonToTheMiddleCerebralArtery) {
   const auto carotid = chainOf(tracked->out.result, "ica");
-  EXPECT_GT(lengthOf(carotid), 300);
+  EXPECT_GT(measureLength(carotid), 300);
   for (const Vector3d& place : {Vector3d(150, 47, 167), Vector3d(118, 88, 160),
                                 Vector3d(126, 94, 183), Vector3d(130, 124, 167)})
     EXPECT_LT(closestOnChain(carotid, place).distance, 5.0) << place.transpose();
@@ -96,8 +96,8 @@ TEST_F(Angiogram3dra, NoWallPointLiesWithinTheAneurysmOrItsOutflow) {
 TEST_F(Angiogram3dra, TheKissingAnteriorCerebralArteriesAreTwoVessels) {
   const auto first = chainOf(tracked->out.result, "aca-1");
   const auto second = chainOf(tracked->out.result, "aca-2");
-  EXPECT_GT(lengthOf(first), 200);
-  EXPECT_GT(lengthOf(second), 150);
+  EXPECT_GT(measureLength(first), 200);
+  EXPECT_GT(measureLength(second), 150);
   // while they touch, along x = 80 .. 95 from y = 130 to the crest of the corpus callosum at z = 95
   int inContact = 0, merged = 0;
   for (const TrackedNode& node : second) {
@@ -114,17 +114,17 @@ TEST(AngiogramAorta, TheAortaBothIliacsAndBothRenalsAreTracked) {
   if (absent("aorta/aorta.mha")) GTEST_SKIP() << "aorta/aorta.mha is not here";
   const Tracked tracked = trackFile("aorta/aorta.mha", VolumeFormat::MetaImage, "aorta.seeds.json");
   EXPECT_EQ(tracked.out.result.tree.branches.size(), tracked.seeds);
-  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "aorta")), 300);
-  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "left-iliac")), 100);
-  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "left-renal")), 50);
-  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "right-renal")), 50);
+  EXPECT_GT(measureLength(chainOf(tracked.out.result, "aorta")), 300);
+  EXPECT_GT(measureLength(chainOf(tracked.out.result, "left-iliac")), 100);
+  EXPECT_GT(measureLength(chainOf(tracked.out.result, "left-renal")), 50);
+  EXPECT_GT(measureLength(chainOf(tracked.out.result, "right-renal")), 50);
 }
 
 TEST(AngiogramFistula, TheVeinAndTheFistulaAreTracked) {
   if (absent("avf/avf.nii")) GTEST_SKIP() << "avf/avf.nii is not here";
   const Tracked tracked = trackFile("avf/avf.nii", VolumeFormat::Nifti, "avf.seeds.json");
-  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "vein")), 50);
-  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "fistula")), 55);
+  EXPECT_GT(measureLength(chainOf(tracked.out.result, "vein")), 50);
+  EXPECT_GT(measureLength(chainOf(tracked.out.result, "fistula")), 55);
 }
 
 // One click on a thin artery of a rendered arterial tree: the path turned back at the same place for
@@ -136,7 +136,7 @@ TEST(Tracker, APathThatTurnsBackEnds) {
   Progress silent;
   const Volume volume = readVolume(file, VolumeFormat::Nrrd, ReadVolumeOptions{}, silent);
   const auto seeds = readSeeds(folder / "track-never-ends.seeds.json");
-  const formats::Case tracked = trackCase(volume, seeds, TrackOptions{}, silent).result;
+  const formats::Case tracked = trackFromSeeds(volume, seeds, TrackOptions{}, silent).result;
   ASSERT_EQ(tracked.tree.branches.size(), 1u);
   EXPECT_GT(tracked.tree.nodeCount(), 150u);
   EXPECT_LT(tracked.tree.nodeCount(), 400u);

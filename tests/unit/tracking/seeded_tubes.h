@@ -33,7 +33,7 @@ inline Volume straightTube(double radius) {
 
 inline TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds) {
   Progress silent;
-  return trackCase(volume, seeds, TrackOptions{}, silent);
+  return trackFromSeeds(volume, seeds, TrackOptions{}, silent);
 }
 
 /// A T: a child of half the trunk's radius leaves its middle along x.

@@ -55,8 +55,8 @@ TEST(Smoothing, FindsAThinVesselInStrongNoise) {
   rough.smoothing = 0.0;
   Progress silent;
   const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
-  EXPECT_TRUE(trackCase(volume, seeds, rough, silent).result.tree.branches.empty());
-  const auto tracked = trackCase(volume, seeds, TrackOptions{}, silent).result;
+  EXPECT_TRUE(trackFromSeeds(volume, seeds, rough, silent).result.tree.branches.empty());
+  const auto tracked = trackFromSeeds(volume, seeds, TrackOptions{}, silent).result;
   ASSERT_EQ(tracked.tree.branches.size(), 1u);
   EXPECT_LT(tracked.tree.centre.front().z, 1.5F);
   EXPECT_GT(tracked.tree.centre.back().z, 11.0F);

@@ -106,7 +106,7 @@ double reachedFromBelow(const Volume& volume, int lookAhead) {
   Progress silent;
   TrackOptions options;
   options.lookAhead = lookAhead;
-  return trackCase(volume, {seed}, options, silent).result.tree.centre.back().z;
+  return trackFromSeeds(volume, {seed}, options, silent).result.tree.centre.back().z;
 }
 
 TEST(Tracker, LooksBeyondAShortGap) {
@@ -286,7 +286,7 @@ TEST(Tracker, SeedsOnVesselsOfTheOtherSignAreWarnedOf) {
   forDark.dark = true;
   const auto warned = [&](const Volume& volume, const TrackOptions& options) {
     Warnings warnings;
-    (void)trackCase(volume, seeds, options, warnings);
+    (void)trackFromSeeds(volume, seeds, options, warnings);
     return warnings.text;
   };
   EXPECT_EQ(warned(bright, {}), "");
@@ -353,7 +353,7 @@ TEST(Tracker, RefusesOptionsOutOfRangeByName) {
   TrackOptions options;
   options.rays = 100;
   try {
-    trackCase(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6})}, options, silent);
+    trackFromSeeds(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6})}, options, silent);
     FAIL() << "accepted 100 rays";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
@@ -364,9 +364,9 @@ TEST(Tracker, RefusesOptionsOutOfRangeByName) {
 TEST(Tracker, StopsWhenCancelled) {
   Progress progress;
   progress.cancel();
-  EXPECT_THROW(
-      trackCase(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6}, 1.0)}, TrackOptions{}, progress),
-      Error);
+  EXPECT_THROW(trackFromSeeds(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6}, 1.0)},
+                              TrackOptions{}, progress),
+               Error);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using formats::kNoParent;
 
 AddedTracks further(const Volume& volume, const Case& known, const std::vector<SeedBranch>& seeds) {
   Progress silent;
-  return trackIntoCase(TrackingVolume(volume, known, silent), known, seeds, silent);
+  return addTracksFromSeeds(TrackingVolume(volume, known, silent), known, seeds, silent);
 }
 
 /// The T with its trunk tracked.
@@ -165,7 +165,7 @@ TEST(TrackFurther, StopsWhenCancelled) {
   Progress progress;
   const TrackingVolume volume(t.volume, t.known, progress);
   progress.cancel();
-  EXPECT_THROW(trackIntoCase(volume, t.known, {childSeed()}, progress), Error);
+  EXPECT_THROW(addTracksFromSeeds(volume, t.known, {childSeed()}, progress), Error);
 }
 
 TEST(TrackingVolume, HasTheOptionsThatACaseWasTrackedWith) {
@@ -178,7 +178,8 @@ TEST(TrackingVolume, HasTheOptionsThatACaseWasTrackedWith) {
   options.smoothing = 0.1;
   options.evenBlur = false;
   Progress silent;
-  const Case known = trackCase(volume, {seedAt("trunk", {6.4, 6.4, 3})}, options, silent).result;
+  const Case known =
+      trackFromSeeds(volume, {seedAt("trunk", {6.4, 6.4, 3})}, options, silent).result;
   const auto recorded = recordedTrackOptions(known);
   ASSERT_TRUE(recorded);
   EXPECT_EQ(recorded->parameters(), known.metadata.steps[0].parameters);
@@ -214,7 +215,7 @@ struct SacBeside {
     std::vector<SeedBranch> vessels;
     for (const SeedBranch& seed : phantom.seeds)
       (seed.kind == formats::BranchKind::Aneurysm ? sac : vessels).push_back(seed);
-    known = trackCase(phantom.volume, vessels, TrackOptions{}, silent).result;
+    known = trackFromSeeds(phantom.volume, vessels, TrackOptions{}, silent).result;
   }
 };
 
@@ -228,7 +229,8 @@ TEST(TrackFurther, GivesAnAneurysmItsWallAndItsVesselAnOpenNeck) {
   EXPECT_NE(sac.parentNode, kNoParent);
   // as when all is tracked at once
   Progress silent;
-  const Case whole = trackCase(s.phantom.volume, s.phantom.seeds, TrackOptions{}, silent).result;
+  const Case whole =
+      trackFromSeeds(s.phantom.volume, s.phantom.seeds, TrackOptions{}, silent).result;
   const auto at =
       std::find_if(whole.tree.branches.begin(), whole.tree.branches.end(),
                    [](const auto& b) { return b.kind == formats::BranchKind::Aneurysm; });

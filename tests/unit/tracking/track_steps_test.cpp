@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ends of tracks and the place where a child is joined to its parent (docs/method.md, sections 1.5 and
-// 1.12), one step below trackCase().
+// 1.12), one step below trackFromSeeds().
 #include "converters/stages/tracking/track_steps.h"
 
 #include <algorithm>

@@ -15,9 +15,9 @@ TrackingVolume readied(const Volume& volume) {
   return {volume, {seedAt("tube", {6.4, 6.4, 6.4})}, options, silent};
 }
 
-class SnapOfRadius : public testing::TestWithParam<double> {};
+class VesselAtClickOfRadius : public testing::TestWithParam<double> {};
 
-TEST_P(SnapOfRadius, FindsTheAxisFromAnywhereInTheLumen) {
+TEST_P(VesselAtClickOfRadius, FindsTheAxisFromAnywhereInTheLumen) {
   const double radius = GetParam();
   const Volume volume = straightTube(radius);
   const TrackingVolume tracking = readied(volume);
@@ -31,16 +31,16 @@ TEST_P(SnapOfRadius, FindsTheAxisFromAnywhereInTheLumen) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Radii, SnapOfRadius, testing::Values(0.5, 0.8, 1.2, 2.0));
+INSTANTIATE_TEST_SUITE_P(Radii, VesselAtClickOfRadius, testing::Values(0.5, 0.8, 1.2, 2.0));
 
-TEST(Snap, FindsAVesselThatIsClickedAVoxelBesideItsRim) {
+TEST(VesselAtClick, FindsAVesselThatIsClickedAVoxelBesideItsRim) {
   const Volume volume = straightTube(0.6);
   const VesselAtClick vessel = vesselAtClick(readied(volume), {7.2, 6.4, 6.4});
   ASSERT_TRUE(vessel.found) << vessel.reason;
   EXPECT_LT(std::hypot(vessel.position.x() - 6.4, vessel.position.y() - 6.4), 0.1);
 }
 
-TEST(Snap, SaysWhenThereIsNoVessel) {
+TEST(VesselAtClick, SaysWhenThereIsNoVessel) {
   const Volume volume = straightTube(0.6);
   const Vector3d click(2, 2, 6.4);
   const VesselAtClick vessel = vesselAtClick(readied(volume), click);
@@ -49,14 +49,14 @@ TEST(Snap, SaysWhenThereIsNoVessel) {
   EXPECT_FALSE(vessel.reason.empty());
 }
 
-TEST(Snap, SaysWhenTheClickIsOutsideOfTheVolume) {
+TEST(VesselAtClick, SaysWhenTheClickIsOutsideOfTheVolume) {
   const Volume volume = straightTube(0.6);
   const VesselAtClick vessel = vesselAtClick(readied(volume), {-50, 6.4, 6.4});
   EXPECT_FALSE(vessel.found);
   EXPECT_NE(vessel.reason.find("outside"), std::string::npos) << vessel.reason;
 }
 
-TEST(Snap, IsTheSameEveryTime) {
+TEST(VesselAtClick, IsTheSameEveryTime) {
   const Volume volume = noisy(straightTube(0.8), 60);
   const TrackingVolume tracking = readied(volume);
   const VesselAtClick once = vesselAtClick(tracking, {6.6, 6.3, 5});

@@ -53,8 +53,8 @@ TEST(LabelMesh, GreyValuesAreToldFromLabels) {
   EXPECT_FALSE(holdsLabels(drawn({1, 1, 1}, [](const Vector3d&) { return 0; })));
   EXPECT_TRUE(
       holdsLabels(drawn({1, 1, 1}, [](const Vector3d& p) { return static_cast<int>(p.x() / 4); })));
-  EXPECT_TRUE(maskOf(drawn({1, 1, 1}, grey), {}, "m.nrrd").isGrey);
-  EXPECT_FALSE(maskOf(drawn({1, 1, 1}, labels), {}, "m.nrrd").isGrey);
+  EXPECT_TRUE(makeLabelMask(drawn({1, 1, 1}, grey), {}, "m.nrrd").isGrey);
+  EXPECT_FALSE(makeLabelMask(drawn({1, 1, 1}, labels), {}, "m.nrrd").isGrey);
 }
 
 TEST(LabelMesh, LiesOnTheWallOfATubeWhateverTheSpacing) {
@@ -65,7 +65,7 @@ TEST(LabelMesh, LiesOnTheWallOfATubeWhateverTheSpacing) {
     const Volume volume =
         drawn(spacing, [&](const Vector3d& p) { return away(p, a, b) < radius ? 1 : 0; });
     Progress progress;
-    const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
+    const LabelSurface surface = makeLabelSurface(makeLabelMask(volume, {}, "m.nrrd"), progress);
     EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
     double sum = 0;
     for (const Vector3d& p : surface.mesh.position) {
@@ -88,7 +88,8 @@ TEST(LabelMesh, IsFlatWhereTheVolumeCutsAVesselOff) {
     return std::hypot(p.y() - 15.2, p.z() - 16.1) < 4 ? 1 : 0;
   });
   Progress progress;
-  const ClosedMesh closed = closeMesh(surfaceOf(maskOf(volume, {}, "m.nrrd"), progress).mesh);
+  const ClosedMesh closed =
+      closeMesh(makeLabelSurface(makeLabelMask(volume, {}, "m.nrrd"), progress).mesh);
   ASSERT_EQ(closed.ends.size(), 2U);
   for (const MeshEnd& end : closed.ends) {
     const double x = volume.geometry.indexFromWorld(end.centre).x();
@@ -103,7 +104,7 @@ TEST(LabelMesh, KeepsWhatIsOneVoxelWide) {
     return p.y() == 15 && p.z() == 16 && p.x() > 5 && p.x() < 30 ? 1 : 0;
   });
   Progress progress;
-  const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
+  const LabelSurface surface = makeLabelSurface(makeLabelMask(volume, {}, "m.nrrd"), progress);
   EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
   EXPECT_GT(signedVolume(surface.mesh), 0);
 }
@@ -113,7 +114,7 @@ TEST(LabelMesh, KeepsTheWidthOfWhatIsOneVoxelWide) {
     return p.y() == 15 && p.z() == 16 && p.x() > 5 && p.x() < 30 ? 1 : 0;
   });
   Progress progress;
-  const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
+  const LabelSurface surface = makeLabelSurface(makeLabelMask(volume, {}, "m.nrrd"), progress);
   EXPECT_GT(signedVolume(surface.mesh), 0.3 * 24);  // a third of what was drawn
 }
 
@@ -122,7 +123,7 @@ TEST(LabelMesh, HoldsTogetherALineOfVoxelsThatMeetAtCorners) {
     return p.x() > 5 && p.x() < 25 && p.y() == p.x() && p.z() == p.x() ? 1 : 0;
   });
   Progress progress;
-  const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
+  const LabelSurface surface = makeLabelSurface(makeLabelMask(volume, {}, "m.nrrd"), progress);
   EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
 }
 
@@ -132,7 +133,7 @@ TEST(LabelMesh, FillsHoles) {
     return from < 9 && from > 3 ? 1 : 0;
   });
   Progress progress;
-  const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
+  const LabelSurface surface = makeLabelSurface(makeLabelMask(volume, {}, "m.nrrd"), progress);
   EXPECT_EQ(surface.cavities, 1U);
   EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
 }
@@ -149,9 +150,10 @@ Volume fork() {
 
 TEST(LabelMesh, NamesBranchesByTheirLabels) {
   Progress progress;
-  const LabelMask mask = maskOf(fork(), {{5, "left"}, {7, "right"}, {3, "trunk"}}, "m.nrrd");
+  const LabelMask mask = makeLabelMask(fork(), {{5, "left"}, {7, "right"}, {3, "trunk"}}, "m.nrrd");
   formats::Case value =
-      caseOfLumen(closeMesh(surfaceOf(mask, progress).mesh), 0, "m.nrrd", {}, {}, progress).result;
+      caseOfLumen(closeMesh(makeLabelSurface(mask, progress).mesh), 0, "m.nrrd", {}, {}, progress)
+          .result;
   ASSERT_EQ(value.tree.branches.size(), 2U);
   nameBranches(mask, value);
   // the path through the trunk goes on through one of the arms and is divided there, the other arm is
@@ -164,15 +166,16 @@ TEST(LabelMesh, NamesBranchesByTheirLabels) {
 
 TEST(LabelMesh, TakesTheChosenLabelAlone) {
   Progress progress;
-  const LabelMask mask = maskOf(fork(), {{3, "trunk"}}, "m.nrrd");
+  const LabelMask mask = makeLabelMask(fork(), {{3, "trunk"}}, "m.nrrd");
   const formats::Case value =
-      caseOfLumen(closeMesh(surfaceOf(mask, progress).mesh), 0, "m.nrrd", {}, {}, progress).result;
+      caseOfLumen(closeMesh(makeLabelSurface(mask, progress).mesh), 0, "m.nrrd", {}, {}, progress)
+          .result;
   EXPECT_EQ(value.tree.branches.size(), 1U);
 }
 
 TEST(LabelMesh, RefusesLabelsThatAreNotThere) {
   try {
-    maskOf(fork(), {{4, "x"}}, "m.nrrd");
+    makeLabelMask(fork(), {{4, "x"}}, "m.nrrd");
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
@@ -185,21 +188,21 @@ TEST(LabelMesh, RefusesAnImage) {
   std::vector<float> voxels(image.geometry.voxelCount());
   for (std::size_t i = 0; i < voxels.size(); ++i) voxels[i] = 0.25F * static_cast<float>(i % 7);
   image.voxels = voxels;
-  EXPECT_THROW(maskOf(image, {}, "m.nrrd"), Error);
+  EXPECT_THROW(makeLabelMask(image, {}, "m.nrrd"), Error);
   std::vector<std::uint16_t> many(image.geometry.voxelCount());
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<std::uint16_t>(i % 1000);
   image.voxels = many;
-  EXPECT_THROW(maskOf(image, {}, "m.nrrd"), Error);
+  EXPECT_THROW(makeLabelMask(image, {}, "m.nrrd"), Error);
   // but one of many labels can be chosen
-  EXPECT_EQ(maskOf(image, {{999, "x"}}, "m.nrrd").label[999], 1);
+  EXPECT_EQ(makeLabelMask(image, {{999, "x"}}, "m.nrrd").label[999], 1);
 }
 
 TEST(LabelMesh, IsTheSameOnAnyNumberOfThreads) {
   Progress progress;
-  const LabelMask mask = maskOf(fork(), {}, "m.nrrd");
-  const TriangleMesh many = surfaceOf(mask, progress).mesh;
+  const LabelMask mask = makeLabelMask(fork(), {}, "m.nrrd");
+  const TriangleMesh many = makeLabelSurface(mask, progress).mesh;
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const TriangleMesh alone = surfaceOf(mask, progress).mesh;
+  const TriangleMesh alone = makeLabelSurface(mask, progress).mesh;
   EXPECT_EQ(alone.position, many.position);
   EXPECT_EQ(alone.triangle, many.triangle);
 }

@@ -136,7 +136,7 @@ TEST_F(SafetyTest, RequestsAreBoundedInSizeAndDepth) {
 }
 
 TEST_F(SafetyTest, AFormInSeveralPartsIsRefusedInASentence) {
-  for (const char* const name : {"do", "snap", "cancel", "file?name=a.obj"}) {
+  for (const char* const name : {"do", "vesselAtClick", "cancel", "file?name=a.obj"}) {
     auto result = client().Post(
         root + name, httplib::MultipartFormDataItems{{"file", "v 0 0 0", "a.obj", "text/plain"}});
     ASSERT_TRUE(result) << name;

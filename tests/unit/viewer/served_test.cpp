@@ -246,15 +246,16 @@ TEST_F(WorkTest, ACutIsFittedAtOnceAndUndoneToTheSameBytes) {
   EXPECT_EQ(get("case.lumen").body, before);
 }
 
-TEST_F(WorkTest, APointerSnapsToTheAxisOfTheVessel) {
+TEST_F(WorkTest, AClickFindsTheAxisOfTheVessel) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  const Json snap = Json::parse(post("snap", R"({"position": [6.8, 6.2, 7]})").body);
-  EXPECT_EQ(snap["found"], true);
-  EXPECT_NEAR(snap["position"][0].get<double>(), 6.4, 0.1);
-  EXPECT_NEAR(snap["position"][1].get<double>(), 6.4, 0.1);
-  EXPECT_NEAR(snap["radius"].get<double>(), 1.0, 0.1);
-  EXPECT_EQ(Json::parse(post("snap", R"({"position": [-100, 0, 0]})").body)["found"], false);
+  const Json vessel = Json::parse(post("vesselAtClick", R"({"position": [6.8, 6.2, 7]})").body);
+  EXPECT_EQ(vessel["found"], true);
+  EXPECT_NEAR(vessel["position"][0].get<double>(), 6.4, 0.1);
+  EXPECT_NEAR(vessel["position"][1].get<double>(), 6.4, 0.1);
+  EXPECT_NEAR(vessel["radius"].get<double>(), 1.0, 0.1);
+  EXPECT_EQ(Json::parse(post("vesselAtClick", R"({"position": [-100, 0, 0]})").body)["found"],
+            false);
 }
 
 TEST_F(WorkTest, SeedsAreMovedAndDeleted) {

@@ -47,7 +47,7 @@ TEST(Depth, InABallItIsTheDistanceFromItsSurface) {
     if ((cell - Cell(10, 10, 10)).squaredNorm() <= 64) ball.push_back(geometry.index(cell));
   });
   const VoxelSet set(geometry, ball);
-  const std::vector<float> depths = depthsOf(
+  const std::vector<float> depths = measureDepths(
       set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, Progress());
   EXPECT_NEAR(depths[set.find(geometry.index({10, 10, 10}))], 4.0, 0.3);
   EXPECT_NEAR(depths[set.find(geometry.index({14, 10, 10}))], 2.0, 0.3);

@@ -116,7 +116,8 @@ TEST(CubeSearch, AStepCostsItsLengthByTheMeanPriceOfItsEnds) {
   const VolumeGeometry geometry = gridOf(5);
   CubeSearch search(geometry, geometry.worldFromIndex({1, 1, 1}), 20);
   std::vector<double> cost(search.count(), -1);
-  search.run([](const Cell& cell) { return cell.z() == 2 ? 3.0F : 1.0F; }, CheapestPaths::kFar,
+  search.run([](const Cell& cell) { return cell.z() == 2 ? 3.0F : 1.0F; },
+             CheapestPaths::kInfiniteCost,
              [&](std::size_t voxel, double there) {
                cost[voxel] = there;
                return SearchStep::GoOn;
@@ -142,7 +143,7 @@ TEST(CubeSearch, KeepsOutOfExcludedBallsButBeginsInThem) {
   for (const std::size_t voxel : search.voxelsIn({geometry.worldFromIndex({5, 5, 5}), 1.1}))
     search.exclude(voxel);
   std::size_t visits = 0;
-  search.run([](const Cell&) { return 1.0F; }, CheapestPaths::kFar,
+  search.run([](const Cell&) { return 1.0F; }, CheapestPaths::kInfiniteCost,
              [&](std::size_t, double) {
                ++visits;
                return SearchStep::GoOn;
@@ -156,7 +157,7 @@ TEST(CubeSearch, IsCancelled) {
   CubeSearch search(geometry, geometry.worldFromIndex({1, 1, 1}), 20);
   Progress progress;
   progress.cancel();
-  EXPECT_THROW(search.run([](const Cell&) { return 1.0F; }, CheapestPaths::kFar,
+  EXPECT_THROW(search.run([](const Cell&) { return 1.0F; }, CheapestPaths::kInfiniteCost,
                           [](std::size_t, double) { return SearchStep::GoOn; }, progress),
                Error);
 }

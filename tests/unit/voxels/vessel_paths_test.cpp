@@ -72,7 +72,7 @@ TEST(VesselPaths, TheFarthestVoxelIsTheTrunksOtherEnd) {
   VesselPaths paths(set, depths, isOpen, Progress());
   const std::uint32_t start = set.find(vessels.geometry.index({0, 1, 1}));
   EXPECT_EQ(set.cell(paths.farthest(start, Progress())), Cell(60, 1, 1));
-  EXPECT_EQ(paths.partOf(start).size(), set.size());
+  EXPECT_EQ(paths.connectedPart(start).size(), set.size());
 }
 
 /// A trunk along x, eleven voxels wide, from a face of the volume to `end`, and a longer branch of
@@ -89,7 +89,7 @@ std::vector<VesselPath> pathsOfFork(int end) {
         if (isTrunk || isBranch) indices.push_back(geometry.index({x, y, z}));
       }
   const VoxelSet set(geometry, indices);
-  const std::vector<float> depths = depthsOf(
+  const std::vector<float> depths = measureDepths(
       set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, Progress());
   const VesselPaths::IsOpen isOpen = open;
   VesselPaths paths(set, depths, isOpen, Progress());

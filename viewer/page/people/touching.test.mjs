@@ -16,7 +16,7 @@ const wire = async page => {
 const inserted = text => Number(/^([\d.]+) mm in/.exec(text)[1]);
 
 /** The highest place of a column of pixels of the scene where the pointer would take hold of the wire. */
-const firstOf = async (page, box, x) => {
+const firstTouched = async (page, box, x) => {
   for (let y = box.y + 0.2 * box.height; y < box.y + 0.8 * box.height; y += 8) {
     await page.mouse.move(x, y);
     await frames(page, 3);
@@ -89,7 +89,7 @@ story("a wire is pushed past where two vessels touch, and every point of it stay
   const before = inserted((await wire(page)).text),
     box = await page.locator("#view-scene").boundingBox(),
     x = box.x + box.width / 2;
-  const y = await firstOf(page, box, x);
+  const y = await firstTouched(page, box, x);
   await page.mouse.move(x, y);
   await page.locator("#view-scene.over-wire").waitFor();
   await page.mouse.down();

@@ -6,13 +6,13 @@ import type { Vec3 } from "./types";
 import { across, cross, distance, dot, mix, scale, sub, unit } from "./vec";
 
 /** Points of a way, smoothed a little, with their distance from its begin. */
-export interface Way {
+export interface FlightPath {
   points: Vec3[];
   nodes: number[];
   at: number[];
 }
 
-export function wayOf(points: Vec3[], nodes: number[]): Way {
+export function makeFlightPath(points: Vec3[], nodes: number[]): FlightPath {
   const smooth = points.map((p, i): Vec3 => {
     if (i === 0 || i === points.length - 1) return p;
     return mix(p, mix(points[i - 1], points[i + 1], 0.5), 0.5);
@@ -23,20 +23,20 @@ export function wayOf(points: Vec3[], nodes: number[]): Way {
 }
 
 /** Index of the last point that lies before `s` mm, and the share of the way to the next. */
-export function locate(way: Way, s: number): { i: number; share: number } {
+export function locate(path: FlightPath, s: number): { i: number; share: number } {
   let low = 0,
-    high = way.at.length - 1;
+    high = path.at.length - 1;
   while (high - low > 1) {
     const half = (low + high) >> 1;
-    if (way.at[half] <= s) low = half;
+    if (path.at[half] <= s) low = half;
     else high = half;
   }
-  const span = way.at[high] - way.at[low];
-  return { i: low, share: span > 0 ? Math.min(1, Math.max(0, (s - way.at[low]) / span)) : 0 };
+  const span = path.at[high] - path.at[low];
+  return { i: low, share: span > 0 ? Math.min(1, Math.max(0, (s - path.at[low]) / span)) : 0 };
 }
-export function pointAt(way: Way, s: number): Vec3 {
-  const { i, share } = locate(way, s);
-  return mix(way.points[i], way.points[Math.min(i + 1, way.points.length - 1)], share);
+export function pointAt(path: FlightPath, s: number): Vec3 {
+  const { i, share } = locate(path, s);
+  return mix(path.points[i], path.points[Math.min(i + 1, path.points.length - 1)], share);
 }
 
 const kSpeed = 6; // local radii a second to begin with
@@ -45,7 +45,7 @@ const kAhead = 2.5; // of the local radius: where the eye looks
 const kMostStep = 0.1; // s; a page that was asleep does not leap
 
 export class Flight {
-  private way: Way | null = null;
+  private path: FlightPath | null = null;
   private s = 0;
   private speed = kSpeed;
   private playing = false;
@@ -63,13 +63,13 @@ export class Flight {
   }
 
   get running(): boolean {
-    return this.way !== null;
+    return this.path !== null;
   }
   get paused(): boolean {
     return !this.playing;
   }
   get share(): number {
-    return this.way === null ? 0 : this.s / (this.way.at.at(-1)! || 1);
+    return this.path === null ? 0 : this.s / (this.path.at.at(-1)! || 1);
   }
 
   start(): void {
@@ -78,25 +78,25 @@ export class Flight {
       this.app.inform("Select the vessel to fly into first.", "warning");
       return;
     }
-    const nodes = tree.wayTo(selected);
+    const nodes = tree.pathTo(selected);
     if (nodes.length < 3) {
       this.app.inform("This vessel is too short for a flight.", "warning");
       return;
     }
-    this.way = wayOf(
+    this.path = makeFlightPath(
       nodes.map(n => tree.position(n)),
       nodes,
     );
     const begin = nodes.indexOf(node);
-    this.s = begin > 0 && begin < nodes.length - 3 ? this.way.at[begin] : 0;
-    this.up = across(unit(sub(this.way.points[1], this.way.points[0])));
+    this.s = begin > 0 && begin < nodes.length - 3 ? this.path.at[begin] : 0;
+    this.up = across(unit(sub(this.path.points[1], this.path.points[0])));
     this.playing = true;
     this.last = 0;
     this.show();
     this.run();
   }
   stop(): void {
-    this.way = null;
+    this.path = null;
     this.playing = false;
     this.scene.camera.flight = null;
     this.app.stage.invalidate(this.scene);
@@ -110,14 +110,14 @@ export class Flight {
   }
   /** To a share of the way, or by millimetres. */
   seek(share: number): void {
-    if (this.way !== null) {
-      this.s = share * this.way.at.at(-1)!;
+    if (this.path !== null) {
+      this.s = share * this.path.at.at(-1)!;
       this.show();
     }
   }
   step(count: number): void {
-    if (this.way === null) return;
-    this.s = Math.min(this.way.at.at(-1)!, Math.max(0, this.s + count));
+    if (this.path === null) return;
+    this.s = Math.min(this.path.at.at(-1)!, Math.max(0, this.s + count));
     this.show();
   }
   key(key: string): boolean {
@@ -147,13 +147,13 @@ export class Flight {
   }
 
   private run(): void {
-    if (!this.playing || this.way === null) return;
+    if (!this.playing || this.path === null) return;
     requestAnimationFrame(now => {
-      if (!this.playing || this.way === null) return;
+      if (!this.playing || this.path === null) return;
       const dt = this.last === 0 ? 0 : Math.min(kMostStep, (now - this.last) / 1000);
       this.last = now;
       this.s += this.speed * dt * this.radiusHere();
-      const end = this.way.at.at(-1)!;
+      const end = this.path.at.at(-1)!;
       if (this.s >= end) {
         this.s = end;
         this.playing = false;
@@ -165,20 +165,22 @@ export class Flight {
 
   private radiusHere(): number {
     const { tree } = this.app.store.get();
-    return this.way === null || tree === null ? 1 : tree.radius[this.way.nodes[locate(this.way, this.s).i]];
+    return this.path === null || tree === null
+      ? 1
+      : tree.radius[this.path.nodes[locate(this.path, this.s).i]];
   }
 
   private show(): void {
     const { tree } = this.app.store.get();
-    if (this.way === null || tree === null) return;
-    const { i } = locate(this.way, this.s),
-      node = this.way.nodes[i],
+    if (this.path === null || tree === null) return;
+    const { i } = locate(this.path, this.s),
+      node = this.path.nodes[i],
       r = tree.radius[node],
-      end = this.way.at.at(-1)!;
-    const eye = pointAt(this.way, this.s),
-      ahead = pointAt(this.way, Math.min(end, this.s + kAhead * r));
+      end = this.path.at.at(-1)!;
+    const eye = pointAt(this.path, this.s),
+      ahead = pointAt(this.path, Math.min(end, this.s + kAhead * r));
     let d = sub(ahead, eye);
-    if (dot(d, d) < 1e-8) d = sub(eye, pointAt(this.way, Math.max(0, this.s - r)));
+    if (dot(d, d) < 1e-8) d = sub(eye, pointAt(this.path, Math.max(0, this.s - r)));
     d = unit(d);
     // the up vector is carried along without turning about the way
     this.up = unit(sub(this.up, scale(d, dot(this.up, d))));

@@ -7,7 +7,7 @@ import { probe } from "./probe";
 import { goToNode, select } from "./selection";
 import type { SliceView } from "./slice_view";
 import type { Hit } from "./surface";
-import type { MissingVessel, Seed, Snap, Vec3 } from "./types";
+import type { MissingVessel, Seed, VesselAtClick, Vec3 } from "./types";
 import { distance } from "./vec";
 import { brief } from "./ui";
 
@@ -118,22 +118,22 @@ export class Hand {
       app.inform("Seeds are placed in a volume: open one first.", "warning");
       return;
     }
-    let snap: Snap | null = null;
+    let atClick: VesselAtClick | null = null;
     try {
-      snap = await source.snap(p);
+      atClick = await source.vesselAtClick(p);
     } catch (error) {
       app.inform(error instanceof Error ? error.message : String(error), "error");
       return;
     }
-    const point = snap.found ? snap.position : p;
+    const point = atClick.found ? atClick.position : p;
     if (store.get().crosshair === p) store.set({ crosshair: point }); // unless the user has gone elsewhere meanwhile
-    if (!snap.found)
+    if (!atClick.found)
       app.inform(
-        `${sentence(snap.reason ?? "no vessel was found near there")} The seed stays where you clicked.`,
+        `${sentence(atClick.reason ?? "no vessel was found near there")} The seed stays where you clicked.`,
         "warning",
       );
-    else app.inform(`On the axis of a vessel, radius ${brief(snap.radius)} mm.`);
-    const made = { position: point, radius: snap.found ? snap.radius : null };
+    else app.inform(`On the axis of a vessel, radius ${brief(atClick.radius)} mm.`);
+    const made = { position: point, radius: atClick.found ? atClick.radius : null };
     if (this.seedKind === "vessel") await this.addSeed([made], "vessel");
     else store.set({ clicks: [...store.get().clicks, made] });
   }

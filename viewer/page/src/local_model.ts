@@ -9,7 +9,7 @@ import type { SceneView } from "./scene_view";
 import type { Tree } from "./tree";
 
 const kCells = 22; // along an edge of the box
-const kReach = 2.2; // radii from the centre to the box's sides: a local field may go on beyond; it is cut there
+const kBoxRadii = 2.2; // radii from the centre to the box's sides: a local field may go on beyond; it is cut there
 
 // six tetrahedra of a cube that share its diagonal; corners are bits x, y, z
 const kTetrahedra = [
@@ -59,7 +59,7 @@ function localSurface(
   node: number,
 ): { position: Float32Array; normal: Float32Array } {
   const n = kCells + 1,
-    half = kReach * tree.radius[node],
+    half = kBoxRadii * tree.radius[node],
     step = (2 * half) / kCells,
     centre = tree.position(node),
     low = centre.map(x => x - half);

@@ -78,15 +78,15 @@ export interface Gap {
   to: Vec3;
 }
 
-const kNear = 1; // a gap below this many of both radii together is looked at
-const kAlong = 4; // vessels nearer along the tree than this many of both radii are one vessel, not two that touch
+const kNearRadii = 1; // a gap below this many of both radii together is looked at
+const kAlongRadii = 4; // vessels nearer along the tree than this many of both radii are one vessel, not two that touch
 
 /** Places where vessels that are apart along the tree come near each other: the narrowest of each pair of branches, up to
  * `most` of them, the narrowest first. Gaps of balls first; the wall itself where there is a model. */
 export function gaps(tree: Tree, model: Model | null, most: number, only = -1): Gap[] {
   const best = new Map<number, Gap>(),
     cells = new Map<string, number[]>(),
-    size = 2 * (1 + kNear) * Math.max(...tree.radius, 0.1);
+    size = 2 * (1 + kNearRadii) * Math.max(...tree.radius, 0.1);
   const cell = (p: Vec3): [number, number, number] =>
     p.map(x => Math.floor(x / size)) as [number, number, number];
   for (let i = 0; i < tree.count; ++i) {
@@ -109,8 +109,8 @@ export function gaps(tree: Tree, model: Model | null, most: number, only = -1): 
     const both = tree.radius[i] + tree.radius[j],
       gap = distance(tree.position(i), tree.position(j)) - both,
       key = a * tree.branches.length + b;
-    if (gap > kNear * both || gap >= (best.get(key)?.gap ?? Infinity)) return;
-    if (wayBetween(tree, i, j) < kAlong * both + distance(tree.position(i), tree.position(j))) return;
+    if (gap > kNearRadii * both || gap >= (best.get(key)?.gap ?? Infinity)) return;
+    if (lengthBetween(tree, i, j) < kAlongRadii * both + distance(tree.position(i), tree.position(j))) return;
     const [nodeA, nodeB] = tree.branch[i] === a ? [i, j] : [j, i];
     best.set(key, { a, b, nodeA, nodeB, gap, from: tree.position(nodeA), to: tree.position(nodeB) });
   }
@@ -136,17 +136,17 @@ function onWalls(tree: Tree, model: Model | null, gap: Gap): Gap {
 }
 
 /** mm along the tree from one node to another; infinity if they are in different trees. */
-export function wayBetween(tree: Tree, i: number, j: number): number {
+export function lengthBetween(tree: Tree, i: number, j: number): number {
   let a = i,
     b = j,
-    way = 0;
+    sum = 0;
   while (a !== b) {
     const step = a > b ? a : b,
       up = tree.parent[step]; // parents come before their children
     if (up < 0) return Infinity;
-    way += distance(tree.position(step), tree.position(up));
+    sum += distance(tree.position(step), tree.position(up));
     if (a > b) a = up;
     else b = up;
   }
-  return way;
+  return sum;
 }

@@ -11,15 +11,15 @@ export interface Place {
 
 const kStenosis = 0.3; // of the diameter missing: below that nobody calls it one
 const kDilation = 0.5; // of the diameter more: the usual bound between ectasia and aneurysm
-const kLeast = 1.5; // reference radii that a vessel must go on for on either side
-const kReach = 8; // reference radii on either side from which the reference is made
+const kLeastMarginRadii = 1.5; // reference radii that a vessel must go on for on either side
+const kReferenceRadii = 8; // reference radii on either side from which the reference is made
 
-/** The reference at each sample: the median of the radii within kReach times the vessel's own median radius. */
+/** The reference at each sample: the median of the radii within kReferenceRadii times the vessel's own median radius. */
 export function reference(s: ArrayLike<number>, r: ArrayLike<number>): Float64Array {
   const n = s.length,
     out = new Float64Array(n),
     all = Float64Array.from(r).sort(),
-    reach = kReach * (all[n >> 1] ?? 0);
+    reach = kReferenceRadii * (all[n >> 1] ?? 0);
   for (let i = 0, low = 0, high = 0; i < n; ++i) {
     while (s[low] < s[i] - reach) ++low;
     while (high < n && s[high] <= s[i] + reach) ++high;
@@ -49,7 +49,7 @@ export function findPlaces(s: ArrayLike<number>, r: ArrayLike<number>): Place[] 
       if (Math.abs(deviation[end]) > Math.abs(deviation[at])) at = end;
     }
     // an end that peters out is no stenosis: the vessel must go on beyond it
-    const margin = kLeast * ref[at];
+    const margin = kLeastMarginRadii * ref[at];
     if (s[i] - s[0] > margin && s[n - 1] - s[end] > margin)
       places.push({ kind, from: i, to: end, at, share: Math.abs(deviation[at]) });
     i = end;

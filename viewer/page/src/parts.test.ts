@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { branchColour, fromHex, mapColour, toHex, usualRange } from "./colour";
-import { locate, pointAt, wayOf } from "./flight";
+import { locate, pointAt, makeFlightPath } from "./flight";
 import { marchTetrahedra } from "./local_model";
 import { findPlaces } from "./narrowing";
 import { niceLength } from "./slice_overlay";
@@ -70,16 +70,16 @@ describe("straighten", () => {
     const tree = sampleTree(),
       straight = straighten(tree, 0, 21);
     expect(straight.at.at(-1)).toBe(10);
-    expect(straight.way[5][2]).toBeCloseTo(2.5, 9);
+    expect(straight.path[5][2]).toBeCloseTo(2.5, 9);
     for (const side of straight.side) {
       expect(side[2]).toBeCloseTo(0, 9);
       expect(dot(side, straight.side[0])).toBeCloseTo(1, 9);
     }
   });
 });
-describe("wayOf", () => {
+describe("makeFlightPath", () => {
   it("findsPointsByLength", () => {
-    const way = wayOf(
+    const path = makeFlightPath(
       [
         [0, 0, 0],
         [1, 0, 0],
@@ -88,8 +88,8 @@ describe("wayOf", () => {
       ],
       [0, 1, 2, 3],
     );
-    expect(pointAt(way, 1.25)).toEqual([1.25, 0, 0]);
-    expect(locate(way, 99)).toEqual({ i: 2, share: 1 });
+    expect(pointAt(path, 1.25)).toEqual([1.25, 0, 0]);
+    expect(locate(path, 99)).toEqual({ i: 2, share: 1 });
   });
 });
 describe("niceLength", () => {

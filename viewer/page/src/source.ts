@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The source of the page's data: the server, or the page itself. */
-import type { Event, Operation, Snap, State } from "./types";
+import type { Event, Operation, VesselAtClick, State } from "./types";
 
 /** Called as bytes arrive: all received so far are in `bytes`, up to `received`. */
 export type Received = (bytes: Uint8Array, received: number) => void;
@@ -33,7 +33,7 @@ export interface Source {
   ): Promise<Uint8Array | null>;
   listen(listener: (event: Event) => void): void;
   perform(operation: Operation, revision: number): Promise<Answer>;
-  snap(position: number[]): Promise<Snap>;
+  vesselAtClick(position: number[]): Promise<VesselAtClick>;
   open(name: string, as: "auto" | "truth", file: globalThis.Blob): Promise<void>;
   cancel(job: number): Promise<void>;
   /** Address of a download. */

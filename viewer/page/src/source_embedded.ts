@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page as one file: <script type="application/json" id="lumen-embedded"> holds {"state", "parts": {name: base64 of what zlib has compressed}}. */
 import { Refused, type Answer, type Received, type Source } from "./source";
-import { kEmptyState, type Event, type Snap, type State } from "./types";
+import { kEmptyState, type Event, type VesselAtClick, type State } from "./types";
 
 /** Bytes of base64, without the limits of atob on one long string. Throws on what is no base64. */
 export function fromBase64(text: string): Uint8Array {
@@ -71,7 +71,7 @@ export class EmbeddedSource implements Source {
   perform(): Promise<Answer> {
     return Promise.reject(new Refused(404, "This page is one file: nothing in it can be edited."));
   }
-  snap(): Promise<Snap> {
+  vesselAtClick(): Promise<VesselAtClick> {
     return Promise.resolve({ found: false, position: [0, 0, 0], radius: 0, direction: [0, 0, 1] });
   }
   open(): Promise<void> {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The server that this page came from; all addresses are relative to the page's own, which holds the token. */
 import { Refused, type Answer, type Received, type Source } from "./source";
-import type { Event, Operation, Snap, State } from "./types";
+import type { Event, Operation, VesselAtClick, State } from "./types";
 
 const kSilence = 2000; // ms without an answer after which the server counts as gone and is asked again
 
@@ -93,8 +93,8 @@ export class ServerSource implements Source {
   perform(operation: Operation, revision: number): Promise<Answer> {
     return this.post("do", JSON.stringify({ ...operation, revision }));
   }
-  async snap(position: number[]): Promise<Snap> {
-    return (await this.post("snap", JSON.stringify({ position }))) as unknown as Snap;
+  async vesselAtClick(position: number[]): Promise<VesselAtClick> {
+    return (await this.post("vesselAtClick", JSON.stringify({ position }))) as unknown as VesselAtClick;
   }
   async open(name: string, as: "auto" | "truth", file: globalThis.Blob): Promise<void> {
     await this.post(withQuery("file", { name, as }), file, "application/octet-stream");

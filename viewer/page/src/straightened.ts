@@ -7,7 +7,7 @@ import { across, along, distance, dot, mix, rotate, scale, sub, unit } from "./v
 import type { Volume } from "./volume";
 
 export interface Straight {
-  way: Vec3[];
+  path: Vec3[];
   side: Vec3[];
   at: number[];
   nodes: number[];
@@ -21,24 +21,24 @@ export function straighten(tree: Tree, branch: number, count: number): Straight 
     s = [0];
   for (let i = 1; i < points.length; ++i) s.push(s[i - 1] + distance(points[i - 1], points[i]));
   const whole = s.at(-1)!,
-    way: Vec3[] = [],
+    path: Vec3[] = [],
     at: number[] = [],
     owner: number[] = [];
   for (let k = 0, i = 0; k < count; ++k) {
     const t = (whole * k) / Math.max(count - 1, 1);
     while (i + 2 < s.length && s[i + 1] < t) ++i;
     const share = points.length < 2 ? 0 : Math.min(1, Math.max(0, (t - s[i]) / (s[i + 1] - s[i] || 1)));
-    way.push(points.length < 2 ? points[0] : mix(points[i], points[i + 1], share));
+    path.push(points.length < 2 ? points[0] : mix(points[i], points[i + 1], share));
     at.push(t);
     owner.push(nodes[share < 0.5 ? i : Math.min(i + 1, nodes.length - 1)]);
   }
   const tangent = (k: number): Vec3 => {
-    const d = sub(way[Math.min(k + 1, count - 1)], way[Math.max(k - 1, 0)]);
+    const d = sub(path[Math.min(k + 1, count - 1)], path[Math.max(k - 1, 0)]);
     return dot(d, d) > 0 ? unit(d) : unit(tree.axis(owner[k]));
   };
   const side: Vec3[] = [across(tangent(0))];
   for (let k = 1; k < count; ++k) {
-    const v = sub(way[k], way[k - 1]),
+    const v = sub(path[k], path[k - 1]),
       c = dot(v, v) || 1,
       t0 = tangent(k - 1),
       t1 = tangent(k);
@@ -48,7 +48,7 @@ export function straighten(tree: Tree, branch: number, count: number): Straight 
       d = dot(w, w);
     side.push(unit(d > 1e-12 ? along(u, w, (-2 * dot(w, u)) / d) : u));
   }
-  return { way, side, at, nodes: owner };
+  return { path, side, at, nodes: owner };
 }
 
 /** Grey values of the straightened vessel: a column for each point, rows from +half to -half mm across. */
@@ -60,16 +60,16 @@ export function reformat(
   turn: number,
   window: [number, number],
 ): ImageData {
-  const n = straight.way.length,
+  const n = straight.path.length,
     image = new ImageData(n, rows),
     span = Math.max(window[1] - window[0], 1e-9),
     pixels = new Uint32Array(image.data.buffer);
   for (let k = 0; k < n; ++k) {
-    const before = straight.way[Math.max(0, k - 1)],
-      after = straight.way[Math.min(n - 1, k + 1)],
+    const before = straight.path[Math.max(0, k - 1)],
+      after = straight.path[Math.min(n - 1, k + 1)],
       d = unit(sub(after, before));
     const side = turn === 0 ? straight.side[k] : rotate(straight.side[k], d, turn),
-      from = along(straight.way[k], side, half),
+      from = along(straight.path[k], side, half),
       step = scale(side, (-2 * half) / Math.max(rows - 1, 1));
     for (let j = 0; j < rows; ++j) {
       const v = volume.sample(along(from, step, j)),

@@ -310,7 +310,7 @@ export class Strip {
       2,
       Math.min(Math.round(width), Math.ceil((2 * curve.s.at(-1)!) / Math.min(...volume.spacing))),
     );
-    if (this.straight?.way.length !== columns) this.straight = straighten(tree, curve.branch, columns);
+    if (this.straight?.path.length !== columns) this.straight = straighten(tree, curve.branch, columns);
     const half = Math.max(
       3 * tree.branches[curve.branch].median,
       1.3 * tree.branches[curve.branch].greatest,

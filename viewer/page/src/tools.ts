@@ -130,9 +130,9 @@ export class Tools {
 
   private pickMark(scene: SceneView, x: number, y: number): Picked | null {
     const view = this.app.store.get(),
-      kReach = 10; // pixels
+      kReachPixels = 10; // pixels
     let best: Picked | null = null,
-      least = kReach;
+      least = kReachPixels;
     const consider = (p: Vec3, seed: string | null, place: number): void => {
       const at = scene.camera.project(p),
         away = at === null ? Infinity : Math.hypot(at.x - x, at.y - y);

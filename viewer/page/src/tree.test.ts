@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { kInitial } from "./model";
-import { gaps, sectionFigures, wayBetween } from "./measure";
+import { gaps, sectionFigures, lengthBetween } from "./measure";
 import { sameVessels } from "./same_vessel";
 import { sampleTree } from "./sample_tree";
 
@@ -21,7 +21,7 @@ describe("Tree", () => {
     ]);
   });
   it("leadsFromTheRootToAnEnd", () => {
-    expect(tree.wayTo(1)).toEqual([0, 1, 2, 3, 4, 5, 11, 12, 13, 14, 15]);
+    expect(tree.pathTo(1)).toEqual([0, 1, 2, 3, 4, 5, 11, 12, 13, 14, 15]);
   });
   it("findsTheNearestNodeByPower", () => {
     expect(tree.nearest([0.2, 0, 3.1])).toBe(3);
@@ -31,14 +31,14 @@ describe("Tree", () => {
     expect(tree.box()).toEqual({ low: [-1, -1, -1], high: [5.5, 2.25, 11.5] });
   });
 });
-describe("wayBetween", () => {
+describe("lengthBetween", () => {
   const tree = sampleTree();
   it("goesUpAndDownTheTree", () => {
-    expect(wayBetween(tree, 10, 15)).toBe(10);
-    expect(wayBetween(tree, 15, 10)).toBe(10);
+    expect(lengthBetween(tree, 10, 15)).toBe(10);
+    expect(lengthBetween(tree, 15, 10)).toBe(10);
   });
   it("isInfiniteBetweenTrees", () => {
-    expect(wayBetween(tree, 0, 17)).toBe(Infinity);
+    expect(lengthBetween(tree, 0, 17)).toBe(Infinity);
   });
 });
 describe("gaps", () => {

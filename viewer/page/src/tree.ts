@@ -96,12 +96,12 @@ export class Tree {
   }
 
   /** Nodes from the root to the end of a branch: the way of a tool. */
-  wayTo(branch: number): number[] {
+  pathTo(branch: number): number[] {
     const record = this.branches[branch],
-      way: number[] = [];
+      path: number[] = [];
     for (let node = record.firstNode + record.nodeCount - 1; node >= 0; node = this.parent[node])
-      way.push(node);
-    return way.reverse();
+      path.push(node);
+    return path.reverse();
   }
 
   /** The node whose centre is nearest in terms of power |x - c|^2 - r^2. */

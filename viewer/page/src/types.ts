@@ -158,7 +158,7 @@ export type Event =
 
 export type Operation = { op: string; [key: string]: unknown };
 
-export interface Snap {
+export interface VesselAtClick {
   found: boolean;
   position: Vec3;
   radius: number;

@@ -47,16 +47,16 @@ export class WireTool {
       return;
     }
     this.remove();
-    const way = tree.wayTo(Math.max(0, selected)),
-      root = way[0],
-      next = way[Math.min(3, way.length - 1)];
+    const path = tree.pathTo(Math.max(0, selected)),
+      root = path[0],
+      next = path[Math.min(3, path.length - 1)];
     const from = tree.position(root),
       to = tree.position(next);
     const d: Vec3 =
       next === root ? tree.axis(root) : unit([to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
-    const all = way.length > 1 ? tree.rootDistance[way.at(-1)!] : 50;
+    const all = path.length > 1 ? tree.rootDistance[path.at(-1)!] : 50;
     const spacing = Math.max(0.5, Math.min(4, (1.15 * all) / kWire.count), 0.25 * tree.radius[root]);
-    const thin = Math.min(...way.map(n => tree.radius[n]));
+    const thin = Math.min(...path.map(n => tree.radius[n]));
     this.options = { ...this.options, spacing, radius: Math.min(0.35 * Math.max(thin, 0.1), 0.5) };
     this.wire = new Wire(blob, [from[0], from[1], from[2]], scale(d, 1), root, this.options);
     this.rest = kSettle;
@@ -112,8 +112,8 @@ export class WireTool {
 
   /** Whether a pointer that is pressed there takes hold of the wire. */
   isNear(scene: SceneView, x: number, y: number): boolean {
-    const kReach = 24; // pixels
-    return this.wire !== null && this.nearest(this.wire, scene, x, y).away < kReach;
+    const kReachPixels = 24; // pixels
+    return this.wire !== null && this.nearest(this.wire, scene, x, y).away < kReachPixels;
   }
   grab(scene: SceneView, x: number, y: number): boolean {
     this.last = this.isNear(scene, x, y) ? { x, y } : null;

@@ -49,7 +49,7 @@ struct CloseModel {
   void operator()(blob_model* model) const { blob_model_close(model); }
 };
 
-std::vector<SurfaceMesh> hullsOf(const ExportInput& input, const SurfaceMesh& mesh) {
+std::vector<SurfaceMesh> makeHulls(const ExportInput& input, const SurfaceMesh& mesh) {
   constexpr double kHeight = 0.5;         // radii: a wire sinks in by much less
   constexpr double kLeastVolume = 2e-15;  // m^3: MuJoCo refuses meshes of less than half of it
   const auto bytes = formats::encodeBinary(input.source);
@@ -89,7 +89,7 @@ ExportResult exportCathsim(const ExportInput& input) {
   ExportedSurface coarse = coarseSurface(input);
   requireFew(coarse.mesh);
   const ExportedSurface fine = lumenSurface(input);
-  const std::vector<SurfaceMesh> hulls = hullsOf(input, coarse.mesh);
+  const std::vector<SurfaceMesh> hulls = makeHulls(input, coarse.mesh);
   ExportResult result;
   result.ends = plainlyNamed(std::move(coarse.ends));
   result.files = {{"phantom_assets/vessel.xml", phantomText(input.frame, hulls.size(), result.ends),

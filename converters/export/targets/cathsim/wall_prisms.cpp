@@ -49,7 +49,7 @@ std::vector<Float3> raised(const SurfaceMesh& mesh, double share, const InLumen&
   return upper;
 }
 
-double volumeOf(const SurfaceMesh& mesh) {
+double measureVolume(const SurfaceMesh& mesh) {
   double sum = 0;
   const Eigen::Vector3d origin = toEigen(mesh.position.front());
   for (const auto& [a, b, c] : mesh.triangle)
@@ -75,7 +75,7 @@ std::vector<SurfaceMesh> wallPrisms(const SurfaceMesh& mesh, double share, doubl
     prism.group.assign(faces.size(), 0);
     for (const std::uint32_t v : mesh.triangle[t]) prism.position.push_back(mesh.position[v]);
     for (const std::uint32_t v : mesh.triangle[t]) prism.position.push_back(upper[v]);
-    if (volumeOf(prism) >= leastVolume) prisms.push_back(std::move(prism));
+    if (measureVolume(prism) >= leastVolume) prisms.push_back(std::move(prism));
   }
   return prisms;
 }

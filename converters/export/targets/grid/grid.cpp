@@ -73,12 +73,12 @@ Box3d boxOfRegion(const SurfaceMesh& wall, const TreeRegion& region) {
   return box;
 }
 
-std::vector<GridPlan> plansOf(const ExportInput& input, const GridOptions& options) {
+std::vector<GridPlan> planGrids(const ExportInput& input, const GridOptions& options) {
   const formats::CenterlineTree& tree = input.source.tree;
   const SurfaceMesh wall = quickSurface(input.source, input.progress);
   if (wall.position.empty())
     throw invalidInput("the models of this case have no wall, so there is no distance to it");
-  const Box3d box = boxOf(wall);
+  const Box3d box = boundingBox(wall);
   const double spacing = gridSpacing(input.options.spacing, box, kBorder, tree);
   const double border = (options.band ? *options.band : kBorder) + kBorderSamples * spacing;
   const Lattice whole = latticeOver(box, border, spacing);
@@ -91,13 +91,13 @@ std::vector<GridPlan> plansOf(const ExportInput& input, const GridOptions& optio
     TreeRegion region = regionOfBranch(tree, b);
     const Box3d own = boxOfRegion(wall, region);
     if (own.isEmpty()) continue;  // it has no wall of its own
-    plans.push_back({words[b] + ".", std::move(region), partOf(whole, own, border)});
+    plans.push_back({words[b] + ".", std::move(region), cropLattice(whole, own, border)});
   }
   return plans;
 }
 
 /// Branches by their numbers in a branch grid.
-VolumeNotes notesOf(const formats::CenterlineTree& tree) {
+VolumeNotes makeNotes(const formats::CenterlineTree& tree) {
   VolumeNotes notes = {{"lumen.distance", "mm, negative in the lumen"}};
   for (std::size_t b = 0; b < tree.branches.size(); ++b)
     notes["lumen.branch." + std::to_string(b + 1)] = formats::printable(tree.branches[b].label);
@@ -112,7 +112,7 @@ VolumeGeometry geometryOf(const Lattice& lattice) {
   return geometry;
 }
 
-std::vector<std::uint16_t> branchesOf(const DistanceGrid& grid) {
+std::vector<std::uint16_t> findBranches(const DistanceGrid& grid) {
   std::vector<std::uint16_t> branches;
   branches.reserve(grid.values.size());
   for (const WallDistance& value : grid.values)
@@ -163,14 +163,14 @@ private:
     auto& distances = std::get<std::vector<float>>(volume.voxels);
     for (const WallDistance& value : grid.values) distances.push_back(value.distance);
     addVolume(volume, "distance", kDistances);
-    volume.voxels = branchesOf(grid);
+    volume.voxels = findBranches(grid);
     addVolume(volume, "branch", kBranches);
   }
 
   void addVolume(const Volume& volume, const std::string& name, const std::string& about) {
     if (wants(m_options, GridFormat::Nrrd))
       add(name + ".nrrd",
-          encodeVolume(volume, VolumeFormat::Nrrd, true, notesOf(m_input.source.tree)), about);
+          encodeVolume(volume, VolumeFormat::Nrrd, true, makeNotes(m_input.source.tree)), about);
     if (wants(m_options, GridFormat::Nifti))
       add(name + ".nii.gz", encodeVolume(volume, VolumeFormat::Nifti, true), about);
   }
@@ -182,7 +182,7 @@ private:
       add(name + ".mhd", metaImageHeader(grid.lattice, type, raw), about + "; in `" + raw + "`");
       add(name + ".raw", std::move(bytes), "");
     };
-    const std::vector<std::uint16_t> branches = branchesOf(grid);
+    const std::vector<std::uint16_t> branches = findBranches(grid);
     addPair("distance", "MET_FLOAT", distanceBytes<float>(grid, 1), kDistances);
     addPair("branch", "MET_USHORT",
             {reinterpret_cast<const char*>(branches.data()), 2 * branches.size()}, kBranches);
@@ -212,7 +212,7 @@ ExportResult exportGrid(const ExportInput& input, const GridOptions& options) {
   requireSound(input, options);
   const VesselDistance vessels(input.source, options.exact);
   ExportResult result;
-  const std::vector<GridPlan> plans = plansOf(input, options);
+  const std::vector<GridPlan> plans = planGrids(input, options);
   for (const GridPlan& plan : plans)
     for (ExportFile& file : GridFiles(input, options, vessels, plan).make())
       result.files.push_back(std::move(file));
@@ -222,7 +222,7 @@ ExportResult exportGrid(const ExportInput& input, const GridOptions& options) {
   result.files.push_back(
       {"branches.json", branchTable(input.source.tree), "which number is which branch", ""});
   result.losses = gridLosses(plans.front().lattice.spacing, input.source.tree);
-  result.ends = endsOf(input.source.tree);
+  result.ends = findEnds(input.source.tree);
   result.start = options.perBranch
                      ? exportText("grid/per-branch.md")
                      : exportText("grid/one.md", {{"perBranch", kOption.perBranch.shown()}});

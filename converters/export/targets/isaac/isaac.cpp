@@ -41,8 +41,8 @@ const char* const kSource =
     "synthetic, made by lumen from a model of the vessels: soft tissue of 40 HU, lumen of 350 HU, "
     "mu = 0.02 / mm * (HU + 1000) / 4000";
 
-DistanceGrid gridOf(const ExportInput& input, const SurfaceMesh& wall) {
-  const Box3d box = boxOf(wall);
+DistanceGrid makeGrid(const ExportInput& input, const SurfaceMesh& wall) {
+  const Box3d box = boundingBox(wall);
   const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
   const VesselDistance vessels(input.source);
   // farther than a voxel from the wall, a voxel is all tissue or all lumen
@@ -55,7 +55,7 @@ std::vector<std::size_t> shapeOf(const Lattice& lattice) {
           static_cast<std::size_t>(lattice.size[0])};
 }
 
-std::string metadataOf(const Lattice& lattice) {
+std::string metadataText(const Lattice& lattice) {
   const double h = lattice.spacing;
   return Json{{"shape_zyx", shapeOf(lattice)},
               {"spacing_zyx_mm", {h, h, h}},
@@ -68,7 +68,7 @@ std::string metadataOf(const Lattice& lattice) {
 }
 
 /// A voxel that the wall cuts has a share of both, as in an image.
-std::string attenuationsOf(const DistanceGrid& grid) {
+std::string encodeAttenuations(const DistanceGrid& grid) {
   std::vector<float> mu;
   mu.reserve(grid.values.size());
   for (const WallDistance& value : grid.values) {
@@ -79,7 +79,7 @@ std::string attenuationsOf(const DistanceGrid& grid) {
   return encodeNpy(mu, shapeOf(grid.lattice));
 }
 
-std::string maskOf(const DistanceGrid& grid) {
+std::string encodeMask(const DistanceGrid& grid) {
   std::vector<std::uint8_t> mask;
   mask.reserve(grid.values.size());
   for (const WallDistance& value : grid.values) mask.push_back(value.distance < 0 ? 1 : 0);
@@ -103,10 +103,10 @@ void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid
   const auto add = [&](const char* name, std::string bytes, const char* about) {
     result.files.push_back({name, std::move(bytes), about, "mm"});
   };
-  add("metadata.json", metadataOf(grid.lattice), "the cache's grid, mm, LPS");
-  add("mu_volume.npy", attenuationsOf(grid),
+  add("metadata.json", metadataText(grid.lattice), "the cache's grid, mm, LPS");
+  add("mu_volume.npy", encodeAttenuations(grid),
       "**synthetic** attenuation, 1/mm: f32, in the order z, y, x");
-  add("vessel_mask.npy", maskOf(grid), "1 in the lumen: u8, in the order z, y, x");
+  add("vessel_mask.npy", encodeMask(grid), "1 in the lumen: u8, in the order z, y, x");
   add("centerline_points_mm.npy", encodeNpy(points, {nodes, 3}),
       "f32, x, y, z of each node, mm, LPS; the first is the root");
   add("centerline_edges.npy", encodeNpy(edges, {edges.size() / 2, 2}),
@@ -115,7 +115,7 @@ void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid
 }
 
 /// The wall as a solid, or, where that cannot be, the lumen's surface.
-ExportedSurface wallOf(const ExportInput& input, ExportResult& result) {
+ExportedSurface makeWall(const ExportInput& input, ExportResult& result) {
   ExportedSurface lumen = lumenSurface(input);
   WallAttempt attempt = tryWall(input, kWall, lumen.report);
   if (attempt.wall) return std::move(*attempt.wall);
@@ -128,9 +128,9 @@ ExportedSurface wallOf(const ExportInput& input, ExportResult& result) {
 
 ExportResult exportIsaac(const ExportInput& input) {
   ExportResult result;
-  ExportedSurface wall = wallOf(input, result);
+  ExportedSurface wall = makeWall(input, result);
   const SurfaceMesh shape = quickSurface(input.source, input.progress);
-  const DistanceGrid grid = gridOf(input, shape);
+  const DistanceGrid grid = makeGrid(input, shape);
   addCache(result, input, grid);
   result.files.push_back({"vessel.usda",
                           encodeUsda(wall.mesh, input.source.tree, wall.ends, input.frame),

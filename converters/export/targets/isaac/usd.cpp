@@ -54,15 +54,15 @@ std::string usdWord(const std::string& name) {
   return word.front() >= '0' && word.front() <= '9' ? "_" + word : word;
 }
 
-std::string extentOf(const SurfaceMesh& mesh) {
-  const Box3d box = boxOf(mesh);
+std::string extentText(const SurfaceMesh& mesh) {
+  const Box3d box = boundingBox(mesh);
   std::string text = "[";
   text += usdTuple(box.low) + ", " + usdTuple(box.high) + "]";
   return text;
 }
 
 /// Nodes of each branch, from the one that it starts at in its parent.
-std::vector<std::vector<std::size_t>> curvesOf(const formats::CenterlineTree& tree) {
+std::vector<std::vector<std::size_t>> collectCurves(const formats::CenterlineTree& tree) {
   std::vector<std::vector<std::size_t>> curves;
   for (const formats::Branch& branch : tree.branches) {
     std::vector<std::size_t> curve;
@@ -82,7 +82,7 @@ struct Curves {
 
 Curves centerline(const formats::CenterlineTree& tree, const ExportFrame& frame) {
   Curves made;
-  for (const auto& curve : curvesOf(tree)) {
+  for (const auto& curve : collectCurves(tree)) {
     made.counts.push_back(curve.size());
     for (const std::size_t place : curve) {
       made.points.push_back(frame.position(toEigen(tree.centre[place])));
@@ -132,7 +132,7 @@ std::string encodeUsda(const SurfaceMesh& mesh, const formats::CenterlineTree& t
        {"metres", numberText(0.001 / frame.scale())},
        {"up", frame.axes == Axes::Lsa ? "Y" : "Z"},
        {"resolution", std::to_string(kSdfResolution)},
-       {"extent", extentOf(mesh)},
+       {"extent", extentText(mesh)},
        {"counts", usdList(mesh.triangle.size(), [](std::size_t) { return std::string("3"); })},
        {"indices", usdList(3 * mesh.triangle.size(), index)},
        {"points", usdList(mesh.position.size(), point)},

@@ -65,19 +65,19 @@ Solid carvedOut(const ExportInput& input, double wireWidth) {
   return solid;
 }
 
-Solid solidOf(const ExportInput& input, double wireWidth) {
+Solid makeSolid(const ExportInput& input, double wireWidth) {
   const auto& thickness = input.options.surface.thickness;
   return thickness ? Solid{wallSurface(input, *thickness), true} : carvedOut(input, wireWidth);
 }
 
-constexpr double kLeast = 0.03, kMost = 0.08;  // m, of a wire
+constexpr double kShortestWire = 0.03, kLongestWire = 0.08;  // m, of a wire
 
 /// A wire as long as its path, up to where a chain gets slow: its cost grows with the square of its
 /// links.
 Wire wireFor(const Insertion& insertion) {
   constexpr double kMetres = 1e-3;
   Wire wire;
-  const double length = std::clamp(insertion.way * kMetres, kLeast, kMost);
+  const double length = std::clamp(insertion.pathLength * kMetres, kShortestWire, kLongestWire);
   wire.links = static_cast<int>(std::lround(length / wire.link));
   return wire;
 }
@@ -90,17 +90,18 @@ void shorten(Wire& wire, const std::vector<SurfaceMesh>& pieces, const ExportInp
       freeBehind(pieces, input.frame.position(insertion.position),
                  input.frame.direction(insertion.direction), wire.length(), wire.radius);
   if (free >= wire.length()) return;
-  if (free < kLeast)
-    throw invalidInput(
-        "branch " + formats::printable(input.source.tree.branches[insertion.branch].label) + ": " +
-        fixedText(1e3 * free, 1) +
-        " mm straight behind its beginning are free of other vessels, and a "
-        "guidewire that is pushed in there needs " +
-        fixedText(1e3 * kLeast, 0) + "; " + kOption.insert.shown() + " takes another branch");
+  if (free < kShortestWire)
+    throw invalidInput("branch " +
+                       formats::printable(input.source.tree.branches[insertion.branch].label) +
+                       ": " + fixedText(1e3 * free, 1) +
+                       " mm straight behind its beginning are free of other vessels, and a "
+                       "guidewire that is pushed in there needs " +
+                       fixedText(1e3 * kShortestWire, 0) + "; " + kOption.insert.shown() +
+                       " takes another branch");
   wire.links = static_cast<int>(free / wire.link);
 }
 
-struct Scene {
+struct MujocoScene {
   const ExportInput& input;
   const Solid& solid;
   std::size_t pieces = 0;
@@ -108,7 +109,7 @@ struct Scene {
   Wire wire;
 };
 
-std::string sceneText(const Scene& scene, WireSprings springs) {
+std::string sceneText(const MujocoScene& scene, WireSprings springs) {
   const ExportFrame& frame = scene.input.frame;
   std::string meshes, geoms, sites;
   for (std::size_t k = 0; k < scene.pieces; ++k) {
@@ -132,7 +133,7 @@ std::string sceneText(const Scene& scene, WireSprings springs) {
        {"controls", wireControls(scene.wire)}});
 }
 
-std::string startOf(const Scene& scene) {
+std::string startPose(const MujocoScene& scene) {
   const std::string pieces =
       scene.pieces == 1 ? "1 piece"
                         : std::to_string(scene.pieces) +
@@ -152,7 +153,7 @@ ExportResult exportMujoco(const ExportInput& input) {
   const Wire thickness;
   const Insertion insertion =
       findInsertion(input.source.tree, input.options.insert, thickness.radius * 1e3);
-  Solid solid = solidOf(input, 2e3 * thickness.radius);
+  Solid solid = makeSolid(input, 2e3 * thickness.radius);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   Wire wire = wireFor(insertion);
   // walls out of the wire's reach cost memory and time, and are most of a large tree
@@ -160,7 +161,7 @@ ExportResult exportMujoco(const ExportInput& input) {
                                     insertion.node, wire.length() * 1e3);
   const std::vector<SurfaceMesh> pieces = cutIntoPieces(solid.surface.mesh, kCells, kCellRadii);
   shorten(wire, pieces, input, insertion);
-  const Scene scene{input, solid, pieces.size(), insertion, wire};
+  const MujocoScene scene{input, solid, pieces.size(), insertion, wire};
 
   ExportResult result;
   result.files = {
@@ -171,7 +172,7 @@ ExportResult exportMujoco(const ExportInput& input) {
     result.files.push_back(
         {"meshes/wall_" + std::to_string(k) + ".stl", stlInMetres(pieces[k]), "", ""});
   result.others.push_back({"meshes/wall_*.stl", "the wall, in metres"});
-  result.start = startOf(scene);
+  result.start = startPose(scene);
   result.losses = treeLosses(input.source.tree);
   result.ends = std::move(solid.surface.ends);
   result.surface = std::move(solid.surface.report);

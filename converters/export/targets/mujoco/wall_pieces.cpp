@@ -25,7 +25,7 @@ struct Corner {
 using Facet = std::array<Corner, 3>;
 using Facets = std::vector<Facet>;
 
-Facets facetsOf(const SurfaceMesh& mesh) {
+Facets makeFacets(const SurfaceMesh& mesh) {
   Facets facets(mesh.triangle.size());
   for (std::size_t t = 0; t < facets.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -123,7 +123,7 @@ void split(Facets facets, std::size_t cells, double share, std::vector<Facets>& 
   }
 }
 
-SurfaceMesh meshOf(const Facets& facets) {
+SurfaceMesh makeMesh(const Facets& facets) {
   SurfaceMesh mesh;
   mesh.groups = {{"wall", FaceKind::Wall}};
   std::map<Float3, std::uint32_t> known;
@@ -154,10 +154,10 @@ SurfaceMesh meshOf(const Facets& facets) {
 
 std::vector<SurfaceMesh> cutIntoPieces(const SurfaceMesh& mesh, std::size_t cells, double share) {
   std::vector<Facets> pieces;
-  split(facetsOf(mesh), cells, share, pieces);
+  split(makeFacets(mesh), cells, share, pieces);
   if (pieces.size() == 1) return {mesh};
   std::vector<SurfaceMesh> meshes;
-  for (const Facets& piece : pieces) meshes.push_back(meshOf(piece));
+  for (const Facets& piece : pieces) meshes.push_back(makeMesh(piece));
   return meshes;
 }
 

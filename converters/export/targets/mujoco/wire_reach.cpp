@@ -21,7 +21,7 @@ namespace {
 
 using formats::CenterlineTree;
 
-std::vector<std::vector<std::uint32_t>> neighboursOf(const CenterlineTree& tree) {
+std::vector<std::vector<std::uint32_t>> findNeighbours(const CenterlineTree& tree) {
   std::vector<std::vector<std::uint32_t>> neighbours(tree.nodeCount());
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
     neighbours[a].push_back(b);
@@ -35,7 +35,7 @@ std::vector<std::vector<std::uint32_t>> neighboursOf(const CenterlineTree& tree)
 
 /// mm from `node` to each node; infinity where there is no path.
 std::vector<double> distancesFrom(const CenterlineTree& tree, std::uint32_t node) {
-  const auto neighbours = neighboursOf(tree);
+  const auto neighbours = findNeighbours(tree);
   std::vector<double> distance(tree.nodeCount(), std::numeric_limits<double>::infinity());
   const auto position = [&](std::uint32_t n) {
     const formats::Vec3f& c = tree.centre[n];
@@ -59,8 +59,8 @@ std::vector<double> distancesFrom(const CenterlineTree& tree, std::uint32_t node
 /// A piece as MuJoCo sees it: a box, in which the nearest triangle decides the side.
 class PieceSolid {
 public:
-  explicit PieceSolid(const SurfaceMesh& piece) : m_mesh(meshOf(piece)), m_tree(m_mesh) {
-    const Box3d box = boxOf(m_mesh);
+  explicit PieceSolid(const SurfaceMesh& piece) : m_mesh(makeMesh(piece)), m_tree(m_mesh) {
+    const Box3d box = boundingBox(m_mesh);
     m_low = box.low;
     m_high = box.high;
   }
@@ -75,7 +75,7 @@ public:
   }
 
 private:
-  static TriangleMesh meshOf(const SurfaceMesh& piece) {
+  static TriangleMesh makeMesh(const SurfaceMesh& piece) {
     TriangleMesh mesh;
     for (const Float3& p : piece.position) mesh.position.push_back(toEigen(p));
     mesh.triangle = piece.triangle;

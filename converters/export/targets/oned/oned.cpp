@@ -148,7 +148,7 @@ ExportResult exportOneD(const ExportInput& input) {
     lengthened += tree.lengthened;
     addTree(result, tree, t == 0 ? "vessels" : "vessels" + std::to_string(t + 1));
   }
-  result.ends = endsOf(network);
+  result.ends = findEnds(network);
   result.losses = network.messages;
   for (std::string& warning : pressureWarnings(network))
     result.losses.push_back(std::move(warning));

@@ -19,7 +19,7 @@ namespace {
 constexpr double kMetres = 1e-3;  // metres in a millimetre
 
 /// The cone with the segment's resistance.
-OneDVessel coneOf(const FlowSegment& segment) {
+OneDVessel equivalentCone(const FlowSegment& segment) {
   OneDVessel vessel;
   const double a = kMetres * segment.radii.front(), b = kMetres * segment.radii.back();
   vessel.length = kMetres * segment.length();
@@ -31,9 +31,9 @@ OneDVessel coneOf(const FlowSegment& segment) {
   return vessel;
 }
 
-class Builder {
+class OneDBuilder {
 public:
-  Builder(const FlowNetwork& network, std::uint32_t tree) : m_network(network), m_tree(tree) {}
+  OneDBuilder(const FlowNetwork& network, std::uint32_t tree) : m_network(network), m_tree(tree) {}
 
   OneDNetwork build() {
     requireOneInlet();
@@ -75,7 +75,7 @@ private:
         nodeOf[j] = addNode(m_network.joints[j].place);
     for (const FlowSegment& segment : m_network.segments) {
       if (m_network.joints[segment.from].tree != m_tree) continue;
-      OneDVessel vessel = coneOf(segment);
+      OneDVessel vessel = equivalentCone(segment);
       vessel.name = segment.name;
       vessel.from = nodeOf[segment.from];
       vessel.to = nodeOf[segment.to];
@@ -177,12 +177,12 @@ private:
 }  // namespace
 
 int OneDVessel::cells() const {
-  constexpr int kLeast = 5;
-  return std::max(kLeast, static_cast<int>(std::ceil(1e3 * length)));
+  constexpr int kFewestCells = 5;
+  return std::max(kFewestCells, static_cast<int>(std::ceil(1e3 * length)));
 }
 
 OneDNetwork oneDNetwork(const FlowNetwork& network, std::uint32_t tree) {
-  return Builder(network, tree).build();
+  return OneDBuilder(network, tree).build();
 }
 
 }  // namespace lumen::convert

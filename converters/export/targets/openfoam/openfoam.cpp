@@ -39,8 +39,8 @@ std::string foamVector(const Eigen::Vector3d& v) {
   return "(" + joinedNumbers(v, " ", kFoamDigits) + ")";
 }
 
-std::vector<Patch> patchesOf(const SurfaceMesh& mesh, const std::vector<NamedEnd>& ends) {
-  const std::vector<std::string> names = distinct(namesOf(mesh.groups), openFoamWord);
+std::vector<Patch> makePatches(const SurfaceMesh& mesh, const std::vector<NamedEnd>& ends) {
+  const std::vector<std::string> names = distinct(plainGroupNames(mesh.groups), openFoamWord);
   std::vector<Patch> patches;
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     if (std::find(mesh.group.begin(), mesh.group.end(), g) == mesh.group.end()) continue;
@@ -175,7 +175,7 @@ std::string cellsRemark(const FoamCells& cells) {
 ExportResult exportOpenFoam(const ExportInput& input) {
   ExportedSurface made = lumenSurface(input);
   const SurfaceMesh& mesh = made.mesh;
-  const std::vector<Patch> patches = patchesOf(mesh, made.ends);
+  const std::vector<Patch> patches = makePatches(mesh, made.ends);
   requireEnds(patches);
   const std::vector<Eigen::Vector3d> inside =
       deepestPoints(input.source.tree, mesh, input.frame, input.progress);

@@ -46,7 +46,7 @@ TriangleMesh trianglesOf(const SurfaceMesh& surface) {
 }  // namespace
 
 FoamCells foamCells(const SurfaceMesh& surface, double least) {
-  const Box3d box = boxOf(surface);
+  const Box3d box = boundingBox(surface);
   FoamCells cells;
   cells.atWall = std::max(2 * least / kAcross, std::sqrt(kLayers * areaOf(surface) / kMostAtWall));
   cells.acrossThinnest = 2 * least / cells.atWall;

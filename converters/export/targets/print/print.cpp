@@ -34,7 +34,7 @@ struct Thinnest {
 
 /// The least distance of a vertex of the lumen's side from the outer one. The mesh is a wall of
 /// closedSurface(): group 0 is the lumen's side, group 1 the outer one.
-Thinnest thinnestOf(const SurfaceMesh& mesh) {
+Thinnest findThinnest(const SurfaceMesh& mesh) {
   TriangleMesh outer;
   for (const Float3& p : mesh.position) outer.position.push_back(toEigen(p));
   std::vector<char> isInner(mesh.position.size(), 0);
@@ -79,7 +79,7 @@ ExportResult exportPrint(const ExportInput& input) {
     result.surface = std::move(core.report);
     return result;
   }
-  const Thinnest least = thinnestOf(attempt.wall->mesh);
+  const Thinnest least = findThinnest(attempt.wall->mesh);
   addSolid(result, "wall", attempt.wall->mesh, "a wall around the lumen as a solid");
   result.remarks.push_back(thicknessText(least));
   result.start += "\nChecked: " + thicknessText(least) + ".\n";

@@ -20,7 +20,7 @@ void appendFloat(std::string& text, float value) {
   formats::appendNumber(text, value == 0 ? 0.0F : value);  // without a sign of zero
 }
 
-std::string modelOf(const SurfaceMesh& mesh, const std::string& name) {
+std::string modelText(const SurfaceMesh& mesh, const std::string& name) {
   std::string vertices, triangles;
   for (const Float3& p : mesh.position) {
     vertices += "<vertex x=\"";
@@ -120,7 +120,7 @@ std::string encode3mf(const SurfaceMesh& mesh, const std::string& name) {
   Zip zip;
   zip.add("[Content_Types].xml", exportText("print/content_types.xml"));
   zip.add("_rels/.rels", exportText("print/relationships.xml"));
-  zip.add("3D/3dmodel.model", modelOf(mesh, name));
+  zip.add("3D/3dmodel.model", modelText(mesh, name));
   return zip.bytes();
 }
 

@@ -61,13 +61,13 @@ std::string contour(const BranchPath& path, std::size_t k, std::size_t id) {
 /// none on the parent's axis.
 std::vector<std::size_t> sections(const BranchPath& path, bool hasParent) {
   std::vector<std::size_t> chosen;
-  double way = 0, last = 0;
+  double along = 0, last = 0;
   const std::size_t first = hasParent ? 1 : 0, end = path.points.size() - 1;
   for (std::size_t k = first; k <= end; ++k) {
-    if (k > first) way += (path.points[k] - path.points[k - 1]).norm();
-    if (k > first && k < end && way - last < path.radii[k]) continue;
+    if (k > first) along += (path.points[k] - path.points[k - 1]).norm();
+    if (k > first && k < end && along - last < path.radii[k]) continue;
     chosen.push_back(k);
-    last = way;
+    last = along;
   }
   return chosen;
 }
@@ -194,7 +194,7 @@ void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const Vol
 ExportResult exportSimVascular(const ExportInput& input) {
   const std::vector<BranchPath> paths = branchPaths(input.source.tree);
   ExportedSurface made = lumenSurface(input);
-  const std::vector<std::string> names = distinct(namesOf(made.mesh.groups), openFoamWord);
+  const std::vector<std::string> names = distinct(plainGroupNames(made.mesh.groups), openFoamWord);
   ExportResult result;
   result.start = exportText("simvascular/README.md");
   result.files = {

@@ -84,7 +84,7 @@ Json pointJson(std::size_t id, const std::string& label, const std::string& desc
           {"positionStatus", "defined"}};
 }
 
-std::string markupsOf(const std::string& name, Json points) {
+std::string markupsText(const std::string& name, Json points) {
   const Json markup = {{"type", "Fiducial"},        {"name", name},
                        {"coordinateSystem", "LPS"}, {"coordinateUnits", "mm"},
                        {"labelFormat", "%N-%d"},    {"controlPoints", std::move(points)}};
@@ -95,7 +95,7 @@ std::string markupsOf(const std::string& name, Json points) {
 /// A control point for the beginning of each branch, with the description that spec/seeds.md has
 /// for facts that Slicer has no place for. A label with characters that end a word there is left
 /// out as a parent: tracking finds it by place.
-std::string seedsOf(const formats::CenterlineTree& tree) {
+std::string seedsText(const formats::CenterlineTree& tree) {
   Json points = Json::array();
   for (const formats::Branch& branch : tree.branches) {
     if (branch.nodeCount == 0) continue;
@@ -109,7 +109,7 @@ std::string seedsOf(const formats::CenterlineTree& tree) {
     points.push_back(pointJson(points.size() + 1, branch.label, description,
                                toEigen(tree.centre[branch.firstNode])));
   }
-  return markupsOf("seeds", std::move(points));
+  return markupsText("seeds", std::move(points));
 }
 
 std::string endMarkups(const std::vector<NamedEnd>& ends) {
@@ -117,7 +117,7 @@ std::string endMarkups(const std::vector<NamedEnd>& ends) {
   for (const NamedEnd& end : ends)
     points.push_back(pointJson(points.size() + 1, end.name,
                                "radius " + numberText(end.radius) + " mm", end.position));
-  return markupsOf("ends", std::move(points));
+  return markupsText("ends", std::move(points));
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ ExportResult exportSlicer(const ExportInput& input) {
   result.files = {{"scene.mrml", scene.text(), "opens all of the others", ""},
                   {"vessels.vtp", encodeVtp(made.mesh),
                    "the closed surface of the vessels, with radii and faces by name", ""},
-                  {"seeds.mrk.json", seedsOf(tree),
+                  {"seeds.mrk.json", seedsText(tree),
                    "where each branch begins; `lumen track` takes it as seeds", ""},
                   {"ends.mrk.json", endMarkups(made.ends), "the named ends", ""}};
   result.files.insert(result.files.end(), curves.begin(), curves.end());

@@ -33,19 +33,19 @@ double insertedRadius(InstrumentKind kind) {
   return greatest;
 }
 
-SceneInput inputOf(const ExportInput& asked, const SofaOptions& options) {
+SceneInput makeSceneInput(const ExportInput& asked, const SofaOptions& options) {
   // a coil has its own length; others are pushed to the end of the path, and end behind it
-  constexpr double kBehind = 20, kLeast = 80, kCurlShare = 1.6;
+  constexpr double kBehind = 20, kShortestInstrument = 80, kCurlShare = 1.6;
   const formats::CenterlineTree& tree = asked.source.tree;
   SceneInput input;
   input.insertion =
       findInsertion(tree, asked.options.insert, clearanceFor(insertedRadius(options.instrument)));
   input.branch = tree.branches[input.insertion.branch].label;
-  input.instruments =
-      makeInstruments(options.instrument, std::max(kLeast, input.insertion.way + kBehind),
-                      kCurlShare * input.insertion.radius);
+  input.instruments = makeInstruments(
+      options.instrument, std::max(kShortestInstrument, input.insertion.pathLength + kBehind),
+      kCurlShare * input.insertion.radius);
   if (options.instrument == InstrumentKind::Coil)
-    input.insertion.way = input.instruments.front().length();
+    input.insertion.pathLength = input.instruments.front().length();
   // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil,
   // whose beams are short and soft, is pressed through with shorter ones (tests/sofa/results.md)
   constexpr double kBeamsOnGrid = 2;
@@ -62,7 +62,7 @@ std::string pluginsOf(WallKind wall) {
   return wall == WallKind::Grid ? ", SofaDistanceGrid and SofaImplicitField" : "";
 }
 
-std::string startOf(const SceneInput& input, const SofaOptions& options) {
+std::string startText(const SceneInput& input, const SofaOptions& options) {
   std::string about;
   for (const std::string& line : aboutScene(input, options)) about += markdownText(line) + "\n";
   return exportText("sofa/README.md",
@@ -110,9 +110,9 @@ std::string insertedText(const SceneInput& input, const SofaOptions& options) {
 
 ExportResult exportSofa(const ExportInput& input, const SofaOptions& options) {
   ExportResult result;
-  SceneInput scene = inputOf(input, options);
+  SceneInput scene = makeSceneInput(input, options);
   ExportedSurface made = lumenSurface(input);
-  scene.box = boxOf(made.mesh);
+  scene.box = boundingBox(made.mesh);
   const std::vector<std::byte> bytes = formats::encodeBinary(input.source);
   if (options.wall == WallKind::Grid) addGridFiles(result, scene, input);
   addSceneFiles(result, scene, options);
@@ -122,7 +122,7 @@ ExportResult exportSofa(const ExportInput& input, const SofaOptions& options) {
                           {reinterpret_cast<const char*>(bytes.data()), bytes.size()},
                           "the case: its tree, radii, names and models",
                           ""});
-  result.start = startOf(scene, options);
+  result.start = startText(scene, options);
   result.remarks.push_back(insertedText(scene, options));
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);

@@ -29,8 +29,8 @@ int strokes(double length, double step) {
 }
 
 /// One action for each time step: BeamAdapter's numbers.
-std::vector<int> actionsOf(const SceneInput& input, double step) {
-  const double length = std::min(input.insertion.way, input.instruments.back().length() - 1);
+std::vector<int> planActions(const SceneInput& input, double step) {
+  const double length = std::min(input.insertion.pathLength, input.instruments.back().length() - 1);
   const int total = strokes(length, step);
   std::vector<int> actions;
   if (input.instruments.size() == 1) {
@@ -61,7 +61,7 @@ std::string spaced(const std::vector<std::string>& words) {
 
 void addActions(SceneItem& node, const SceneInput& input, const SofaOptions& options) {
   std::string times, actions;
-  const std::vector<int> list = actionsOf(input, options.step);
+  const std::vector<int> list = planActions(input, options.step);
   for (std::size_t k = 0; k < list.size(); ++k) {
     // half a step early, so that a sum of time steps that was rounded down is not late
     if (k > 0) times += ' ', actions += ' ';
@@ -131,7 +131,7 @@ double clearanceFor(double radius) {
 }
 
 int stepCount(const SceneInput& input, const SofaOptions& options) {
-  return static_cast<int>(actionsOf(input, options.step).size());
+  return static_cast<int>(planActions(input, options.step).size());
 }
 
 SceneItem makeScene(const SceneInput& input, const SofaOptions& options) {

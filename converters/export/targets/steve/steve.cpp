@@ -25,7 +25,7 @@ std::string tuple(const Eigen::Vector3d& v) {
   return vectorText(v, kFloatDigits);
 }
 
-std::string moduleOf(const std::vector<BranchPath>& paths) {
+std::string moduleText(const std::vector<BranchPath>& paths) {
   std::string branches;
   for (const BranchPath& path : paths) {
     branches += "    (\"" + path.name + "\", [\n";
@@ -49,7 +49,7 @@ ExportResult exportSteve(const ExportInput& input) {
   const ExportFrame centimetres{LengthUnit::Centimetre, Axes::Lps};
   ExportResult result;
   result.start = exportText("steve/README.md");
-  result.files = {{"vessels.py", moduleOf(paths),
+  result.files = {{"vessels.py", moduleText(paths),
                    "branches with their radii, insertion, mesh as a vessel tree", ""},
                   {"vessel.obj", encodeObj(turnedOver(made.mesh)),
                    "the closed surface of the vessels, its normals into the lumen", ""},

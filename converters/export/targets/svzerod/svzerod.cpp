@@ -95,7 +95,7 @@ Json conditionsJson(const FlowNetwork& network, const std::vector<std::string>& 
   return list;
 }
 
-Json modelOf(const FlowNetwork& network) {
+Json makeModel(const FlowNetwork& network) {
   const std::vector<std::string> joints = jointNames(network), vessels = vesselNames(network);
   Json junctions = Json::array(), list = Json::array();
   for (std::size_t j = 0; j < network.joints.size(); ++j) {
@@ -128,9 +128,9 @@ ExportResult exportSvZeroD(const ExportInput& input) {
   ExportResult result;
   result.start = exportText("svzerod/README.md");
   result.files = {{"model.json",
-                   modelOf(network).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                   makeModel(network).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                    "vessels, junctions, inlets and outlets", ""}};
-  result.ends = endsOf(network);
+  result.ends = findEnds(network);
   result.losses = network.messages;
   for (std::string& warning : pressureWarnings(network))
     result.losses.push_back(std::move(warning));

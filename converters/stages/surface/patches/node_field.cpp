@@ -14,14 +14,14 @@ namespace {
 
 using formats::Kernel;
 
-struct Row {
+struct BlobRow {
   double blobX, offAxis2, scale, width, cell;
   int first;
 };
 
 // Adds one blob to a row of samples. `row` by value: `out` cannot alias it.
 template <class K>
-[[gnu::always_inline]] inline void addBlob(Row row, double* out, int count) {
+[[gnu::always_inline]] inline void addBlob(BlobRow row, double* out, int count) {
   for (int i = 0; i < count; ++i) {
     const double dx = row.cell * (row.first + i) - row.blobX;
     out[i] += row.width * K::phi(row.scale * (dx * dx + row.offAxis2));
@@ -29,7 +29,7 @@ template <class K>
 }
 
 LUMEN_SIMD_CLONES
-void addBlobToRow(Kernel kernel, const Row& row, double* out, int count) {
+void addBlobToRow(Kernel kernel, const BlobRow& row, double* out, int count) {
   field::withKernel(
       kernel, [&](auto k)
                   __attribute__((always_inline)) { addBlob<decltype(k)>(row, out, count); });
@@ -86,7 +86,7 @@ void NodeField::sampleRow(int first, double cell, double y, double z, std::span<
   std::fill(out.begin(), out.end(), 0.0);
   for (std::size_t j = 0; j < m_width.size(); ++j) {
     const double dy = y - m_y[j], dz = z - m_z[j];
-    const Row row{m_x[j], dy * dy + dz * dz, m_scale[j], m_width[j], cell, first};
+    const BlobRow row{m_x[j], dy * dy + dz * dz, m_scale[j], m_width[j], cell, first};
     addBlobToRow(m_kernel, row, out.data(), static_cast<int>(out.size()));
   }
 }

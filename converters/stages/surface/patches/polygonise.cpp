@@ -95,7 +95,7 @@ SampleGrid layOutGrid(const NodeField& field, const std::vector<HalfSpace>& spac
       Interval part = lineInside(spaces, y, z, kCellDiagonal * cell);
       part.low = std::max(part.low, low.x() - cell);
       part.high = std::min(part.high, high.x() + cell);
-      SampleGrid::Row& row = grid.rows.emplace_back();
+      SampleGrid::SampleRow& row = grid.rows.emplace_back();
       row.offset = samples;
       if (part.low > part.high) continue;
       const NodeField::Range near = field.rangeNearInside(cell, y, z);
@@ -111,7 +111,7 @@ SampleGrid layOutGrid(const NodeField& field, const std::vector<HalfSpace>& spac
 
 void sampleField(const NodeField& field, SampleGrid& grid) {
   for (std::size_t r = 0; r < grid.rows.size(); ++r) {
-    const SampleGrid::Row& row = grid.rows[r];
+    const SampleGrid::SampleRow& row = grid.rows[r];
     const int y = grid.lowY + static_cast<int>(r % static_cast<std::size_t>(grid.rowsY));
     const int z = grid.lowZ + static_cast<int>(r / static_cast<std::size_t>(grid.rowsY));
     field.sampleRow(row.first, grid.cell, grid.cell * y, grid.cell * z,
@@ -264,7 +264,7 @@ Patches join(const Source& source, std::vector<NodePatch>& parts, Progress& prog
 
 }  // namespace
 
-double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
+double chooseCell(const formats::Case& source, const PolygoniseOptions& options) {
   if (!source.models)
     throw invalidInput(
         "the case has no models, and a mesh is made from them; lumen fit makes them");
@@ -278,7 +278,7 @@ double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
 
 Patches polygonise(const formats::Case& source, const PolygoniseOptions& options,
                    Progress& progress) {
-  const double cell = cellOf(source, options);
+  const double cell = chooseCell(source, options);
   checkCell(source, cell);
   const formats::Neighbours edges(source.tree);
   const field::BlendedField surface = formats::caseField(source);

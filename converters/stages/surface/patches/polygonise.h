@@ -36,7 +36,7 @@ struct Patches {
 };
 
 /// The edge of a cell, mm: the options' value, or the voxel size. Throws as polygonise() does.
-double cellOf(const formats::Case& source, const PolygoniseOptions& options);
+double chooseCell(const formats::Case& source, const PolygoniseOptions& options);
 
 /// The surface of a case as patches, one for each node (docs/method.md, section 5). For each node
 /// with blobs, marching cubes at the iso-level on a lattice that all nodes share, of the connected

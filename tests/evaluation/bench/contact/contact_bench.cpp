@@ -103,7 +103,7 @@ CaseResult runCase(const std::string& file, const Options& options) {
   const Wires wires = makeWires(owned.source.tree, vessel.model, load);
   if (wires.count() == 0) throw std::runtime_error(file + ": no vessel has two nodes");
   const std::vector<Truth> truth =
-      truthOf(exact, wires, wires.frames() - 1, std::min(kJudged, wires.environments));
+      computeTruth(exact, wires, wires.frames() - 1, std::min(kJudged, wires.environments));
   const std::vector<Kiss> kisses = findKisses(exact, owned.source.tree, kRays, kMostKisses);
   std::cerr << "  " << truth.size() << " points, " << kisses.size() << " kisses\n";
 

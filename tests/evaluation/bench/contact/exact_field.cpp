@@ -22,7 +22,7 @@ struct Edge {
 };
 using Edges = std::vector<std::vector<Edge>>;
 
-Edges edgesOf(const formats::CenterlineTree& tree) {
+Edges findEdges(const formats::CenterlineTree& tree) {
   Edges edges(tree.nodeCount());
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
     const double length =
@@ -40,21 +40,21 @@ Edges edgesOf(const formats::CenterlineTree& tree) {
 // Dijkstra's algorithm. Nodes behind one that is too far are visited too, as they may be wider.
 std::vector<std::uint32_t> vesselAround(const Edges& edges, const std::vector<double>& radius,
                                         double greatest, std::uint32_t station) {
-  constexpr double kReach = 4;
+  constexpr double kReachRadii = 4;
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
-  std::unordered_map<std::uint32_t, double> way{{station, 0.0}};
+  std::unordered_map<std::uint32_t, double> lengthTo{{station, 0.0}};
   std::vector<std::uint32_t> result;
   next.push({0.0, station});
   while (!next.empty()) {
     const auto [length, node] = next.top();
     next.pop();
-    if (length > way[node]) continue;
-    if (length <= kReach * (radius[station] + radius[node])) result.push_back(node);
+    if (length > lengthTo[node]) continue;
+    if (length <= kReachRadii * (radius[station] + radius[node])) result.push_back(node);
     for (const Edge& edge : edges[node]) {
       const double there = length + edge.length;
-      if (there > kReach * (radius[station] + greatest)) continue;
-      const auto [known, isNew] = way.try_emplace(edge.to, there);
+      if (there > kReachRadii * (radius[station] + greatest)) continue;
+      const auto [known, isNew] = lengthTo.try_emplace(edge.to, there);
       if (!isNew && known->second <= there) continue;
       known->second = there;
       next.push({there, edge.to});
@@ -73,7 +73,7 @@ ExactField::ExactField(const formats::Case& source)
   for (const formats::Vec3f& c : source.tree.centre)
     m_centre.insert(m_centre.end(), {c.x, c.y, c.z});
   m_radius.assign(source.tree.radius.begin(), source.tree.radius.end());
-  const Edges edges = edgesOf(source.tree);
+  const Edges edges = findEdges(source.tree);
   const double greatest = *std::max_element(m_radius.begin(), m_radius.end());
   tbb::parallel_for(std::size_t{0}, m_vessel.size(), [&](std::size_t i) {
     m_vessel[i] = vesselAround(edges, m_radius, greatest, static_cast<std::uint32_t>(i));

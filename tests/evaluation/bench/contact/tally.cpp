@@ -47,8 +47,8 @@ void countWires(const std::vector<Truth>& truth, const double* distance, Tally& 
   }
 }
 
-std::vector<Truth> truthOf(const ExactField& exact, const Wires& wires, std::size_t frame,
-                           std::size_t environments) {
+std::vector<Truth> computeTruth(const ExactField& exact, const Wires& wires, std::size_t frame,
+                                std::size_t environments) {
   std::vector<Truth> truth(environments * wires.points);
   tbb::parallel_for(std::size_t{0}, truth.size(), [&](std::size_t i) {
     const std::uint32_t station = wires.station[frame][i];

@@ -37,8 +37,8 @@ struct Tally {
 void countWires(const std::vector<Truth>& truth, const double* distance, Tally& tally);
 
 /// Truth at each point of a frame with N environments.
-std::vector<Truth> truthOf(const ExactField& exact, const Wires& wires, std::size_t frame,
-                           std::size_t environments);
+std::vector<Truth> computeTruth(const ExactField& exact, const Wires& wires, std::size_t frame,
+                                std::size_t environments);
 
 /// A point of a tool that is pushed out of its vessel.
 struct Kiss {

@@ -54,15 +54,15 @@ std::vector<Path> allPaths(const CenterlineTree& tree) {
 std::vector<Wire> drawWires(const std::vector<Path>& paths, const WireOptions& options) {
   std::mt19937_64 random(options.seed);
   const auto share = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const double way = options.advance * static_cast<double>(options.frames);
+  const double travel = options.advance * static_cast<double>(options.frames);
   std::vector<Wire> wires(options.environments);
   for (Wire& wire : wires) {
     wire.path = random() % paths.size();
     const double length = paths[wire.path].at.back();
     const auto gaps = static_cast<double>(options.points - 1);
-    wire.spacing = std::min(options.spacing, std::max(0.0, length - way) / gaps);
+    wire.spacing = std::min(options.spacing, std::max(0.0, length - travel) / gaps);
     const double shallowest = wire.spacing * gaps;
-    wire.tip = shallowest + share() * std::max(0.0, length - way - shallowest);
+    wire.tip = shallowest + share() * std::max(0.0, length - travel - shallowest);
     wire.phase = 2 * std::numbers::pi * share();
   }
   return wires;

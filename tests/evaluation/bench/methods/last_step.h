@@ -23,8 +23,8 @@ public:
   /// A bound on the distance of point i, now at p, mm; infinite in its first step.
   [[nodiscard]] float reach(std::size_t i, const float* p) const {
     constexpr float kRounding = 1e-4f;
-    const float way = std::sqrt(squareOf(p, m_point[i].data()));
-    return (m_distance[i] + way) * (1 + kRounding) + kRounding;
+    const float moved = std::sqrt(squareOf(p, m_point[i].data()));
+    return (m_distance[i] + moved) * (1 + kRounding) + kRounding;
   }
 
   void keep(std::size_t i, const float* p, double distance) {

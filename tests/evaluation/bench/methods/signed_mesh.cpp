@@ -74,19 +74,19 @@ const SignedMesh::Vector& SignedMesh::normalOf(std::uint32_t face, Feature featu
 
 void SignedMesh::answer(const float* p, const float* q, std::uint32_t face, Feature feature,
                         std::size_t i, const Answers& answers) const {
-  const float way[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-  const float distance = std::sqrt(dot3(way, way));
+  const float offset[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+  const float distance = std::sqrt(dot3(offset, offset));
   float sign = 1;
   Vector pseudo{};
   if (!m_face.empty()) {
     pseudo = normalOf(face, feature);
-    sign = dot3(way, pseudo.data()) < 0 ? -1.0f : 1.0f;
+    sign = dot3(offset, pseudo.data()) < 0 ? -1.0f : 1.0f;
   }
   answers.distance[i] = static_cast<double>(sign * distance);
   if (answers.normal[0] == nullptr) return;
   for (std::size_t k = 0; k < 3; ++k)
     answers.normal[k][i] =
-        static_cast<double>(distance > 1e-6f ? sign * way[k] / distance : pseudo[k]);
+        static_cast<double>(distance > 1e-6f ? sign * offset[k] / distance : pseudo[k]);
 }
 
 double SignedMesh::megabytes() const {

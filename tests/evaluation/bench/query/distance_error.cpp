@@ -50,22 +50,23 @@ void measure(const blob_model* model, const double* point, std::uint32_t cursor,
 
 void measure(const blob_model* model, std::vector<Band>& bands, Counts& counts) {
   constexpr int kPoints = 10;
-  constexpr double kReach = 2.0;  // radii
+  constexpr double kReachRadii = 2.0;  // radii
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> share(-1, 1);
   const auto count = static_cast<std::uint32_t>(blob_model_describe(model).node_count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const blob_node node = blob_model_node(model, i);
     for (int n = 0; n < kPoints;) {
-      double way[3], square = 0;
-      for (double& x : way) {
+      double direction[3], square = 0;
+      for (double& x : direction) {
         x = share(random);
         square += x * x;
       }
       if (square > 1) continue;
       ++n;
       double point[3];
-      for (int k = 0; k < 3; ++k) point[k] = node.centre[k] + kReach * node.radius * way[k];
+      for (int k = 0; k < 3; ++k)
+        point[k] = node.centre[k] + kReachRadii * node.radius * direction[k];
       measure(model, point, i, bands, counts);
     }
   }

@@ -43,7 +43,8 @@ double measure(Method& method, const Surface& surface, std::vector<double>& dist
   return best;
 }
 
-void compare(const std::vector<double>& truth, const std::vector<double>& found, Row& row) {
+void compare(const std::vector<double>& truth, const std::vector<double>& found,
+             MethodFigures& row) {
   std::vector<double> error;
   for (std::size_t i = 0; i < truth.size(); ++i)
     error.push_back(std::abs(std::abs(truth[i]) - std::abs(found[i])));
@@ -57,7 +58,8 @@ bool givesDistance(const std::string& method) {
          method.find("floor") == std::string::npos;
 }
 
-void runSurface(const std::string& what, bool atWall, Methods& methods, std::vector<Row>& rows) {
+void runSurface(const std::string& what, bool atWall, Methods& methods,
+                std::vector<MethodFigures>& rows) {
   const OwnedSurface owned = makeSurface(what, atWall);
   const Surface& surface = owned.surface;
   const Vessel& vessel = owned.owned.vessel;
@@ -68,7 +70,7 @@ void runSurface(const std::string& what, bool atWall, Methods& methods, std::vec
   for (const auto& method : methods) {
     method->prepare(vessel);
     method->place({surface.toolPoints, surface.points.data(), nullptr});
-    Row row;
+    MethodFigures row;
     row.surface = vessel.name;
     row.method = method->name();
     row.nanoseconds = measure(*method, surface, distances);
@@ -182,7 +184,7 @@ int run(int argc, char** argv) {
 #ifdef LUMEN_BENCH_FCL
   addFcl(methods, false);
 #endif
-  std::vector<Row> rows;
+  std::vector<MethodFigures> rows;
   for (const std::string& what : surfaces) runSurface(what, atWall, methods, rows);
   std::cout << markdown(rows) << "\nlocate among 10,000 nodes: " << locateTenThousand()
             << " ns\ntwo threads: " << twoThreads(makeSurface(surfaces.back(), atWall))

@@ -9,8 +9,9 @@
 namespace lumen::bench {
 namespace {
 
-double of(const std::vector<Row>& rows, const std::string& surface, const std::string& method) {
-  for (const Row& row : rows)
+double of(const std::vector<MethodFigures>& rows, const std::string& surface,
+          const std::string& method) {
+  for (const MethodFigures& row : rows)
     if (row.surface == surface && row.method == method) return row.nanoseconds;
   return 0;
 }
@@ -32,12 +33,12 @@ const char* colourOf(const std::string& method) {
 
 }  // namespace
 
-std::string markdown(const std::vector<Row>& rows) {
+std::string markdown(const std::vector<MethodFigures>& rows) {
   std::ostringstream out;
   out << "| surface | method | ns per query | times LOCAL | median error, mm | 99 % error, mm | MB "
          "|\n"
          "|---|---|---:|---:|---:|---:|---:|\n";
-  for (const Row& row : rows) {
+  for (const MethodFigures& row : rows) {
     const double local = of(rows, row.surface, "libblob LOCAL");
     out << "| " << row.surface << " | " << row.method << " | " << number(row.nanoseconds, 1)
         << " | " << number(row.nanoseconds / local, 2) << " | " << orDash(row.medianError, 5)
@@ -46,7 +47,7 @@ std::string markdown(const std::vector<Row>& rows) {
   return out.str();
 }
 
-std::string json(const std::vector<Row>& rows) {
+std::string json(const std::vector<MethodFigures>& rows) {
   std::ostringstream out;
   out << "[\n";
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -61,7 +62,7 @@ std::string json(const std::vector<Row>& rows) {
 }
 
 // Bars on a logarithmic axis, from 1 ns to 1 ms.
-std::string svg(const std::vector<Row>& rows) {
+std::string svg(const std::vector<MethodFigures>& rows) {
   constexpr int kLine = 20, kLeft = 300, kWidth = 600, kDecades = 6;
   const int height = 60 + kLine * static_cast<int>(rows.size());
   std::ostringstream out;

@@ -52,7 +52,7 @@ bool BlobField::load() {
 }
 
 // A domain that is no node is located by libblob, or here in the branch.
-std::uint32_t BlobField::cursorOf(const Vec3d& point, int domain) const {
+std::uint32_t BlobField::locateCursor(const Vec3d& point, int domain) const {
   if (domain >= 0 && static_cast<std::size_t>(domain) < m_vessel.nodeCount)
     return static_cast<std::uint32_t>(domain);
   return locate(m_vessel, point.data());
@@ -60,14 +60,14 @@ std::uint32_t BlobField::cursorOf(const Vec3d& point, int domain) const {
 
 int BlobField::getDomain(Vec3d& point, int domain) {
   if (model() == nullptr) return -1;
-  return static_cast<int>(blob_cursor_follow(model(), point.data(), cursorOf(point, domain)));
+  return static_cast<int>(blob_cursor_follow(model(), point.data(), locateCursor(point, domain)));
 }
 
 void BlobField::getValueAndGradient(Vec3d& point, double& value, Vec3d& gradient, int& domain) {
   value = 0;
   gradient.clear();
   if (model() == nullptr) return;
-  std::uint32_t cursor = cursorOf(point, domain);
+  std::uint32_t cursor = locateCursor(point, domain);
   blob_sample sample;
   blob_query(model(), m_flags, point.data(), &cursor, &sample);
   domain = static_cast<int>(cursor);
@@ -92,7 +92,7 @@ BlobField::Vec3d BlobField::getGradient(Vec3d& point, int& domain) {
 void BlobField::getHessian(Vec3d& point, Mat3x3& hessian) {
   hessian.clear();
   if (model() == nullptr) return;
-  std::uint32_t cursor = cursorOf(point, -1);
+  std::uint32_t cursor = locateCursor(point, -1);
   blob_hessian answer;
   blob_query_hessian(model(), m_flags, point.data(), &cursor, &answer);
   const double* h = answer.hessian;
@@ -101,7 +101,7 @@ void BlobField::getHessian(Vec3d& point, Mat3x3& hessian) {
 
 bool BlobField::computeSegIntersection(Vec3d& from, Vec3d& to, Vec3d& crossing, int domain) {
   if (model() == nullptr) return false;
-  std::uint32_t cursor = cursorOf(from, domain);
+  std::uint32_t cursor = locateCursor(from, domain);
   blob_hit hit;
   blob_segment_hit(model(), m_flags, from.data(), to.data(), &cursor, 0, 0, &hit);
   if (hit.hit != 0) crossing = Vec3d(hit.point[0], hit.point[1], hit.point[2]);
@@ -110,7 +110,7 @@ bool BlobField::computeSegIntersection(Vec3d& from, Vec3d& to, Vec3d& crossing, 
 
 void BlobField::projectPointonSurface(Vec3d& point, int domain) {
   if (model() == nullptr) return;
-  std::uint32_t cursor = cursorOf(point, domain);
+  std::uint32_t cursor = locateCursor(point, domain);
   blob_nearest_point nearest;
   blob_nearest(model(), m_flags, point.data(), &cursor, 0, 0, &nearest);
   point = Vec3d(nearest.point[0], nearest.point[1], nearest.point[2]);

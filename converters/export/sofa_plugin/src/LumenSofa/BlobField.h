@@ -65,7 +65,7 @@ protected:
   ~BlobField() override = default;
 
 private:
-  std::uint32_t cursorOf(const Vec3d& point, int domain) const;
+  std::uint32_t locateCursor(const Vec3d& point, int domain) const;
 
   VesselCase m_vessel;
   std::uint32_t m_flags = BLOB_BLENDED;

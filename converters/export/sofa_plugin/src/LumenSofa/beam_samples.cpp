@@ -6,11 +6,11 @@ namespace lumensofa {
 namespace {
 
 // Range of a beam along the instrument, by its interpolation, or else after the beams before it.
-struct Stretch {
+struct BeamRange {
   double begin, end;
 };
 
-Stretch stretchOf(const Beams& beams, sofa::Index beam, double before) {
+BeamRange beamRange(const Beams& beams, sofa::Index beam, double before) {
   const auto& placed = beams.d_curvAbsList.getValue();
   if (beam < placed.size()) return {placed[beam][0], placed[beam][1]};
   return {before, before + beams.d_lengthList.getValue()[beam]};
@@ -19,7 +19,7 @@ Stretch stretchOf(const Beams& beams, sofa::Index beam, double before) {
 void addSamples(Beams& beams, sofa::Index beam, unsigned perBeam, double radius,
                 std::vector<BeamSample>& samples) {
   const double before = samples.empty() ? 0 : samples.back().abscissa;
-  const Stretch stretch = stretchOf(beams, beam, before);
+  const BeamRange stretch = beamRange(beams, beam, before);
   BeamSample sample;
   sample.beam = beam;
   sample.radius = radius > 0 ? radius : beams.getBeamSection(beam)._r;

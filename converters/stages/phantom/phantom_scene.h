@@ -9,7 +9,7 @@
 
 namespace lumen::convert {
 
-struct Scene {
+struct PhantomScene {
   Design design;           ///< with its seeds
   VolumeGeometry grid;     ///< cubic voxels, before slices are averaged
   double slice = 1;        ///< thickness of a slice, voxels
@@ -18,11 +18,11 @@ struct Scene {
 
 /// The phantom `options.name` in a cube. The options are within their ranges. Throws Error(Usage)
 /// if the volume is too small for it, and Error(Cancelled).
-Scene sceneOfName(const PhantomOptions& options, Progress& progress);
+PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress);
 
 /// The trees of the SWC file `options.tree`, in millimetres, where the file has them, in a box
 /// around them. Throws Error(InvalidInput) for the file, and Error(Usage) for a voxel that makes
 /// too many voxels, with one that does not.
-Scene sceneOfTree(const PhantomOptions& options, Progress& progress);
+PhantomScene sceneOfTree(const PhantomOptions& options, Progress& progress);
 
 }  // namespace lumen::convert

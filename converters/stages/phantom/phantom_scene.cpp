@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/phantom/scene.h"
+#include "converters/stages/phantom/phantom_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,8 +96,8 @@ std::string labelOf(std::size_t index) {
   return std::string("b").append(paddedNumber(index, 3));
 }
 
-Design designOf(const CenterlineFile& file, double voxel, const std::string& name,
-                const Progress& progress) {
+Design makeDesign(const CenterlineFile& file, double voxel, const std::string& name,
+                  const Progress& progress) {
   const std::vector<SmoothVessel> vessels = smoothVessels(file, 0.1 * voxel);
   if (vessels.size() > formats::kMaxBranches)
     throw invalidInput(name + ": has " + std::to_string(vessels.size()) +
@@ -112,7 +112,7 @@ Design designOf(const CenterlineFile& file, double voxel, const std::string& nam
 
 }  // namespace
 
-Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
+PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
   const std::map<std::string, std::function<Design(const Frame&)>> small = {
       {"tube", designTube},
       {"helix", designHelix},
@@ -136,7 +136,7 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   if (patient && frame.extent < kSmallestPatient)
     throw Error(ErrorKind::Usage, "phantom: the volume is " + fixedText(frame.extent, 6) +
                                       " mm wide, expected at least 25 mm for 'patient'");
-  Scene scene;
+  PhantomScene scene;
   scene.design = patient ? designPatient(frame, options.seed, progress) : found->second(frame);
   fadeContrast(scene.design, options.fade);
   loseFlow(parseClutter(options.clutter), options.seed, scene.design);
@@ -156,13 +156,13 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   return scene;
 }
 
-Scene sceneOfTree(const PhantomOptions& options, Progress& progress) {
+PhantomScene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   const std::string name = formats::printable(options.tree.string());
   const CenterlineFile file = readSwc(options.tree);
   checkEffort(file, options.voxel, name);
-  Scene scene;
+  PhantomScene scene;
   scene.treeSha256 = digestOfFile(options.tree).sha256;
-  scene.design = designOf(file, options.voxel, name, progress);
+  scene.design = makeDesign(file, options.voxel, name, progress);
   fadeContrast(scene.design, options.fade);
   loseFlow(parseClutter(options.clutter), options.seed, scene.design);
   Box3d box;
