@@ -162,7 +162,8 @@ protected:
   [[nodiscard]] Effect made(const Input& input, const std::string& output,
                             const Given& options) const {
     Effect effect = effectOf(operationOf("convert", {input.file, output}, options));
-    effect.answer.clear();
+    // answers hold times, which no option decides: that of repeats is all that is compared
+    effect.answer = effect.answer.find("\"repeats\":{") != std::string::npos ? "repeats" : "";
     return effect;
   }
 
