@@ -3,12 +3,12 @@
 
 #include <cerrno>
 #include <span>
-#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 
 #include "converters/base/error.h"
+#include "formats/case/file_descriptor.h"
 #include "formats/container/printable.h"
 
 namespace lumen {
@@ -22,7 +22,7 @@ std::string nameOf(const fs::path& file) {
 }
 
 std::string reason() {
-  return std::generic_category().message(errno);
+  return formats::systemErrorText(errno);
 }
 
 std::string sizeText(std::uint64_t bytes) {

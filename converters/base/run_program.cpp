@@ -98,7 +98,7 @@ struct Opened {
 };
 
 /// Data for the child, prepared before it starts. Streams that are -1 stay unchanged.
-struct Child {
+struct StartedProgram {
   const char* program;
   char* const* arguments;
   const char* folder;
@@ -106,7 +106,7 @@ struct Child {
 };
 
 /// Uses only calls that are allowed between fork and exec in a process with several threads.
-[[noreturn]] void runChild(const Child& child) {
+[[noreturn]] void runChild(const StartedProgram& child) {
   // Ctrl-C reaches both; the parent kills the child, and so does the parent's own end
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);

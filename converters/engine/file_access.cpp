@@ -14,6 +14,7 @@
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
 #include "formats/case/atomic_file.h"
+#include "formats/case/file_descriptor.h"
 
 namespace lumen::engine {
 
@@ -27,7 +28,7 @@ std::string errorText(const fs::path& file, formats::Issue error) {
   if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
   // nothing of a file that cannot be read or written has a place
   if (error.offset || error.pointer) return prefix + error.text();
-  const bool isLimit = error.message.ends_with(std::generic_category().message(EFBIG));
+  const bool isLimit = error.message.ends_with(formats::systemErrorText(EFBIG));
   return prefix + error.message + (isLimit ? " (ulimit -f prints the shell's limit)" : "");
 }
 

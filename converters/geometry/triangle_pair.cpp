@@ -15,19 +15,19 @@ namespace lumen::convert {
 namespace {
 
 using Point = Eigen::Vector3d;
-using Corners = std::array<Point, 3>;
+using TrianglePoints = std::array<Point, 3>;
 using Flat = std::array<Eigen::Vector2d, 3>;
 
 Eigen::Vector2d drop(const Point& p, int axis) {
   return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
 }
 
-Flat drop(const Corners& t, int axis) {
+Flat drop(const TrianglePoints& t, int axis) {
   return {drop(t[0], axis), drop(t[1], axis), drop(t[2], axis)};
 }
 
 // An axis whose projection keeps the triangle's area; empty if it has no area.
-std::optional<int> projectionAxis(const Corners& t) {
+std::optional<int> projectionAxis(const TrianglePoints& t) {
   int widest = 0;
   (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs().maxCoeff(&widest);
   for (const int axis : {widest, (widest + 1) % 3, (widest + 2) % 3})
@@ -64,7 +64,8 @@ bool segmentMeetsFlat(const Flat& t, const Eigen::Vector2d& a, const Eigen::Vect
 }
 
 // Sides of a and b with respect to the triangle's plane.
-bool segmentMeetsTriangle(const Corners& t, const Point& a, const Point& b, int sideA, int sideB) {
+bool segmentMeetsTriangle(const TrianglePoints& t, const Point& a, const Point& b, int sideA,
+                          int sideB) {
   if (sideA * sideB > 0) return false;
   if (sideA == 0 && sideB == 0) {
     const int axis = projectionAxis(t).value_or(0);
@@ -74,12 +75,12 @@ bool segmentMeetsTriangle(const Corners& t, const Point& a, const Point& b, int 
                orientation(a, b, t[2], t[0]));
 }
 
-bool segmentMeetsTriangle(const Corners& t, const Point& a, const Point& b) {
+bool segmentMeetsTriangle(const TrianglePoints& t, const Point& a, const Point& b) {
   return segmentMeetsTriangle(t, a, b, orientation(t[0], t[1], t[2], a),
                               orientation(t[0], t[1], t[2], b));
 }
 
-bool flatTrianglesMeet(const Corners& one, const Corners& other) {
+bool flatTrianglesMeet(const TrianglePoints& one, const TrianglePoints& other) {
   const int axis = projectionAxis(one).value_or(0);
   const Flat a = drop(one, axis), b = drop(other, axis);
   for (std::size_t i = 0; i < 3; ++i)
@@ -87,7 +88,7 @@ bool flatTrianglesMeet(const Corners& one, const Corners& other) {
   return isInTriangle(b, a[0]);
 }
 
-bool trianglesMeet(const Corners& one, const Corners& other) {
+bool trianglesMeet(const TrianglePoints& one, const TrianglePoints& other) {
   std::array<int, 3> sideOther{}, sideOne{};
   for (std::size_t i = 0; i < 3; ++i) sideOther[i] = orientation(one[0], one[1], one[2], other[i]);
   const auto [low, high] = std::minmax_element(sideOther.begin(), sideOther.end());
@@ -105,7 +106,7 @@ bool trianglesMeet(const Corners& one, const Corners& other) {
 }
 
 // Two triangles on the edge from t[0] to t[1], with tips t[2] and `tip`.
-bool isFolded(const Corners& t, const Point& tip) {
+bool isFolded(const TrianglePoints& t, const Point& tip) {
   if (orientation(t[0], t[1], t[2], tip) != 0) return false;
   const int axis = projectionAxis(t).value_or(0);
   const Flat flat = drop(t, axis);
@@ -122,14 +123,14 @@ std::size_t indexOf(const Triangle& t, std::uint32_t vertex) {
   return static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
 }
 
-Corners cornersOf(const TriangleMesh& mesh, const Triangle& t) {
+TrianglePoints cornersOf(const TriangleMesh& mesh, const Triangle& t) {
   return {mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]};
 }
 
 bool meetBeyondVertex(const TriangleMesh& mesh, const Triangle& one, const Triangle& other,
                       std::uint32_t shared) {
-  const Corners a = cornersOf(mesh, turned(one, indexOf(one, shared)));
-  const Corners b = cornersOf(mesh, turned(other, indexOf(other, shared)));
+  const TrianglePoints a = cornersOf(mesh, turned(one, indexOf(one, shared)));
+  const TrianglePoints b = cornersOf(mesh, turned(other, indexOf(other, shared)));
   return segmentMeetsTriangle(a, b[1], b[2]) || segmentMeetsTriangle(b, a[1], a[2]);
 }
 

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <span>
 #include <string_view>
-#include <system_error>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -14,28 +13,25 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "formats/case/file_descriptor.h"
 
 namespace lumen::convert {
 
 namespace {
 
-constexpr std::string_view kFormat = "lumen library check, ";
+constexpr std::string_view kJournalFormat = "lumen library check, ";
 constexpr std::size_t kMark = 64;  // digits of a digest
-constexpr std::size_t kMostBytes = std::size_t{1}
-                                   << 28;  // more than all cases that a library may have
-
-std::string errorText(int code) {
-  return std::generic_category().message(code);
-}
+constexpr std::size_t kMostJournalBytes = std::size_t{1}
+                                          << 28;  // more than all cases that a library may have
 
 std::string readAll(int descriptor, const std::filesystem::path& file) {
   std::string text;
   std::array<char, 65536> piece{};
   std::ptrdiff_t n = 0;
   while ((n = formats::readInto(std::as_writable_bytes(std::span(piece)), descriptor)) != 0) {
-    if (n < 0) throw failed(file.string() + ": cannot be read: " + errorText(errno));
+    if (n < 0) throw failed(file.string() + ": cannot be read: " + formats::systemErrorText(errno));
     text.append(piece.data(), static_cast<std::size_t>(n));
-    if (text.size() > kMostBytes)
+    if (text.size() > kMostJournalBytes)
       throw invalidInput(file.string() + ": found more than 256 MiB, expected a file that " +
                          kOption.resume.shown() + " made");
   }
@@ -44,7 +40,7 @@ std::string readAll(int descriptor, const std::filesystem::path& file) {
 
 void writeText(int descriptor, std::string_view text, const std::filesystem::path& file) {
   if (!formats::writeAll(std::as_bytes(std::span(text)), descriptor))
-    throw failed(file.string() + ": cannot be written: " + errorText(errno));
+    throw failed(file.string() + ": cannot be written: " + formats::systemErrorText(errno));
 }
 
 }  // namespace
@@ -54,7 +50,7 @@ CheckJournal::CheckJournal(const std::filesystem::path& file, const std::string&
   constexpr int kFlags = O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK;
   m_descriptor = formats::FileDescriptor(::open(file.c_str(), kFlags, 0666));
   if (!m_descriptor.isOpen())
-    throw failed(file.string() + ": cannot be opened: " + errorText(errno));
+    throw failed(file.string() + ": cannot be opened: " + formats::systemErrorText(errno));
   struct stat status {};
   if (fstat(m_descriptor.get(), &status) != 0 || !S_ISREG(status.st_mode))
     throw invalidInput(file.string() + ": found no file, expected one that " +
@@ -63,18 +59,18 @@ CheckJournal::CheckJournal(const std::filesystem::path& file, const std::string&
     throw failed(file.string() +
                  ": another check is using this file; wait for it, or name another");
   read(readAll(m_descriptor.get(), file),
-       std::string(kFormat) + "lumen " LUMEN_VERSION ", of " + libraryId + "\n");
+       std::string(kJournalFormat) + "lumen " LUMEN_VERSION ", of " + libraryId + "\n");
 }
 
 /// A line for each case: the mark, a space, the id. The rest of a line that a killed check left is
 /// cut off.
 void CheckJournal::read(const std::string& text, const std::string& head) {
-  if (!text.empty() && !text.starts_with(kFormat))
+  if (!text.empty() && !text.starts_with(kJournalFormat))
     throw invalidInput(m_file.string() + ": found something else, expected a file that " +
                        kOption.resume.shown() + " made; it is left as it is");
   if (!text.starts_with(head)) {
     if (ftruncate(m_descriptor.get(), 0) != 0)
-      throw failed(m_file.string() + ": cannot be written: " + errorText(errno));
+      throw failed(m_file.string() + ": cannot be written: " + formats::systemErrorText(errno));
     writeText(m_descriptor.get(), head, m_file);
     return;
   }
@@ -84,7 +80,7 @@ void CheckJournal::read(const std::string& text, const std::string& head) {
     m_marks[text.substr(begin + kMark + 1, end - begin - kMark - 1)] = text.substr(begin, kMark);
   }
   if (begin < text.size() && ftruncate(m_descriptor.get(), static_cast<off_t>(begin)) != 0)
-    throw failed(m_file.string() + ": cannot be written: " + errorText(errno));
+    throw failed(m_file.string() + ": cannot be written: " + formats::systemErrorText(errno));
 }
 
 bool CheckJournal::knows(const std::string& caseId, const std::string& mark) const {

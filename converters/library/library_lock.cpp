@@ -3,7 +3,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include <sys/stat.h>
 
 #include "converters/base/error.h"
+#include "formats/case/file_descriptor.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -40,8 +40,7 @@ formats::FileDescriptor openLibraryFolder(const std::filesystem::path& library) 
   if (code == ENOENT) throw invalidInput(name + ": there is no such library");
   if (code == ENOTDIR)
     throw invalidInput(name + ": found a file, expected the folder of a library");
-  throw invalidInput(name +
-                     ": this library cannot be read: " + std::generic_category().message(code));
+  throw invalidInput(name + ": this library cannot be read: " + formats::systemErrorText(code));
 }
 
 LibraryLock::LibraryLock(const std::filesystem::path& library, Progress& progress, Use use) {

@@ -9,7 +9,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 16;
+constexpr std::size_t kComparedPiece = std::size_t{1} << 16;
 // The longest line is that of the parts of a library: 100,000 ids of 64 letters. Longer ones are
 // cut, so they differ.
 constexpr std::size_t kLongest = std::size_t{1} << 24;
@@ -45,7 +45,7 @@ bool LineComparison::peek() {
     m_progress.check();
     m_buffer.erase(0, m_at);
     m_at = 0;
-    std::string piece = m_stream->read(kPiece);
+    std::string piece = m_stream->read(kComparedPiece);
     if (piece.empty()) break;
     m_buffer += piece;
   }

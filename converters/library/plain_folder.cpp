@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <memory>
 #include <span>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
 #include "converters/library/library_lock.h"
+#include "formats/case/file_descriptor.h"
 
 namespace lumen::convert {
 
@@ -27,10 +27,6 @@ constexpr std::size_t kPiece = std::size_t{1} << 18;  // bytes: read at once
 struct CloseFolder {
   void operator()(DIR* folder) const { closedir(folder); }
 };
-
-std::string errorText(int code) {
-  return std::generic_category().message(code);
-}
 
 PlainRead fault(PlainFault kind, std::string found) {
   PlainRead read;
@@ -46,14 +42,15 @@ PlainRead openFault(int folder, const char* name, int code) {
   const bool isKind = code == ELOOP || code == ENOTDIR || code == ENXIO || code == ENODEV;
   if (isKind && fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0)
     return fault(PlainFault::Kind, kindText(status.st_mode));
-  return fault(PlainFault::Unreadable, errorText(code));
+  return fault(PlainFault::Unreadable, formats::systemErrorText(code));
 }
 
 /// The file or folder of that path below `root`, through folders only; O_NONBLOCK, as a pipe would
 /// wait for a writer.
 std::pair<FileDescriptor, PlainRead> openBelow(int root, const std::string& path, int flags) {
   FileDescriptor at(openat(root, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!at.isOpen()) return {FileDescriptor(), fault(PlainFault::Unreadable, errorText(errno))};
+  if (!at.isOpen())
+    return {FileDescriptor(), fault(PlainFault::Unreadable, formats::systemErrorText(errno))};
   for (std::size_t begin = 0; begin < path.size();) {
     const std::size_t end = std::min(path.find('/', begin), path.size());
     const std::string name = path.substr(begin, end - begin);
@@ -82,7 +79,7 @@ PlainRead readOpen(int file, std::uint64_t size, bool isKept, const Progress& pr
   while (total <= size) {
     progress.check();
     const std::ptrdiff_t n = formats::readInto(piece, file);
-    if (n < 0) return fault(PlainFault::Unreadable, errorText(errno));
+    if (n < 0) return fault(PlainFault::Unreadable, formats::systemErrorText(errno));
     if (n == 0) break;
     const std::span bytes(piece.data(), static_cast<std::size_t>(n));
     digest.add(bytes);
@@ -142,7 +139,8 @@ PlainRead PlainFolder::read(const std::string& path, const WantedRead& wanted,
   if (result.fault != PlainFault::None) return result;
   struct stat before {};
   struct stat after {};
-  if (fstat(file.get(), &before) != 0) return fault(PlainFault::Unreadable, errorText(errno));
+  if (fstat(file.get(), &before) != 0)
+    return fault(PlainFault::Unreadable, formats::systemErrorText(errno));
   if (!S_ISREG(before.st_mode)) return fault(PlainFault::Kind, kindText(before.st_mode));
   const auto size = static_cast<std::uint64_t>(before.st_size);
   if (!wanted.bytes || *wanted.bytes == size) {
@@ -160,7 +158,7 @@ PlainRead PlainFolder::list(const std::string& path,
   auto [folder, result] = openBelow(m_descriptor.get(), path, O_DIRECTORY);
   if (result.fault != PlainFault::None) return result;
   const std::unique_ptr<DIR, CloseFolder> stream(fdopendir(folder.get()));
-  if (!stream) return fault(PlainFault::Unreadable, errorText(errno));
+  if (!stream) return fault(PlainFault::Unreadable, formats::systemErrorText(errno));
   const int descriptor = folder.release();  // it is the stream's now
   PlainEntry entry;
   while (true) {
@@ -172,7 +170,7 @@ PlainRead PlainFolder::list(const std::string& path,
     if (fstatat(descriptor, next->d_name, &entry.status, AT_SYMLINK_NOFOLLOW) != 0) continue;
     if (!see(entry)) return result;
   }
-  if (errno != 0) return fault(PlainFault::Unreadable, errorText(errno));
+  if (errno != 0) return fault(PlainFault::Unreadable, formats::systemErrorText(errno));
   return result;
 }
 

@@ -18,7 +18,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 1U << 20U;  // size of a file of keys: thousands of signers
+constexpr std::size_t kMostKeyBytes = 1U << 20U;  // size of a file of keys: thousands of signers
 
 // minisign(1): sizes of the contents of its files, in bytes; each begins with two that name the
 // algorithm
@@ -91,7 +91,7 @@ bool readOpenSsh(const std::vector<std::string>& lines, KeyFile& key) {
 }  // namespace
 
 KeyFile readKeyFile(const std::filesystem::path& file) {
-  const std::string text = readWholeFile(file, "key file", kMostBytes);
+  const std::string text = readWholeFile(file, "key file", kMostKeyBytes);
   KeyFile key;
   key.file = file;
   const std::vector<std::string> lines = splitLines(text);

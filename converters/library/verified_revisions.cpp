@@ -15,6 +15,7 @@
 #include "converters/library/json_values.h"
 #include "formats/case/atomic_file.h"
 #include "formats/case/case_file.h"
+#include "formats/case/file_descriptor.h"
 
 namespace lumen::convert {
 
@@ -86,8 +87,8 @@ VerifiedRevisions::VerifiedRevisions(const fs::path& file) : m_file(file) {
   const fs::path lock = file.string() + ".lock";
   m_lock = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (m_lock < 0)
-    throw failed(lock.string() + ": cannot be made: " + std::generic_category().message(errno) +
-                 "; " + kOption.state.shown() + " FILE names another place");
+    throw failed(lock.string() + ": cannot be made: " + formats::systemErrorText(errno) + "; " +
+                 kOption.state.shown() + " FILE names another place");
   while (flock(m_lock, LOCK_EX) != 0 && errno == EINTR) continue;
   try {
     m_libraries = readState(file);

@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "formats/case/file_descriptor.h"
+
 namespace lumen::formats {
 namespace {
 
@@ -28,7 +30,7 @@ constexpr mode_t kNewFolderMode = 0777;
 
 Issue writeError(const fs::path& file, const std::string& what, int code) {
   return {ErrorCode::IoWrite, std::nullopt,
-          file.string() + ": " + what + ": " + std::generic_category().message(code)};
+          file.string() + ": " + what + ": " + systemErrorText(code)};
 }
 
 // The file that `file` leads to through symbolic links, whether it exists or not.

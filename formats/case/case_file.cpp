@@ -3,7 +3,6 @@
 
 #include <cerrno>
 #include <optional>
-#include <system_error>
 
 #include <sys/stat.h>
 
@@ -47,7 +46,7 @@ std::optional<Case> decode(std::span<const std::byte> bytes, IssueList& issues) 
 
 Expected<std::vector<std::byte>> readFileBytes(const fs::path& file) {
   const FileDescriptor open = openForReading(file);
-  const auto reason = [] { return std::generic_category().message(errno); };
+  const auto reason = [] { return systemErrorText(errno); };
   if (!open.isOpen())
     return ioError(errno == ENOENT || errno == ENOTDIR ? ErrorCode::IoMissing : ErrorCode::IoRead,
                    file, reason());

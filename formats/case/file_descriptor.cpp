@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/case/file_descriptor.h"
 
+#include <system_error>
+
 #include <fcntl.h>
 #include <unistd.h>
 
 namespace lumen::formats {
+
+std::string systemErrorText(int code) {
+  return std::generic_category().message(code);
+}
 
 FileDescriptor::~FileDescriptor() {
   if (m_descriptor < 0) return;

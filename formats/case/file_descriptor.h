@@ -6,11 +6,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <utility>
 
 #include <sys/types.h>
 
 namespace lumen::formats {
+
+/// The message of an error number of the system, such as errno.
+std::string systemErrorText(int code);
 
 /// Retries a system call that a signal interrupted.
 template <class Call>

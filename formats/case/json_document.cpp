@@ -17,7 +17,7 @@
 namespace lumen::formats {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using PairArray = std::vector<std::array<std::uint32_t, 2>>*;
 
 // Builds the values; m_error holds the reason where a function returns false.
@@ -35,7 +35,7 @@ public:
 
   bool beginObject() override {
     if (m_array) return wrongType("an object", "a number");
-    return open(json::object());
+    return open(Json::object());
   }
   bool endObject() override { return close(); }
 
@@ -56,7 +56,7 @@ public:
       m_index = 0;
       return true;
     }
-    return open(json::array());
+    return open(Json::array());
   }
 
   bool endArray() override {
@@ -84,7 +84,7 @@ public:
 private:
   // An open object or array.
   struct Level {
-    json* value;
+    Json* value;
     std::string key;             // key of the member being read, in an object
     std::set<std::string> keys;  // keys so far, in an object
   };
@@ -129,7 +129,7 @@ private:
     return std::holds_alternative<PairArray>(*m_array) ? 2 : 0;
   }
 
-  json* attach(json value) {
+  Json* attach(Json value) {
     if (m_levels.empty()) {
       m_root = std::move(value);
       return &m_root;
@@ -141,14 +141,14 @@ private:
     return &level.value->back();
   }
 
-  bool scalar(json value) {
+  bool scalar(Json value) {
     if (m_array) return wrongType(JsonValue(value).kind(), "a number");
     if (slotHere() != nullptr) return wrongType(JsonValue(value).kind(), "an array");
     attach(std::move(value));
     return true;
   }
 
-  bool open(json value) {
+  bool open(Json value) {
     if (m_levels.size() >= kMaxJsonDepth)
       return fail(ErrorCode::JsonDepth, "arrays and objects are nested deeper than " +
                                             std::to_string(kMaxJsonDepth) + " levels");
@@ -260,7 +260,7 @@ private:
   std::size_t m_byteOffset;
   std::string m_rootPlace;
   ArraySlots& m_slots;
-  json m_root;
+  Json m_root;
   std::vector<Level> m_levels;
   ArraySlot m_nodeArray{};             // the slot of the node array being read
   std::optional<NumberArray> m_array;  // the long array being read

@@ -11,7 +11,7 @@
 namespace lumen::formats {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // Halfway between the largest float and the next power of two; from here on, numbers round beyond.
 constexpr double kBeyondFloat = 0x1.ffffffp127;
@@ -60,13 +60,13 @@ std::optional<float> floatFromDouble(double value) {
   return static_cast<float>(value);
 }
 
-json storedNumber(std::string_view text, bool whole) {
+Json storedNumber(std::string_view text, bool whole) {
   if (whole) {
     if (const auto integer = integerFromText<std::int64_t>(text)) return *integer;
   } else if (const auto value = doubleFromText(text)) {
     if (floatFromDouble(*value) == floatFromText(text)) return *value;
   }
-  return json::binary({text.begin(), text.end()});
+  return Json::binary({text.begin(), text.end()});
 }
 
 bool JsonNumber::isWhole() const {

@@ -5,9 +5,9 @@
 
 namespace lumen::formats {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-JsonDocument::JsonDocument(json root) : m_root(std::make_unique<json>(std::move(root))) {}
+JsonDocument::JsonDocument(Json root) : m_root(std::make_unique<Json>(std::move(root))) {}
 JsonDocument::JsonDocument(JsonDocument&&) noexcept = default;
 JsonDocument& JsonDocument::operator=(JsonDocument&&) noexcept = default;
 JsonDocument::~JsonDocument() = default;
@@ -34,7 +34,7 @@ std::optional<bool> JsonValue::boolean() const {
 std::optional<JsonNumber> JsonValue::number() const {
   if (const auto* whole = m_value->get_ptr<const std::int64_t*>()) return JsonNumber(*whole);
   if (const auto* real = m_value->get_ptr<const double*>()) return JsonNumber(*real);
-  const auto* bytes = m_value->get_ptr<const json::binary_t*>();
+  const auto* bytes = m_value->get_ptr<const Json::binary_t*>();
   if (bytes == nullptr) return std::nullopt;
   return JsonNumber(std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
 }
@@ -70,7 +70,7 @@ std::vector<JsonValue> JsonValue::entries() const {
   if (!m_value->is_array()) return {};
   std::vector<JsonValue> all;
   all.reserve(m_value->size());
-  for (const json& entry : *m_value) all.emplace_back(entry);
+  for (const Json& entry : *m_value) all.emplace_back(entry);
   return all;
 }
 

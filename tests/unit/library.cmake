@@ -1,6 +1,6 @@
 lumen_test(library_test
   LABELS memory
-  LIBS lumen_library lumen_library_list lumen_library_trust
+  LIBS lumen_library
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/build_list_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/change_test.cpp
@@ -13,7 +13,7 @@ lumen_test(library_test
 # Whether a library is what it says, by its parts, and from outside with the programs that sign.
 lumen_test(library_trust_test
   LABELS memory
-  LIBS lumen_library_trust lumen_base
+  LIBS lumen_library lumen_base
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/bag_check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/plain_folder_test.cpp

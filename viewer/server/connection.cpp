@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::milliseconds kStopLook{200};
 
 /// The descriptor of a connection. The HTTP library keeps it to itself, but of the loopback
 /// interface the other end's port is that of one connection only.
@@ -53,7 +53,7 @@ void whileConnected(int remotePort, const std::function<void(Progress&)>& work) 
   bool done = false;
   std::thread watcher([&] {
     std::unique_lock lock(mutex);
-    while (!wake.wait_for(lock, kLook, [&done] { return done; }))
+    while (!wake.wait_for(lock, kStopLook, [&done] { return done; }))
       if (isClosed(*descriptor)) return progress.cancel();
   });
   struct Join {

@@ -15,10 +15,6 @@ namespace {
 constexpr std::size_t kMostText = 255, kMostPoints = 1000, kMostTexts = 10000;
 constexpr double kFarthest = 1e6;  // mm; as for seeds files
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw Error(ErrorKind::Usage, what);
-}
-
 /// The name of the member that a pointer leads to or into: "position" of "/points/0/position/1".
 std::string quotedMember(std::string_view pointer) {
   for (;;) {
@@ -63,6 +59,10 @@ std::string textOf(const formats::JsonPlace& place, const char* name) {
 }
 
 }  // namespace
+
+void refuse(const std::string& sentence) {
+  throw Error(ErrorKind::Usage, sentence);
+}
 
 Arguments::Arguments(formats::JsonValue object) : m_object(object, requestFaults) {
   if (!object.isObject()) refuse("a request is a JSON object");

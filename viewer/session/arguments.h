@@ -17,6 +17,9 @@ namespace lumen::viewer {
 
 using engine::Json;
 
+/// Throws Error(Usage), whose sentence the page shows.
+[[noreturn]] void refuse(const std::string& sentence);
+
 /// The members of a JSON object, whose document must outlive it. Each call throws Error(Usage) with
 /// a sentence for people for a missing member, and for a value of another kind.
 class Arguments {

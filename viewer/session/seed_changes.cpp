@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::size_t kMostSeeds = 10000;
 
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw Error(ErrorKind::Usage, sentence);
-}
-
 bool isTaken(const Document& document, const std::string& label) {
   const auto has = [&label](const auto& item) { return item.label == label; };
   const auto isBranchOf = [&has](const std::shared_ptr<const formats::Case>& part) {

@@ -29,6 +29,9 @@ struct Lattice {
 /// Maximum number of samples of a grid that is held whole: 256 MB.
 inline constexpr std::size_t kMostGridSamples = std::size_t{1} << 25;
 
+/// Border of a grid behind the wall, in mm and in samples: contacts look for the wall within it.
+inline constexpr double kGridBorder = 1, kGridBorderSamples = 3;
+
 /// The spacing `asked`, mm; for 0 a quarter of the tree's least radius, but at most eight million
 /// samples over the box and `margin`.
 double gridSpacing(double asked, const Box3d& box, double margin,

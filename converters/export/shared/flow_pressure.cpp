@@ -10,12 +10,12 @@
 
 #include "converters/base/number_text.h"
 #include "converters/export/shared/blood.h"
+#include "converters/export/shared/units.h"
 
 namespace lumen::convert {
 
 namespace {
 
-constexpr double kMetres = 1e-3;   // metres in a millimetre
 constexpr double kMmHg = 133.322;  // Pa
 /// mmHg: mean pressures of arteries are 70 to 105; above 180 in the systole is a hypertensive
 /// emergency (Williams et al., 2018 ESC/ESH guidelines for the management of arterial

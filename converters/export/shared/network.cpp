@@ -12,6 +12,7 @@
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/blood.h"
+#include "converters/export/shared/units.h"
 #include "converters/geometry/disjoint_sets.h"
 
 namespace lumen::convert {
@@ -21,8 +22,6 @@ namespace {
 using formats::Branch;
 using formats::BranchKind;
 using formats::CenterlineTree;
-
-constexpr double kMetres = 1e-3;  // metres in a millimetre
 
 /// Makes a network of the graph of nodes and edges.
 class NetworkBuilder {

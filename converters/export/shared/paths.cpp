@@ -11,6 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
+#include "converters/export/shared/units.h"
 #include "converters/io/mesh/plain_names.h"
 
 namespace lumen::convert {
@@ -18,8 +19,6 @@ namespace lumen::convert {
 namespace {
 
 using formats::CenterlineTree;
-
-constexpr double kCentimetres = 0.1;  // centimetres in a millimetre
 
 BranchPath makePath(const CenterlineTree& tree, std::uint32_t index, std::string name) {
   const formats::Branch& branch = tree.branches[index];

@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/parsed_number.h"
+#include "converters/io/mesh/gltf_words.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
 #include "formats/case/base64.h"
@@ -21,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::string_view kDataUri = "data:", kBase64 = ";base64,";
 
 std::uint32_t wordAt(std::string_view bytes, std::size_t at) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/io/mesh/gltf_words.h"
 #include "converters/io/mesh/meshopt_codec.h"
 #include "formats/case/base64.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
-constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 std::size_t aligned(std::size_t size) {
   return (size + 3) / 4 * 4;

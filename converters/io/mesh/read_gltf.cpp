@@ -15,6 +15,7 @@
 
 #include "converters/base/error.h"
 #include "converters/io/mesh/gltf_content.h"
+#include "converters/io/mesh/gltf_words.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
 #include "converters/io/mesh/read_draco.h"
@@ -24,8 +25,7 @@ namespace {
 
 using Json = GltfContent::Json;
 
-constexpr std::uint64_t kNone = ~std::uint64_t{0};
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr std::uint64_t kNoIndex = ~std::uint64_t{0};
 enum Mode : std::uint64_t { kTriangles = 4, kStrip = 5, kFan = 6 };
 
 /// Transform from glTF's metres, +x left, +y up, +z front, to LPS mm.
@@ -86,7 +86,7 @@ private:
   }
 
   void locate(Json json) {
-    const std::uint64_t view = m_content.whole(json, "bufferView", kNone);
+    const std::uint64_t view = m_content.whole(json, "bufferView", kNoIndex);
     const std::uint64_t offset = m_content.whole(json, "byteOffset", 0);
     const std::map<std::uint64_t, std::size_t> sizes = {{5120, 1}, {5121, 1}, {5122, 2},
                                                         {5123, 2}, {5125, 4}, {5126, 4}};
@@ -152,7 +152,7 @@ private:
       const bool isLook = text.starts_with("KHR_materials") || text.starts_with("KHR_texture") ||
                           text.starts_with("EXT_texture") || text == "KHR_lights_punctual" ||
                           text == "MSFT_lod";
-      if (!isLook && text != kDraco && text != "KHR_mesh_quantization")
+      if (!isLook && text != kDracoExtension && text != "KHR_mesh_quantization")
         throw unsupported(m_content.name() + ": it requires the extension " + quotedText(text) +
                           ", which lumen does not read; KHR_draco_mesh_compression and "
                           "KHR_mesh_quantization are read");
@@ -236,7 +236,7 @@ private:
     const std::vector<std::uint64_t> children = numbers(node, "children");
     for (auto child = children.rbegin(); child != children.rend(); ++child)
       m_open.emplace_back(*child, matrix);
-    if (node.find("mesh")) addMesh(m_content.whole(node, "mesh", kNone), matrix);
+    if (node.find("mesh")) addMesh(m_content.whole(node, "mesh", kNoIndex), matrix);
   }
 
   void addMesh(std::uint64_t index, const Eigen::Matrix4d& matrix) {
@@ -265,10 +265,10 @@ private:
     const auto attributes = primitive.find("attributes");
     if (!attributes || !attributes->find("POSITION"))
       m_content.refuse("/meshes: a primitive has no attribute POSITION; expected one");
-    const std::uint64_t accessor = m_content.whole(*attributes, "POSITION", kNone);
+    const std::uint64_t accessor = m_content.whole(*attributes, "POSITION", kNoIndex);
     const Accessor positions(m_content, accessor, "VEC3");
     const auto extensions = primitive.find("extensions");
-    if (const auto draco = extensions ? extensions->find(kDraco) : std::nullopt)
+    if (const auto draco = extensions ? extensions->find(kDracoExtension) : std::nullopt)
       return addDraco(*draco, primitive, positions, matrix);
     if (!positions.hasData() || positions.count() == 0)
       m_content.refuse("/accessors/" + std::to_string(accessor) +
@@ -313,7 +313,7 @@ private:
       for (std::uint64_t i = 0; i < points; ++i) indices.push_back(static_cast<std::uint32_t>(i));
       return indices;
     }
-    const std::uint64_t accessor = m_content.whole(primitive, "indices", kNone);
+    const std::uint64_t accessor = m_content.whole(primitive, "indices", kNoIndex);
     const Accessor stored(m_content, accessor, "SCALAR");
     if (!stored.hasData() || !stored.isWhole())
       m_content.refuse("/accessors/" + std::to_string(accessor) +
@@ -346,13 +346,14 @@ private:
   void addDraco(Json extension, Json primitive, const Accessor& positions,
                 const Eigen::Matrix4d& matrix) {
     if (!extension.isObject() || !primitive.find("indices"))
-      m_content.refuse(std::string("/meshes: ") + kDraco + " is incomplete; expected indices too");
+      m_content.refuse(std::string("/meshes: ") + kDracoExtension +
+                       " is incomplete; expected indices too");
     const auto ids = extension.find("attributes");
     if (!ids || !ids->isObject())
-      m_content.refuse(std::string("/meshes: ") + kDraco + " has no attributes");
-    const Accessor indices(m_content, m_content.whole(primitive, "indices", kNone), "SCALAR");
-    const std::uint64_t id = m_content.whole(*ids, "POSITION", kNone);
-    const std::uint64_t view = m_content.whole(extension, "bufferView", kNone);
+      m_content.refuse(std::string("/meshes: ") + kDracoExtension + " has no attributes");
+    const Accessor indices(m_content, m_content.whole(primitive, "indices", kNoIndex), "SCALAR");
+    const std::uint64_t id = m_content.whole(*ids, "POSITION", kNoIndex);
+    const std::uint64_t view = m_content.whole(extension, "bufferView", kNoIndex);
     const std::string_view bytes = m_content.view(view);
     const DecodedDraco mesh = decodeDracoMesh(
         bytes, static_cast<std::uint32_t>(std::min<std::uint64_t>(id, 0xFFFFFFFF)),

@@ -13,6 +13,7 @@
 #include "converters/io/mesh/draco_mesh.h"
 #include "converters/io/mesh/face_kind.h"
 #include "converters/io/mesh/gltf_document.h"
+#include "converters/io/mesh/gltf_words.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/meshopt_codec.h"
 #include "converters/io/mesh/vertex_color.h"
@@ -24,7 +25,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kLod = "MSFT_lod";
 // Index 65535 is the primitive restart value of 16-bit indices, which glTF forbids.
 constexpr std::size_t kMaxShortVertices = 65535;
@@ -192,11 +192,11 @@ std::vector<json> dracoPrimitives(GltfDocument& document, const Level& level, co
     primitive["indices"] = document.add(
         "accessors", indexAccessor(3 * coded.triangles, coded.vertices <= kMaxShortVertices));
     extension["bufferView"] = document.addBytes(coded.bytes);
-    primitive["extensions"][kDraco] = std::move(extension);
+    primitive["extensions"][kDracoExtension] = std::move(extension);
     primitives.push_back(std::move(primitive));
     first += part.vertex.size();
   }
-  if (!level.parts.empty()) document.useExtension(kDraco, true);
+  if (!level.parts.empty()) document.useExtension(kDracoExtension, true);
   return primitives;
 }
 

@@ -17,7 +17,6 @@ constexpr std::size_t kWindow = 1 << 14;
 constexpr std::size_t kMaxDepth = 16;  // maximum nesting of sequences; images have up to six
 constexpr std::uint32_t kUndefined = 0xffffffff;
 constexpr DicomTag kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
-constexpr DicomTag kPixelData = 0x7fe00010;
 
 /// Sequences that are parsed although an implicit syntax does not mark them as sequences:
 /// functional groups of frames, and their content.

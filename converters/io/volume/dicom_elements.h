@@ -18,6 +18,7 @@ namespace lumen::convert {
 
 /// Group in the upper half, element in the lower one.
 using DicomTag = std::uint32_t;
+inline constexpr DicomTag kPixelData = 0x7fe00010;
 
 /// Random access to a file's numbers and bytes.
 class DicomBytes {

@@ -22,7 +22,7 @@ constexpr DicomTag kTransferSyntax = 0x00020010, kStorageClass = 0x00020002, kSe
                    kRows = 0x00280010, kColumns = 0x00280011, kPixelSpacing = 0x00280030,
                    kBitsAllocated = 0x00280100, kBitsStored = 0x00280101, kHighBit = 0x00280102,
                    kSigned = 0x00280103, kIntercept = 0x00281052, kSlope = 0x00281053,
-                   kDistance = 0x00180088, kPixelData = 0x7fe00010;
+                   kDistance = 0x00180088;
 /// Functional groups that all frames share, and those of single frames.
 constexpr DicomTag kShared = 0x52009229, kPerFrame = 0x52009230;
 

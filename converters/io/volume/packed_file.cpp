@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBlock = 1 << 18;
+constexpr std::size_t kUnpackedBlock = 1 << 18;
 
 std::string shown(const fs::path& path) {
   return formats::printable(path.string());
@@ -44,7 +44,7 @@ public:
   std::string_view peek() {
     if (m_at == m_held) {
       m_at = 0;
-      m_held = fill(m_block.data(), std::min<std::uint64_t>(kBlock, m_left));
+      m_held = fill(m_block.data(), std::min<std::uint64_t>(kUnpackedBlock, m_left));
       m_left -= m_held;
     }
     return {m_block.data() + m_at, m_held - m_at};
@@ -85,7 +85,7 @@ private:
   }
   fs::path m_path;
   std::ifstream m_stream;
-  std::array<char, kBlock> m_block{};
+  std::array<char, kUnpackedBlock> m_block{};
   std::size_t m_at = 0, m_held = 0;
   std::uint64_t m_left = std::numeric_limits<std::uint64_t>::max();
 };
@@ -287,12 +287,13 @@ constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 /// Drops up to `count` bytes from `read`; returns their number.
 template <class Read>
 std::uint64_t dropBytes(std::uint64_t count, const Progress& progress, Read read) {
-  std::vector<std::byte> dropped(kBlock);
+  std::vector<std::byte> dropped(kUnpackedBlock);
   std::uint64_t done = 0;
   while (done < count) {
     progress.check();
-    const std::size_t got = read(
-        dropped.data(), static_cast<std::size_t>(std::min<std::uint64_t>(count - done, kBlock)));
+    const std::size_t got =
+        read(dropped.data(),
+             static_cast<std::size_t>(std::min<std::uint64_t>(count - done, kUnpackedBlock)));
     if (got == 0) break;
     done += got;
   }

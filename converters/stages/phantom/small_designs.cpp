@@ -15,7 +15,6 @@ namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kPi = std::numbers::pi;
 
 std::function<double(double)> constant(double value) {
   return [value](double) { return value; };
@@ -29,7 +28,7 @@ double smoothStep(double x) {
 
 // 1 at |x| = 0, falling smoothly to 0 at |x| = 1.
 double bump(double x) {
-  return std::abs(x) < 1 ? 0.5 * (1 + std::cos(kPi * x)) : 0.0;
+  return std::abs(x) < 1 ? 0.5 * (1 + std::cos(std::numbers::pi * x)) : 0.0;
 }
 
 // An arc that enters at the face z = 0 and leaves at z = extent, bulging towards +x by `sagitta`,
@@ -38,8 +37,8 @@ Path bow(const Frame& frame, double sagitta, const std::function<double(double)>
   const double e = frame.extent;
   return sampleCurve(
       [=](double t) {
-        return Vector3d(0.4 * e + sagitta * 0.5 * (1 - std::cos(2 * kPi * t)),
-                        0.48 * e + 0.03 * e * std::cos(kPi * t), e * t);
+        return Vector3d(0.4 * e + sagitta * 0.5 * (1 - std::cos(2 * std::numbers::pi * t)),
+                        0.48 * e + 0.03 * e * std::cos(std::numbers::pi * t), e * t);
       },
       radius);
 }
@@ -63,7 +62,7 @@ Design designHelix(const Frame& frame) {
   builder.add("root", formats::kNoParent,
               sampleCurve(
                   [&](double t) {
-                    const double angle = 4 * kPi * t;
+                    const double angle = 4 * std::numbers::pi * t;
                     return Vector3d(0.5 * e + 0.28 * e * std::cos(angle),
                                     0.5 * e + 0.28 * e * std::sin(angle), e * (0.14 + 0.72 * t));
                   },
@@ -78,7 +77,7 @@ Design designBifurcation(const Frame& frame) {
   const double e = frame.extent, scale = frame.radiusScale();
   const double r0 = 1.4 * scale, r1 = 1.2 * scale, r2 = std::cbrt(r0 * r0 * r0 - r1 * r1 * r1);
   const Vector3d fork(0.5 * e, 0.49 * e, 0.38 * e);
-  const double turn = 27 * kPi / 180, turn2 = 43 * kPi / 180;
+  const double turn = 27 * std::numbers::pi / 180, turn2 = 43 * std::numbers::pi / 180;
   const Vector3d along1(std::sin(turn), 0.02, std::cos(turn));
   const Vector3d along2(-std::sin(turn2), 0.06, std::cos(turn2));
   const Vector3d from(0.48 * e, 0.5 * e, 0);
@@ -117,7 +116,7 @@ Design designKissing(const Frame& frame) {
     return sampleCurve(
         [&, side](double t) {
           return Vector3d(e * t, 0.5 * e + side * 0.5 * apart(t),
-                          0.47 * e + 0.05 * e * std::cos(2 * kPi * t));
+                          0.47 * e + 0.05 * e * std::cos(2 * std::numbers::pi * t));
         },
         constant(radius));
   };
@@ -163,8 +162,8 @@ Design designDropout(const Frame& frame) {
   builder.add("root", formats::kNoParent,
               sampleCurve(
                   [&](double t) {
-                    return Vector3d(e * t, 0.5 * e + 0.24 * e * std::cos(2 * kPi * t),
-                                    0.5 * e + 0.06 * e * std::cos(kPi * t));
+                    return Vector3d(e * t, 0.5 * e + 0.24 * e * std::cos(2 * std::numbers::pi * t),
+                                    0.5 * e + 0.06 * e * std::cos(std::numbers::pi * t));
                   },
                   constant(r)));
   Design& design = builder.design();

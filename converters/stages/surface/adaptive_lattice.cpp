@@ -21,7 +21,7 @@ namespace {
 constexpr std::int32_t kMaxPosition = 1 << 19;           // keys have 19 bits an axis
 constexpr std::size_t kMaxCubes = std::size_t{1} << 25;  // 2 GB with their vertices
 constexpr std::size_t kMaxNodes = std::size_t{1} << 29;  // near the cubes of a level, in all: 2 GB
-constexpr std::size_t kBatch = 256;                      // cubes between two looks at the progress
+constexpr std::size_t kCubeBatch = 256;                  // cubes between two looks at the progress
 constexpr double kModelRadii = 2.4;  // radii from its centre to which a node's model is followed
 constexpr double kFineRadii = 1.35;  // radii in which a node decides the lattice's fineness
 constexpr double kSafety = 1.5;      // the distance is an estimate: of half a cube's diagonal
@@ -198,7 +198,7 @@ private:
   std::vector<Cube> refine(std::vector<Cube>& level) {
     std::vector<std::uint8_t> isSplit(level.size(), 0);
     tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t i) {
-      if (i % kBatch == 0) m_progress.check();
+      if (i % kCubeBatch == 0) m_progress.check();
       chooseNodes(level[i]);
       isSplit[i] = !level[i].near.empty() && !isFineEnough(level[i]) ? 1 : 0;
     });
@@ -243,7 +243,7 @@ private:
   // Splits the leaves that are more than twice as wide as one that they touch.
   void balance() {
     for (std::size_t i = 0; i < m_lattice.m_cubes.size(); ++i) {
-      if (i % kBatch == 0) m_progress.check();
+      if (i % kCubeBatch == 0) m_progress.check();
       const LatticeCube cube = m_lattice.m_cubes[i];
       if (cube.size * 4 > m_lattice.m_largest) continue;
       for (int n = 0; n < 27; ++n) {

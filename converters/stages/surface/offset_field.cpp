@@ -18,8 +18,8 @@ constexpr double kLeastPathWidths = 6;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 constexpr double kReachThicknesses = 3;  // thicknesses: no wall reaches farther
 constexpr double kOnEdge = 1e-6;         // share of a triangle: a foot so near to an edge is on it
-constexpr double kRounding = 1 + 1e-9;   // factor of a thickness that is interpolated
-constexpr double kOnWall = 1e-9;         // mm: where the line to the foot has no direction
+constexpr double kRoundingFactor = 1 + 1e-9;  // factor of a thickness that is interpolated
+constexpr double kOnWall = 1e-9;              // mm: where the line to the foot has no direction
 
 // The corners' angles are the weights (J. Baerentzen and H. Aanaes, *Signed distance computation
 // using the angle weighted pseudonormal*, 2005).
@@ -61,7 +61,7 @@ OffsetField::OffsetField(const formats::Case& source, const field::BlendedField&
     if (node.count == 0) most = std::max(m_thickestBelow[i + 1], m_thickestBelow[node.at]);
     for (std::uint32_t k = node.at; k < node.at + node.count; ++k)
       for (const std::uint32_t v : inner.mesh.triangle[boxes.items()[k]])
-        most = std::max(most, kRounding * m_thickness[v]);
+        most = std::max(most, kRoundingFactor * m_thickness[v]);
   }
 }
 

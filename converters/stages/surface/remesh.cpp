@@ -17,11 +17,11 @@ namespace {
 
 constexpr int kSeamRings = 5;  // reach of the unevenness at a boundary that could not move
 constexpr int kMendRings = 4;
-constexpr int kStretchRings = 10;  // six may leave the field
+constexpr int kWholeRings = 10;  // six may leave the field
 constexpr int kStretchRounds = 2;
-constexpr double kMendBelow = 1.2 * kSharpAngle;  // as in each piece
-constexpr std::size_t kBatch = 1024;              // vertices between two looks at the progress
-constexpr double kFieldStep = 0.5;                // radii: more is no distance from the wall
+constexpr double kMendWholeBelow = 1.2 * kSharpAngle;  // as in each piece
+constexpr std::size_t kVertexBatch = 1024;             // vertices between two looks at the progress
+constexpr double kFarthestStep = 0.5;                  // radii: more is no distance from the wall
 
 // Samples the field at every vertex, and moves those of the wall by one step onto it.
 void moveOntoField(RemeshState& state, const PieceRules& rules) {
@@ -31,14 +31,14 @@ void moveOntoField(RemeshState& state, const PieceRules& rules) {
     if (rules.plane[surface.group[t]])
       for (const std::uint32_t v : surface.mesh.triangle[t]) isFlat[v] = 1;
   tbb::parallel_for(std::size_t{0}, isFlat.size(), [&](std::size_t v) {
-    if (v % kBatch == 0) rules.progress.check();
+    if (v % kVertexBatch == 0) rules.progress.check();
     Eigen::Vector3d& position = surface.mesh.position[v];
     const SheetSample sample = rules.field.at(position, surface.node[v]);
     if (sample.gradient.isZero()) return;
     state.gradient[v] = sample.gradient;
     state.isSeparated[v] = sample.isSeparated ? 1 : 0;
     if (isFlat[v] != 0) return;
-    const double longest = kFieldStep * rules.field.radius(sample.node);
+    const double longest = kFarthestStep * rules.field.radius(sample.node);
     position -= std::clamp(sample.distance, -longest, longest) * sample.gradient;
     surface.node[v] = sample.node;
   });
@@ -74,7 +74,7 @@ std::vector<std::uint8_t> sharpVertices(const RemeshState& state, const PieceRul
     const Eigen::Vector3d outward =
         plane ? *plane
               : Eigen::Vector3d(state.gradient[t[0]] + state.gradient[t[1]] + state.gradient[t[2]]);
-    if (leastAngle(a, b, c) < kMendBelow || (b - a).cross(c - a).dot(outward) < 0)
+    if (leastAngle(a, b, c) < kMendWholeBelow || (b - a).cross(c - a).dot(outward) < 0)
       sharp[t[0]] = sharp[t[1]] = sharp[t[2]] = 1;
   }
   return sharp;
@@ -115,7 +115,7 @@ RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLen
   workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kMendRings), rules,
          PieceWork::Mend, progress);
   for (int round = 0; round < kStretchRounds; ++round)
-    workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kStretchRings), rules,
+    workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kWholeRings), rules,
            PieceWork::Stretch, progress);
   return makeReport(state, rules);
 }

@@ -12,7 +12,7 @@ constexpr int kMaxSteps = 40;         // three to five near the wall; the rest i
 constexpr double kTolerance = 1e-4;   // radii
 constexpr double kLongestStep = 0.3;  // radii: far from the wall h is not straight
 constexpr double kFarthest = 0.5;     // radii: a surface beyond is another one
-constexpr double kCore = 0.25;        // radii around the axis, where one sheet goes first
+constexpr double kSheetCore = 0.25;   // radii around the axis, where one sheet goes first
 constexpr double kLeastSlope = 0.05;  // share of the slope between two axes that run side by side
 constexpr double kVanished = 1e-12;   // share of the level: a lesser f does not locate the wall
 // Largest distance, in sums of radii, of nodes whose walls may touch: a model reaches beyond its
@@ -120,9 +120,9 @@ std::pair<SheetField::Axis, SheetField::Axis> SheetField::nearestAxes(const Eige
                                                                       std::uint32_t b) const {
   std::pair<Axis, Axis> axes{nearestAxis(point, a), nearestAxis(point, b)};
   Axis& first = a > b ? axes.first : axes.second;
-  if (first.share < kCore) {
-    first.share -= 1 - first.share / kCore;
-    first.gradient *= 1 + 1 / kCore;
+  if (first.share < kSheetCore) {
+    first.share -= 1 - first.share / kSheetCore;
+    first.gradient *= 1 + 1 / kSheetCore;
   }
   return axes;
 }

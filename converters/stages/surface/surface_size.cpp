@@ -15,10 +15,10 @@ namespace lumen::convert {
 namespace {
 
 // The factor by which the search for an edge that is enough proceeds.
-constexpr double kCoarser = 1.1, kMostCoarse = 1e15;
+constexpr double kLongerEdge = 1.1, kLongestEdge = 1e15;
 
 // Length of vessel between a node and its parent, mm.
-double lengthAt(const formats::CenterlineTree& tree, std::size_t node) {
+double lengthToParent(const formats::CenterlineTree& tree, std::size_t node) {
   const std::int32_t parent = tree.parent[node];
   if (parent < 0) return tree.height[node];
   const Eigen::Vector3d from = toEigen(tree.centre[static_cast<std::size_t>(parent)]);
@@ -47,8 +47,8 @@ double expectedTriangles(const formats::CenterlineTree& tree, const EdgeLength& 
   for (std::size_t node = 0; node < tree.nodeCount(); ++node) {
     const double radius = tree.radius[node], length = edgeAt(edge, radius);
     const double around = thickness ? 2 * radius + thickness->at(radius) : radius;
-    triangles +=
-        2 * std::numbers::pi * around * lengthAt(tree, node) / (areaInEdges * length * length);
+    triangles += 2 * std::numbers::pi * around * lengthToParent(tree, node) /
+                 (areaInEdges * length * length);
   }
   return triangles;
 }
@@ -71,10 +71,11 @@ void requireFewTriangles(const formats::CenterlineTree& tree, const EdgeLength& 
   const bool isShare =
       edge.share > 0 && expectedTriangles(tree, shareAlone, thickness) > kMaxSurfaceTriangles;
   double factor = 1;
-  while (factor < kMostCoarse &&
+  while (factor < kLongestEdge &&
          expectedTriangles(tree, longer(withoutSag, factor), thickness) > kMaxSurfaceTriangles)
-    factor *= kCoarser;
-  if (factor >= kMostCoarse) throw invalidInput(found + "the vessels are too long for their width");
+    factor *= kLongerEdge;
+  if (factor >= kLongestEdge)
+    throw invalidInput(found + "the vessels are too long for their width");
   throw invalidInput(
       found + "an edge of " +
       (isShare ? roundedUp(factor * edge.share) + "r" : roundedUp(factor * edge.maximum) + " mm") +

@@ -16,7 +16,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::size_t kMostSentences = 5;
-constexpr std::size_t kBlock = 1024;  // vertices between two reports of progress
+constexpr std::size_t kWallBlock = 1024;  // vertices between two reports of progress
 
 struct ThinWall {
   double thickness = 0;
@@ -42,9 +42,9 @@ std::vector<std::string> thinWalls(const CaseSurface& outer, const OffsetField& 
   std::vector<double> thickness(position.size(), 0);
   progress.begin("wall thickness", position.size());
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
-    if (v % kBlock == 0) {
+    if (v % kWallBlock == 0) {
       progress.check();
-      progress.advance(std::min(kBlock, position.size() - v));
+      progress.advance(std::min(kWallBlock, position.size() - v));
     }
     if (!field.mayTouch(outer.node[v])) return;
     samples[v] = field.at(position[v], outer.node[v]);

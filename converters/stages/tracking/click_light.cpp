@@ -12,12 +12,12 @@ namespace lumen::convert {
 namespace {
 
 /// Places for comparison, and the share of them that may stand out: vessels fill less of a volume.
-constexpr std::size_t kPlaces = 200;
+constexpr std::size_t kLightPlaces = 200;
 constexpr double kOutstanding = 0.1;
 /// Multiple of the contrast of those places: noise alone reaches it, and stays below twice of it.
 constexpr double kClear = 2;
 /// Stream of the random numbers; those of the branches count up from 0.
-constexpr std::uint64_t kStream = ~std::uint64_t{1};
+constexpr std::uint64_t kLightStream = ~std::uint64_t{1};
 
 Eigen::Vector3d smoothingOf(const VolumeGeometry& geometry) {
   const double most = BsplineVolume::kMostSmoothing * geometry.spacing.minCoeff();
@@ -28,10 +28,10 @@ Eigen::Vector3d smoothingOf(const VolumeGeometry& geometry) {
 
 ClickLight::ClickLight(const Volume& volume, const TrackOptions& options, const Progress& progress)
     : m_spline(volume, smoothingOf(volume.geometry)), m_options(options), m_progress(progress) {
-  Random random(options.seed, kStream);
+  Random random(options.seed, kLightStream);
   const Eigen::Vector3d last = volume.geometry.cells().high().cast<double>();
   std::vector<double> contrasts;
-  for (std::size_t i = 0; i < kPlaces; ++i) {
+  for (std::size_t i = 0; i < kLightPlaces; ++i) {
     Eigen::Vector3d index;
     for (int a = 0; a < 3; ++a) index[a] = random.uniform() * last[a];
     SeedBranch place;

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostNodes = 256, kFewestNodes = 8;
 /// Radii whose walls are measured, the second if there are too few of the first. Wider walls are
 /// flatter, and less of the far wall shows in their profiles.
-constexpr double kWideVoxels = 3.0, kWideEnoughVoxels = 1.0;
+constexpr double kDrawnVoxels = 3.0, kDrawnEnoughVoxels = 1.0;
 /// The fewest wall points of a node that is measured: with fewer, its profile is mostly noise.
 constexpr std::size_t kFewestPoints = 32;
 /// Reach of a profile to either side of the wall, and the spacing of its samples.
@@ -187,7 +187,7 @@ std::vector<double> blurredDisc(double seen, double sigma, double step) {
 std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const> vessels,
                                             double voxel) {
   std::vector<const TrackedNode*> wide;
-  for (const double voxels : {kWideVoxels, kWideEnoughVoxels}) {
+  for (const double voxels : {kDrawnVoxels, kDrawnEnoughVoxels}) {
     wide.clear();
     for (const TrackedBranch* branch : vessels)
       for (const TrackedNode& node : branch->nodes)

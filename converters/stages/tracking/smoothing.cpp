@@ -22,7 +22,7 @@ constexpr int kRays = 42;
 
 /// Places that the noise floor is taken from, and the fewest where voxels are so uneven that rays
 /// cross many of them: the spline must be made wherever they go.
-constexpr int kPlaces = 64, kFewestPlaces = 8;
+constexpr int kNoisePlaces = 64, kFewestPlaces = 8;
 /// Voxels along the finest axis: rays up to this length are cast from all places.
 constexpr double kLongRay = 32.0;
 /// Voxels: the radius that noise is measured at. Noise resembles thin vessels.
@@ -30,7 +30,7 @@ constexpr double kRadiusVoxels = 2.0;
 /// Quantile of the places: vessels and organs lie in the upper three quarters.
 constexpr double kEmptyShare = 0.25;
 /// Stream of the random numbers; those of the branches count up from 0.
-constexpr std::uint64_t kStream = ~std::uint64_t{0};
+constexpr std::uint64_t kNoiseStream = ~std::uint64_t{0};
 
 /// Voxels: length of the rays that sample the surroundings of a click.
 constexpr int kRayVoxels = 16;
@@ -59,7 +59,7 @@ std::size_t countPlaces(const VolumeGeometry& geometry) {
   const double voxels =
       kRayRadii * kRadiusVoxels * geometry.voxelSize() / geometry.spacing.minCoeff();
   const double share = std::min(1.0, kLongRay / voxels);
-  return static_cast<std::size_t>(std::max<double>(kFewestPlaces, kPlaces * share * share));
+  return static_cast<std::size_t>(std::max<double>(kFewestPlaces, kNoisePlaces * share * share));
 }
 
 /// The median strength of the walls that rays find around a place.
@@ -94,7 +94,7 @@ float contrastAt(const BsplineVolume& volume, const Eigen::Vector3d& click, floa
 double noiseFloor(const BsplineVolume& volume, const TrackOptions& options,
                   const Progress& progress) {
   const VolumeGeometry& geometry = volume.geometry();
-  Random random(options.seed, kStream);
+  Random random(options.seed, kNoiseStream);
   std::vector<Eigen::Vector3d> places(countPlaces(geometry));
   for (Eigen::Vector3d& index : places)
     for (int a = 0; a < 3; ++a)

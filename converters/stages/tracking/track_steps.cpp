@@ -23,7 +23,7 @@ using formats::StopReason;
 /// Radii from the goal's axis at which a track back has arrived: in its lumen, or at its wall.
 constexpr double kArrivedRadii = 2.0;
 /// A track back that is longer than this many straight distances leads along other vessels.
-constexpr double kLongestDetour = 3.0;
+constexpr double kLongestReturn = 3.0;
 
 /// Least inlier rate beyond a gap, as a share of the recent mean. A find must be nearly as good a
 /// cylinder as the vessel was; its contrast may fall by more.
@@ -188,7 +188,7 @@ std::vector<TrackedNode> trackBackTo(TrackRun& run, const TrackedNode& start,
   const bool arrived =
       back.stopReason == StopReason::MetBranch || reached.distance < kArrivedRadii * reached.radius;
   const double straight = closestOnChain(goal.nodes, start.centre).distance;
-  if (!arrived || measureLength(back.nodes) > kLongestDetour * straight) back.nodes.resize(1);
+  if (!arrived || measureLength(back.nodes) > kLongestReturn * straight) back.nodes.resize(1);
   reverseTrack(back.nodes);
   return std::move(back.nodes);
 }

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 /// A centre nearer to another vessel's axis than this share of its radius is in that vessel; so is
 /// this share of a narrower vessel's own radius.
-constexpr double kCoreShare = 0.5;
+constexpr double kInsideShare = 0.5;
 
 /// The point closest to `p` on the segment a-b, as a fraction of it.
 double fractionOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
@@ -115,7 +115,7 @@ bool inCore(std::span<const TrackedBranch* const> branches, const TrackedNode& n
     if (branch->nodes.empty()) return false;
     const ChainPoint closest = closestOnChain(branch->nodes, node.centre);
     const double core =
-        std::max(kCoreShare * closest.radius, closest.radius - kCoreShare * node.radius);
+        std::max(kInsideShare * closest.radius, closest.radius - kInsideShare * node.radius);
     return closest.distance < core;
   });
 }

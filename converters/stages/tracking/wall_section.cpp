@@ -29,7 +29,7 @@ constexpr double kLeastStrengthShare = 0.3;
 constexpr double kLumenShares[] = {0.4, 0.6, 0.8};
 /// The most rounds of reweighting, and the relative change of the unknowns below which they end.
 constexpr int kReweightings = 12;
-constexpr double kConverged = 1e-3;
+constexpr double kSectionConverged = 1e-3;
 /// Standard deviations beyond which a point has no weight (J. Tukey's biweight), and the ratio of a
 /// standard deviation to the median of absolute residuals.
 constexpr double kBiweightDeviations = 4.685, kDeviationOfMedian = 1.4826;
@@ -39,7 +39,7 @@ constexpr double kLargestAxisRatio = 2.5;
 /// Number of times that the section is moved to its own middle, and the largest distance of all
 /// these moves, in radii.
 constexpr int kMoves = 3;
-constexpr double kAsideRadii = 0.75;
+constexpr double kSectionAsideRadii = 0.75;
 /// Sectors around the axis, and the number of them that must have wall points.
 constexpr std::size_t kSectors = 12, kLeastSectors = 8;
 /// Least number of points that a section must explain, relative to the cylinder.
@@ -150,7 +150,7 @@ Section fitWall(const std::vector<WallPlace>& places, double radius) {
     }
     normal.diagonal().array() += 1e-9 * normal.trace();
     const Unknowns next = normal.ldlt().solve(right);
-    const bool isDone = (next - section.curve).norm() < kConverged * section.curve.norm();
+    const bool isDone = (next - section.curve).norm() < kSectionConverged * section.curve.norm();
     section.curve = next;
     if (isDone) break;
   }
@@ -199,7 +199,7 @@ std::optional<TrackedNode> fitSection(TrackRun& run, const TrackedNode& node,
     section = fitWall(places, node.radius);
     if (!section.isValid()) return std::nullopt;
     centre += section.middle()[0] * u + section.middle()[1] * v;
-    if ((centre - node.centre).norm() > kAsideRadii * node.radius) return std::nullopt;
+    if ((centre - node.centre).norm() > kSectionAsideRadii * node.radius) return std::nullopt;
   }
   std::erase_if(places, [&](const WallPlace& p) {
     const double wall = section.wallAt(p);

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
 
 // A cap is flat: its triangles' normals agree within 2 degrees ...
 const double kFlat = std::cos(2 * std::numbers::pi / 180);
@@ -34,7 +34,7 @@ constexpr double kRound = 0.75;
 const double kNearlyFlat = std::cos(25 * std::numbers::pi / 180);
 // ... triangles of a region that is no cap are not tried as the beginning of another, and on rough
 // surfaces the triangles that are examined number at most this multiple of all ...
-constexpr std::size_t kMostLooks = 20;
+constexpr std::size_t kMostLooksPerTriangle = 20;
 // ... and this many rounds lead from a seed on the rim to the mean of the whole cap.
 constexpr int kPasses = 5;
 // ... it fills an ellipse of up to 2.5:1 of its own moments (a square does by 0.95) ...
@@ -57,7 +57,7 @@ Vector3d areaVector(const TriangleMesh& mesh, const Triangle& t) {
 
 /// The loops of edges that only one triangle has, each against the direction of its triangles.
 std::vector<std::vector<std::uint32_t>> openLoops(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> next(mesh.position.size(), kNone);
+  std::vector<std::uint32_t> next(mesh.position.size(), kNothing);
   forEachEdge(edgeUses(mesh.triangle), [&](std::span<const EdgeUse> edge) {
     if (edge.size() == 1)
       next[endOf(mesh.triangle, edge[0].side)] = startOf(mesh.triangle, edge[0].side);
@@ -65,7 +65,7 @@ std::vector<std::vector<std::uint32_t>> openLoops(const TriangleMesh& mesh) {
   std::vector<std::vector<std::uint32_t>> loops;
   for (std::uint32_t v = 0; v < next.size(); ++v) {
     std::vector<std::uint32_t> loop;
-    for (std::uint32_t at = v; next[at] != kNone; at = std::exchange(next[at], kNone))
+    for (std::uint32_t at = v; next[at] != kNothing; at = std::exchange(next[at], kNothing))
       loop.push_back(at);
     if (loop.size() >= 3) loops.push_back(std::move(loop));
   }
@@ -115,7 +115,8 @@ void measure(MeshEnd& end, const TriangleMesh& mesh, const std::vector<std::uint
 /// Beside each side of each triangle, the triangle there.
 std::vector<std::array<std::uint32_t, 3>> besides(const TriangleMesh& mesh) {
   const std::vector<std::uint32_t> opposite = oppositeSides(mesh.triangle);
-  std::vector<std::array<std::uint32_t, 3>> beside(mesh.triangle.size(), {kNone, kNone, kNone});
+  std::vector<std::array<std::uint32_t, 3>> beside(mesh.triangle.size(),
+                                                   {kNothing, kNothing, kNothing});
   for (std::size_t side = 0; side < opposite.size(); ++side)
     if (opposite[side] != kNoSide) beside[side / 3][side % 3] = opposite[side] / 3;
   return beside;
@@ -152,7 +153,7 @@ private:
     std::size_t looks = 0;
     for (std::uint32_t t = 0; t < m_isSeen.size(); ++t) {
       if (m_isSeen[t] || m_out.end[t] != ClosedMesh::kWall) continue;
-      if (looks > kMostLooks * m_isSeen.size()) return;
+      if (looks > kMostLooksPerTriangle * m_isSeen.size()) return;
       MeshEnd end;
       end.normal = m_normal[t];
       for (int pass = 0; pass < kPasses; ++pass) {
@@ -182,7 +183,7 @@ private:
     visit[seed] = round;
     for (std::size_t k = 0; k < m_region.size(); ++k)
       for (const std::uint32_t other : m_beside[m_region[k]])
-        if (other != kNone && visit[other] != round && m_out.end[other] == ClosedMesh::kWall &&
+        if (other != kNothing && visit[other] != round && m_out.end[other] == ClosedMesh::kWall &&
             m_normal[other].dot(normal) > least) {
           visit[other] = round;
           m_region.push_back(other);
@@ -224,7 +225,7 @@ private:
     Vector3d sum = Vector3d::Zero();
     for (std::size_t k = 0; k < open.size(); ++k)
       for (const std::uint32_t other : m_beside[open[k]]) {
-        if (other == kNone || visit[other] == round) continue;
+        if (other == kNothing || visit[other] == round) continue;
         visit[other] = round;
         const Triangle& corners = m_out.mesh.triangle[other];
         const Vector3d middle = (m_out.mesh.position[corners[0]] + m_out.mesh.position[corners[1]] +
@@ -250,7 +251,7 @@ private:
     m_isSeen[seed] = true;
     for (std::size_t k = 0; k < m_region.size(); ++k)
       for (const std::uint32_t other : m_beside[m_region[k]])
-        if (other != kNone && !m_isSeen[other] && m_out.end[other] == ClosedMesh::kWall &&
+        if (other != kNothing && !m_isSeen[other] && m_out.end[other] == ClosedMesh::kWall &&
             m_normal[other].dot(m_normal[seed]) > kFlat) {
           m_isSeen[other] = true;
           m_region.push_back(other);
@@ -265,7 +266,7 @@ private:
       area += 0.5 * areaVector(m_out.mesh, corners).norm();
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t other = m_beside[t][i];
-        if (other == kNone || m_normal[other].dot(m_normal[m_seed]) > kFlat) continue;
+        if (other == kNothing || m_normal[other].dot(m_normal[m_seed]) > kFlat) continue;
         const Vector3d side =
             m_out.mesh.position[corners[(i + 1) % 3]] - m_out.mesh.position[corners[i]];
         outline += side.norm();

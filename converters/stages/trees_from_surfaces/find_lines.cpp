@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kNone = VesselPath::kNone;
+constexpr std::uint32_t kNowhere = VesselPath::kNone;
 constexpr std::size_t kLeastPart = 27;  // voxels of a part that may be a vessel
 constexpr double kEndDepths = 4;        // depths from where a path is trimmed to the vessel's end
 
@@ -65,13 +65,13 @@ private:
     return depths;
   }
 
-  /// For each flat end the nearest voxel inside, or kNone.
+  /// For each flat end the nearest voxel inside, or kNowhere.
   [[nodiscard]] std::vector<std::uint32_t> voxelsAtEnds() const {
     const VolumeGeometry& grid = m_set.geometry();
     std::vector<std::uint32_t> out;
     for (const MeshEnd& end : m_lumen.surface().ends) {
       const Vector3d at = grid.indexFromWorld(end.centre - 1.5 * grid.voxelSize() * end.normal);
-      std::uint32_t best = kNone;
+      std::uint32_t best = kNowhere;
       double least = 0;
       for (int k = 0; k < 125; ++k) {
         const Vector3d near(std::round(at.x()) + k % 5 - 2, std::round(at.y()) + k / 5 % 5 - 2,
@@ -80,7 +80,7 @@ private:
         const std::uint32_t voxel = m_set.find(grid.index(near.cast<int>()));
         if (voxel == VoxelSet::kNone) continue;
         const double away = (near - at).squaredNorm();
-        if (best != kNone && away >= least) continue;
+        if (best != kNowhere && away >= least) continue;
         best = voxel;
         least = away;
       }
@@ -94,7 +94,7 @@ private:
                          const std::vector<std::uint32_t>& part) {
     std::vector<std::uint32_t> sorted = part;
     std::sort(sorted.begin(), sorted.end());
-    std::uint32_t best = kNone;
+    std::uint32_t best = kNowhere;
     double widest = 0;
     for (std::size_t e = 0; e < atEnd.size(); ++e)
       if (std::binary_search(sorted.begin(), sorted.end(), atEnd[e]) &&
@@ -102,7 +102,7 @@ private:
         widest = m_lumen.surface().ends[e].radius;
         best = atEnd[e];
       }
-    if (best != kNone) return best;
+    if (best != kNowhere) return best;
     return m_paths.widestTip(part.front(), m_progress);
   }
 
@@ -145,20 +145,20 @@ private:
     line.isSac = path.isSac;
     for (const std::uint32_t i : path.voxels) line.point.push_back(m_set.position(i));
     const VesselLine* parent = nullptr;
-    if (path.parent != kNone) {
+    if (path.parent != kNowhere) {
       line.parent = static_cast<int>(first + path.parent);
       parent = &m_out.lines[first + path.parent];
       line.point.front() = nearestSeen(*parent, line.point.front());
     } else {
       trim(line, true, m_lumen);
     }
-    if (path.meets != kNone) {
+    if (path.meets != kNowhere) {
       line.meets = static_cast<int>(first + path.meets);
       const Vector3d tip = line.point.back();
       const Vector3d meeting = nearestSeen(m_out.lines[first + path.meets], tip);
       if (meeting != tip) line.point.push_back(meeting);
     }
-    const bool goesOn = path.meets != kNone || isMetAtTip(paths, w);
+    const bool goesOn = path.meets != kNowhere || isMetAtTip(paths, w);
     if (!goesOn) trim(line, false, m_lumen);
     centre(line, parent, m_lumen);
     if (!parent) extend(line, true, kEndDepths, m_lumen);

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLeastInside = 0.5;  // share of the points: below, another frame or surface
-constexpr double kEndDepths = 2;      // depths from a line's last point to the vessel's end
+constexpr double kLineEndDepths = 2;  // depths from a line's last point to the vessel's end
 
 std::vector<std::uint8_t> markInside(const CenterlineFile& file, const LumenGeometry& lumen,
                                      const Vector3d& scale) {
@@ -114,8 +114,8 @@ VesselLines clipLines(const CenterlineFile& centerline, const std::string& name,
     lineOfChain.push_back(static_cast<int>(out.lines.size()));
     line.label = "vessel-" + std::to_string(out.lines.size() + 1);
     centre(line, parent, lumen);
-    if (!parent) extend(line, true, kEndDepths, lumen);
-    extend(line, false, kEndDepths, lumen);
+    if (!parent) extend(line, true, kLineEndDepths, lumen);
+    extend(line, false, kLineEndDepths, lumen);
     out.lines.push_back(std::move(line));
   }
   if (out.lines.empty())

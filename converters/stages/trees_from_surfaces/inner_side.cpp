@@ -28,10 +28,10 @@ constexpr double kEnclosed = 0.75;
 // ... and one from which most do is, if it belongs to a greater region of such ones.
 constexpr double kMostly = 0.5;
 // Rays of a triangle are those of an icosphere that leave it at more than 20 degrees to its plane.
-constexpr int kRayOrder = 2;
+constexpr int kWallRayOrder = 2;
 constexpr double kSteep = 0.34;
-constexpr std::size_t kMostLooks = 4000;  // triangles that show whether there is a wall
-constexpr int kVotes = 3;                 // rounds in which a triangle follows those beside it
+constexpr std::size_t kMostTriangles = 4000;  // triangles that show whether there is a wall
+constexpr int kVotes = 3;                     // rounds in which a triangle follows those beside it
 // Share of the greatest region's area: less is a fold of the outer side.
 constexpr double kLeastRegion = 0.05;
 constexpr std::size_t kNestedLooks = 20;  // points of a part that show whether it is enclosed
@@ -40,7 +40,7 @@ constexpr std::size_t kNestedLooks = 20;  // points of a part that show whether 
 class Facing {
 public:
   Facing(const ClosedMesh& surface, const TriangleTree& tree)
-      : m_mesh(surface.mesh), m_tree(tree), m_rays(icosphere(kRayOrder)) {}
+      : m_mesh(surface.mesh), m_tree(tree), m_rays(icosphere(kWallRayOrder)) {}
 
   [[nodiscard]] double area(std::size_t t) const { return 0.5 * twiceArea(t).norm(); }
 
@@ -74,7 +74,7 @@ private:
 };
 
 bool isWallWithThickness(const Facing& facing, std::size_t count) {
-  const std::size_t stride = std::max<std::size_t>(1, count / kMostLooks);
+  const std::size_t stride = std::max<std::size_t>(1, count / kMostTriangles);
   std::vector<double> areas(count / stride + 1, 0), inner(areas.size(), 0);
   tbb::parallel_for(std::size_t{0}, (count + stride - 1) / stride, [&](std::size_t i) {
     areas[i] = facing.area(i * stride);

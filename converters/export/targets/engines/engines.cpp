@@ -18,8 +18,8 @@ namespace lumen::convert {
 namespace {
 
 // twice an artery's wall: the thinner a wall, the finer its triangles must be
-constexpr Length kWall = {0, 0.4};  // radii
-constexpr int kLevels = 3;          // levels of detail, each with a quarter of the triangles
+constexpr Length kRenderedWall = {0, 0.4};  // radii
+constexpr int kLevels = 3;  // levels of detail, each with a quarter of the triangles
 
 struct Convention {
   std::vector<std::string> nodes;  ///< nodes of the levels of detail
@@ -36,7 +36,7 @@ ExportResult exportScene(const ExportInput& input, const Convention& convention)
   options.surface.levels = static_cast<int>(convention.nodes.size());
   const ExportInput leveled{input.source, options, input.frame, input.progress};
   ExportedSurface surface = lumenSurface(leveled);
-  WallAttempt attempt = tryWall(leveled, kWall, surface.report);
+  WallAttempt attempt = tryWall(leveled, kRenderedWall, surface.report);
   if (attempt.wall) surface = std::move(*attempt.wall);
   std::vector<SurfaceMesh> levels = {std::move(surface.mesh)};
   std::move(surface.coarser.begin(), surface.coarser.end(), std::back_inserter(levels));

@@ -31,8 +31,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Border of a grid behind the wall, in mm and in samples.
-constexpr double kBorder = 1, kBorderSamples = 3;
 constexpr double kVdbBand = 3;                // samples, as OpenVDB's own level sets have
 constexpr std::size_t kMostBranches = 65535;  // numbers of 16 bits, without 0
 
@@ -79,8 +77,8 @@ std::vector<GridPlan> planGrids(const ExportInput& input, const GridOptions& opt
   if (wall.position.empty())
     throw invalidInput("the models of this case have no wall, so there is no distance to it");
   const Box3d box = boundingBox(wall);
-  const double spacing = gridSpacing(input.options.spacing, box, kBorder, tree);
-  const double border = (options.band ? *options.band : kBorder) + kBorderSamples * spacing;
+  const double spacing = gridSpacing(input.options.spacing, box, kGridBorder, tree);
+  const double border = (options.band ? *options.band : kGridBorder) + kGridBorderSamples * spacing;
   const Lattice whole = latticeOver(box, border, spacing);
   if (!options.perBranch) return {{"", {}, whole}};
   std::vector<std::string> labels;

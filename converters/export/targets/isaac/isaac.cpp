@@ -23,9 +23,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kBorder = 5;  // mm of tissue around the vessels
+constexpr double kTissueBorder = 5;  // mm of tissue around the vessels
 /// A wall as thick as arteries have it, about a tenth of their diameter.
-constexpr Length kWall{.mm = 0, .radii = 0.2};
+constexpr Length kDeformableWall{.mm = 0, .radii = 0.2};
 
 /// Values of the synthetic volume: muscle has 35 to 55 HU, arteries in CT angiography 250 HU and
 /// more.
@@ -43,10 +43,10 @@ const char* const kSource =
 
 DistanceGrid makeGrid(const ExportInput& input, const SurfaceMesh& wall) {
   const Box3d box = boundingBox(wall);
-  const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
+  const double spacing = gridSpacing(input.options.spacing, box, kTissueBorder, input.source.tree);
   const VesselDistance vessels(input.source);
   // farther than a voxel from the wall, a voxel is all tissue or all lumen
-  return sampleGrid({vessels, nullptr, 2 * spacing}, latticeOver(box, kBorder, spacing),
+  return sampleGrid({vessels, nullptr, 2 * spacing}, latticeOver(box, kTissueBorder, spacing),
                     input.progress);
 }
 
@@ -117,7 +117,7 @@ void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid
 /// The wall as a solid, or, where that cannot be, the lumen's surface.
 ExportedSurface makeWall(const ExportInput& input, ExportResult& result) {
   ExportedSurface lumen = lumenSurface(input);
-  WallAttempt attempt = tryWall(input, kWall, lumen.report);
+  WallAttempt attempt = tryWall(input, kDeformableWall, lumen.report);
   if (attempt.wall) return std::move(*attempt.wall);
   result.losses.push_back("the wall in vessel.usda is the lumen's surface, without a thickness: " +
                           attempt.whyNot);

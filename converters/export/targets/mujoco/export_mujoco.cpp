@@ -16,6 +16,7 @@
 #include "converters/export/shared/mujoco_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
+#include "converters/export/shared/units.h"
 #include "converters/export/targets/mujoco/wall_pieces.h"
 #include "converters/export/targets/mujoco/wire.h"
 #include "converters/export/targets/mujoco/wire_reach.h"
@@ -75,7 +76,6 @@ constexpr double kShortestWire = 0.03, kLongestWire = 0.08;  // m, of a wire
 /// A wire as long as its path, up to where a chain gets slow: its cost grows with the square of its
 /// links.
 Wire wireFor(const Insertion& insertion) {
-  constexpr double kMetres = 1e-3;
   Wire wire;
   const double length = std::clamp(insertion.pathLength * kMetres, kShortestWire, kLongestWire);
   wire.links = static_cast<int>(std::lround(length / wire.link));

@@ -13,6 +13,7 @@
 #include "converters/export/shared/blood.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/flow_pressure.h"
+#include "converters/export/shared/units.h"
 #include "converters/export/targets/oned/oned_network.h"
 
 namespace lumen::convert {
@@ -22,7 +23,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kCm = 100, kCm2 = 1e4, kCm3 = 1e6;  // cgs units in one of SI
 constexpr double kDyn = 10;                          // dyn/cm^2 of Pa
-constexpr double kCgsResistance = 1e-5;              // dyn s/cm^5 of Pa s/m^3
 
 template <class... Words>
 std::string line(const Words&... words) {

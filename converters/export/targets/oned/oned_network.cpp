@@ -10,13 +10,12 @@
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
 #include "converters/export/shared/blood.h"
+#include "converters/export/shared/units.h"
 #include "converters/io/mesh/plain_names.h"
 
 namespace lumen::convert {
 
 namespace {
-
-constexpr double kMetres = 1e-3;  // metres in a millimetre
 
 /// The cone with the segment's resistance.
 OneDVessel equivalentCone(const FlowSegment& segment) {

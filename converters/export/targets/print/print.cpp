@@ -23,7 +23,7 @@ namespace lumen::convert {
 namespace {
 
 // mm: walls that printers of resin and powder hold without support
-constexpr Length kWall = {1, 0};
+constexpr Length kPrintedWall = {1, 0};
 // mm: thinner walls of resin tear (makers' guides: 0.4 to 0.8)
 constexpr double kLeastPrintable = .6;
 
@@ -73,7 +73,7 @@ ExportResult exportPrint(const ExportInput& input) {
   addSolid(result, "core", core.mesh, "the lumen as a solid");
   result.start = exportText("print/README.md");
   result.ends = std::move(core.ends);
-  WallAttempt attempt = tryWall(input, kWall, core.report);
+  WallAttempt attempt = tryWall(input, kPrintedWall, core.report);
   if (!attempt.wall) {
     result.losses.push_back("there is no wall.3mf and no wall.stl: " + attempt.whyNot);
     result.surface = std::move(core.report);

@@ -20,6 +20,7 @@
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
+#include "converters/export/shared/units.h"
 #include "converters/export/shared/volume_mesh.h"
 #include "converters/io/mesh/plain_names.h"
 #include "converters/io/mesh/vtk_array.h"
@@ -28,8 +29,6 @@
 namespace lumen::convert {
 
 namespace {
-
-constexpr double kCentimetres = 0.1;  // centimetres in a millimetre
 
 std::string point(std::size_t id, const Eigen::Vector3d& mm) {
   return pointElement("point id=\"" + std::to_string(id) + "\"", kCentimetres * mm);

@@ -74,10 +74,10 @@ std::string startText(const SceneInput& input, const SofaOptions& options) {
 }
 
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
-  // mm, and samples: distance from the wall within which contacts look for it
-  constexpr double kBorder = 1, kBorderSamples = 3;
-  const double spacing = gridSpacing(input.options.spacing, scene.box, kBorder, input.source.tree);
-  const Lattice lattice = latticeOver(scene.box, kBorder + kBorderSamples * spacing, spacing);
+  const double spacing =
+      gridSpacing(input.options.spacing, scene.box, kGridBorder, input.source.tree);
+  const Lattice lattice =
+      latticeOver(scene.box, kGridBorder + kGridBorderSamples * spacing, spacing);
   const VesselDistance vessels(input.source);
   const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
   scene.grid = {lattice.size, lattice.first, lattice.last()};

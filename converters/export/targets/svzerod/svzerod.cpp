@@ -14,6 +14,7 @@
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/network.h"
+#include "converters/export/shared/units.h"
 #include "converters/io/mesh/plain_names.h"
 
 namespace lumen::convert {
@@ -22,11 +23,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMetres = 1e-3, kCentimetres = 0.1;  // metres and centimetres in a millimetre
-constexpr double kCgsFlow = 1e6;                      // cm^3/s of m^3/s
-constexpr double kCgsResistance = 1e-5;               // dyn s/cm^5 of Pa s/m^3
-constexpr double kCgsInertance = 1e-5;                // dyn s^2/cm^5 of Pa s^2/m^3
-constexpr double kCgsCompliance = 1e5;                // cm^5/dyn of m^3/Pa
+constexpr double kCgsFlow = 1e6;        // cm^3/s of m^3/s
+constexpr double kCgsInertance = 1e-5;  // dyn s^2/cm^5 of Pa s^2/m^3
+constexpr double kCgsCompliance = 1e5;  // cm^5/dyn of m^3/Pa
 
 // Seconds until the flow that walls take up is settled; the last one is answered.
 constexpr int kCycles = 10;

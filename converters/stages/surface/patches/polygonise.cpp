@@ -27,7 +27,7 @@ namespace {
 constexpr double kCellDiagonal = 1.74;
 // Extent of a node's surface from its centre along each axis. Its points lie within 2.4 radii,
 // because its rays are sampled no farther; a surface beyond runs away from them.
-constexpr double kReachRadii = 2.4, kReachHeights = 0.5;
+constexpr double kPatchRadii = 2.4, kPatchHeights = 0.5;
 // A part of the cut patch that nowhere comes this near to the node, in radii, is not its lumen's.
 constexpr double kLumenRadii = 2;
 // Vertices this near to a plane, in cells, are on it.
@@ -183,7 +183,7 @@ TriangleMesh polygoniseModel(const formats::Case& source, std::uint32_t node,
   const formats::CenterlineTree& tree = source.tree;
   const Eigen::Vector3d centre = toEigen(tree.centre[node]);
   const double radius = tree.radius[node];
-  const double reach = kReachRadii * radius + kReachHeights * double(tree.height[node]) + 2 * cell;
+  const double reach = kPatchRadii * radius + kPatchHeights * double(tree.height[node]) + 2 * cell;
   const Eigen::Vector3d low = field.low().cwiseMax((centre.array() - reach).matrix());
   const Eigen::Vector3d high = field.high().cwiseMin((centre.array() + reach).matrix());
   SampleGrid grid = layOutGrid(field, spaces, low, high, cell);
