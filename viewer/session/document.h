@@ -52,6 +52,7 @@ using Seeds = std::vector<convert::SeedBranch>;
 /// A missing part is null, except `seeds`.
 struct Document {
   std::shared_ptr<const convert::Volume> volume;
+  std::shared_ptr<const formats::SourceVolume> volumeSource;  ///< of `volume`
   std::shared_ptr<const formats::Case> value;
   std::shared_ptr<const formats::Case> truth;
   std::shared_ptr<const Seeds> seeds = std::make_shared<const Seeds>();

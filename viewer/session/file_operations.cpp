@@ -121,8 +121,13 @@ Json FileOperations::save(const Arguments& request, const Moment& from) {
   Document document = from.document;
   const fs::path file = m_workspace.saving.save(document, request.flag("force"));
   m_workspace.history.restamp(document.files);
-  m_workspace.keepUnsaved();
-  m_workspace.sendMessage("note", file.filename().string() + " is saved");
+  const auto kept = m_workspace.keepUnsaved();
+  const bool areSeedsKept = m_workspace.saving.unsaved(m_workspace.history.now().document).hasSeeds;
+  m_workspace.sendMessage(
+      "note", file.filename().string() + " is saved" +
+                  (areSeedsKept && !kept.empty()
+                       ? "; seeds that are not tracked yet are in " + nameOf(kept.front())
+                       : ""));
   m_workspace.announce();
   return m_workspace.revision();
 }

@@ -12,6 +12,7 @@
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/content/file_content.h"
 #include "converters/io/seeds/place_seeds.h"
+#include "converters/io/volume/write_volume.h"
 #include "converters/stages/fitting/fit.h"
 #include "viewer/session/surface_pack.h"
 
@@ -67,6 +68,8 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Volume:
       document.volume = std::make_shared<const convert::Volume>(engine::loadVolume(
           opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
+      document.volumeSource =
+          std::make_shared<const formats::SourceVolume>(convert::describeSource(*document.volume));
       document.proposals.reset();
       break;
     case FileRole::Case:
@@ -128,6 +131,7 @@ Document withoutFile(const Document& document, int id) {
   switch (file->role) {
     case FileRole::Volume:
       result.volume.reset();
+      result.volumeSource.reset();
       result.proposals.reset();
       break;
     case FileRole::Case:

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "formats/container/printable.h"
 #include "viewer/session/corrections.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/seed_changes.h"
+#include "viewer/session/source_match.h"
 
 namespace lumen::viewer {
 
@@ -36,9 +38,13 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
   if (op == "reload") return m_files.reload(request, from);
   if (op == "recover") return m_files.recover(request, from);
   if (op == "closeFile") return m_files.close(request, from);
-  if (op == "track") return m_stages.track(request, from);
-  if (op == "find") return m_stages.find(from);
-  if (op == "accept") return m_stages.accept(request, from);
+  if (op == "acceptVolume") return acceptVolume(from);
+  if (op == "track" || op == "find" || op == "accept") {
+    requireOneSource(from.document);
+    if (op == "track") return m_stages.track(request, from);
+    if (op == "find") return m_stages.find(from);
+    return m_stages.accept(request, from);
+  }
   if (op == "reject") return reject(request, from);
   if (op == "fit") return m_stages.fit(from);
   if (auto seeds = changeSeeds(op, request, from.document)) {
@@ -54,6 +60,12 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
     return m_workspace.revision();
   }
   throw Error(ErrorKind::Usage, "there is no operation \"" + op + "\"");
+}
+
+Json Operations::acceptVolume(const Moment& from) {
+  m_workspace.commit("accept " + formats::printable(from.document.labelOf(FileRole::Volume)), from,
+                     withAcceptedVolume(from.document));
+  return m_workspace.revision();
 }
 
 Json Operations::reject(const Arguments& request, const Moment& from) {

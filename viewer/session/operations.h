@@ -27,6 +27,7 @@ public:
 
 private:
   Json change(const std::string& op, const Arguments& request, const Moment& from);
+  Json acceptVolume(const Moment& from);
   Json reject(const Arguments& request, const Moment& from);
   Json step(bool forward);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/saving.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "converters/base/error.h"
@@ -12,6 +13,21 @@
 namespace lumen::viewer {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether each seed is a vessel of the case, which then needs no file of seeds.
+bool areTracked(const Document& document) {
+  if (!document.value) return document.seeds->empty();
+  const auto& branches = document.value->tree.branches;
+  return std::all_of(
+      document.seeds->begin(), document.seeds->end(), [&branches](const convert::SeedBranch& seed) {
+        return std::any_of(branches.begin(), branches.end(),
+                           [&seed](const auto& branch) { return branch.label == seed.label; });
+      });
+}
+
+}  // namespace
 
 void Saving::saveTo(const fs::path& file) {
   const std::lock_guard lock(m_mutex);
@@ -64,8 +80,7 @@ fs::path Saving::place(const Document& document) const {
 
 UnsavedParts Saving::unsaved(const Document& document) const {
   const std::lock_guard lock(m_mutex);
-  // a case holds the seeds that it was tracked from
-  const bool areInCase = document.fileOf(FileRole::Seeds) == nullptr && document.value != nullptr;
+  const bool areInCase = document.fileOf(FileRole::Seeds) == nullptr && areTracked(document);
   const bool otherSeeds = m_seeds ? document.seeds != m_seeds : !document.seeds->empty();
   return {document.value && document.value != m_case, otherSeeds && !areInCase,
           document.proposals != nullptr};
@@ -87,14 +102,15 @@ fs::path Saving::save(Document& document, bool force) {
   Progress silent;
   engine::caseOutputFormat(file, "", "the saved case").writeCase(*document.value, file, {}, silent);
   const OpenFile* seeds = document.fileOf(FileRole::Seeds);
-  if (seeds != nullptr && !seeds->path.empty() && unsaved(document).hasSeeds)
-    convert::writeSeeds(*document.seeds, seeds->path);
+  const bool haveFile = seeds != nullptr && !seeds->path.empty();
+  if (haveFile && unsaved(document).hasSeeds) convert::writeSeeds(*document.seeds, seeds->path);
   for (OpenFile& open : document.files)
     if ((open.role == FileRole::Case || open.role == FileRole::Seeds) && !open.path.empty())
       open.stamp = readFileStamp(open.path);
   const std::lock_guard lock(m_mutex);
   m_case = document.value;
-  m_seeds = document.seeds;
+  // seeds that wait and have no file stay unsaved work
+  if (haveFile || areTracked(document)) m_seeds = document.seeds;
   m_stamp = readFileStamp(file);
   return file;
 }

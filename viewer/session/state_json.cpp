@@ -8,6 +8,7 @@
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
 #include "viewer/session/proposals.h"
+#include "viewer/session/source_match.h"
 
 namespace lumen::viewer {
 
@@ -104,6 +105,7 @@ Json stateJson(const Workspace& workspace) {
   json["hasVolume"] = document.volume != nullptr;
   json["hasCase"] = document.value != nullptr;
   json["hasTruth"] = document.truth != nullptr;
+  json["otherSource"] = orNull(otherSource(document));
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);
   json["proposals"] = proposalsJson(document);

@@ -251,4 +251,33 @@ TEST_F(UnsavedTest, SeedsAreKeptBesideTheirVolume) {
   EXPECT_EQ(state()["seeds"][0]["label"], "a");
 }
 
+TEST_F(UnsavedTest, SeedsThatWaitBesideACaseAreKeptUntilTheyAreTracked) {
+  writeTube("tube.nrrd");
+  writeCase("two.lumen", twoVessels());
+  serve({"tube.nrrd", "two.lumen"});
+  const auto place = [this](const std::string& label) {
+    ASSERT_EQ(perform({{"op", "seedAdd"},
+                       {"label", label},
+                       {"points", Json::array({{{"position", {6.4, 6.4, 6.4}}}})}})
+                  .status,
+              200);
+  };
+  place("waits");
+  const std::vector kept{path("two.unsaved.seeds.json").string()};
+  EXPECT_EQ(session->keepUnsaved(), kept);
+  EXPECT_EQ(state()["unsaved"], true);
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);  // a case does not hold them
+  EXPECT_EQ(session->keepUnsaved(), kept);
+  EXPECT_EQ(state()["unsaved"], true);
+
+  serve({"tube.nrrd", "two.lumen"});
+  ASSERT_EQ(session->findUnsaved(), kept);
+  performAll({{"op", "recover"}, {"index", 0}});
+  EXPECT_EQ(state()["seeds"][0]["label"], "waits");
+  EXPECT_EQ(state()["hasCase"], true);
+  performAll({{"op", "track"}});
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);
+  EXPECT_EQ(state()["unsaved"], false);
+}
+
 }  // namespace lumen::test

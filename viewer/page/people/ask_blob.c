@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   }
   const double point[3] = {strtod(argv[2], NULL), strtod(argv[3], NULL), strtod(argv[4], NULL)};
   blob_sample s;
-  blob_query(model, BLOB_BLENDED, point, NULL, &s);
+  blob_query(model, BLOB_BLENDED | BLOB_DISTANCE_EXACT, point, NULL, &s);
   printf("%.17g %u\n", s.distance, (unsigned)s.node);
   blob_model_close(model);
   return 0;

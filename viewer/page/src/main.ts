@@ -16,6 +16,7 @@ import { newStore, type App } from "./model";
 import { Performer } from "./performer";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
+import { oneSourcePanel } from "./one_source";
 import { SceneView } from "./scene_view";
 import { makeShell, toast, type Shell } from "./shell";
 import { listenToSlice } from "./slice_input";
@@ -79,6 +80,7 @@ async function start(): Promise<void> {
   makeBar(shell.bar, app, actions);
   new TreePanel(shell.left, app);
   shell.right.append(
+    ...oneSourcePanel(app),
     ...libraryPanel(app),
     ...findPanel(app, actions),
     ...workPanel(app, actions, hand),

@@ -4,6 +4,8 @@ import { branchColour, fromHex, mapColour, toHex, usualRange } from "./colour";
 import { locate, pointAt, makeFlightPath } from "./flight";
 import { marchTetrahedra } from "./local_model";
 import { findPlaces } from "./narrowing";
+import { requestFor } from "./one_source";
+import { distanceText } from "./probe_line";
 import { niceLength } from "./slice_overlay";
 import { fromBase64 } from "./source_embedded";
 import { Store } from "./store";
@@ -29,6 +31,30 @@ describe("findPlaces", () => {
   });
   it("doesNotMarkAnEndThatPetersOut", () => {
     expect(at(x => (x > 38.4 ? 0.5 : 2))).toEqual([]);
+  });
+});
+describe("distanceText", () => {
+  it("showsAllDigitsOfADistanceThatIsFound", () => {
+    expect(distanceText({ distance: -3.99128, converged: true })).toBe("−3.991 mm");
+    expect(distanceText({ distance: 0.5, converged: true })).toBe("+0.500 mm");
+  });
+  it("showsTwoOfOneThatIsNot", () => {
+    expect(distanceText({ distance: -3.53, converged: false })).toBe("about −3.5 mm");
+  });
+});
+describe("requestFor", () => {
+  const files = [
+    { id: 4, kind: "volume", name: "a.nrrd", changed: false, named: true },
+    { id: 7, kind: "case", name: "b.lumen", changed: false, named: true },
+  ];
+  it("closesTheFileOfTheAnswer", () => {
+    expect(requestFor("volume", { files })).toEqual({ op: "closeFile", id: 4 });
+    expect(requestFor("case", { files })).toEqual({ op: "closeFile", id: 7 });
+    expect(requestFor("accept", { files })).toEqual({ op: "acceptVolume" });
+  });
+  it("asksForNothingWithoutAnAnswer", () => {
+    expect(requestFor(null, { files })).toBeNull();
+    expect(requestFor("case", { files: files.slice(0, 1) })).toBeNull();
   });
 });
 describe("marchTetrahedra", () => {

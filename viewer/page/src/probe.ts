@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The probe at a point: libblob's answer and the volume's value. */
-import { Flags, NOWHERE, type Batch, type Model } from "../../../libblob/wasm/blob.mjs";
+import { Flags, NOWHERE, State, type Batch, type Model } from "../../../libblob/wasm/blob.mjs";
 import type { View } from "./model";
 import type { Vec3 } from "./types";
 import { along } from "./vec";
@@ -9,8 +9,20 @@ export interface Answer {
   position: Vec3;
   /** Intensity, or NaN where there is no voxel. */
   value: number;
-  /** Null without a model. Distance in mm, negative in the lumen; the normal points outwards. */
-  wall: { distance: number; normal: Vec3; node: number; inside: boolean } | null;
+  /** Null without a model. */
+  wall: Wall | null;
+}
+
+/** The wall as libblob answers it. */
+export interface Wall {
+  /** To the wall, mm; negative in the lumen. */
+  distance: number;
+  /** Outwards. */
+  normal: Vec3;
+  node: number;
+  inside: boolean;
+  /** The search for the wall's nearest point came to its end. */
+  converged: boolean;
 }
 
 let batch: Batch | null = null;
@@ -21,25 +33,28 @@ function batchOf(model: Model): Batch {
 }
 
 /** One query; `cursor` is the node that the point belongs to, if that is known. 0.01 ms or so. */
-export function ask(
-  model: Model,
-  p: Vec3,
-  cursor = NOWHERE,
-  flags = 0,
-): { distance: number; normal: Vec3; node: number; inside: boolean } {
+export function ask(model: Model, p: Vec3, cursor = NOWHERE, flags = 0): Wall {
   const one = batchOf(model);
   one.points.set(p);
   one.cursors[0] = cursor;
   one.query(flags);
   const s = one.sample(0);
-  return { distance: s.distance, normal: Array.from(s.normal) as Vec3, node: s.node, inside: s.inside };
+  return {
+    distance: s.distance,
+    normal: Array.from(s.normal) as Vec3,
+    node: s.node,
+    inside: s.inside,
+    converged: (s.state & State.NOT_CONVERGED) === 0,
+  };
 }
 
+/** Distance and normal are those of the nearest point of the wall: the form of one evaluation is for contacts, and is
+ * wrong by a tenth of the radius near an axis. */
 export function probe(view: View, p: Vec3, cursor = NOWHERE): Answer {
   return {
     position: p,
     value: view.volume?.sample(p) ?? NaN,
-    wall: view.blob === null ? null : ask(view.blob, p, cursor),
+    wall: view.blob === null ? null : ask(view.blob, p, cursor, Flags.DISTANCE_EXACT),
   };
 }
 

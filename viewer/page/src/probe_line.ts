@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One line under everything: what is at the pointer, or at the crosshair while the pointer is elsewhere. */
 import type { App } from "./model";
-import { probe, type Answer } from "./probe";
+import { probe, type Answer, type Wall } from "./probe";
 import type { Tools } from "./tools";
 import { brief, h } from "./ui";
 
@@ -13,6 +13,13 @@ const kTitles = {
   node: "Node",
   branch: "Vessel",
 };
+
+/** With the digits that are true: libblob's error is a hundred-thousandth of the radius, or unknown. */
+export function distanceText(wall: Pick<Wall, "distance" | "converged">): string {
+  const size = Math.abs(wall.distance),
+    sign = wall.distance >= 0 ? "+" : "−";
+  return wall.converged ? `${sign}${size.toFixed(3)} mm` : `about ${sign}${size.toPrecision(2)} mm`;
+}
 
 export class ProbeLine {
   private readonly fields = Object.fromEntries(
@@ -55,10 +62,7 @@ export class ProbeLine {
     const texts: Record<keyof typeof kTitles, string> = {
       position: a.position.map(x => x.toFixed(2)).join("  "),
       value: brief(a.value),
-      distance:
-        a.wall === null
-          ? "–"
-          : `${a.wall.distance >= 0 ? "+" : "−"}${Math.abs(a.wall.distance).toFixed(3)} mm`,
+      distance: a.wall === null ? "–" : distanceText(a.wall),
       normal: a.wall === null ? "–" : a.wall.normal.map(x => x.toFixed(2)).join(" "),
       node: a.wall === null ? "–" : String(a.wall.node),
       branch: branch?.label ?? "–",

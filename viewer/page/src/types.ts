@@ -83,6 +83,8 @@ export interface State {
   hasVolume: boolean;
   hasCase: boolean;
   hasTruth: boolean;
+  /** A sentence on the volume from which the case was not made, until it is accepted. */
+  otherSource: string | null;
   meshes: { id: number | string; name: string }[];
   seeds: Seed[];
   proposals: Proposal[];
@@ -111,6 +113,7 @@ export const kEmptyState: State = {
   hasVolume: false,
   hasCase: false,
   hasTruth: false,
+  otherSource: null,
   meshes: [],
   seeds: [],
   proposals: [],

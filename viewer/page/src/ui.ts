@@ -201,7 +201,16 @@ export function askText(title: string, label: string, value: string): Promise<st
 }
 
 /** Asks whether to do something; false: no. */
-export function askYes(title: string, text: string, yes: string): Promise<boolean> {
+export async function askYes(title: string, text: string, yes: string): Promise<boolean> {
+  return (await ask(title, text, [{ value: "yes", label: yes }])) === "yes";
+}
+
+/** The value of the choice that was taken, the last of which is the main one; null for none of them. */
+export function ask(
+  title: string,
+  text: string,
+  choices: readonly { value: string; label: string }[],
+): Promise<string | null> {
   return new Promise(resolve => {
     const dialog = h(
       "dialog",
@@ -215,12 +224,23 @@ export function askYes(title: string, text: string, yes: string): Promise<boolea
           "div",
           { class: "row end" },
           h("button", { type: "submit", class: "button text", value: "" }, "Cancel"),
-          h("button", { type: "submit", class: "button primary", value: "ok", id: "ask-yes" }, yes),
+          ...choices.map(({ value, label }, i) =>
+            h(
+              "button",
+              {
+                type: "submit",
+                class: i + 1 === choices.length ? "button primary" : "button text",
+                value,
+                id: `ask-${value}`,
+              },
+              label,
+            ),
+          ),
         ),
       ),
     );
     dialog.addEventListener("close", () => {
-      resolve(dialog.returnValue === "ok");
+      resolve(dialog.returnValue === "" ? null : dialog.returnValue);
       dialog.remove();
     });
     document.body.append(dialog);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/** A volume and a case that may be of two patients: the page asks, aloud and until there is an answer. */
+import type { App } from "./model";
+import type { FileEntry, State } from "./types";
+import { ask, button, h } from "./ui";
+
+const kChoices = [
+  { value: "accept", label: "They belong together" },
+  { value: "case", label: "Close the case" },
+  { value: "volume", label: "Close the volume" },
+] as const;
+
+/** What the page asks for `answer`; null for none, and for one that no longer fits the state. */
+export function requestFor(
+  answer: string | null,
+  state: Pick<State, "files">,
+): { op: string; id?: FileEntry["id"] } | null {
+  if (answer === "accept") return { op: "acceptVolume" };
+  const file = state.files.find(each => each.kind === answer);
+  return file === undefined ? null : { op: "closeFile", id: file.id };
+}
+
+async function askWhich(app: App): Promise<void> {
+  const { otherSource } = app.store.get().state;
+  if (otherSource === null) return;
+  const answer = await ask(
+    "One patient, or two?",
+    `${otherSource}. Vessels are not tracked in this volume until you answer; the case records that you accept it.`,
+    kChoices,
+  );
+  const request = requestFor(answer, app.store.get().state);
+  if (request !== null) await app.perform(request);
+}
+
+/** A line that stays while the question is open. The question comes by itself once for each pair. */
+export function oneSourcePanel(app: App): HTMLElement[] {
+  if (!app.source.live) return [];
+  const text = h("p", { class: "warning", id: "other-source" }),
+    line = h(
+      "section",
+      { class: "section alert", role: "alert", hidden: true },
+      text,
+      h(
+        "div",
+        { class: "row end" },
+        button(
+          { text: "Answer", label: "Answer whether volume and case belong together", id: "answer-source" },
+          () => void askWhich(app),
+        ),
+      ),
+    );
+  let asked: string | null = null;
+  app.store.watch(["state"], ({ state }) => {
+    line.hidden = state.otherSource === null;
+    text.textContent = state.otherSource ?? "";
+    if (state.otherSource === asked) return;
+    asked = state.otherSource;
+    void askWhich(app);
+  });
+  return [line];
+}

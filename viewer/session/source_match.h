@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a document's volume and case are of one patient, as far as files can show it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "viewer/session/document.h"
+
+namespace lumen::viewer {
+
+/// A sentence on the volume from which the case was not made. None if the case is of this volume or
+/// states no volume, and if it records that a person has accepted this one.
+std::optional<std::string> otherSource(const Document& document);
+
+/// Throws Error(Usage) with otherSource() and the ways out, if there is one: what is tracked in one
+/// volume does not come into a case of another by mistake.
+void requireOneSource(const Document& document);
+
+/// The document whose case records, as a step with the digest of the voxels, that its volume was
+/// accepted. Throws Error(Usage) if there is nothing to accept.
+Document withAcceptedVolume(const Document& document);
+
+}  // namespace lumen::viewer
