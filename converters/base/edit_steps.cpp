@@ -2,12 +2,22 @@
 #include "converters/base/edit_steps.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "formats/view/limits.h"
 
 namespace lumen {
+
+namespace {
+
+constexpr const char* kAssumption = "assumption-";
+
+}  // namespace
 
 void recordEdit(formats::Metadata& metadata, const std::string& sentence) {
   auto& steps = metadata.steps;
@@ -24,6 +34,23 @@ void recordEdit(formats::Metadata& metadata, const std::string& sentence) {
   for (std::size_t n = done.size() + 1; number.empty() || done.contains(number); ++n)
     number = paddedNumber(n, 4);
   done[number] = sentence;
+}
+
+void recordAssumptions(formats::Step& step, const std::vector<std::string>& assumptions) {
+  for (std::size_t i = 0; i < assumptions.size(); ++i)
+    step.parameters[kAssumption + std::to_string(i + 1)] = assumptions[i];
+}
+
+std::vector<std::string> recordedAssumptions(const formats::Metadata& metadata) {
+  std::vector<std::string> all;
+  for (const formats::Step& step : metadata.steps)
+    for (const auto& [name, value] : step.parameters) {
+      const auto* sentence = std::get_if<std::string>(&value);
+      if (sentence != nullptr && name.starts_with(kAssumption) &&
+          std::find(all.begin(), all.end(), *sentence) == all.end())
+        all.push_back(*sentence);
+    }
+  return all;
 }
 
 std::string parameterText(const formats::ParameterValue& value) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "formats/case/case.h"
 
@@ -14,6 +15,13 @@ constexpr const char* kEditStep = "edit";
 /// parameters of one "edit" step, numbered from 0001. Throws Error(Unsupported) if the case has no
 /// room for another step.
 void recordEdit(formats::Metadata& metadata, const std::string& sentence);
+
+/// Records what the reader of the source took for granted where its file is incomplete, such as where
+/// left and right are: sentences, as parameters "assumption-1" and so on.
+void recordAssumptions(formats::Step& step, const std::vector<std::string>& assumptions);
+
+/// The sentences that recordAssumptions() left in the steps of a case, each once.
+std::vector<std::string> recordedAssumptions(const formats::Metadata& metadata);
 
 /// A parameter of a step as text: a number with at most six significant digits, "true" or "false".
 std::string parameterText(const formats::ParameterValue& value);

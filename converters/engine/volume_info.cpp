@@ -66,6 +66,7 @@ Json volumeInfoJson(const VolumeInfo& info) {
     json["min"] = jsonNumber(info.values->min);
     json["max"] = jsonNumber(info.values->max);
   }
+  json["placed_by"] = header.placedBy.empty() ? Json(nullptr) : Json(header.placedBy);
   json["stored_type"] = header.storedType;
   json["encoding"] = header.encoding;
   json["voxel_bytes"] = header.voxelBytes;
@@ -83,6 +84,7 @@ std::string volumeInfoText(const VolumeInfo& info) {
   lines.add("direction", threeOf(s.direction));
   lines.add("", threeOf(s.direction, 3));
   lines.add("", threeOf(s.direction, 6));
+  if (!header.placedBy.empty()) lines.add("placed by", header.placedBy);
   lines.add("stored", header.storedType + ", " + header.encoding + ": " +
                           std::to_string(header.voxelBytes) + " bytes of voxels in " +
                           std::to_string(header.storedBytes) + " bytes");

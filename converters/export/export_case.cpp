@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/export/shared/folder_texts.h"
@@ -54,6 +55,9 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
   frame.unit = choice(options.unit, target.units, kOption.unit.shown(), unitName, target.name);
   frame.axes = choice(options.axes, target.axes, kOption.up.shown(), upName, target.name);
   ExportResult result = target.write({source, options, frame, progress}, options);
+  result.assumptions = recordedAssumptions(source.metadata);
+  for (const std::string& assumption : result.assumptions)
+    result.remarks.push_back("the file of the case's volume left open: " + assumption);
   result.files.push_back({"README.md", readmeText(target, frame, result), "", ""});
   result.files.push_back(
       {"lumen-export.json", makeManifest(target, frame, source, texts, result), "", ""});

@@ -4,6 +4,7 @@
 #include <set>
 #include <string_view>
 
+#include "converters/base/edit_steps.h"
 #include "converters/engine/file_format.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
@@ -105,6 +106,9 @@ Json stateJson(const Workspace& workspace) {
   json["hasVolume"] = document.volume != nullptr;
   json["hasCase"] = document.value != nullptr;
   json["hasTruth"] = document.truth != nullptr;
+  json["assumptions"] = document.volume  ? document.volume->assumptions
+                        : document.value ? recordedAssumptions(document.value->metadata)
+                                         : std::vector<std::string>{};
   json["otherSource"] = orNull(otherSource(document));
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/option_name.h"
 #include "converters/base/privacy.h"
 #include "converters/base/sha256.h"
@@ -145,6 +146,10 @@ private:
     facts.value = std::move(value);
     facts.info = convert::describeCase(facts.value, progress);
     addNames(facts);
+    // a volume that is given states its own
+    if (m_input.empty())
+      for (const std::string& assumption : recordedAssumptions(facts.value.metadata))
+        facts.otherWarnings.push_back("the volume of the case: " + assumption);
     if (!facts.value.models || facts.value.tree.nodeCount() == 0) return facts;
     for (const std::string& sentence : closedSurfaceWarnings(facts.value, progress))
       facts.otherWarnings.push_back("the surface that lumen convert makes: " + sentence);

@@ -98,6 +98,10 @@ std::string readmeText(const TargetRow& target, const ExportFrame& frame,
           " unless a file states otherwise. Axes are those of the patient: " +
           std::string(axesText(frame.axes)) + ", " + std::string(axesName(frame.axes)) +
           ".\nThe origin is that of the volume that the case was made from.\n";
+  for (const std::string& assumption : result.assumptions)
+    text +=
+        "\n**Not certain**: the file of the case's volume left open: " + markdownText(assumption) +
+        ".\n";
   for (const std::string& loss : result.losses) text += "\n" + markdownText(loss) + ".\n";
   text += endsTable(frame, result.ends);
   return text + "\nMade by lumen " LUMEN_VERSION ".\n";

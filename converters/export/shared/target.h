@@ -41,6 +41,7 @@ struct ExportResult {
   std::vector<NamedEnd> ends;            ///< under the names that the files use
   std::optional<SurfaceReport> surface;  ///< report on the surface among the files
   std::vector<std::string> remarks;      ///< sentences for the answer
+  std::vector<std::string> assumptions;  ///< sentences: taken for granted by the volume's reader
   std::vector<std::string> losses;       ///< sentences: parts of the case that the folder lacks
   /// README.md: first steps and facts to know; Markdown, without headings of level 1.
   std::string start;

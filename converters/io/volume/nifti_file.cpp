@@ -42,6 +42,7 @@ struct OpenNifti {
   VolumeGeometry geometry;
   StoredVoxels voxels;
   std::uint64_t storedBytes = 0;
+  std::string placedBy;
   std::vector<std::string> assumptions;
 };
 
@@ -89,6 +90,7 @@ void checkSpacings(const NiftiHeader& header, const fs::path& path) {
 void settleGeometry(OpenNifti& file, const fs::path& path, const ReadVolumeOptions& options) {
   if (!options.spacing) checkSpacings(file.header, path);
   const StatedGeometry stated = niftiGeometry(file.header, options, path, file.assumptions);
+  file.placedBy = stated.placedBy;
   const std::size_t before = file.assumptions.size();
   file.geometry = settledGeometry(stated, options, path, file.assumptions);
   const bool isReported = file.assumptions.size() > before;  // the unknown unit is reported
@@ -176,6 +178,7 @@ VolumeHeader readNiftiHeader(const fs::path& path, const ReadVolumeOptions& opti
           .encoding = file.voxels.packing == Packing::Deflate ? "gzip" : "raw",
           .voxelBytes = file.header.voxelBytes(),
           .storedBytes = file.storedBytes,
+          .placedBy = file.placedBy,
           .assumptions = std::move(file.assumptions)};
 }
 

@@ -22,12 +22,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// The choice of the transform, and the required orthogonality of an sform, follow ITK's reader
-// (5.2, itkNiftiImageIO.cxx), through which most tools of the field read. ITK's reader differs
-// in two points: it rejects an orthogonal sform whose inverse in floats is inaccurate, and leaves the
-// origin of a file in metres unconverted.
+// The sform counts where its code is at least as high as the qform's: nibabel, NiiVue, FreeSurfer and
+// SPM take the sform whenever it is stated, ITK (5.2, itkNiftiImageIO.cxx) only if its code is 1 or
+// there is no qform. The required orthogonality of an sform is ITK's, which differs in two points: it
+// rejects an orthogonal sform whose inverse in floats is inaccurate, and leaves the origin of a file in
+// metres unconverted.
 constexpr double kOrthogonal = 1e-4;
-constexpr int kScanner = NIFTI_XFORM_SCANNER_ANAT;
 // Limit of the norm of a quaternion's b, c and d, which belong to a unit vector: a greater one is
 // no rounding of floats.
 constexpr double kLongQuaternion = 1 + 1e-3;
@@ -131,7 +131,7 @@ const Transform* chosenTransform(const Transform& sform, const Transform& qform,
                                  const NiftiHeader& header, const std::filesystem::path& path,
                                  std::vector<std::string>& assumptions) {
   if (!sform.stated && !qform.stated) return nullptr;
-  const bool prefersS = sform.stated && (!qform.stated || header.sformCode == kScanner);
+  const bool prefersS = sform.stated && (!qform.stated || header.sformCode >= header.qformCode);
   const Transform& first = prefersS ? sform : qform;
   const Transform& second = prefersS ? qform : sform;
   const char* const firstName = prefersS ? "sform" : "qform";
@@ -196,8 +196,11 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
     assumptions.emplace_back(
         "its header places it nowhere (qform_code and sform_code are 0), so its axes are taken as "
         "left, posterior and superior, from an origin at its first voxel");
+    stated.placedBy = "no transform";
     return stated;
   }
+  stated.placedBy = transform == &sform ? "sform (code " + std::to_string(header.sformCode) + ")"
+                                        : "qform (code " + std::to_string(header.qformCode) + ")";
   if (!options.spacing) reportOtherSpacing(sform, geometry.spacing, assumptions);
   geometry.origin = kLpsFromRas.cwiseProduct(transform->offset);
   geometry.direction = kLpsFromRas.asDiagonal() * transform->axes;

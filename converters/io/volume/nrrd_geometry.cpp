@@ -74,6 +74,9 @@ Space readSpace(const TextHeader& header, std::vector<std::string>& assumptions)
     space = anatomicalSpace(header, assumptions);
     if (dimension != 0 && static_cast<std::size_t>(dimension) != space.dimension)
       throw header.refusal("space dimension", "that of its space " + cited(header.text("space")));
+  } else {
+    assumptions.emplace_back(
+        "its header states no space, so its axes are taken as left, posterior and superior");
   }
   if (space.dimension != 0 && space.dimension != 3 && space.dimension != 4)
     throw header.refusal("space dimension", "3");

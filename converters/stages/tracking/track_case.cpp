@@ -172,7 +172,9 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
   out.result.metadata.source = describeSource(volume);
-  out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});
+  auto& steps = out.result.metadata.steps;
+  steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});
+  recordAssumptions(steps.back(), volume.assumptions);
   return out;
 }
 

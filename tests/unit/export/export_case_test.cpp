@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/export/export_case.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/progress.h"
 
@@ -114,6 +117,22 @@ TEST(ExportCase, RefusesWhatIsNotThere) {
   formats::Case sac = twoNodes();
   sac.tree.branches[0].kind = formats::BranchKind::Aneurysm;
   EXPECT_NE(errorOf({}, sac).find("no vessel with a length"), std::string::npos);
+}
+
+TEST(ExportCase, StatesWhatTheReaderOfTheVolumeTookForGranted) {
+  formats::Case value = twoNodes();
+  EXPECT_TRUE(exported({}, value).assumptions.empty());
+  value.metadata.steps = {{"track", "lumen", {}}, {"track", "lumen", {}}};
+  for (formats::Step& step : value.metadata.steps)
+    recordAssumptions(step, {"left may be right", "up may be down"});
+  const ExportResult result = exported({}, value);
+  EXPECT_EQ(result.assumptions, (std::vector<std::string>{"left may be right", "up may be down"}));
+  EXPECT_EQ(result.remarks.size(), 2U);
+  const auto readme = std::find_if(result.files.begin(), result.files.end(),
+                                   [](const ExportFile& file) { return file.name == "README.md"; });
+  ASSERT_NE(readme, result.files.end());
+  for (const char* sentence : {"left may be right", "up may be down"})
+    EXPECT_NE(readme->bytes.find(sentence), std::string::npos) << readme->bytes;
 }
 
 }  // namespace lumen::convert

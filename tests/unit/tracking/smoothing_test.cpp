@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/base/edit_steps.h"
 #include "seeded_tubes.h"
 
 namespace lumen::convert {
@@ -61,6 +62,15 @@ TEST(Smoothing, FindsAThinVesselInStrongNoise) {
   EXPECT_LT(tracked.tree.centre.front().z, 1.5F);
   EXPECT_GT(tracked.tree.centre.back().z, 11.0F);
   EXPECT_GT(std::get<double>(tracked.metadata.steps[0].parameters.at("smoothing")), 0.1);
+}
+
+TEST(TrackedCase, RecordsWhatTheReaderOfItsVolumeTookForGranted) {
+  Volume volume = straightTube(1.0);
+  volume.assumptions = {"left may be right"};
+  Progress silent;
+  const auto tracked =
+      trackFromSeeds(volume, {seedAt("tube", {6.4, 6.4, 6.0})}, TrackOptions{}, silent).result;
+  EXPECT_EQ(recordedAssumptions(tracked.metadata), volume.assumptions);
 }
 
 TEST(NoiseFloor, NeedsABoundedPartOfTheSplineHoweverUnevenVoxelsAre) {

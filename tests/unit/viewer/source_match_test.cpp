@@ -109,4 +109,15 @@ TEST_F(SourceMatchTest, AVolumeThatIsClosedAsksNothing) {
   EXPECT_EQ(state()["otherSource"], nullptr);
 }
 
+TEST_F(SourceMatchTest, WhatIsNotCertainAboutTheVolumeStays) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  EXPECT_EQ(state()["assumptions"], Json::array());
+  write("bare.nrrd",
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nspacings: 1 1 1\nencoding: "
+        "raw\n\nabcdefgh");
+  serve({"bare.nrrd"});
+  EXPECT_EQ(state()["assumptions"].size(), 1U) << state()["assumptions"];
+}
+
 }  // namespace lumen::test

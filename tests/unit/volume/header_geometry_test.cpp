@@ -52,6 +52,13 @@ TEST_F(HeaderGeometry, ASpaceThatIsNoPatientsIsToldOf) {
     expectAssumes(nrrd({std::string("space: ") + space, kAxes}), {space, "LPS"});
 }
 
+TEST_F(HeaderGeometry, AMissingSpaceIsAssumedAndReported) {
+  const Volume v = nrrd({"spacings: 1 1 1"});
+  ASSERT_EQ(v.assumptions.size(), 1U);
+  expectRefused(v.assumptions[0], {"states no space", "left, posterior and superior"});
+  EXPECT_EQ(v.geometry.direction, Matrix3d::Identity());
+}
+
 TEST_F(HeaderGeometry, AMissingSpacingIsAssumedAndReported) {
   for (const Volume& v : {nrrd({}), nrrd({"spacings: nan nan nan"}), meta({"-ElementSpacing"})}) {
     EXPECT_EQ(v.geometry.spacing, Vector3d::Ones());
@@ -64,7 +71,7 @@ TEST_F(HeaderGeometry, AStatedSpacingTakesThePlaceOfAnyInTheHeader) {
                              Lines{"spacings: 1 nan 1"}, Lines{"spacings: 2 2 2"}}) {
     const Volume v = nrrd(lines, eightBytes(), withSpacing(0.3));
     EXPECT_EQ(v.geometry.spacing, Vector3d::Constant(0.3));
-    EXPECT_TRUE(v.assumptions.empty());
+    EXPECT_TRUE(assumptionsBesideSpace(v).empty());
   }
   EXPECT_EQ(meta({"ElementSpacing = nan 0 1"}, eightBytes(), withSpacing(0.3)).geometry.spacing,
             Vector3d::Constant(0.3));
@@ -135,7 +142,7 @@ TEST_F(HeaderGeometry, AStatedUnitScalesSpacingAndOrigin) {
 TEST_F(HeaderGeometry, AnUnusualSpacingIsSaidUnlessItIsStated) {
   const Lines metres = {"spacings: 2e-4 2e-4 2e-4"};
   expectAssumes(nrrd(metres), {"0.0002", "unusual", "--unit"});
-  EXPECT_TRUE(nrrd(metres, eightBytes(), withUnit(1)).assumptions.empty());
+  EXPECT_TRUE(assumptionsBesideSpace(nrrd(metres, eightBytes(), withUnit(1))).empty());
   expectAssumes(nrrd({"spacings: 0.2 0.2 0.2", R"(units: "m" "m" "m")"}),
                 {"200", "unusual", "--unit"});
 }

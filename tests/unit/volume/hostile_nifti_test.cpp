@@ -171,7 +171,7 @@ TEST_F(HostileNifti, ATransformWithoutAPlaceGivesWayToTheOther) {
   const HeaderBytes badS = HeaderBytes().codes(1, 1).put(280, kNan).put(268, 5.0F);
   expectAssumption(badS, {"sform", "not finite", "qform is used"});
   EXPECT_EQ(readQuietly(path("v.nii")).geometry.origin[0], -5);
-  const HeaderBytes badQ = HeaderBytes().codes(1, 2).put(256, kNan).put(292, 7.0F);
+  const HeaderBytes badQ = HeaderBytes().codes(2, 1).put(256, kNan).put(292, 7.0F);
   expectAssumption(badQ, {"qform", "no rotation", "sform is used"});
   EXPECT_EQ(readQuietly(path("v.nii")).geometry.origin[0], -7);
 }
@@ -185,7 +185,9 @@ TEST_F(HostileNifti, TransformsThatDisagreeAreToldWithTheOneThatCounts) {
   const HeaderBytes moved = HeaderBytes().codes(1, 1).put(268, 3.0F);
   expectAssumption(moved, {"qform (code 1)", "sform (code 1)", "up to 3 apart", "sform is used"});
   const HeaderBytes turned = HeaderBytes().codes(1, 2).put(264, 1.0F);
-  expectAssumption(turned, {"qform (code 1)", "sform (code 2)", "qform is used"});
+  expectAssumption(turned, {"qform (code 1)", "sform (code 2)", "sform is used"});
+  const HeaderBytes older = HeaderBytes().codes(2, 1).put(264, 1.0F);
+  expectAssumption(older, {"qform (code 2)", "sform (code 1)", "qform is used"});
   expectAssumption(HeaderBytes().codes(1, 1).put(268, 0.01F), {});  // a hundredth of a voxel
 }
 

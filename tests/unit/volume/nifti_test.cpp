@@ -104,7 +104,7 @@ std::string bothTransforms(std::int16_t qform, std::int16_t sform) {
   return text + "abcdefgh";
 }
 
-TEST_F(Nifti, TheScannersSformWinsAndTheQformOtherwise) {
+TEST_F(Nifti, TheTransformWithTheHigherCodeCountsAndTheSformOfEqualOnes) {
   const Eigen::Vector3d plain(-1, 0, 0), turned(0, -1, 0);
   const auto firstAxis = [&](std::int16_t qform, std::int16_t sform) {
     const auto v = readQuietly(write("v.nii", bothTransforms(qform, sform)));
@@ -113,8 +113,21 @@ TEST_F(Nifti, TheScannersSformWinsAndTheQformOtherwise) {
   constexpr std::int16_t kNone = 0, kScanner = 1, kAligned = 2;
   EXPECT_LT((firstAxis(kScanner, kScanner) - plain).norm(), 1e-6);
   EXPECT_LT((firstAxis(kNone, kAligned) - plain).norm(), 1e-6);
-  EXPECT_LT((firstAxis(kScanner, kAligned) - turned).norm(), 1e-6);
+  EXPECT_LT((firstAxis(kScanner, kAligned) - plain).norm(), 1e-6);
+  EXPECT_LT((firstAxis(kAligned, kAligned) - plain).norm(), 1e-6);
+  EXPECT_LT((firstAxis(kAligned, kScanner) - turned).norm(), 1e-6);
   EXPECT_LT((firstAxis(kAligned, kNone) - turned).norm(), 1e-6);
+}
+
+TEST_F(Nifti, TheHeaderNamesTheTransformThatPlacesTheVoxels) {
+  const auto placedBy = [&](std::int16_t qform, std::int16_t sform) {
+    return readVolumeHeader(write("v.nii", bothTransforms(qform, sform)), VolumeFormat::Nifti, {},
+                            {})
+        .placedBy;
+  };
+  EXPECT_EQ(placedBy(1, 2), "sform (code 2)");
+  EXPECT_EQ(placedBy(2, 1), "qform (code 2)");
+  EXPECT_EQ(placedBy(0, 0), "no transform");
 }
 
 TEST_F(Nifti, AShearedSformGivesWayToTheQform) {

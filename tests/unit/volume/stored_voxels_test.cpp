@@ -127,7 +127,7 @@ TEST_F(StoredVoxels, DataThatGoesOnIsReported) {
   expectRest(meta({"CompressedData = True"}, asStream(eightBytes() + "i")));
   expectRest(nrrd({kOne, "encoding: hex"}, "6162636465666768 69"));
   expectRest(nrrd({kOne, "encoding: ascii"}, "97 98 99 100 101 102 103 104 105"));
-  EXPECT_TRUE(nrrd({kOne, "encoding: gzip"}, packed(eightBytes())).assumptions.empty());
+  EXPECT_TRUE(assumptionsBesideSpace(nrrd({kOne, "encoding: gzip"}, packed(eightBytes()))).empty());
 }
 
 TEST_F(StoredVoxels, DataThatEndsIsRefused) {

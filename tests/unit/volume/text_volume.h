@@ -80,10 +80,20 @@ protected:
   }
 };
 
-/// One sentence that has all of these words.
+/// The assumptions but for that of an NRRD file without a space.
+inline std::vector<std::string> assumptionsBesideSpace(const Volume& volume) {
+  std::vector<std::string> others = volume.assumptions;
+  std::erase_if(others, [](const std::string& sentence) {
+    return sentence.find("states no space") != std::string::npos;
+  });
+  return others;
+}
+
+/// One sentence that has all of these words, besides that of an NRRD file without a space.
 inline void expectAssumes(const Volume& volume, const std::vector<std::string>& words) {
-  ASSERT_EQ(volume.assumptions.size(), 1U);
-  expectRefused(volume.assumptions[0], words);
+  const auto others = assumptionsBesideSpace(volume);
+  ASSERT_EQ(others.size(), 1U);
+  expectRefused(others[0], words);
 }
 
 }  // namespace lumen::convert

@@ -3,7 +3,17 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { frames, openPage, picture, settled, startBrowser, story } from "./browser.mjs";
-import { clickIn, document, kissing, lookAt, placeIn, placeSeed, vessel, vessels } from "./hand.mjs";
+import {
+  clickIn,
+  document,
+  kissing,
+  lookAt,
+  placeIn,
+  placeSeed,
+  reported,
+  vessel,
+  vessels,
+} from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 const position = async page =>
@@ -94,6 +104,15 @@ story("every correction can be made and undone", async t => {
   assert.deepEqual(await vessels(page), ["root", "root2-2"], "what hangs on it stays");
   await undo(page);
   await undone("split");
+
+  await vessel(page, "root").locator(".name").click(); // the views follow the list
+  const shown = (await page.locator("#probe-branch").textContent()) ?? "";
+  assert.equal(shown, "root");
+  await lookAt(page, [2, 2, 2]); // and leave it: a cut there would be one that nobody sees
+  await page.keyboard.press("Shift+X");
+  await reported(page, /once more cuts there/, "warning");
+  assert.deepEqual(await vessels(page), ["root", "root2"]);
+  await picture(page, "10-cut-is-shown-first");
 
   await toMiddle(page, "root");
   await step(page, () => page.keyboard.press("Shift+X"));

@@ -4,7 +4,7 @@ import type { Actions } from "./actions";
 import { kTools } from "./bar";
 import type { Hand } from "./hand";
 import type { App, Layout } from "./model";
-import { followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./selection";
+import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./selection";
 import { resetPlanes } from "./slice_input";
 import { renameBranch } from "./tree_panel";
 
@@ -62,7 +62,7 @@ function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
 
 function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolean {
   const { store, source } = app,
-    { selected, node } = store.get(),
+    { selected } = store.get(),
     key = e.shiftKey ? `Shift+${e.key.toUpperCase()}` : e.key.toLowerCase();
   const onVessel = (act: () => void): boolean => {
     if (selected >= 0) act();
@@ -144,11 +144,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolea
         onVessel(() => void app.perform({ op: "delete", branch: selected, hanging: "go" })),
       );
     case "Shift+X":
-      return working(() =>
-        onVessel(() => {
-          if (node >= 0) void app.perform({ op: "cut", node });
-        }),
-      );
+      return working(() => onVessel(() => atCursor(app, at => void app.perform({ op: "cut", node: at }))));
     case "enter": // without clicks that wait it presses the button that has the keys
       return store.get().clicks.length > 0 && working(() => void hand.finish());
     case "escape":

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page begins here. */
 import { Actions } from "./actions";
+import { assumptionsPanel } from "./assumptions_panel";
 import { makeBar } from "./bar";
 import { displayPanel, legend } from "./display_panel";
 import { findPanel } from "./find_panel";
@@ -81,6 +82,7 @@ async function start(): Promise<void> {
   new TreePanel(shell.left, app);
   shell.right.append(
     ...oneSourcePanel(app),
+    ...assumptionsPanel(app),
     ...libraryPanel(app),
     ...findPanel(app, actions),
     ...workPanel(app, actions, hand),

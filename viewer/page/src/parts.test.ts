@@ -11,6 +11,7 @@ import { fromBase64 } from "./source_embedded";
 import { Store } from "./store";
 import { straighten } from "./straightened";
 import { sampleTree } from "./sample_tree";
+import { isCursorShown } from "./selection";
 import { vertexNormals } from "./surface";
 import { dot, sub } from "./vec";
 
@@ -40,6 +41,19 @@ describe("distanceText", () => {
   });
   it("showsTwoOfOneThatIsNot", () => {
     expect(distanceText({ distance: -3.53, converged: false })).toBe("about −3.5 mm");
+  });
+});
+describe("isCursorShown", () => {
+  const tree = sampleTree(),
+    at = tree.position(1);
+  it("isTrueInTheLumenOfTheCursorsNode", () => {
+    expect(isCursorShown({ tree, node: 1, crosshair: at })).toBe(true);
+  });
+  it("isFalseBesideItAndWithoutACursor", () => {
+    const beside: [number, number, number] = [at[0] + 1.1 * tree.radius[1], at[1], at[2]];
+    expect(isCursorShown({ tree, node: 1, crosshair: beside })).toBe(false);
+    expect(isCursorShown({ tree, node: -1, crosshair: at })).toBe(false);
+    expect(isCursorShown({ tree: null, node: 1, crosshair: at })).toBe(false);
   });
 });
 describe("requestFor", () => {

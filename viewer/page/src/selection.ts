@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selected vessel and the cursor along it; list, views, plot and keys share them. */
-import { isShown, type App } from "./model";
+import { isShown, type App, type View } from "./model";
 import { vesselFrame } from "./slice_frame";
 import type { Vec3 } from "./types";
+import { length, sub } from "./vec";
 
 /** Selects a branch, or none (-1). */
 export function select(app: App, branch: number): void {
@@ -27,6 +28,35 @@ export function goToNode(app: App, node: number): void {
     crosshair: tree.position(node),
     ...(planes === "vessel" ? { frame: vesselFrame(store.get(), node) } : {}),
   });
+}
+
+/** Selects a branch and shows it in every view: at its cursor if it is selected already, else in its middle. */
+export function showBranch(app: App, branch: number): void {
+  const { tree, selected, node } = app.store.get();
+  if (tree === null || tree.branches[branch] === undefined) return;
+  const { firstNode, nodeCount } = tree.branches[branch];
+  goToNode(app, branch === selected && node >= 0 ? node : firstNode + (nodeCount >> 1));
+}
+
+/** Whether the crosshair, through which all slices go, lies in the lumen of the cursor's node. */
+export function isCursorShown({ tree, node, crosshair }: Pick<View, "tree" | "node" | "crosshair">): boolean {
+  return (
+    tree !== null &&
+    node >= 0 &&
+    length(sub(tree.position(node), crosshair)) <= Math.max(tree.radius[node], 0)
+  );
+}
+
+/** Acts on the cursor's node where every view shows it. Elsewhere the views go there first, and nothing else happens. */
+export function atCursor(app: App, act: (node: number) => void): void {
+  const view = app.store.get();
+  if (view.node < 0) return;
+  if (isCursorShown(view)) {
+    act(view.node);
+    return;
+  }
+  goToNode(app, view.node);
+  app.inform("The views were elsewhere. They show the cursor now: once more cuts there.", "warning");
 }
 
 /** Puts the crosshair anywhere. */

@@ -2,7 +2,7 @@
 /** The list of vessels: a tree in the order of the case, or a table by any of its columns. */
 import { toHex, fromHex } from "./colour";
 import { colourOf, isShown, opacityOf, type App, type View } from "./model";
-import { goToNode, select as selectBranch, setOpacity, showAll, toggleHidden, toggleSolo } from "./selection";
+import { goToNode, setOpacity, showAll, showBranch, toggleHidden, toggleSolo } from "./selection";
 import type { Branch, Tree } from "./tree";
 import { askText, brief, button, h, icon, mm, select, slider } from "./ui";
 
@@ -182,7 +182,7 @@ export class TreePanel {
     for (let d = 1; d <= 6; ++d) if (depth >= d) element.classList.add(`depth${d}`);
     element.addEventListener("click", e => {
       if ((e.target as HTMLElement).closest("button, input") === null) {
-        selectBranch(app, b.index);
+        showBranch(app, b.index);
         this.list.focus({ preventScroll: true });
       }
     });
@@ -219,7 +219,7 @@ export class TreePanel {
       at = this.rows.findIndex(r => r.branch === selected);
     const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: this.rows.length - 1 }[e.key];
     if (to !== undefined) {
-      if (this.rows[to] !== undefined) selectBranch(app, this.rows[to].branch);
+      if (this.rows[to] !== undefined) showBranch(app, this.rows[to].branch);
     } else if (selected >= 0 && e.key === " ") toggleHidden(app, selected);
     else if (selected >= 0 && e.key === "Enter") goToNode(app, app.store.get().node);
     else if (selected >= 0 && e.key === "F2") void renameBranch(app, selected);

@@ -83,6 +83,8 @@ export interface State {
   hasVolume: boolean;
   hasCase: boolean;
   hasTruth: boolean;
+  /** What the reader of the volume took for granted, such as where left and right are. */
+  assumptions: string[];
   /** A sentence on the volume from which the case was not made, until it is accepted. */
   otherSource: string | null;
   meshes: { id: number | string; name: string }[];
@@ -113,6 +115,7 @@ export const kEmptyState: State = {
   hasVolume: false,
   hasCase: false,
   hasTruth: false,
+  assumptions: [],
   otherSource: null,
   meshes: [],
   seeds: [],

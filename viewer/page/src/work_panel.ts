@@ -3,7 +3,7 @@
 import type { Actions } from "./actions";
 import type { Hand } from "./hand";
 import type { App, View } from "./model";
-import { goTo } from "./selection";
+import { atCursor, goTo } from "./selection";
 import { renameBranch } from "./tree_panel";
 import type { MissingVessel, Seed } from "./types";
 import { askYes, brief, button, h, mm, section, select } from "./ui";
@@ -190,7 +190,9 @@ function editSection(app: App): HTMLElement {
   ): HTMLButtonElement =>
     button({ id: `edit-${id}`, text, label, icon: iconName, key, class: "button text" }, () => {
       const operation = make(store.get());
-      if (operation !== null) void app.perform(operation);
+      if (operation === null) return;
+      if (operation.op === "cut") atCursor(app, () => void app.perform(operation));
+      else void app.perform(operation);
     });
   const target = h("select", {
     id: "edit-target",
