@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
-#include "converters/base/statistics.h"
 #include "converters/base/text.h"
+#include "converters/base/tree_figures.h"
 #include "converters/geometry/tube_tree_distance.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/enum_names.h"
@@ -168,7 +169,7 @@ Json proposalsJson(const Document& document) {
   const CenterlineTree& tree = document.proposals->tree;
   const Joints joints(*document.proposals);
   for (const formats::Branch& branch : tree.branches) {
-    const auto first = tree.radius.begin() + branch.firstNode;
+    const std::span radii = std::span(tree.radius).subspan(branch.firstNode, branch.nodeCount);
     const formats::Vec3f& middle = tree.centre[branch.firstNode + branch.nodeCount / 2];
     const int parent = findParent(tree, branch);
     const auto at = parent < 0 && document.value
@@ -181,7 +182,7 @@ Json proposalsJson(const Document& document) {
     list.push_back({{"label", branch.label},
                     {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
                     {"length", engine::jsonNumber(formats::branchLength(tree, branch))},
-                    {"radius", engine::jsonNumber(median({first, first + branch.nodeCount}))},
+                    {"radius", engine::jsonNumber(static_cast<double>(radiusRange(radii).mean))},
                     {"confidence", confidence ? engine::jsonNumber(*confidence) : Json(nullptr)},
                     {"parent", std::move(on)},
                     {"parentWaits", parent >= 0},

@@ -120,7 +120,7 @@ function proposalRow(app: App, actions: Actions, proposal: Proposal): HTMLElemen
         "div",
         { class: "figures" },
         h("span", { title: "Length" }, mm(proposal.length)),
-        h("span", { title: "Median radius, mm" }, `r ${brief(proposal.radius)}`),
+        h("span", { title: "Mean radius, mm" }, `r ${brief(proposal.radius)}`),
         h("span", { class: "confidence", title: kConfidence }, `confidence ${brief(proposal.confidence)}`),
       ),
     ),

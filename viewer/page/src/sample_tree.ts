@@ -34,6 +34,7 @@ export function sampleTree(): Tree {
     nodeCount,
     stopReason: "unknown",
     confidence: null,
+    length: nodeCount - 1,
   });
   return new Tree(
     new Pack(

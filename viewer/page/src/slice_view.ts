@@ -58,7 +58,7 @@ export class SliceView implements StageView, SliceProjection {
     if (planes !== "vessel" || tree === null || node < 0) return 1.04 * all;
     return Math.min(
       all,
-      Math.max(kAcross * tree.branches[tree.branch[node]].median, 10 * (tree.voxelSize || 0.1)),
+      Math.max(kAcross * tree.branches[tree.branch[node]].mean, 10 * (tree.voxelSize || 0.1)),
     );
   }
 

@@ -312,7 +312,7 @@ export class Strip {
     );
     if (this.straight?.path.length !== columns) this.straight = straighten(tree, curve.branch, columns);
     const half = Math.max(
-      3 * tree.branches[curve.branch].median,
+      3 * tree.branches[curve.branch].mean,
       1.3 * tree.branches[curve.branch].greatest,
       4 * Math.min(...volume.spacing),
     );

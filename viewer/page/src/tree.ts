@@ -2,27 +2,16 @@
 /** The centerline tree of a case: the arrays of its pack, and what follows from them. */
 import type { Pack } from "./pack";
 import type { BranchRecord, Vec3 } from "./types";
-import { at, distance } from "./vec";
+import { at } from "./vec";
 
 export interface Branch extends BranchRecord {
   index: number;
-  /** mm along its own nodes, as `lumen info` reports it. */
-  length: number;
-  median: number;
+  /** Mean radius of its nodes, mm, as `lumen info` and reports have it. */
+  mean: number;
   least: number;
   greatest: number;
   /** Branch that its parent node belongs to, or -1. */
   parentBranch: number;
-}
-
-function median(values: number[]): number {
-  const sorted = [...values].sort((a, b) => a - b),
-    half = sorted.length >> 1;
-  return sorted.length === 0
-    ? NaN
-    : sorted.length % 2 === 1
-      ? sorted[half]
-      : (sorted[half - 1] + sorted[half]) / 2;
 }
 
 export class Tree {
@@ -68,14 +57,10 @@ export class Tree {
 
   private describe(record: BranchRecord, index: number): Branch {
     const radii = Array.from(this.radius.subarray(record.firstNode, record.firstNode + record.nodeCount));
-    let length = 0;
-    for (let i = record.firstNode + 1; i < record.firstNode + record.nodeCount; ++i)
-      length += distance(this.position(i - 1), this.position(i));
     return {
       ...record,
       index,
-      length,
-      median: median(radii),
+      mean: radii.reduce((sum, r) => sum + r, 0) / radii.length,
       least: Math.min(...radii),
       greatest: Math.max(...radii),
       parentBranch: record.parentNode < 0 ? -1 : this.branch[record.parentNode],

@@ -18,7 +18,7 @@ const kSorts: [Sort, string][] = [
 const kOrders: Record<Exclude<Sort, "tree">, (a: Branch, b: Branch) => number> = {
   label: (a, b) => a.label.localeCompare(b.label, "en", { numeric: true }),
   length: (a, b) => b.length - a.length,
-  radius: (a, b) => b.median - a.median,
+  radius: (a, b) => b.mean - a.mean,
   confidence: (a, b) => (a.confidence ?? 2) - (b.confidence ?? 2), // the doubtful first
   stop: (a, b) => a.stopReason.localeCompare(b.stopReason, "en"),
 };
@@ -165,12 +165,12 @@ export class TreePanel {
         id: `branch-${b.index}`,
         "aria-level": depth + 1,
         "data-branch": b.index,
-        title: `${b.label}: ${b.kind}, ${mm(b.length)} long, radius ${brief(b.median)} (${brief(b.least)} to ${brief(b.greatest)}) mm`,
+        title: `${b.label}: ${b.kind}, ${mm(b.length)} long, radius ${brief(b.mean)} (${brief(b.least)} to ${brief(b.greatest)}) mm`,
       },
       swatch,
       h("span", { class: "name" }, b.label),
       h("span", { class: "number" }, brief(b.length)),
-      h("span", { class: "number" }, brief(b.median)),
+      h("span", { class: "number" }, brief(b.mean)),
       h(
         "span",
         { class: low ? "number low" : "number" },
@@ -253,7 +253,7 @@ export class TreePanel {
     const parent = b.parentBranch < 0 ? "none: a root" : view.tree!.branches[b.parentBranch].label;
     const rows: [string, string][] = [
       ["Length", mm(b.length)],
-      ["Radius", `${brief(b.median)} (${brief(b.least)} – ${brief(b.greatest)}) mm`],
+      ["Radius", `${brief(b.mean)} (${brief(b.least)} – ${brief(b.greatest)}) mm`],
       ["Confidence", b.confidence === null ? "–" : `${Math.round(100 * b.confidence)} %`],
       ["Stopped by", b.stopReason.replaceAll("-", " ")],
       ["Parent", parent],

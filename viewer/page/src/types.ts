@@ -152,6 +152,8 @@ export interface BranchRecord {
   nodeCount: number;
   stopReason: string;
   confidence: number | null;
+  /** mm, as `lumen info` reports it: with the edge to its parent. */
+  length: number;
 }
 
 export type Event =
