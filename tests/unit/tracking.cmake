@@ -16,6 +16,7 @@ lumen_test(tracking_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/vessel_at_click_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/track_into_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracked_branch_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tip_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/track_steps_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/track_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/volume_doubt_test.cpp
