@@ -173,8 +173,9 @@ TEST_F(TubeTest, WhatACaseDoesNotHaveIsNull) {
 
 TEST_F(TubeTest, InfoOfAVolumeGivesItsHeader) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
-  EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "stored_type",
-                               "encoding", "voxel_bytes", "stored_bytes"}));
+  EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "placed_by",
+                               "stored_type", "encoding", "voxel_bytes", "stored_bytes"}));
+  EXPECT_TRUE(info["placed_by"].is_null());
   EXPECT_EQ(info["stored_type"], "int16");
   EXPECT_EQ(info["encoding"], "gzip");
   EXPECT_EQ(info["voxel_bytes"], 64 * 64 * 64 * 2);
@@ -193,7 +194,7 @@ TEST_F(TubeTest, InfoOfAVolumeGivesItsGeometryAndDigest) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json", "--voxels"}).out);
   EXPECT_EQ(keys(info),
             (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256", "pixel_type", "min",
-                   "max", "stored_type", "encoding", "voxel_bytes", "stored_bytes"}));
+                   "max", "placed_by", "stored_type", "encoding", "voxel_bytes", "stored_bytes"}));
   EXPECT_EQ(info["size"], Json::array({64, 64, 64}));
   EXPECT_EQ(info["pixel_type"], "int16");
   EXPECT_EQ(info["sha256"].get<std::string>().size(), 64U);
