@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -19,16 +20,19 @@ constexpr const char* kAssumption = "assumption-";
 
 }  // namespace
 
+void addStep(formats::Metadata& metadata, formats::Step step) {
+  auto& steps = metadata.steps;
+  if (steps.size() >= formats::kMaxSteps)
+    throw unsupported("the case records " + std::to_string(steps.size()) +
+                      " steps, and no case may have more, so that it cannot be edited");
+  steps.push_back(std::move(step));
+}
+
 void recordEdit(formats::Metadata& metadata, const std::string& sentence) {
   auto& steps = metadata.steps;
   const bool goesOn = !steps.empty() && steps.back().name == kEditStep &&
                       steps.back().parameters.size() < formats::kMaxParameters;
-  if (!goesOn) {
-    if (steps.size() >= formats::kMaxSteps)
-      throw unsupported("the case records " + std::to_string(steps.size()) +
-                        " steps, and no case may have more, so that it cannot be edited");
-    steps.push_back({kEditStep, "lumen " LUMEN_VERSION, {}});
-  }
+  if (!goesOn) addStep(metadata, {kEditStep, "lumen " LUMEN_VERSION, {}});
   auto& done = steps.back().parameters;
   std::string number;
   for (std::size_t n = done.size() + 1; number.empty() || done.contains(number); ++n)

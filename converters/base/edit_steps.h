@@ -11,6 +11,9 @@ namespace lumen {
 
 constexpr const char* kEditStep = "edit";
 
+/// Adds a step. Throws Error(Unsupported) if the case has no room for another one.
+void addStep(formats::Metadata& metadata, formats::Step step);
+
 /// Adds a sentence to the record of manual changes of a case: edits that follow one another are
 /// parameters of one "edit" step, numbered from 0001. Throws Error(Unsupported) if the case has no
 /// room for another step.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
@@ -114,6 +115,7 @@ formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::p
       convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(), name, {},
       {{"labels", static_cast<std::int64_t>(mask.names.size())}}, progress);
   for (const std::string& note : made.notes) progress.warn(note);
+  recordAssumptions(made.result.metadata.steps.back(), volume.assumptions);
   // no wall is known better than to a voxel of the labels
   std::optional<double>& voxel = made.result.metadata.voxelSize;
   voxel = std::max(voxel.value_or(0), mask.geometry.voxelSize());

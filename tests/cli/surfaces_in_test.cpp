@@ -149,6 +149,18 @@ TEST_F(LabelsInTest, LabelsBecomeTheVesselThatTheyCameFrom) {
   EXPECT_EQ(named->tree.branches[0].label, "ica");
 }
 
+TEST_F(LabelsInTest, LabelsWhoseFileLeavesLeftAndRightOpenSayIt) {
+  ASSERT_EQ(lumen({"check", "tube.nrrd", "truth.lumen", "--mask", "labels.nrrd"}).code, 0);
+  std::string text = read("labels.nrrd");
+  const std::string space = "left-posterior-superior";
+  text.replace(text.find(space), space.size(), "3D-right-handed");
+  write("open.nrrd", text);
+  ASSERT_EQ(lumen({"convert", "open.nrrd", "open.lumen", "--mask"}).code, 0);
+  const Outcome info = lumen({"info", "open.lumen"});
+  EXPECT_NE(info.out.find("assumption-1 its space is \"3D-right-handed\""), std::string::npos)
+      << info.out;
+}
+
 TEST_F(LabelsInTest, ALabelMapNamesWhatIsFoundBesideIt) {
   ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
   ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);

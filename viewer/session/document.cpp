@@ -81,6 +81,13 @@ std::string Document::labelOf(FileRole role) const {
   return file != nullptr ? file->label : std::string();
 }
 
+std::set<std::string_view> vesselLabels(const Document& document) {
+  std::set<std::string_view> labels;
+  if (document.value)
+    for (const formats::Branch& branch : document.value->tree.branches) labels.insert(branch.label);
+  return labels;
+}
+
 std::size_t countBytes(const std::vector<const Document*>& documents) {
   std::set<const void*> seen;
   std::size_t sum = 0;

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "converters/io/mesh/mesh_file.h"
@@ -67,6 +69,9 @@ struct Document {
   /// The file of that role, or null.
   [[nodiscard]] const OpenFile* fileOf(FileRole role) const;
 };
+
+/// Labels of the vessels of the case: a seed with one of them is tracked. They live as the case does.
+std::set<std::string_view> vesselLabels(const Document& document);
 
 /// Bytes in memory of the parts of these documents, each part once.
 std::size_t countBytes(const std::vector<const Document*>& documents);

@@ -18,13 +18,9 @@ namespace {
 
 /// Whether each seed is a vessel of the case, which then needs no file of seeds.
 bool areTracked(const Document& document) {
-  if (!document.value) return document.seeds->empty();
-  const auto& branches = document.value->tree.branches;
-  return std::all_of(
-      document.seeds->begin(), document.seeds->end(), [&branches](const convert::SeedBranch& seed) {
-        return std::any_of(branches.begin(), branches.end(),
-                           [&seed](const auto& branch) { return branch.label == seed.label; });
-      });
+  const auto labels = vesselLabels(document);
+  return std::all_of(document.seeds->begin(), document.seeds->end(),
+                     [&labels](const auto& seed) { return labels.contains(seed.label); });
 }
 
 }  // namespace

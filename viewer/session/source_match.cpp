@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/judge/check/check.h"
 #include "formats/container/printable.h"
-#include "formats/view/limits.h"
 
 namespace lumen::viewer {
 
@@ -60,10 +60,8 @@ Document withAcceptedVolume(const Document& document) {
   if (!otherSource(document))
     throw Error(ErrorKind::Usage, "the case is not of another volume than the one that is open");
   auto value = std::make_shared<formats::Case>(*document.value);
-  if (value->metadata.steps.size() >= formats::kMaxSteps)
-    throw unsupported("the case records as many steps as a case may have");
-  value->metadata.steps.push_back(
-      {kAcceptStep, "lumen " LUMEN_VERSION, {{kDigest, document.volumeSource->sha256}}});
+  addStep(value->metadata,
+          {kAcceptStep, "lumen " LUMEN_VERSION, {{kDigest, document.volumeSource->sha256}}});
   Document accepted = document;
   accepted.value = std::move(value);
   return accepted;

@@ -11,7 +11,6 @@
 #include "converters/engine/check_answer.h"
 #include "converters/engine/comparison_answer.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/volume/write_volume.h"
 #include "converters/judge/compare/compare.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
@@ -33,11 +32,11 @@ void addClicks(Json& answer, const convert::Missing& missing) {
   }
 }
 
-/// Whether the case was made from this volume, for the answer of a check.
-std::string sourceOf(const formats::Case& value, const convert::Volume& volume) {
-  if (!value.metadata.source) return "unknown";
+/// Whether the case was made from the document's volume, for the answer of a check.
+std::string sourceOf(const Document& document) {
+  if (!document.value->metadata.source) return "unknown";
   const auto difference =
-      convert::sourceDifference(convert::describeSource(volume), *value.metadata.source);
+      convert::sourceDifference(*document.volumeSource, *document.value->metadata.source);
   return difference ? "other " + difference->what : "same";
 }
 
@@ -134,7 +133,7 @@ Json StageJobs::check(const Moment& from) {
     const convert::Volume& volume = *from.document.volume;
     const auto result =
         convert::checkCase(volume, *value, convert::recordedEdgeOptions(*value), progress);
-    Json answer = engine::checkJson(result.report, value->tree, sourceOf(*value, volume));
+    Json answer = engine::checkJson(result.report, value->tree, sourceOf(from.document));
     addClicks(answer, result.report.missing);
     workspace.findings.setCheck(std::move(answer), value);
     return missingSentence(result.report.missing.vessels.size());

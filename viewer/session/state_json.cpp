@@ -20,9 +20,7 @@ Json orNull(const std::optional<std::string>& text) {
 }
 
 Json seedsJson(const Document& document) {
-  std::set<std::string_view> labels;
-  if (document.value)
-    for (const formats::Branch& branch : document.value->tree.branches) labels.insert(branch.label);
+  const auto labels = vesselLabels(document);
   Json list = Json::array();
   for (const convert::SeedBranch& seed : *document.seeds) {
     Json points = Json::array();

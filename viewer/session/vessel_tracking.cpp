@@ -75,9 +75,7 @@ Seeds clicksOn(const formats::CenterlineTree& tree) {
 }  // namespace
 
 Seeds untrackedSeeds(const Document& document, const Arguments& request) {
-  std::set<std::string> known;
-  if (document.value)
-    for (const formats::Branch& branch : document.value->tree.branches) known.insert(branch.label);
+  std::set<std::string_view> known = vesselLabels(document);
   std::set<std::string> wanted;
   if (request.has("labels"))
     for (std::string& label : request.texts("labels")) wanted.insert(std::move(label));

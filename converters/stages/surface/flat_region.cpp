@@ -16,7 +16,6 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kRowHeight = 0.866;    // edges of a triangular lattice
 constexpr double kLoopClearance = 0.6;  // edges: nearer to a loop triangles get flat
 constexpr double kMostInner = 4000;     // points; beyond, the lattice is coarser
 

@@ -10,6 +10,9 @@
 
 namespace lumen::convert {
 
+/// Height of a row of equilateral triangles, in edges.
+inline constexpr double kRowHeight = 0.866;
+
 using Loop2 = std::vector<Eigen::Vector2d>;
 
 /// Triangles of a plane, counter-clockwise.

@@ -7,15 +7,15 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/vectors.h"
+#include "converters/stages/surface/flat_region.h"
 
 namespace lumen::convert {
 namespace {
 
 constexpr double kBlend = 1.5;     // radii until the section is round
 constexpr double kSteepest = 1.0;  // slope of the wall at the rim: beyond 45 degrees it is no tube
-constexpr int kSlopeSmoothings = 3;       // passes over the tangents, which triangles roughen
-constexpr double kTubeRowHeight = 0.866;  // edges of an equilateral triangle
-constexpr double kEvenAfter = 8;          // rows until the vertices of a ring are evenly spaced
+constexpr int kSlopeSmoothings = 3;  // passes over the tangents, which triangles roughen
+constexpr double kEvenAfter = 8;     // rows until the vertices of a ring are evenly spaced
 
 using Vector = Eigen::Vector3d;
 
@@ -75,7 +75,7 @@ FlowTube::FlowTube(const SurfaceFans& fans, const SurfaceEnd& end,
 }
 
 std::size_t FlowTube::rows(double length) const {
-  return static_cast<std::size_t>(std::max(1L, std::lround(length / (kTubeRowHeight * edge()))));
+  return static_cast<std::size_t>(std::max(1L, std::lround(length / (kRowHeight * edge()))));
 }
 
 Vector FlowTube::place(std::size_t j, std::size_t k, std::size_t rows, double length) const {

@@ -2,7 +2,7 @@
 /** A volume and a case that may be of two patients: the page asks, aloud and until there is an answer. */
 import type { App } from "./model";
 import type { FileEntry, State } from "./types";
-import { ask, button, h } from "./ui";
+import { button, choose, h } from "./ui";
 
 const kChoices = [
   { value: "accept", label: "They belong together" },
@@ -23,7 +23,7 @@ export function requestFor(
 async function askWhich(app: App): Promise<void> {
   const { otherSource } = app.store.get().state;
   if (otherSource === null) return;
-  const answer = await ask(
+  const answer = await choose(
     "One patient, or two?",
     `${otherSource}. Vessels are not tracked in this volume until you answer; the case records that you accept it.`,
     kChoices,

@@ -202,11 +202,11 @@ export function askText(title: string, label: string, value: string): Promise<st
 
 /** Asks whether to do something; false: no. */
 export async function askYes(title: string, text: string, yes: string): Promise<boolean> {
-  return (await ask(title, text, [{ value: "yes", label: yes }])) === "yes";
+  return (await choose(title, text, [{ value: "yes", label: yes }])) === "yes";
 }
 
 /** The value of the choice that was taken, the last of which is the main one; null for none of them. */
-export function ask(
+export function choose(
   title: string,
   text: string,
   choices: readonly { value: string; label: string }[],
