@@ -30,14 +30,14 @@ struct Regions {
 };
 
 /// A place on the path of a vessel, and the node from which it was reached.
-struct PathPoint {
+struct VesselPathPoint {
   Eigen::Vector3d position;  ///< mm, LPS
   std::uint32_t node;
 };
 
 /// A vessel of the volume that is not in the case.
 struct MissingVessel {
-  std::vector<PathPoint> path;  ///< from where it begins to its tip
+  std::vector<VesselPathPoint> path;  ///< from where it begins to its tip
   std::size_t voxels = 0;
   double volume = 0;   ///< mm^3
   double length = 0;   ///< mm

@@ -138,7 +138,8 @@ TEST(Check, AVesselThatTheCaseLeavesOutIsAPlaceWithItsLengthAndRadius) {
   const double whole = (toEigen(tree.centre.back()) - toEigen(tree.centre[first])).norm();
   const auto radius = static_cast<double>(tree.radius[first]);
   const TubeTreeDistance wall(tree, 1);
-  for (const PathPoint& point : vessel.path) EXPECT_LT(wall.nearest(point.position).distance, 0);
+  for (const VesselPathPoint& point : vessel.path)
+    EXPECT_LT(wall.nearest(point.position).distance, 0);
   EXPECT_NEAR(vessel.radius, radius, 0.2 * radius);
   // it begins two voxels outside of the trunk, and its end is round
   EXPECT_NEAR(vessel.length, whole + radius - static_cast<double>(tree.radius[0]), 5 * kVoxel);

@@ -32,7 +32,7 @@ public:
   [[nodiscard]] const std::string& text() const { return m_text; }
 
 private:
-  std::string m_text = NiftiHeader().text();
+  std::string m_text = MadeNiftiHeader().text();
 };
 
 class HostileNifti : public FileTest {
@@ -221,7 +221,7 @@ TEST_F(HostileNifti, DataBehindTheVoxelsIsReported) {
 }
 
 TEST_F(HostileNifti, AHeaderIsReadWithoutInflatingAVoxel) {
-  NiftiHeader large;
+  MadeNiftiHeader large;
   large.dim = {3, 100, 100, 100, 1, 1, 1, 1};
   std::string noise(1'000'000, '\0');
   std::uint32_t state = 1;

@@ -49,7 +49,7 @@ protected:
     words.insert(words.begin(), {"3: ", "v.nrrd"});
     expectRefused(readRefusal(write("v.nrrd", header.text() + voxels)), words);
   }
-  void expectNifti(const NiftiHeader& header, const std::string& voxels,
+  void expectNifti(const MadeNiftiHeader& header, const std::string& voxels,
                    std::vector<std::string> words) const {
     words.insert(words.begin(), {"3: ", "v.nii"});
     expectRefused(readRefusal(write("v.nii", header.text() + voxels)), words);
@@ -61,7 +61,7 @@ protected:
 TEST_F(HostileVolume, TheHeadersHereAreSoundOtherwise) {
   EXPECT_EQ(readRefusal(write("v.mha", MetaHeader().text() + eight())), "");
   EXPECT_EQ(readRefusal(write("v.nrrd", NrrdHeader().text() + eight())), "");
-  EXPECT_EQ(readRefusal(write("v.nii", NiftiHeader().text() + eight())), "");
+  EXPECT_EQ(readRefusal(write("v.nii", MadeNiftiHeader().text() + eight())), "");
 }
 
 TEST_F(HostileVolume, MissingFile) {
@@ -79,7 +79,7 @@ TEST_F(HostileVolume, TextInsteadOfAHeader) {
 }
 
 TEST_F(HostileVolume, Nifti2IsUnsupported) {
-  NiftiHeader header;
+  MadeNiftiHeader header;
   std::string text = header.text() + std::string(300, '\0');
   const std::int32_t size = 540;
   std::memcpy(text.data(), &size, 4);
@@ -89,7 +89,7 @@ TEST_F(HostileVolume, Nifti2IsUnsupported) {
 TEST_F(HostileVolume, TwoDimensions) {
   expectMeta({"2", "4 2", "1 1"}, eight(), {"2-D (4 x 2)", "3-D"});
   expectNrrd({"uint8", "2", "4 2", ""}, eight(), {"2-D (4 x 2)", "3-D"});
-  NiftiHeader nifti;
+  MadeNiftiHeader nifti;
   nifti.dim = {2, 4, 2, 1, 1, 1, 1, 1};
   expectNifti(nifti, eight(), {"2-D (4 x 2)", "3-D"});
 }
@@ -102,7 +102,7 @@ TEST_F(HostileVolume, ASingleSlice) {
 TEST_F(HostileVolume, FourDimensions) {
   expectMeta({"4", "2 2 1 2", "1 1 1 1"}, eight(), {"4-D (2 x 2 x 1 x 2)", "3-D"});
   expectNrrd({"uint8", "4", "2 2 1 2", ""}, eight(), {"4-D (2 x 2 x 1 x 2)"});
-  NiftiHeader nifti;
+  MadeNiftiHeader nifti;
   nifti.dim = {4, 2, 2, 1, 2, 1, 1, 1};
   expectNifti(nifti, eight(), {"4-D (2 x 2 x 1 x 2)"});
 }
@@ -113,11 +113,11 @@ TEST_F(HostileVolume, SeveralComponents) {
   expectMeta(meta, eight() + eight() + eight(), {"3 components", "one number"});
   expectNrrd({"uint8", "4", "3 2 2 2", "kinds: vector domain domain domain\n"},
              eight() + eight() + eight(), {"3 components", "one number"});
-  NiftiHeader rgb;
+  MadeNiftiHeader rgb;
   rgb.type = 128;
   rgb.bits = 24;
   expectNifti(rgb, eight() + eight() + eight(), {"3 components", "rgb"});
-  NiftiHeader complex;
+  MadeNiftiHeader complex;
   complex.type = 32;
   complex.bits = 64;
   expectNifti(complex, std::string(64, 'x'), {"2 components", "complex"});
@@ -142,7 +142,7 @@ TEST_F(HostileVolume, SpacingThatIsNotPositive) {
   }
   for (const float bad : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(),
                           std::numeric_limits<float>::infinity()}) {
-    NiftiHeader nifti;
+    MadeNiftiHeader nifti;
     nifti.pixdim[1] = bad;
     expectNifti(nifti, eight(), {"spacing of", "axis 1", "positive"});
   }
@@ -184,7 +184,7 @@ TEST_F(HostileVolume, VoxelsThatAreNotFinite) {
 TEST_F(HostileVolume, TruncatedRaw) {
   expectMeta({}, "abcdefg", {"truncated", "8 bytes", "7 bytes"});
   expectNrrd({}, "abcdefg", {"truncated", "8 bytes", "7 bytes"});
-  expectRefused(readRefusal(write("v.nii", NiftiHeader().text() + "abcdefg")),
+  expectRefused(readRefusal(write("v.nii", MadeNiftiHeader().text() + "abcdefg")),
                 {"3: ", "v.nii", "truncated", "8 bytes", "7 bytes"});
 }
 
@@ -200,7 +200,7 @@ TEST_F(HostileVolume, EveryTruncationOfACompressedFile) {
 }
 
 TEST_F(HostileVolume, EveryTruncationOfANiftiFile) {
-  const std::string whole = NiftiHeader().text() + eight();
+  const std::string whole = MadeNiftiHeader().text() + eight();
   for (std::size_t kept = 0; kept < whole.size(); ++kept)
     expectRefused(readRefusal(write("v.nii", whole.substr(0, kept))), {"3: ", "v.nii"});
 }
@@ -219,7 +219,7 @@ TEST_F(HostileVolume, DamagedCompressedBytes) {
 TEST_F(HostileVolume, HeaderThatAnnouncesMoreThanTheFileHolds) {
   expectMeta({"3", "60000 60000 60000"}, eight(), {"truncated", "2.16e+14 bytes"});
   expectNrrd({"float", "3", "60000 60000 60000"}, eight(), {"truncated"});
-  NiftiHeader nifti;
+  MadeNiftiHeader nifti;
   nifti.dim = {3, 30000, 30000, 30000, 1, 1, 1, 1};
   expectNifti(nifti, eight(), {"truncated"});
 }
@@ -246,7 +246,7 @@ TEST_F(HostileVolume, SizesThatAreNotPositive) {
     expectMeta({"3", size}, eight(), {"v.mha"});
     expectNrrd({"uint8", "3", size}, eight(), {"v.nrrd"});
   }
-  NiftiHeader nifti;
+  MadeNiftiHeader nifti;
   nifti.dim[2] = -2;
   expectNifti(nifti, eight(), {"dim[2] is -2"});
 }

@@ -15,7 +15,7 @@
 namespace lumen::convert {
 
 /// NIfTI-1 with an identity sform.
-struct NiftiHeader {
+struct MadeNiftiHeader {
   std::array<std::int16_t, 8> dim{3, 2, 2, 2, 1, 1, 1, 1};
   std::array<float, 8> pixdim{1, 1, 1, 1, 1, 1, 1, 1};
   std::int16_t type = 2, bits = 8;

@@ -13,22 +13,22 @@ namespace {
 
 class Nifti : public FileTest {};
 
-NiftiHeader header(std::int16_t type, std::int16_t bits) {
-  NiftiHeader h;
+MadeNiftiHeader header(std::int16_t type, std::int16_t bits) {
+  MadeNiftiHeader h;
   h.type = type;
   h.bits = bits;
   return h;
 }
 
 TEST_F(Nifti, SformIsReadAsRasAndGivenAsLps) {
-  const auto v = readQuietly(write("v.nii", NiftiHeader().text() + "abcdefgh"));
+  const auto v = readQuietly(write("v.nii", MadeNiftiHeader().text() + "abcdefgh"));
   EXPECT_EQ(v.geometry.direction, Eigen::Matrix3d(Eigen::Vector3d(-1, -1, 1).asDiagonal()));
   EXPECT_EQ(std::get<0>(v.voxels)[7], 'h');
 }
 
 TEST_F(Nifti, VoxelsOfACompressedFileAreNotTakenFromItsPlainSibling) {
-  write("v.nii", NiftiHeader().text() + "abcdefgh");
-  write("v.nii.gz", gzipped(NiftiHeader().text() + "ABCDEFGH", path("scratch.gz")));
+  write("v.nii", MadeNiftiHeader().text() + "abcdefgh");
+  write("v.nii.gz", gzipped(MadeNiftiHeader().text() + "ABCDEFGH", path("scratch.gz")));
   EXPECT_EQ(std::get<0>(readQuietly(path("v.nii.gz")).voxels)[0], 'A');
   EXPECT_EQ(std::get<0>(readQuietly(path("v.nii")).voxels)[0], 'a');
 }
@@ -52,7 +52,7 @@ TEST_F(Nifti, BigEndianVoxelsAreSwapped) {
 }
 
 TEST_F(Nifti, SlopeAndInterceptAreApplied) {
-  NiftiHeader h = header(4, 16);
+  MadeNiftiHeader h = header(4, 16);
   h.slope = 0.5F;
   h.intercept = -10;
   const auto v =
@@ -61,7 +61,7 @@ TEST_F(Nifti, SlopeAndInterceptAreApplied) {
 }
 
 TEST_F(Nifti, SlopeOfZeroMeansNoScaling) {
-  NiftiHeader h = header(4, 16);
+  MadeNiftiHeader h = header(4, 16);
   h.intercept = 5;
   const auto v =
       readQuietly(write("v.nii", h.text() + bytes<std::int16_t>({0, 1, 2, 3, 4, 5, 6, 7})));
@@ -85,16 +85,16 @@ TEST_F(Nifti, EveryScalarTypeIsRead) {
 }
 
 TEST_F(Nifti, HeaderExtensionIsSkipped) {
-  NiftiHeader h;
+  MadeNiftiHeader h;
   std::string text = h.text() + std::string(16, 'x');
   const float offset = 368;
   std::memcpy(text.data() + 108, &offset, 4);
   EXPECT_EQ(std::get<0>(readQuietly(write("v.nii", text + "abcdefgh")).voxels)[0], 'a');
 }
 
-/// A header with a quarter turn about z as its qform, and the sform of NiftiHeader, no turn.
+/// A header with a quarter turn about z as its qform, and the sform of MadeNiftiHeader, no turn.
 std::string bothTransforms(std::int16_t qform, std::int16_t sform) {
-  std::string text = NiftiHeader().text();
+  std::string text = MadeNiftiHeader().text();
   const auto put = [&](std::size_t at, const auto& value) {
     std::memcpy(text.data() + at, &value, sizeof(value));
   };
@@ -147,7 +147,7 @@ TEST_F(Nifti, WithoutATransformTheAxesAreTheVolumesOwn) {
 }
 
 TEST_F(Nifti, MetresAreTurnedIntoMillimetres) {
-  NiftiHeader h;
+  MadeNiftiHeader h;
   h.pixdim = {1, 0.002F, 0.002F, 0.002F, 1, 1, 1, 1};
   std::string text = h.text();
   text[123] = 1;  // xyzt_units: metres

@@ -63,7 +63,7 @@ std::string dataOf(const StoredType& type, bool bigEndian, double first = 1) {
 }
 
 /// A header whose every field has the other byte order.
-std::string swappedHeader(const NiftiHeader& header) {
+std::string swappedHeader(const MadeNiftiHeader& header) {
   std::string text = header.text();
   const auto swap = [&](std::size_t at, std::size_t size) {
     std::reverse(text.begin() + static_cast<std::ptrdiff_t>(at),
@@ -95,7 +95,7 @@ protected:
   /// Plain and compressed, in both byte orders.
   [[nodiscard]] std::vector<Volume> nifti(const StoredType& type, float slope,
                                           float intercept) const {
-    NiftiHeader header;
+    MadeNiftiHeader header;
     header.type = type.nifti;
     header.bits = static_cast<std::int16_t>(8 * type.size);
     header.slope = slope;
@@ -155,7 +155,7 @@ TEST_F(StoredTypes, SlopeAndInterceptOfNiftiApplyToEach) {
 
 TEST_F(StoredTypes, OneVolumeOfSeveralIsRead) {
   const StoredType& type = kTypes[3];
-  NiftiHeader header;
+  MadeNiftiHeader header;
   header.dim = {5, 2, 2, 2, 3, 2, 1, 1};
   header.type = type.nifti;
   header.bits = 16;
@@ -181,7 +181,7 @@ TEST_F(StoredTypes, OneVolumeOfSeveralIsRead) {
 }
 
 TEST_F(StoredTypes, AVolumeOfSeveralMustBeChosenAmongThem) {
-  NiftiHeader header;
+  MadeNiftiHeader header;
   header.dim = {4, 2, 2, 2, 3, 1, 1, 1};
   const auto file = write("v.nii", header.text() + eightBytes() + eightBytes() + eightBytes());
   expectRefused(readRefusal(file), {"3: ", "4-D (2 x 2 x 2 x 3)", "--volume-index 0 to 2"});
@@ -197,7 +197,7 @@ TEST_F(StoredTypes, AFileOfOneVolumeLeavesNoChoice) {
 }
 
 TEST_F(StoredTypes, AFileThatEndsWithinAnotherVolumeIsRefused) {
-  NiftiHeader header;
+  MadeNiftiHeader header;
   header.dim = {4, 2, 2, 2, 2, 1, 1, 1};
   expectRefused(readRefusal(write("v.nii", header.text() + eightBytes() + "abc"), number(0)),
                 {"3: ", "truncated"});
@@ -211,7 +211,7 @@ TEST_F(StoredTypes, AWebPageIsNamedAsOne) {
 
 TEST_F(StoredTypes, AShortTextIsNoTruncatedNifti) {
   expectRefused(readRefusal(write("v.nii", "404: not found")), {"3: ", "not a NIfTI file"});
-  expectRefused(readRefusal(write("v.nii", NiftiHeader().text().substr(0, 100))),
+  expectRefused(readRefusal(write("v.nii", MadeNiftiHeader().text().substr(0, 100))),
                 {"3: ", "truncated"});
 }
 
