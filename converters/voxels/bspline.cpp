@@ -91,7 +91,9 @@ std::array<double, 4> weightsAt(double t) {
 // ---- blocks of samples on a line ----
 
 constexpr int kBlock = 64;
+constexpr int kBeyond = 8;  // room behind a block for a group of lanes that begins in it
 using BlockFloats = std::array<float, kBlock>;
+using BlockValues = std::array<float, kBlock + kBeyond>;
 
 /// Samples as a structure of arrays.
 struct alignas(64) Block {
@@ -100,7 +102,7 @@ struct alignas(64) Block {
   std::array<int, kBlock> inside;            ///< 0 or 1
   std::array<int, kBlock> brick, offset;     ///< brick, and offset of the 4x4x4 support in it
   std::array<const float*, kBlock> support;  ///< null outside
-  std::array<std::array<BlockFloats, 4>, 3> weight;
+  std::array<std::array<BlockValues, 4>, 3> weight;
 };
 
 /// Data of a line and of the volume for `locate`.
@@ -143,33 +145,40 @@ void locate(const LineSetup& line, int first, Block& block) {
   }
 }
 
-// Four coefficients of a row. The width is the same in every clone, and so is the order of the
-// sums.
-typedef float Lanes __attribute__((vector_size(16)));
+// Eight samples side by side. The width is the same in every clone, and so is the order of the sums.
+constexpr std::size_t kLanes = 8;
+typedef float Lanes __attribute__((vector_size(4 * kLanes)));
+typedef float LooseLanes __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
+static_assert(kBeyond >= kLanes);
 
-inline Lanes lanesAt(const float* p) {
-  Lanes v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-/// The 64-term sum of each sample: over y, then z, in four lanes of x, then over the lanes.
+/// The 64-term sum of each sample: over y, then z, then x. A line stays in a cell for a while, so its
+/// samples come in runs that share a support; each is computed in whole groups of lanes, and what such
+/// a group holds beyond its run is overwritten by the next.
 LUMEN_SIMD_CLONES
 void interpolate(const Block& block, std::size_t count, float* out) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* plane = block.support[i];
-    if (plane == nullptr) {
-      out[i] = std::numeric_limits<float>::quiet_NaN();
-      continue;
+  const auto& [wx, wy, wz] = block.weight;
+  for (std::size_t i = 0; i < count;) {
+    const float* support = block.support[i];
+    std::size_t end = i + 1;
+    while (end < count && block.support[end] == support) ++end;
+    for (; support != nullptr && i < end; i += kLanes) {
+      const Lanes y0 = *reinterpret_cast<const LooseLanes*>(&wy[0][i]),
+                  y1 = *reinterpret_cast<const LooseLanes*>(&wy[1][i]),
+                  y2 = *reinterpret_cast<const LooseLanes*>(&wy[2][i]),
+                  y3 = *reinterpret_cast<const LooseLanes*>(&wy[3][i]);
+      std::array<Lanes, 4> sum{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const float* c = support + k * kPlane;
+        const Lanes z = *reinterpret_cast<const LooseLanes*>(&wz[k][i]);
+        for (std::size_t x = 0; x < 4; ++x, ++c)
+          sum[x] += z * ((y0 * c[0] + y1 * c[kRow]) + (y2 * c[2 * kRow] + y3 * c[3 * kRow]));
+      }
+      for (std::size_t x = 0; x < 4; ++x) sum[x] *= *reinterpret_cast<const LooseLanes*>(&wx[x][i]);
+      const Lanes all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+      *reinterpret_cast<LooseLanes*>(out + i) = all;
     }
-    const auto& [wx, wy, wz] = block.weight;
-    Lanes sum{};
-    for (std::size_t k = 0; k < 4; ++k, plane += kPlane)
-      sum += wz[k][i] *
-             ((wy[0][i] * lanesAt(plane) + wy[1][i] * lanesAt(plane + kRow)) +
-              (wy[2][i] * lanesAt(plane + 2 * kRow) + wy[3][i] * lanesAt(plane + 3 * kRow)));
-    sum *= Lanes{wx[0][i], wx[1][i], wx[2][i], wx[3][i]};
-    out[i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    if (support == nullptr) std::fill(out + i, out + end, std::numeric_limits<float>::quiet_NaN());
+    i = end;
   }
 }
 
@@ -313,6 +322,9 @@ void BsplineVolume::sampleLine(const Eigen::Vector3d& startIndex, const Eigen::V
   line.lastCell = m_bricks->lastCell;
   line.bricks = m_bricks->count;
   Block block;
+  for (auto& axis : block.weight)
+    for (BlockValues& weight : axis) std::fill(weight.begin() + kBlock, weight.end(), 0.0F);
+  BlockValues values;
   int brick = -1;
   const float* coefficients = nullptr;
   for (std::size_t first = 0; first < out.size(); first += kBlock) {
@@ -325,7 +337,8 @@ void BsplineVolume::sampleLine(const Eigen::Vector3d& startIndex, const Eigen::V
       }
       block.support[i] = block.inside[i] != 0 ? coefficients + block.offset[i] : nullptr;
     }
-    interpolate(block, count, out.data() + first);
+    interpolate(block, count, values.data());
+    std::copy_n(values.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(first));
   }
 }
 

@@ -45,7 +45,7 @@ LUMEN_SIMD_CLONES void circlesThrough(CircleBlock& block, float low, float high)
                        (u * u + v * v <= r2);
     block.u[t] = u;
     block.v[t] = v;
-    block.radius[t] = valid ? std::sqrt(r2) : 0.0F;
+    block.squaredRadius[t] = valid ? r2 : 0.0F;  // a root would keep the loop scalar, for errno
   }
 }
 

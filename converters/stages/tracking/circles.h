@@ -17,7 +17,7 @@ struct CircleBlock {
   using Lanes = std::array<float, kCircleBlock>;
   alignas(64) Lanes u, v;            ///< first point of the triple, then the centre
   alignas(64) Lanes au, av, bu, bv;  ///< second and third point, relative to the first
-  alignas(64) Lanes radius;          ///< 0 where the circle is not valid
+  alignas(64) Lanes squaredRadius;   ///< mm^2; 0 where the circle is not valid
 };
 
 /// Triples of the points (u, v), with repetition.

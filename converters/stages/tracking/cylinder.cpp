@@ -109,8 +109,8 @@ struct Circle {
 Circle betterCircle(const CircleBlock& block, const CylinderWorkspace& points, float band,
                     Circle best) {
   for (std::size_t t = 0; t < kCircleBlock; ++t) {
-    const float radius = block.radius[t];
-    if (radius == 0) continue;
+    if (block.squaredRadius[t] == 0) continue;
+    const float radius = std::sqrt(block.squaredRadius[t]);
     const float inner = radius * (1.0F - band), outer = radius * (1.0F + band);
     const int inliers = countInBand(points.u.data(), points.v.data(), points.u.size(), block.u[t],
                                     block.v[t], inner * inner, outer * outer);

@@ -108,7 +108,7 @@ Circle detectCircle(const WallPoints& points, Random& random) {
     convert::drawTriples(points.u, points.v, random, block);
     convert::circlesThrough(block, 0.5F, 1.5F);
     for (std::size_t t = 0; t < convert::kCircleBlock; ++t) {
-      const float radius = block.radius[t];
+      const float radius = std::sqrt(block.squaredRadius[t]);
       if (radius == 0) continue;
       const float inner = radius * (1 - kBand), outer = radius * (1 + kBand);
       const int inliers = convert::countInBand(points.u.data(), points.v.data(), count, block.u[t],

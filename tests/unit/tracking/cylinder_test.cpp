@@ -134,11 +134,11 @@ TEST(Circles, PassThroughTheirThreePoints) {
   circlesThrough(block, 1.0F, 2.0F);
   int valid = 0;
   for (std::size_t t = 0; t < kCircleBlock; ++t) {
-    if (block.radius[t] == 0) continue;
+    if (block.squaredRadius[t] == 0) continue;
     ++valid;
     EXPECT_NEAR(block.u[t], 0.3, 1e-2);
     EXPECT_NEAR(block.v[t], -0.2, 1e-2);
-    EXPECT_NEAR(block.radius[t], 1.5, 1e-2);
+    EXPECT_NEAR(block.squaredRadius[t], 2.25, 3e-2);
   }
   EXPECT_GT(valid, 20);
 }
@@ -157,10 +157,10 @@ TEST(Circles, OutsideOfTheRadiiOrWithoutTheOriginAreNotValid) {
   block.bv[1] = 1;
   CircleBlock narrow = block;
   circlesThrough(block, 0.5F, 1.5F);
-  EXPECT_EQ(block.radius[0], 0.0F);
-  EXPECT_EQ(block.radius[1], 1.0F);
+  EXPECT_EQ(block.squaredRadius[0], 0.0F);
+  EXPECT_EQ(block.squaredRadius[1], 1.0F);
   circlesThrough(narrow, 1.1F, 1.5F);
-  EXPECT_EQ(narrow.radius[1], 0.0F);
+  EXPECT_EQ(narrow.squaredRadius[1], 0.0F);
 }
 
 TEST(CountInBand, AgreesWithItsReference) {
