@@ -39,6 +39,27 @@ void dropBareEnds(std::vector<TrackedNode>& nodes) {
   nodes.erase(nodes.begin(), std::find_if(nodes.begin(), nodes.end(), isFitted));
 }
 
+/// Leaves the longest stretch, from a cylinder to a cylinder, of which they are the least share; the first of several.
+/// A course that follows a vessel and then something else is a vessel as far as the cylinders bear it out.
+void keepSupported(std::vector<TrackedNode>& nodes) {
+  struct Stretch {
+    std::size_t first = 0, end = 0;
+  } best;
+  for (std::size_t first = 0; nodes.size() - first > best.end - best.first; ++first) {
+    if (!isFitted(nodes[first])) continue;
+    std::size_t fitted = 0;
+    for (std::size_t i = first; i < nodes.size(); ++i) {
+      if (!isFitted(nodes[i])) continue;
+      ++fitted;
+      const std::size_t length = i + 1 - first;
+      if (static_cast<double>(fitted) < kLeastFitted * static_cast<double>(length)) continue;
+      if (length > best.end - best.first) best = {first, i + 1};
+    }
+  }
+  nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(best.end), nodes.end());
+  nodes.erase(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(best.first));
+}
+
 /// A vessel that is tracked, with the box of its lumen.
 struct Lumen {
   explicit Lumen(const TrackedBranch& branch) : nodes(branch.nodes) {
@@ -122,13 +143,13 @@ TrackedBranch follow(TrackRun& run, const SeedBranch& seed) {
   }
   TrackedBranch branch;
   branch.nodes = nodesAlong(run, line, radii);
-  dropBareEnds(branch.nodes);
+  const std::size_t places = branch.nodes.size();
+  keepSupported(branch.nodes);
   const auto fitted =
       static_cast<std::size_t>(std::count_if(branch.nodes.begin(), branch.nodes.end(), isFitted));
-  if (fitted < kFewestFitted ||
-      static_cast<double>(fitted) < kLeastFitted * static_cast<double>(branch.nodes.size())) {
+  if (fitted < kFewestFitted) {
     branch.failure = "cylinders fit at " + std::to_string(fitted) + " of its " +
-                     std::to_string(branch.nodes.size()) + " places";
+                     std::to_string(places) + " places";
     branch.nodes.clear();
     return branch;
   }
