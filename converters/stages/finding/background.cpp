@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <type_traits>
 #include <variant>
 
@@ -62,8 +61,15 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
       },
       volume.voxels);
   smoothOver(medians, deviations);
+  for (int x = 0; x < m_voxels.size[0]; ++x) m_alongX.push_back(between(x, m_blocks.size[0]));
   std::vector<float> all = deviations;
   m_noise = std::max(m_noise, kFromDeviation * lowerQuantile(all, kQuiet));
+}
+
+Background::Between Background::between(int voxel, int blocks) {
+  const double at = (voxel + 0.5) / kEdge - 0.5;
+  const int low = std::clamp(static_cast<int>(std::floor(at)), 0, blocks - 1);
+  return {low, std::min(low + 1, blocks - 1), static_cast<float>(std::clamp(at - low, 0.0, 1.0))};
 }
 
 void Background::smoothOver(const std::vector<float>& medians,
@@ -88,16 +94,8 @@ float Background::noiseAt(const Cell& cell) const {
 }
 
 void Background::alongRow(int y, int z, std::vector<float>& row) const {
-  // place of a voxel between the middles of two blocks
-  const auto between = [&](int voxel, int axis) {
-    const double at = (voxel + 0.5) / kEdge - 0.5;
-    const int low = std::clamp(static_cast<int>(std::floor(at)), 0, m_blocks.size[axis] - 1);
-    const int high = std::min(low + 1, m_blocks.size[axis] - 1);
-    const auto share = static_cast<float>(std::clamp(at - low, 0.0, 1.0));
-    return std::tuple(low, high, share);
-  };
-  const auto [y0, y1, sy] = between(y, 1);
-  const auto [z0, z1, sz] = between(z, 2);
+  const auto [y0, y1, sy] = between(y, m_blocks.size[1]);
+  const auto [z0, z1, sz] = between(z, m_blocks.size[2]);
   std::vector<float> levels(static_cast<std::size_t>(m_blocks.size[0]));
   for (int bx = 0; bx < m_blocks.size[0]; ++bx) {
     const auto level = [&](int by, int bz) { return m_level[m_blocks.index(Cell(bx, by, bz))]; };
@@ -105,11 +103,10 @@ void Background::alongRow(int y, int z, std::vector<float>& row) const {
     const float high = level(y0, z1) + sy * (level(y1, z1) - level(y0, z1));
     levels[static_cast<std::size_t>(bx)] = low + sz * (high - low);
   }
-  row.resize(static_cast<std::size_t>(m_voxels.size[0]));
-  for (int x = 0; x < m_voxels.size[0]; ++x) {
-    const auto [x0, x1, sx] = between(x, 0);
-    const float low = levels[static_cast<std::size_t>(x0)];
-    row[static_cast<std::size_t>(x)] = low + sx * (levels[static_cast<std::size_t>(x1)] - low);
+  row.resize(m_alongX.size());
+  for (std::size_t x = 0; x < row.size(); ++x) {
+    const float low = levels[static_cast<std::size_t>(m_alongX[x].low)];
+    row[x] = low + m_alongX[x].share * (levels[static_cast<std::size_t>(m_alongX[x].high)] - low);
   }
 }
 

@@ -33,10 +33,17 @@ public:
   [[nodiscard]] float noiseAt(const Cell& cell) const;
 
 private:
+  /// The place of a voxel between the middles of two blocks.
+  struct Between {
+    int low = 0, high = 0;
+    float share = 0;  ///< of the way from low to high
+  };
+  static Between between(int voxel, int blocks);
   void smoothOver(const std::vector<float>& medians, const std::vector<float>& deviations);
 
   CellBox m_voxels, m_blocks;
   std::vector<float> m_level, m_unevenness;
+  std::vector<Between> m_alongX;
   float m_noise = 0;
 };
 

@@ -161,7 +161,7 @@ public:
     std::vector<float> all;
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
     const float everywhere = medianOfRidges(all);
-    for (std::size_t b = 0; b < found.size(); ++b) {
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
       std::vector<float> around;
       const Cell at = m_blocks.cell(b);
       m_blocks.meet(CellBox::between(at - Cell::Ones(), at + Cell::Ones()))
@@ -170,7 +170,7 @@ public:
             around.insert(around.end(), some.begin(), some.end());
           });
       m_median[b] = std::max(everywhere, medianOfRidges(around));
-    }
+    });
   }
 
   [[nodiscard]] float at(const Cell& cell) const {

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <set>
 #include <utility>
+
+#include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
 
@@ -42,14 +45,14 @@ public:
 
   /// Measures the blocks that have none yet. Returns whether one has got one.
   bool measure(const Progress& progress) {
-    bool isNew = false;
-    for (std::size_t b = 0; b < m_contrast.size(); ++b) {
-      if (m_contrast[b] > 0) continue;
+    std::atomic<bool> isNew = false;
+    tbb::parallel_for(std::size_t{0}, m_contrast.size(), [&](std::size_t b) {
+      if (m_contrast[b] > 0) return;
       progress.check();
       const CellBox block{m_blocks.cell(b) * kContrastBlock, Cell::Constant(kContrastBlock)};
       m_contrast[b] = contrastIn(block.meet(m_excess.cells));
-      isNew = isNew || m_contrast[b] > 0;
-    }
+      if (m_contrast[b] > 0) isNew = true;
+    });
     return isNew;
   }
 

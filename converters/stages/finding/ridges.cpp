@@ -11,6 +11,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "converters/base/simd.h"
 #include "converters/voxels/grid_geometry.h"
 
 namespace lumen::convert {
@@ -25,6 +26,10 @@ constexpr float kAlong = 0.5F;  // largest ratio of the curvature along to the l
 /// Least sum of all curvatures of a ridge in units of its strength, less what rounding may take.
 constexpr float kLeastCurved = (2 - kAlong) * 0.999F;
 
+/// A ridge has a sum of products of curvatures of at least 0 (its least: -c1, -c2 and c3 = 1, 1 and 1/2); less than this
+/// share of the squared sum below 0 is what rounding may make of it, and of the curvatures.
+constexpr float kLeastProducts = -0.01F;
+
 /// Half of a symmetric kernel, its middle first.
 std::vector<float> gaussian(double sigma) {
   std::vector<float> half(static_cast<std::size_t>(std::ceil(kCut * sigma)) + 1);
@@ -38,10 +43,42 @@ std::vector<float> gaussian(double sigma) {
   return half;
 }
 
+/// out[x] = sum over k of half[|k|] in[x + k * stride], for `count` adjacent x.
+LUMEN_SIMD_CLONES
+void smoothRow(const float* __restrict in, std::ptrdiff_t stride, const std::vector<float>& half,
+               float* __restrict out, std::ptrdiff_t count) {
+  const auto reach = static_cast<std::ptrdiff_t>(half.size()) - 1;
+  for (std::ptrdiff_t x = 0; x < count; ++x) out[x] = half[0] * in[x];
+  for (std::ptrdiff_t k = 1; k <= reach; ++k) {
+    const float weight = half[static_cast<std::size_t>(k)];
+    for (std::ptrdiff_t x = 0; x < count; ++x)
+      out[x] += weight * (in[x - k * stride] + in[x + k * stride]);
+  }
+}
+
+/// The sums of the second derivatives along the axes at adjacent voxels, the traces of hessianAt().
+LUMEN_SIMD_CLONES
+void laplacians(const float* __restrict v, const std::array<std::ptrdiff_t, 3>& stride,
+                const Eigen::Vector3f& spacing, float* __restrict out, std::ptrdiff_t count) {
+  const std::ptrdiff_t p = stride[0], q = stride[1], r = stride[2];
+  const float a = spacing[0] * spacing[0], b = spacing[1] * spacing[1], c = spacing[2] * spacing[2];
+  for (std::ptrdiff_t x = 0; x < count; ++x)
+    out[x] = (v[x + p] + v[x - p] - 2 * v[x]) / a + (v[x + q] + v[x - q] - 2 * v[x]) / b +
+             (v[x + r] + v[x - r] - 2 * v[x]) / c;
+}
+
 /// A brick of voxels with a rim, and room to smooth it.
 struct Brick {
   CellBox box;
   std::vector<float> voxels, smoothed, buffer;
+  std::vector<float> traces;  ///< of a row
+
+  [[nodiscard]] std::array<std::ptrdiff_t, 3> strides() const {
+    std::array<std::ptrdiff_t, 3> out{};
+    for (int a = 0; a < 3; ++a)
+      out[static_cast<std::size_t>(a)] = static_cast<std::ptrdiff_t>(box.stride(a));
+    return out;
+  }
 
   /// Copies the voxels; those beyond the volume repeat its faces.
   template <class T>
@@ -56,26 +93,20 @@ struct Brick {
     });
   }
 
-  /// Smooths along one axis; voxels nearer to the rim than the kernel is long stay as they are.
+  /// Smooths along one axis. Voxels nearer to the rim than the kernel is long hold nothing of use then.
   void smoothAlong(int axis, const std::vector<float>& half) {
     const auto reach = static_cast<std::ptrdiff_t>(half.size()) - 1;
     const auto stride = static_cast<std::ptrdiff_t>(box.stride(axis));
     const auto row = static_cast<std::size_t>(box.size[0]);
-    buffer = smoothed;
+    buffer.resize(smoothed.size());
     const std::size_t rows = box.count() / row;
     const std::ptrdiff_t first = axis == 0 ? reach : 0;
-    const auto end = static_cast<std::ptrdiff_t>(row) - first;
     for (std::size_t r = 0; r < rows; ++r) {
       const Cell at = Cell(0, static_cast<int>(r) % box.size[1], static_cast<int>(r) / box.size[1]);
       if (axis > 0 && (at[axis] < reach || at[axis] >= box.size[axis] - reach)) continue;
-      const float* in = smoothed.data() + r * row;
-      float* out = buffer.data() + r * row;
-      for (std::ptrdiff_t x = first; x < end; ++x) out[x] = half[0] * in[x];
-      for (std::ptrdiff_t k = 1; k <= reach; ++k) {
-        const float weight = half[static_cast<std::size_t>(k)];
-        for (std::ptrdiff_t x = first; x < end; ++x)
-          out[x] += weight * (in[x - k * stride] + in[x + k * stride]);
-      }
+      const std::size_t from = r * row + static_cast<std::size_t>(first);
+      smoothRow(smoothed.data() + from, stride, half, buffer.data() + from,
+                static_cast<std::ptrdiff_t>(row) - 2 * first);
     }
     smoothed.swap(buffer);
   }
@@ -83,7 +114,10 @@ struct Brick {
 
 /// The strength of a ridge whose second derivatives are `hessian`, per mm^2; 0 if it is none.
 float measureStrength(const Eigen::Matrix3f& hessian) {
-  if (!(hessian.trace() < 0)) return 0;
+  const float sum = hessian.trace();
+  if (!(sum < 0)) return 0;
+  const float products = 0.5F * (sum * sum - hessian.squaredNorm());
+  if (products < kLeastProducts * sum * sum) return 0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(hessian, Eigen::EigenvaluesOnly);
   const Eigen::Vector3f curved = solver.eigenvalues();  // ascending
@@ -91,23 +125,10 @@ float measureStrength(const Eigen::Matrix3f& hessian) {
   return std::abs(curved[2]) > -kAlong * curved[1] ? 0.0F : -curved[1];
 }
 
-/// The sum of the second derivatives along the axes, the trace of hessianAt().
-float laplacianAt(const Brick& brick, std::size_t i, const Eigen::Vector3f& spacing) {
-  const float* v = brick.smoothed.data() + i;
-  float sum = 0;
-  for (int a = 0; a < 3; ++a) {
-    const auto p = static_cast<std::ptrdiff_t>(brick.box.stride(a));
-    sum += (v[p] + v[-p] - 2 * v[0]) / (spacing[a] * spacing[a]);
-  }
-  return sum;
-}
-
 /// Second derivatives of the smoothed brick at a voxel, by its neighbours.
 Eigen::Matrix3f hessianAt(const Brick& brick, std::size_t i, const Eigen::Vector3f& spacing) {
   const float* v = brick.smoothed.data() + i;
-  std::array<std::ptrdiff_t, 3> step{};
-  for (int a = 0; a < 3; ++a)
-    step[static_cast<std::size_t>(a)] = static_cast<std::ptrdiff_t>(brick.box.stride(a));
+  const std::array<std::ptrdiff_t, 3> step = brick.strides();
   Eigen::Matrix3f h;
   for (int a = 0; a < 3; ++a) {
     const std::ptrdiff_t p = step[static_cast<std::size_t>(a)];
@@ -119,6 +140,14 @@ Eigen::Matrix3f hessianAt(const Brick& brick, std::size_t i, const Eigen::Vector
     }
   }
   return h;
+}
+
+/// Calls visit(cell) for the first cell of every row along x.
+template <class Visit>
+void eachRow(const CellBox& box, const Visit& visit) {
+  CellBox firsts = box;
+  firsts.size[0] = 1;
+  firsts.forEach(visit);
 }
 
 }  // namespace
@@ -150,12 +179,18 @@ std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progres
       brick.smoothed = brick.voxels;
       for (int a = 0; a < 3; ++a) brick.smoothAlong(a, kernels[s][static_cast<std::size_t>(a)]);
       const auto variance = static_cast<float>(kScales[s] * kScales[s] * voxel * voxel);
-      core.forEach([&](const Cell& cell) {
-        float& best = out[cells.index(cell)];
-        const std::size_t i = brick.box.index(cell);
-        // c1 + c2 + c3 <= -(2 - kAlong) |c2| on a ridge, so few voxels need their eigenvalues
-        if (!(-laplacianAt(brick, i, spacing) * variance > kLeastCurved * best)) return;
-        best = std::max(best, variance * measureStrength(hessianAt(brick, i, spacing)));
+      eachRow(core, [&](const Cell& first) {
+        const std::size_t from = brick.box.index(first);
+        float* const best = out.data() + cells.index(first);
+        brick.traces.resize(static_cast<std::size_t>(core.size[0]));
+        laplacians(brick.smoothed.data() + from, brick.strides(), spacing, brick.traces.data(),
+                   core.size[0]);
+        for (std::size_t x = 0; x < brick.traces.size(); ++x) {
+          // c1 + c2 + c3 <= -(2 - kAlong) |c2| on a ridge, so few voxels need their eigenvalues
+          if (!(-brick.traces[x] * variance > kLeastCurved * best[x])) continue;
+          best[x] =
+              std::max(best[x], variance * measureStrength(hessianAt(brick, from + x, spacing)));
+        }
       });
     }
   };
