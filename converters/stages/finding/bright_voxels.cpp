@@ -147,7 +147,7 @@ public:
   UsualRidges(const CellBox& cells, const std::vector<float>& strength,
               const std::vector<std::uint8_t>& mark, const Progress& progress)
       : m_median(blocksAround(cells).count()), m_blocks(blocksAround(cells)) {
-    std::vector<std::vector<float>> found(m_blocks.count());
+    std::vector<Samples> found(m_blocks.count());
     tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
       progress.check();
       std::size_t n = 0;
@@ -155,21 +155,18 @@ public:
           [&](const Cell& cell) {
             if (++n % kSampled != 0) return;
             const std::size_t i = cells.index(cell);
-            if (mark[i] == kBackground) found[b].push_back(strength[i]);
+            if (mark[i] == kBackground) found[b].add(strength[i]);
           });
     });
-    std::vector<float> all;
-    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    const float everywhere = medianOfRidges(all);
+    Samples all;
+    for (const Samples& some : found) all.add(some);
+    const float everywhere = all.medianRidge();
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
-      std::vector<float> around;
+      Samples around;
       const Cell at = m_blocks.cell(b);
       m_blocks.meet(CellBox::between(at - Cell::Ones(), at + Cell::Ones()))
-          .forEach([&](const Cell& cell) {
-            const auto& some = found[m_blocks.index(cell)];
-            around.insert(around.end(), some.begin(), some.end());
-          });
-      m_median[b] = std::max(everywhere, medianOfRidges(around));
+          .forEach([&](const Cell& cell) { around.add(found[m_blocks.index(cell)]); });
+      m_median[b] = std::max(everywhere, around.medianRidge());
     });
   }
 
@@ -178,16 +175,25 @@ public:
   }
 
 private:
-  /// The median of the ridges among samples of the background; 0 if these are few.
-  static float medianOfRidges(std::vector<float>& samples) {
-    const auto ridges =
-        std::partition(samples.begin(), samples.end(), [](float s) { return s > 0; });
-    const auto count = static_cast<std::size_t>(ridges - samples.begin());
-    if (count == 0 || static_cast<double>(count) < kFewRidges * static_cast<double>(samples.size()))
-      return 0;
-    samples.resize(count);
-    return upperMedian(samples);
-  }
+  /// Voxels of the background, and the strengths of those on a ridge.
+  struct Samples {
+    std::size_t count = 0;
+    std::vector<float> ridges;
+
+    void add(float strength) {
+      ++count;
+      if (strength > 0) ridges.push_back(strength);
+    }
+    void add(const Samples& more) {
+      count += more.count;
+      ridges.insert(ridges.end(), more.ridges.begin(), more.ridges.end());
+    }
+    /// The median of the ridges, 0 if these are few. Reorders them.
+    float medianRidge() {
+      const auto few = kFewRidges * static_cast<double>(count);
+      return ridges.empty() || static_cast<double>(ridges.size()) < few ? 0 : upperMedian(ridges);
+    }
+  };
   static CellBox blocksAround(const CellBox& cells) {
     return {Cell::Zero(), (cells.size.array() + kRidgeBlock - 1) / kRidgeBlock};
   }

@@ -56,22 +56,60 @@ void smoothRow(const float* __restrict in, std::ptrdiff_t stride, const std::vec
   }
 }
 
-/// The sums of the second derivatives along the axes at adjacent voxels, the traces of hessianAt().
+/// Second derivatives at adjacent voxels of a row, as a structure of arrays.
+struct Curvatures {
+  using Row = std::array<float, kBrick>;
+  alignas(64) Row xx, yy, zz, xy, xz, yz;
+  alignas(64) Row trace;
+  alignas(64) Row products;  ///< sum of the products of any two principal curvatures
+
+  [[nodiscard]] Eigen::Matrix3f hessian(std::size_t i) const {
+    Eigen::Matrix3f h;
+    h << xx[i], xy[i], xz[i], xy[i], yy[i], yz[i], xz[i], yz[i], zz[i];
+    return h;
+  }
+};
+
+/// The second derivatives at `count` voxels from `v` on, by their neighbours.
 LUMEN_SIMD_CLONES
-void laplacians(const float* __restrict v, const std::array<std::ptrdiff_t, 3>& stride,
-                const Eigen::Vector3f& spacing, float* __restrict out, std::ptrdiff_t count) {
-  const std::ptrdiff_t p = stride[0], q = stride[1], r = stride[2];
-  const float a = spacing[0] * spacing[0], b = spacing[1] * spacing[1], c = spacing[2] * spacing[2];
-  for (std::ptrdiff_t x = 0; x < count; ++x)
-    out[x] = (v[x + p] + v[x - p] - 2 * v[x]) / a + (v[x + q] + v[x - q] - 2 * v[x]) / b +
-             (v[x + r] + v[x - r] - 2 * v[x]) / c;
+void differentiate(const float* v, const std::array<std::ptrdiff_t, 3>& stride,
+                   const Eigen::Vector3f& spacing, std::size_t count, Curvatures& out) {
+  const auto along = [&](std::size_t axis, Curvatures::Row & row) __attribute__((always_inline)) {
+    const std::ptrdiff_t p = stride[axis];
+    const float square = spacing[static_cast<int>(axis)] * spacing[static_cast<int>(axis)];
+    for (std::size_t x = 0; x < count; ++x) {
+      const float* at = v + x;
+      row[x] = (at[p] + at[-p] - 2 * at[0]) / square;
+    }
+  };
+  const auto across = [&](std::size_t a, std::size_t b, Curvatures::Row & row)
+      __attribute__((always_inline)) {
+    const std::ptrdiff_t p = stride[a], q = stride[b];
+    const float area = 4 * spacing[static_cast<int>(a)] * spacing[static_cast<int>(b)];
+    for (std::size_t x = 0; x < count; ++x) {
+      const float* at = v + x;
+      row[x] = (at[p + q] + at[-p - q] - at[p - q] - at[q - p]) / area;
+    }
+  };
+  along(0, out.xx);
+  along(1, out.yy);
+  along(2, out.zz);
+  across(1, 0, out.xy);
+  across(2, 0, out.xz);
+  across(2, 1, out.yz);
+  for (std::size_t x = 0; x < count; ++x) {
+    const float xx = out.xx[x], yy = out.yy[x], zz = out.zz[x];
+    out.trace[x] = xx + yy + zz;
+    out.products[x] = xx * yy + yy * zz + zz * xx - out.xy[x] * out.xy[x] - out.xz[x] * out.xz[x] -
+                      out.yz[x] * out.yz[x];
+  }
 }
 
 /// A brick of voxels with a rim, and room to smooth it.
 struct Brick {
   CellBox box;
   std::vector<float> voxels, smoothed, buffer;
-  std::vector<float> traces;  ///< of a row
+  Curvatures curvatures;  ///< of a row
 
   [[nodiscard]] std::array<std::ptrdiff_t, 3> strides() const {
     std::array<std::ptrdiff_t, 3> out{};
@@ -112,34 +150,15 @@ struct Brick {
   }
 };
 
-/// The strength of a ridge whose second derivatives are `hessian`, per mm^2; 0 if it is none.
-float measureStrength(const Eigen::Matrix3f& hessian) {
-  const float sum = hessian.trace();
-  if (!(sum < 0)) return 0;
-  const float products = 0.5F * (sum * sum - hessian.squaredNorm());
-  if (products < kLeastProducts * sum * sum) return 0;
+/// The strength of the ridge at a voxel of a row, per mm^2; 0 if there is none.
+float measureStrength(const Curvatures& row, std::size_t x) {
+  const float sum = row.trace[x];
+  if (!(sum < 0) || row.products[x] < kLeastProducts * sum * sum) return 0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  solver.computeDirect(hessian, Eigen::EigenvaluesOnly);
+  solver.computeDirect(row.hessian(x), Eigen::EigenvaluesOnly);
   const Eigen::Vector3f curved = solver.eigenvalues();  // ascending
   if (!(curved[1] < 0) || curved[1] > kRound * curved[0]) return 0;
   return std::abs(curved[2]) > -kAlong * curved[1] ? 0.0F : -curved[1];
-}
-
-/// Second derivatives of the smoothed brick at a voxel, by its neighbours.
-Eigen::Matrix3f hessianAt(const Brick& brick, std::size_t i, const Eigen::Vector3f& spacing) {
-  const float* v = brick.smoothed.data() + i;
-  const std::array<std::ptrdiff_t, 3> step = brick.strides();
-  Eigen::Matrix3f h;
-  for (int a = 0; a < 3; ++a) {
-    const std::ptrdiff_t p = step[static_cast<std::size_t>(a)];
-    h(a, a) = (v[p] + v[-p] - 2 * v[0]) / (spacing[a] * spacing[a]);
-    for (int b = 0; b < a; ++b) {
-      const std::ptrdiff_t q = step[static_cast<std::size_t>(b)];
-      h(a, b) = h(b, a) =
-          (v[p + q] + v[-p - q] - v[p - q] - v[q - p]) / (4 * spacing[a] * spacing[b]);
-    }
-  }
-  return h;
 }
 
 /// Calls visit(cell) for the first cell of every row along x.
@@ -174,6 +193,7 @@ std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progres
     const CellBox core = CellBox{bricks.cell(b) * kBrick, Cell::Constant(kBrick)}.meet(cells);
     brick.box = CellBox::between(core.low - rim, core.high() + rim);
     std::visit([&](const auto& voxels) { brick.take(voxels, cells, sign); }, volume.voxels);
+    const auto count = static_cast<std::size_t>(core.size[0]);
     for (std::size_t s = 0; s < kScales.size(); ++s) {
       progress.check();
       brick.smoothed = brick.voxels;
@@ -182,14 +202,13 @@ std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progres
       eachRow(core, [&](const Cell& first) {
         const std::size_t from = brick.box.index(first);
         float* const best = out.data() + cells.index(first);
-        brick.traces.resize(static_cast<std::size_t>(core.size[0]));
-        laplacians(brick.smoothed.data() + from, brick.strides(), spacing, brick.traces.data(),
-                   core.size[0]);
-        for (std::size_t x = 0; x < brick.traces.size(); ++x) {
+        const Curvatures& row = brick.curvatures;
+        differentiate(brick.smoothed.data() + from, brick.strides(), spacing, count,
+                      brick.curvatures);
+        for (std::size_t x = 0; x < count; ++x) {
           // c1 + c2 + c3 <= -(2 - kAlong) |c2| on a ridge, so few voxels need their eigenvalues
-          if (!(-brick.traces[x] * variance > kLeastCurved * best[x])) continue;
-          best[x] =
-              std::max(best[x], variance * measureStrength(hessianAt(brick, from + x, spacing)));
+          if (!(-row.trace[x] * variance > kLeastCurved * best[x])) continue;
+          best[x] = std::max(best[x], variance * measureStrength(row, x));
         }
       });
     }
