@@ -28,16 +28,21 @@ void addStep(formats::Metadata& metadata, formats::Step step) {
   steps.push_back(std::move(step));
 }
 
-void recordEdit(formats::Metadata& metadata, const std::string& sentence) {
+void recordNumbered(formats::Metadata& metadata, const std::string& step,
+                    const std::string& sentence) {
   auto& steps = metadata.steps;
-  const bool goesOn = !steps.empty() && steps.back().name == kEditStep &&
+  const bool goesOn = !steps.empty() && steps.back().name == step &&
                       steps.back().parameters.size() < formats::kMaxParameters;
-  if (!goesOn) addStep(metadata, {kEditStep, "lumen " LUMEN_VERSION, {}});
+  if (!goesOn) addStep(metadata, {step, "lumen " LUMEN_VERSION, {}});
   auto& done = steps.back().parameters;
   std::string number;
   for (std::size_t n = done.size() + 1; number.empty() || done.contains(number); ++n)
     number = paddedNumber(n, 4);
   done[number] = sentence;
+}
+
+void recordEdit(formats::Metadata& metadata, const std::string& sentence) {
+  recordNumbered(metadata, kEditStep, sentence);
 }
 
 void recordAssumptions(formats::Step& step, const std::vector<std::string>& assumptions) {

@@ -14,9 +14,14 @@ constexpr const char* kEditStep = "edit";
 /// Adds a step. Throws Error(Unsupported) if the case has no room for another one.
 void addStep(formats::Metadata& metadata, formats::Step step);
 
-/// Adds a sentence to the record of manual changes of a case: edits that follow one another are
-/// parameters of one "edit" step, numbered from 0001. Throws Error(Unsupported) if the case has no
-/// room for another step.
+/// Adds a sentence to the last step of a case if that has the given name, or else to a new one:
+/// sentences are parameters, numbered from 0001. Throws Error(Unsupported) if the case has no room
+/// for another step.
+void recordNumbered(formats::Metadata& metadata, const std::string& step,
+                    const std::string& sentence);
+
+/// Adds a sentence to the record of manual changes of a case, "edit" steps. Throws as
+/// recordNumbered().
 void recordEdit(formats::Metadata& metadata, const std::string& sentence);
 
 /// Records what the reader of the source took for granted where its file is incomplete, such as where

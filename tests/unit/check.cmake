@@ -9,4 +9,5 @@ lumen_test(check_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/profile_edge_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/projection_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/skeleton_paths_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/tree_places_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/true_wall_test.cpp)

@@ -5,9 +5,11 @@
 
 namespace lumen::viewer {
 
-void Findings::setCheck(Json answer, std::shared_ptr<const formats::Case> of) {
+void Findings::setCheck(Json answer, std::vector<WorkItem> work,
+                        std::shared_ptr<const formats::Case> of) {
   const std::lock_guard lock(m_mutex);
   m_check = std::move(answer);
+  m_work = std::move(work);
   m_checked = std::move(of);
 }
 
@@ -22,12 +24,24 @@ void Findings::setFigures(Json answer, std::shared_ptr<const formats::Case> of,
 void Findings::clear() {
   const std::lock_guard lock(m_mutex);
   m_check = m_figures = nullptr;
+  m_work.clear();
   m_checked = m_compared = m_truth = nullptr;
 }
 
 Json Findings::check() const {
   const std::lock_guard lock(m_mutex);
   return m_check;
+}
+
+Json Findings::work(const Document& document) const {
+  const std::lock_guard lock(m_mutex);
+  return m_check.is_object() && document.value ? workJson(m_work, *document.value) : Json(nullptr);
+}
+
+WorkItem Findings::workItem(std::size_t number) const {
+  const std::lock_guard lock(m_mutex);
+  if (number >= m_work.size()) refuse("the check has no place with that number");
+  return m_work[number];
 }
 
 bool Findings::isCheckOld(const Document& document) const {

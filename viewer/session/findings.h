@@ -4,22 +4,29 @@
 
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"
+#include "viewer/session/work_list.h"
 
 namespace lumen::viewer {
 
 /// All calls are thread-safe.
 class Findings {
 public:
-  void setCheck(Json answer, std::shared_ptr<const formats::Case> of);
+  void setCheck(Json answer, std::vector<WorkItem> work, std::shared_ptr<const formats::Case> of);
   void setFigures(Json answer, std::shared_ptr<const formats::Case> of,
                   std::shared_ptr<const formats::Case> truth);
   void clear();
 
   /// Null if there was no check; it may be about an earlier case.
   [[nodiscard]] Json check() const;
+  /// What the last check leaves to be done in the case of `document` (workJson()); null if there was no
+  /// check, or is no case.
+  [[nodiscard]] Json work(const Document& document) const;
+  /// The item of the last check with that number. Throws Error(Usage) if there is none.
+  [[nodiscard]] WorkItem workItem(std::size_t number) const;
   /// Whether the check was about another case than that of `document`.
   [[nodiscard]] bool isCheckOld(const Document& document) const;
   /// Null if there was no comparison of the case and the truth of `document`.
@@ -28,6 +35,7 @@ public:
 private:
   mutable std::mutex m_mutex;  ///< guards all that follow
   Json m_check, m_figures;
+  std::vector<WorkItem> m_work;
   std::shared_ptr<const formats::Case> m_checked, m_compared, m_truth;
 };
 

@@ -39,9 +39,11 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
   if (op == "recover") return m_files.recover(request, from);
   if (op == "closeFile") return m_files.close(request, from);
   if (op == "acceptVolume") return acceptVolume(from);
-  if (op == "track" || op == "find" || op == "accept") {
+  if (op == "ignore" || op == "heed") return decide(op, request, from);
+  if (op == "track" || op == "trackFrom" || op == "find" || op == "accept") {
     requireOneSource(from.document);
     if (op == "track") return m_stages.track(request, from);
+    if (op == "trackFrom") return m_stages.trackFrom(request, from);
     if (op == "find") return m_stages.find(from);
     return m_stages.accept(request, from);
   }
@@ -65,6 +67,20 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
 Json Operations::acceptVolume(const Moment& from) {
   m_workspace.commit("accept " + formats::printable(from.document.labelOf(FileRole::Volume)), from,
                      withAcceptedVolume(from.document));
+  return m_workspace.revision();
+}
+
+Json Operations::decide(const std::string& op, const Arguments& request, const Moment& from) {
+  if (!from.document.value) refuse("there is no case whose places could be ignored");
+  constexpr std::size_t kMost = 1U << 20U;  // limit: of any number in a request
+  if (op == "heed") {
+    m_workspace.commit("heed a place", from,
+                       withHeeded(from.document, request.index("ignored", kMost)));
+    return m_workspace.revision();
+  }
+  const WorkItem item = m_workspace.findings.workItem(request.index("item", kMost));
+  m_workspace.commit("ignore a place", from,
+                     withIgnored(from.document, item, request.text("reason")));
   return m_workspace.revision();
 }
 

@@ -15,7 +15,9 @@
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
 #include "viewer/session/proposals.h"
+#include "viewer/session/seed_changes.h"
 #include "viewer/session/vessel_tracking.h"
+#include "viewer/session/work_list.h"
 
 namespace lumen::viewer {
 
@@ -40,18 +42,22 @@ std::string sourceOf(const Document& document) {
   return difference ? "other " + difference->what : "same";
 }
 
-std::string missingSentence(std::size_t missing) {
-  if (missing == 0) return "the check found no vessel that is missing";
-  return counted(missing, "vessel", "vessels") + " of the volume " + (missing == 1 ? "is" : "are") +
-         " missing";
-}
-
 }  // namespace
 
 Json StageJobs::track(const Arguments& request, const Moment& from) {
   if (!from.document.volume) throw Error(ErrorKind::Usage, "tracking needs a volume");
   const Seeds seeds = untrackedSeeds(from.document, request);
   if (seeds.empty()) throw Error(ErrorKind::Usage, "there is no seed that is not tracked yet");
+  return trackSeeds(seeds, from);
+}
+
+Json StageJobs::trackFrom(const Arguments& request, Moment from) {
+  if (!from.document.volume) throw Error(ErrorKind::Usage, "tracking needs a volume");
+  from.document = changeSeeds("seedAdd", request, from.document)->document;
+  return trackSeeds({from.document.seeds->back()}, from);
+}
+
+Json StageJobs::trackSeeds(const Seeds& seeds, const Moment& from) {
   Workspace& workspace = m_workspace;
   return workspace.startJob("tracking", true, [&workspace, from, seeds](Progress& progress) {
     TrackedCase tracked =
@@ -135,8 +141,12 @@ Json StageJobs::check(const Moment& from) {
         convert::checkCase(volume, *value, convert::recordedEdgeOptions(*value), progress);
     Json answer = engine::checkJson(result.report, value->tree, sourceOf(from.document));
     addClicks(answer, result.report.missing);
-    workspace.findings.setCheck(std::move(answer), value);
-    return missingSentence(result.report.missing.vessels.size());
+    std::vector<WorkItem> work =
+        listWork(*value, result.report, convert::measureReach(*value, progress), volume.geometry);
+    const std::size_t places = work.size();
+    workspace.findings.setCheck(std::move(answer), std::move(work), value);
+    return places == 0 ? "the check found nothing to do"
+                       : "the check lists " + counted(places, "place", "places") + " to look at";
   });
 }
 

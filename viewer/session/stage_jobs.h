@@ -14,6 +14,8 @@ public:
   explicit StageJobs(Workspace& workspace) : m_workspace(workspace) {}
 
   Json track(const Arguments& request, const Moment& from);
+  /// Places a seed and tracks it, as one change.
+  Json trackFrom(const Arguments& request, Moment from);
   /// Finds the vessels that the case lacks: they become the proposals.
   Json find(const Moment& from);
   /// Makes vessels of proposals, and fits them.
@@ -26,6 +28,8 @@ public:
   Json compare(const Moment& from);
 
 private:
+  Json trackSeeds(const Seeds& seeds, const Moment& from);
+
   Workspace& m_workspace;
 };
 

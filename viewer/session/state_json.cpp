@@ -124,6 +124,7 @@ Json stateJson(const Workspace& workspace) {
   const auto target = workspace.saving.target(document);
   json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
   json["check"] = workspace.findings.check();
+  json["work"] = workspace.findings.work(document);
   json["checkIsOld"] = workspace.findings.isCheckOld(document);
   json["figures"] = workspace.findings.figures(document);
   return json;

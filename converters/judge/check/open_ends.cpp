@@ -25,8 +25,8 @@ std::vector<OpenEnd> listOpenEnds(const formats::CenterlineTree& tree) {
     if (branch.kind != formats::BranchKind::Vessel) continue;
     const std::uint32_t first = branch.firstNode, last = first + branch.nodeCount - 1;
     if (branch.parentNode < 0 && joined[first] == 0)
-      ends.push_back({first, true, -toEigen(tree.direction[first]), 0});
-    if (joined[last] == 0) ends.push_back({last, false, toEigen(tree.direction[last]), 0});
+      ends.push_back({first, true, -toEigen(tree.direction[first]), 0, {}});
+    if (joined[last] == 0) ends.push_back({last, false, toEigen(tree.direction[last]), 0, {}});
   }
   return ends;
 }
@@ -60,10 +60,12 @@ std::vector<OpenEnd> findOpenEnds(const formats::CenterlineTree& tree, double vo
                                   std::vector<MissingVessel>& vessels) {
   std::vector<OpenEnd> ends = listOpenEnds(tree);
   for (OpenEnd& end : ends)
-    for (MissingVessel& vessel : vessels) {
-      const double beyond = lengthBeyond(tree, end, voxel, vessel);
-      end.goesOn = std::max(end.goesOn, beyond);
-      vessel.atEnd = vessel.atEnd || beyond > 0;
+    for (std::size_t v = 0; v < vessels.size(); ++v) {
+      const double beyond = lengthBeyond(tree, end, voxel, vessels[v]);
+      vessels[v].atEnd = vessels[v].atEnd || beyond > 0;
+      if (beyond <= end.goesOn) continue;
+      end.goesOn = beyond;
+      end.vessel = v;
     }
   return ends;
 }

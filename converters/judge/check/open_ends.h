@@ -2,7 +2,9 @@
 // Ends of branches of a case, and whether the volume shows that the vessel continues.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,6 +20,7 @@ struct OpenEnd {
   bool first = false;                                 ///< the branch begins here
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, along the vessel
   double goesOn = 0;                                  ///< mm of visible vessel beyond it; 0 if none
+  std::optional<std::size_t> vessel;  ///< number of the missing vessel that goes on the farthest
 };
 
 /// The open ends of all vessels, branch by branch. An end continues in a missing vessel that comes

@@ -6,7 +6,7 @@ import { find, openPage, picture, pixels, settled, startBrowser, story } from ".
 import { placeIn } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
-const places = page => page.locator("#missing-list .item");
+const places = page => page.locator("#work-list .item.row:is([data-kind=missing], [data-kind=early-end])");
 
 async function check(page) {
   await page.locator("#check-about").filter({ hasNotText: "check again" }).waitFor();
@@ -77,7 +77,7 @@ story("a click on a ring in a slice does the same", async t => {
   await settled(page);
   await check(page);
   const before = await places(page).count();
-  await page.locator("#missing-0 .link").click();
+  await page.locator("#work-list [data-kind] .link >> nth=0").click();
   const there = (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);
   const { x, y } = await placeIn(page, "axial", there);
   await page.mouse.click(x + 3, y);

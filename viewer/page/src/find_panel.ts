@@ -2,6 +2,7 @@
 /** Find vessels: what the volume shows and the case lacks, as a list to accept or to reject. */
 import type { Actions } from "./actions";
 import type { App } from "./model";
+import { replaceRows } from "./rows";
 import { goTo } from "./selection";
 import type { Proposal, State } from "./types";
 import { brief, button, h, mm, section } from "./ui";
@@ -72,23 +73,11 @@ export function findPanel(app: App, actions: Actions): HTMLElement[] {
   return [box];
 }
 
-/** The button that has the keys keeps them: in the row that comes to its place. */
-function replaceRows(list: HTMLElement, rows: HTMLElement[]): void {
-  const row = document.activeElement?.closest("li"),
-    at = row?.parentElement === list ? [...list.children].indexOf(row) : -1,
-    button =
-      at < 0 ? -1 : [...row!.querySelectorAll("button")].indexOf(document.activeElement as HTMLButtonElement);
-  const top = list.scrollTop;
-  list.replaceChildren(...rows);
-  list.scrollTop = top;
-  if (button >= 0) rows[Math.min(at, rows.length - 1)]?.querySelectorAll("button")[button]?.focus();
-}
-
 function proposalRow(app: App, actions: Actions, proposal: Proposal): HTMLElement {
   const { label, parent } = proposal,
     busy = app.store.get().state.job !== null;
   const show = (): void => {
-    app.store.set({ proposal: label });
+    app.store.set({ proposal: label, place: null });
     goTo(app, proposal.position);
   };
   const accept = button(

@@ -7,6 +7,7 @@ import type { App, Layout } from "./model";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./selection";
 import { resetPlanes } from "./slice_input";
 import { renameBranch } from "./tree_panel";
+import type { WorkList } from "./work_list";
 
 const kLayouts: Layout[] = ["four", "rows", "scene", "axial", "coronal", "sagittal"];
 
@@ -21,13 +22,13 @@ function typing(e: KeyboardEvent): boolean {
   );
 }
 
-export function listenToKeys(app: App, actions: Actions, hand: Hand): void {
+export function listenToKeys(app: App, actions: Actions, hand: Hand, work: WorkList): void {
   document.addEventListener("keydown", e => {
     if (e.defaultPrevented) return;
     const handled =
       e.ctrlKey || e.metaKey
         ? withControl(e, app, actions)
-        : !e.altKey && !typing(e) && plain(e, app, actions, hand);
+        : !e.altKey && !typing(e) && plain(e, app, actions, hand, work);
     if (handled) e.preventDefault();
   });
 }
@@ -60,7 +61,7 @@ function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
   }
 }
 
-function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolean {
+function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: WorkList): boolean {
   const { store, source } = app,
     { selected } = store.get(),
     key = e.shiftKey ? `Shift+${e.key.toUpperCase()}` : e.key.toLowerCase();
@@ -137,6 +138,14 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolea
       return working(() => void actions.find());
     case "k":
       return working(() => void actions.check());
+    case ".":
+      return source.live && work.walk(1);
+    case ",":
+      return source.live && work.walk(-1);
+    case "y":
+      return source.live && work.accept();
+    case "i":
+      return source.live && work.dismiss();
     case "delete":
       return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected })));
     case "Shift+DELETE":

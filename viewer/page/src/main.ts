@@ -33,6 +33,7 @@ import { TreePanel } from "./tree_panel";
 import { h } from "./ui";
 import { applyLayout, Watcher } from "./watcher";
 import { WireTool } from "./wire_tool";
+import { WorkList } from "./work_list";
 import { workPanel } from "./work_panel";
 
 function makeApp(source: Source, shell: Shell): App {
@@ -74,7 +75,8 @@ async function start(): Promise<void> {
   const hand = new Hand(app);
   const flight = new Flight(app, scene);
   const wire = new WireTool(app);
-  const actions = new Actions(app, scene, slices, flight);
+  const actions = new Actions(app, scene, slices, flight),
+    work = new WorkList(app, actions);
   const tools = new Tools(app, hand, flight, wire);
   for (const slice of slices) listenToSlice(slice, app, tools);
   listenToScene(scene, app, tools);
@@ -85,7 +87,7 @@ async function start(): Promise<void> {
     ...assumptionsPanel(app),
     ...libraryPanel(app),
     ...findPanel(app, actions),
-    ...workPanel(app, actions, hand),
+    ...workPanel(app, actions, hand, work),
     ...displayPanel(app, actions),
     new MeshLayer(app, scene).panel,
     ...measurePanel(app, actions, hand, wire),
@@ -94,7 +96,7 @@ async function start(): Promise<void> {
   new ProbeLine(shell.probe, app, tools);
   new LocalModel(app, scene);
   legend(shell.legend, app);
-  listenToKeys(app, actions, hand);
+  listenToKeys(app, actions, hand, work);
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene),
     watcher = new Watcher(app, shell, loader, actions);

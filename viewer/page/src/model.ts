@@ -56,6 +56,8 @@ export interface View {
   proposals: Tree | null;
   /** Label of the proposal that was shown last. */
   proposal: string | null;
+  /** Id of the place of the check that was shown last. */
+  place: number | null;
   surface: Surface | null;
   volume: Volume | null;
   /** Slices of the volume that can be shown. */
@@ -109,6 +111,7 @@ export const kInitial: View = {
   treeRevision: 0,
   proposals: null,
   proposal: null,
+  place: null,
   surface: null,
   volume: null,
   volumeReady: 0,

@@ -15,6 +15,7 @@ import type { Surface } from "./surface";
 import type { Vec3 } from "./types";
 import { dot, scale } from "./vec";
 import type { VolumeTexture } from "./volume_texture";
+import { missingPlaces } from "./work_items";
 
 const kStill = 250; // ms after the last movement at which what is slow is drawn again in full
 
@@ -145,7 +146,7 @@ export class SceneView implements StageView {
             ),
           );
     if (view.layers.places)
-      for (const place of view.state.check?.missing_vessels ?? [])
+      for (const { place } of missingPlaces(view.state))
         marks.push(ball(place.position, Math.max(2 * place.radius_mm, 1.5 * least), [1, 0.48, 0.56], 0.75));
     this.replace(this.marks, marks);
   }

@@ -6,6 +6,7 @@ import type { Pixel, SliceProjection } from "./slice_frame";
 import type { Surface } from "./surface";
 import type { MissingVessel, Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
+import { missingPlaces } from "./work_items";
 
 interface Cut {
   surface: Surface;
@@ -102,6 +103,7 @@ function ring(
 }
 
 export const kPlaceRing = 7; // pixels
+const kShownReach = 3; // mm from a slice within which the place that is shown has its ring
 /** mm from a slice within which a missing vessel is marked in it. */
 export const placeReach = (place: MissingVessel): number => Math.max(3, place.length_mm / 2);
 
@@ -119,10 +121,12 @@ function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
       });
     }
   if (view.layers.places)
-    for (const place of view.state.check?.missing_vessels ?? []) {
+    for (const { place } of missingPlaces(view.state)) {
       ring(c, slice, place.position, kPlaceRing, "#ff7a90", placeReach(place));
       ring(c, slice, place.position, 1.5, "#ff7a90", placeReach(place), true);
     }
+  const shown = view.state.work?.items.find(item => item.id === view.place);
+  if (shown !== undefined) ring(c, slice, shown.position, kPlaceRing + 4, "#ffffff", kShownReach);
 }
 
 export function label(

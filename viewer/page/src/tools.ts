@@ -12,6 +12,7 @@ import type { Vec3 } from "./types";
 import { kPlaceRing, placeReach } from "./slice_overlay";
 import { along, dot, length, sub, cross } from "./vec";
 import type { WireTool } from "./wire_tool";
+import { missingPlaces } from "./work_items";
 
 export interface Picked extends Hit {
   seed: string | null;
@@ -59,12 +60,13 @@ export class Tools {
     const { state, layers } = this.app.store.get(),
       at = slice.toPixel(p);
     if (!layers.places) return -1;
-    return (state.check?.missing_vessels ?? []).findIndex(place => {
+    const there = missingPlaces(state).find(({ place }) => {
       const ring = slice.toPixel(place.position);
       return (
         Math.abs(ring.depth) < placeReach(place) && Math.hypot(ring.x - at.x, ring.y - at.y) <= kPlaceRing
       );
     });
+    return there?.index ?? -1;
   }
   dragInSlice(slice: SliceView, p: Vec3): void {
     if (this.hand.drag(p, slice)) return;
@@ -153,7 +155,7 @@ export class Tools {
       for (const seed of view.state.seeds)
         if (!seed.tracked) for (const point of seed.points) consider(point.position, seed.label, -1);
     if (view.layers.places)
-      (view.state.check?.missing_vessels ?? []).forEach((place, i) => consider(place.position, null, i));
+      for (const { place, index } of missingPlaces(view.state)) consider(place.position, null, index);
     return best;
   }
 

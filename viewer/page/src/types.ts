@@ -40,6 +40,43 @@ export interface MissingVessel {
   clicks?: { points: Vec3[]; radius: number | null; beside: number | null };
 }
 
+export type WorkKind =
+  | "blocked"
+  | "loose"
+  | "doubled"
+  | "missing"
+  | "early-end"
+  | "dark"
+  | "wall-off"
+  | "thin";
+
+/** A place that the check leaves to be decided. */
+export interface WorkItem {
+  id: number;
+  kind: WorkKind;
+  position: Vec3;
+  /** The nearest of the case, and its branch. */
+  node: number;
+  branch: number;
+  /** A clause for people. */
+  about: string;
+  /** Number of the missing vessel that may be tracked from there. */
+  missing: number | null;
+}
+
+export interface IgnoredPlace {
+  kind: WorkKind;
+  position: Vec3;
+  reason: string;
+}
+
+export interface Work {
+  items: WorkItem[];
+  /** Their number when the check ended. */
+  found: number;
+  ignored: IgnoredPlace[];
+}
+
 export interface EndPlace {
   position: Vec3;
   branch: string;
@@ -100,6 +137,8 @@ export interface State {
   openCase: number | null;
   job: { job: number; name: string } | null;
   check: CheckAnswer | null;
+  /** What the check leaves to be done; null before. */
+  work: Work | null;
   /** The case has changed since it was checked. */
   checkIsOld: boolean;
   /** As `lumen compare` answers, or null. */
@@ -128,6 +167,7 @@ export const kEmptyState: State = {
   openCase: null,
   job: null,
   check: null,
+  work: null,
   checkIsOld: false,
   figures: null,
   formats: [],

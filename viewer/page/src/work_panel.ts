@@ -5,12 +5,13 @@ import type { Hand } from "./hand";
 import type { App, View } from "./model";
 import { atCursor, goTo } from "./selection";
 import { renameBranch } from "./tree_panel";
-import type { MissingVessel, Seed } from "./types";
-import { askYes, brief, button, h, mm, section, select } from "./ui";
+import type { Seed } from "./types";
+import { askYes, brief, button, h, section, select } from "./ui";
+import { checkSection, type WorkList } from "./work_list";
 
-export function workPanel(app: App, actions: Actions, hand: Hand): HTMLElement[] {
+export function workPanel(app: App, actions: Actions, hand: Hand, work: WorkList): HTMLElement[] {
   return app.source.live
-    ? [seedSection(app, actions, hand), checkSection(app, actions, hand), editSection(app), fileSection(app)]
+    ? [seedSection(app, actions, hand), checkSection(app, actions, work), editSection(app), fileSection(app)]
     : [];
 }
 
@@ -127,52 +128,6 @@ function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
     button(
       { icon: "close", label: `Remove ${seed.label}`, class: "button" },
       () => void app.perform({ op: "seedDelete", label: seed.label }),
-    ),
-  );
-}
-
-function checkSection(app: App, actions: Actions, hand: Hand): HTMLElement {
-  const { store } = app,
-    places = h("ul", { class: "list", id: "missing-list", "aria-label": "Vessels that may be missing" }),
-    about = h("p", { class: "hint", id: "check-about" });
-  const run = button(
-    {
-      icon: "check",
-      text: "Check",
-      label: "Compare the case with its volume",
-      key: "K",
-      id: "check",
-      class: "button text",
-    },
-    () => void actions.check(),
-  );
-  store.watch(["state"], ({ state }) => {
-    run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
-    const missing = state.check?.missing_vessels ?? [],
-      wall = state.check?.wall?.offset_mm;
-    about.textContent =
-      state.check === null
-        ? "Reports where the wall leaves the volume's edges, and places that look like a vessel and are none."
-        : `${missing.length === 0 ? "Nothing bright is missing" : missing.length === 1 ? "One place looks like a vessel that is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
-            state.checkIsOld ? " The case has changed since: check again." : ""
-          }`;
-    places.replaceChildren(...missing.map((m, i) => placeRow(app, hand, m, i)));
-  });
-  return section("section-check", "Check", true, about, places, h("div", { class: "row end" }, run));
-}
-
-function placeRow(app: App, hand: Hand, place: MissingVessel, index: number): HTMLElement {
-  return h(
-    "li",
-    { class: "row item", id: `missing-${index}` },
-    h(
-      "button",
-      { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, place.position) },
-      `Beside ${place.branch}`,
-    ),
-    h("span", { class: "note" }, `${brief(place.length_mm)} mm long, r ${brief(place.radius_mm)}`),
-    button({ icon: "seed", label: `Place a seed beside ${place.branch}`, class: "button" }, () =>
-      hand.takePlace(index),
     ),
   );
 }

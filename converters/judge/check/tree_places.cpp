@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/check/tree_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "converters/base/vectors.h"
+#include "converters/geometry/box.h"
+#include "formats/case/topology.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kAtFace = 1.5;          // radii before the first node of a vessel that enters the volume
+constexpr double kDeep = 0.5;            // radii from the axis of a vessel in whose lumen another one runs
+constexpr double kAlike = 0.8;           // cosine of the angle between both
+constexpr double kDoubledRadii = 4;      // length of a stretch that no fork explains, in radii of the wider vessel
+constexpr std::uint32_t kFewestPoor = 3;  // nodes
+
+/// The branch that begins the tree of each branch. Parents may come after their children.
+std::vector<std::uint32_t> rootsOfBranches(const formats::CenterlineTree& tree) {
+  std::vector<std::uint32_t> root(tree.branches.size());
+  for (std::uint32_t b = 0; b < root.size(); ++b) {
+    std::uint32_t at = b;
+    while (tree.branches[at].parentNode >= 0)
+      at = tree.branch[static_cast<std::size_t>(tree.branches[at].parentNode)];
+    root[b] = at;
+  }
+  return root;
+}
+
+template <class Place>
+void sortByLength(std::vector<Place>& places) {
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.length > b.length; });
+}
+
+/// Whether a node lies deep in a branch and points along it.
+bool runsIn(const formats::CenterlineTree& tree, std::uint32_t node, const formats::Branch& other) {
+  const Vector3d point = toEigen(tree.centre[node]);
+  for (std::uint32_t n = other.firstNode + 1; n < other.firstNode + other.nodeCount; ++n) {
+    const Vector3d from = toEigen(tree.centre[n - 1]), edge = toEigen(tree.centre[n]) - from;
+    if (edge.isZero()) continue;
+    const double along = (point - from).dot(edge) / edge.squaredNorm();
+    if (along < 0 || along > 1) continue;
+    const double radius = (1 - along) * static_cast<double>(tree.radius[n - 1]) +
+                          along * static_cast<double>(tree.radius[n]);
+    if ((point - from - along * edge).norm() < kDeep * radius &&
+        std::abs(toEigen(tree.direction[node]).dot(edge.normalized())) > kAlike)
+      return true;
+  }
+  return false;
+}
+
+/// Calls visit(first, end, length) for each stretch of a branch whose nodes pass a test.
+template <class Test, class Visit>
+void eachStretch(const formats::CenterlineTree& tree, const formats::Branch& branch,
+                 const Test& test, const Visit& visit) {
+  const std::uint32_t last = branch.firstNode + branch.nodeCount;
+  for (std::uint32_t first = branch.firstNode; first < last; ++first) {
+    if (!test(first)) continue;
+    std::uint32_t end = first + 1;
+    double length = 0;
+    for (; end < last && test(end); ++end)
+      length += (toEigen(tree.centre[end]) - toEigen(tree.centre[end - 1])).norm();
+    visit(first, end, length);
+    first = end;
+  }
+}
+
+/// The longest stretch of a branch that runs in another one, if it is long enough.
+void addDoubled(const formats::CenterlineTree& tree, std::uint32_t b, std::uint32_t other,
+                std::vector<DoubledTrack>& found) {
+  const formats::Branch& in = tree.branches[other];
+  DoubledTrack best{0, b, other, 0};
+  eachStretch(
+      tree, tree.branches[b], [&](std::uint32_t n) { return runsIn(tree, n, in); },
+      [&](std::uint32_t first, std::uint32_t end, double length) {
+        if (length <= best.length) return;
+        best.length = length;
+        best.node = (first + end) / 2;
+      });
+  if (best.length == 0) return;
+  const auto widest = *std::max_element(tree.radius.begin() + in.firstNode,
+                                        tree.radius.begin() + in.firstNode + in.nodeCount);
+  const auto own = tree.radius[best.node];
+  if (best.length > kDoubledRadii * static_cast<double>(std::max(widest, own)))
+    found.push_back(best);
+}
+
+}  // namespace
+
+std::vector<LooseTree> findLooseTrees(const formats::CenterlineTree& tree,
+                                      const VolumeGeometry& geometry) {
+  const std::vector<std::uint32_t> root = rootsOfBranches(tree);
+  std::vector<LooseTree> trees(tree.branches.size());
+  for (std::uint32_t b = 0; b < root.size(); ++b) {
+    LooseTree& at = trees[root[b]];
+    at.node = tree.branches[root[b]].firstNode;
+    at.length += formats::branchLength(tree, tree.branches[b]);
+    ++at.branches;
+  }
+  std::erase_if(trees, [](const LooseTree& at) { return at.branches == 0; });
+  sortByLength(trees);
+  if (!trees.empty()) trees.erase(trees.begin());
+  std::erase_if(trees, [&](const LooseTree& at) {
+    const Vector3d before = toEigen(tree.centre[at.node]) - kAtFace * static_cast<double>(tree.radius[at.node]) *
+                                                                 toEigen(tree.direction[at.node]);
+    return !geometry.containsWorld(before);
+  });
+  return trees;
+}
+
+std::vector<DoubledTrack> findDoubledTracks(const formats::CenterlineTree& tree) {
+  std::vector<Box3d> boxes(tree.branches.size());
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+    boxes[tree.branch[n]].add(toEigen(tree.centre[n]), static_cast<double>(tree.radius[n]));
+  std::vector<double> length;
+  for (const formats::Branch& branch : tree.branches)
+    length.push_back(formats::branchLength(tree, branch));
+  std::vector<DoubledTrack> found;
+  for (std::uint32_t b = 0; b < length.size(); ++b)
+    for (std::uint32_t other = 0; other < length.size(); ++other) {
+      const bool isShorter = length[b] < length[other] || (length[b] == length[other] && b > other);
+      const bool areVessels = tree.branches[b].kind == formats::BranchKind::Vessel &&
+                              tree.branches[other].kind == formats::BranchKind::Vessel;
+      if (b != other && isShorter && areVessels && boxes[b].meets(boxes[other]))
+        addDoubled(tree, b, other, found);
+    }
+  sortByLength(found);
+  return found;
+}
+
+std::vector<NodeStretch> findPoorStretches(const formats::CenterlineTree& tree,
+                                           std::span<const Agreement> agreement) {
+  std::vector<NodeStretch> found;
+  for (const formats::Branch& branch : tree.branches)
+    eachStretch(
+        tree, branch, [&](std::uint32_t n) { return agreement[n] == Agreement::Poor; },
+        [&](std::uint32_t first, std::uint32_t end, double length) {
+          if (end - first >= kFewestPoor) found.push_back({first, end, length});
+        });
+  sortByLength(found);
+  return found;
+}
+
+}  // namespace lumen::convert
