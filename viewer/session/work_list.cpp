@@ -23,8 +23,8 @@ using formats::CenterlineTree;
 
 constexpr std::array kKindNames = {"blocked",   "loose", "doubled",  "missing",
                                    "early-end", "dark",  "wall-off", "thin"};
-constexpr double kThinVoxels = 0.5;  // of the mean radius
-constexpr double kDarkRadii = 1.5;   // radii of a node in which the dark place in its lumen lies
+constexpr double kThinVoxels = 0.5;     // of the mean radius
+constexpr double kDarkRadii = 1.5;      // radii of a node in which the dark place in its lumen lies
 constexpr double kIgnoredPlace = 0.01;  // mm: places are recorded with three decimals
 
 /// The step by which a case records places that a person ignores: parameters are numbered texts, "KIND X Y Z
@@ -191,15 +191,15 @@ std::vector<WorkItem> listWork(const formats::Case& value, const convert::CheckR
   Lister list(value, report.voxelSize);
   if (reach)
     for (const convert::ClosedPath& path : reach->closed)
-      list.add(WorkKind::Blocked,
-               {path.position.x, path.position.y, path.position.z}, list.radius(path.node),
+      list.add(WorkKind::Blocked, {path.position.x, path.position.y, path.position.z},
+               list.radius(path.node),
                path.branch + " is closed there: " + lengthText(path.beyond) +
                    " beyond cannot be reached");
   addMissing(report, list);
   for (const convert::Region& dark : report.dark.regions)
     list.add(WorkKind::Dark, dark.position, kDarkRadii * list.radius(dark.node),
-             "the lumen of " + list.label(dark.node) + " is dark over " +
-                 shownNumber(dark.volume) + " mm3");
+             "the lumen of " + list.label(dark.node) + " is dark over " + shownNumber(dark.volume) +
+                 " mm3");
   addOfTree(value, report, geometry, list);
   return list.take();
 }
@@ -227,7 +227,8 @@ Json workJson(const std::vector<WorkItem>& items, const formats::Case& value) {
 }
 
 Document withIgnored(const Document& document, const WorkItem& item, const std::string& reason) {
-  if (reason.find_first_not_of(' ') == std::string::npos) refuse("a place is ignored for a reason: state one");
+  if (reason.find_first_not_of(' ') == std::string::npos)
+    refuse("a place is ignored for a reason: state one");
   auto value = std::make_shared<formats::Case>(*document.value);
   std::string text = kindName(item.kind);
   for (const double mm : item.position) text.append(" ").append(fixedText(mm, 3));

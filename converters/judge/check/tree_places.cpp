@@ -13,10 +13,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAtFace = 1.5;          // radii before the first node of a vessel that enters the volume
-constexpr double kDeep = 0.5;            // radii from the axis of a vessel in whose lumen another one runs
-constexpr double kAlike = 0.8;           // cosine of the angle between both
-constexpr double kDoubledRadii = 4;      // length of a stretch that no fork explains, in radii of the wider vessel
+constexpr double kAtFace =
+    1.5;  // radii from the border to the first node of a vessel that enters the volume
+constexpr double kDeep = 0.5;   // radii from the axis of a vessel in whose lumen another one runs
+constexpr double kAlike = 0.8;  // cosine of the angle between both
+constexpr double kDoubledRadii =
+    4;  // length of a stretch that no fork explains, in radii of the wider vessel
 constexpr std::uint32_t kFewestPoor = 3;  // nodes
 
 /// The branch that begins the tree of each branch. Parents may come after their children.
@@ -106,9 +108,10 @@ std::vector<LooseTree> findLooseTrees(const formats::CenterlineTree& tree,
   sortByLength(trees);
   if (!trees.empty()) trees.erase(trees.begin());
   std::erase_if(trees, [&](const LooseTree& at) {
-    const Vector3d before = toEigen(tree.centre[at.node]) - kAtFace * static_cast<double>(tree.radius[at.node]) *
-                                                                 toEigen(tree.direction[at.node]);
-    return !geometry.containsWorld(before);
+    const Vector3d place = geometry.indexFromWorld(toEigen(tree.centre[at.node]));
+    const Vector3d far = geometry.cells().high().cast<double>() - place;
+    const double nearest = place.cwiseMin(far).cwiseProduct(geometry.spacing).minCoeff();
+    return nearest <= kAtFace * static_cast<double>(tree.radius[at.node]);
   });
   return trees;
 }

@@ -20,8 +20,8 @@ struct LooseTree {
   double length = 0;  ///< mm
 };
 
-/// All trees but the longest one that do not begin where their vessel enters the volume: 1.5 radii before
-/// its first node. The longest first.
+/// All trees but the longest one that do not begin where their vessel enters the volume: within 1.5 radii of
+/// its border. The longest first.
 std::vector<LooseTree> findLooseTrees(const formats::CenterlineTree& tree,
                                       const VolumeGeometry& geometry);
 

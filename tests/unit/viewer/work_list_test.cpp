@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of what a check leaves to be done.
-#include "served.h"
 #include "viewer/session/work_list.h"
+
+#include "served.h"
 
 namespace lumen::test {
 
@@ -70,7 +71,8 @@ TEST_F(WorkListTest, HasEveryKindOfPlaceThatTheCheckKnows) {
   for (const Json& item : list["items"])
     EXPECT_TRUE(item["kind"] != "missing" || item["missing"] != end["missing"])
         << "what goes on beyond an end is one place: " << list;
-  EXPECT_TRUE(state()["check"]["missing_vessels"][end["missing"].get<std::size_t>()].contains("clicks"));
+  EXPECT_TRUE(
+      state()["check"]["missing_vessels"][end["missing"].get<std::size_t>()].contains("clicks"));
 }
 
 TEST_F(WorkListTest, APlaceWhoseVesselIsDeletedIsDone) {
@@ -88,8 +90,7 @@ TEST_F(WorkListTest, APlaceWhoseVesselIsDeletedIsDone) {
 TEST_F(WorkListTest, AnEndIsTrackedOnFromItsPlaceAsOneChange) {
   const Json all = state();
   const Json& end = firstOf(all["work"], "early-end");
-  const Json& clicks =
-      all["check"]["missing_vessels"][end["missing"].get<std::size_t>()]["clicks"];
+  const Json& clicks = all["check"]["missing_vessels"][end["missing"].get<std::size_t>()]["clicks"];
   Json points = Json::array();
   for (const Json& point : clicks["points"]) points.push_back({{"position", point}});
   performAll({{"op", "trackFrom"}, {"points", points}});
@@ -105,8 +106,9 @@ TEST_F(WorkListTest, AnIgnoredPlaceIsInTheCaseWithItsReason) {
   const Json loose = firstOf(before, "loose");
   EXPECT_EQ(perform({{"op", "ignore"}, {"item", loose["id"]}, {"reason", " "}}).status, 400);
   EXPECT_EQ(perform({{"op", "ignore"}, {"item", 999}, {"reason", "none"}}).status, 400);
-  ASSERT_EQ(
-      perform({{"op", "ignore"}, {"item", loose["id"]}, {"reason", "a vein, seen: \"v. 2\""}}).status, 200);
+  ASSERT_EQ(perform({{"op", "ignore"}, {"item", loose["id"]}, {"reason", "a vein, seen: \"v. 2\""}})
+                .status,
+            200);
   const Json after = work();
   EXPECT_EQ(countOf(after, "loose"), 0U);
   ASSERT_EQ(after["ignored"].size(), 1U);
