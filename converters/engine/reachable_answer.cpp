@@ -17,6 +17,8 @@ Json reachJson(const std::optional<convert::Reach>& reach) {
          {"beyond_mm", jsonNumber(path.beyond)}});
   return {{"length_mm", jsonNumber(reach->length)},
           {"of_mm", jsonNumber(reach->of)},
+          {"trees", reach->trees},
+          {"longest_tree_mm", jsonNumber(reach->longest)},
           {"closed", std::move(closed)}};
 }
 

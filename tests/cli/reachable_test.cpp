@@ -122,6 +122,8 @@ TEST_F(ReachableTest, InfoTellsWhatCanBeReachedAndWhereTheWayEnds) {
   const Json info = Json::parse(lumen({"info", "closed.lumen", "--json"}).out)["reachable"];
   EXPECT_NEAR(info["length_mm"].get<double>(), 5, 1e-6);
   EXPECT_NEAR(info["of_mm"].get<double>(), 15, 1e-6);
+  EXPECT_EQ(info["trees"], 1);
+  EXPECT_NEAR(info["longest_tree_mm"].get<double>(), 15, 1e-6);
   ASSERT_EQ(info["closed"].size(), 2U);
   EXPECT_EQ(info["closed"][0]["branch"], "trunk");
   EXPECT_EQ(info["closed"][0]["node"], 11);

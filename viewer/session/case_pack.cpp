@@ -62,7 +62,10 @@ Json reachableJson(const formats::Case& value, const Progress& progress) {
     closed.push_back({{"node", path.node},
                       {"position", {path.position.x, path.position.y, path.position.z}},
                       {"beyond", path.beyond}});
-  return {{"reached", reach->length}, {"total", reach->of}, {"closed", std::move(closed)}};
+  return {{"reached", reach->length},
+          {"total", reach->of},
+          {"trees", reach->trees},
+          {"closed", std::move(closed)}};
 }
 
 void addNodes(PackWriter& pack, const formats::CenterlineTree& tree) {

@@ -21,18 +21,6 @@ constexpr double kDoubledRadii =
     4;  // length of a stretch that no fork explains, in radii of the wider vessel
 constexpr std::uint32_t kFewestPoor = 3;  // nodes
 
-/// The branch that begins the tree of each branch. Parents may come after their children.
-std::vector<std::uint32_t> rootsOfBranches(const formats::CenterlineTree& tree) {
-  std::vector<std::uint32_t> root(tree.branches.size());
-  for (std::uint32_t b = 0; b < root.size(); ++b) {
-    std::uint32_t at = b;
-    while (tree.branches[at].parentNode >= 0)
-      at = tree.branch[static_cast<std::size_t>(tree.branches[at].parentNode)];
-    root[b] = at;
-  }
-  return root;
-}
-
 template <class Place>
 void sortByLength(std::vector<Place>& places) {
   std::stable_sort(places.begin(), places.end(),
@@ -96,16 +84,9 @@ void addDoubled(const formats::CenterlineTree& tree, std::uint32_t b, std::uint3
 
 std::vector<LooseTree> findLooseTrees(const formats::CenterlineTree& tree,
                                       const VolumeGeometry& geometry) {
-  const std::vector<std::uint32_t> root = rootsOfBranches(tree);
-  std::vector<LooseTree> trees(tree.branches.size());
-  for (std::uint32_t b = 0; b < root.size(); ++b) {
-    LooseTree& at = trees[root[b]];
-    at.node = tree.branches[root[b]].firstNode;
-    at.length += formats::branchLength(tree, tree.branches[b]);
-    ++at.branches;
-  }
-  std::erase_if(trees, [](const LooseTree& at) { return at.branches == 0; });
-  sortByLength(trees);
+  std::vector<LooseTree> trees;
+  for (const formats::TreeExtent& each : formats::listTrees(tree))
+    trees.push_back({tree.branches[each.root].firstNode, each.branches, each.length});
   if (!trees.empty()) trees.erase(trees.begin());
   std::erase_if(trees, [&](const LooseTree& at) {
     const Vector3d place = geometry.indexFromWorld(toEigen(tree.centre[at.node]));

@@ -9,6 +9,7 @@
 #include "converters/base/text.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
+#include "formats/case/topology.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -17,7 +18,9 @@ std::optional<Reach> measureReach(const formats::Case& value, const Progress& pr
   if (!value.models) return std::nullopt;
   const auto found = formats::measureReachability(value.tree, formats::caseField(value),
                                                   [&progress] { progress.check(); });
-  Reach reach{found.reachable, found.total, {}};
+  const auto trees = formats::listTrees(value.tree);
+  Reach reach{
+      found.reachable, found.total, trees.size(), trees.empty() ? 0 : trees.front().length, {}};
   for (const formats::Barrier& barrier : found.barriers)
     reach.closed.push_back({value.tree.branches[value.tree.branch[barrier.node]].label,
                             barrier.node, barrier.place, barrier.beyond});
@@ -28,7 +31,10 @@ std::optional<Reach> measureReach(const formats::Case& value, const Progress& pr
 
 std::string reachText(const std::optional<Reach>& reach) {
   if (!reach) return "not known, as there are no models (lumen fit makes them)";
-  return fixedText(reach->length, 1) + " of " + fixedText(reach->of, 1) + " mm";
+  const std::string text = fixedText(reach->length, 1) + " of " + fixedText(reach->of, 1) + " mm";
+  if (reach->trees < 2) return text;
+  return text + ", from the roots of " + std::to_string(reach->trees) + " trees; the longest has " +
+         fixedText(reach->longest, 1) + " mm";
 }
 
 std::string reachLine(const std::optional<Reach>& reach) {

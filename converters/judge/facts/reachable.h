@@ -23,6 +23,8 @@ struct ClosedPath {
 
 struct Reach {
   double length = 0, of = 0;       ///< mm
+  std::size_t trees = 0;           ///< that are reached each from its own root
+  double longest = 0;              ///< mm of the longest tree
   std::vector<ClosedPath> closed;  ///< the one with the greatest length beyond it first
 };
 

@@ -29,8 +29,9 @@ export function reference(s: ArrayLike<number>, r: ArrayLike<number>): Float64Ar
   return out;
 }
 
-/** Runs of samples beyond the bounds; `share` is the part of the diameter that is missing or too much. */
-export function findPlaces(s: ArrayLike<number>, r: ArrayLike<number>): Place[] {
+/** Runs of samples beyond the bounds; `share` is the part of the diameter that is missing or too much. Diameters that
+ * differ by less than `voxel` mm are not told apart by the volume, and make no place. */
+export function findPlaces(s: ArrayLike<number>, r: ArrayLike<number>, voxel = 0): Place[] {
   const n = s.length,
     places: Place[] = [];
   if (n < 5) return places;
@@ -50,7 +51,8 @@ export function findPlaces(s: ArrayLike<number>, r: ArrayLike<number>): Place[] 
     }
     // an end that peters out is no stenosis: the vessel must go on beyond it
     const margin = kLeastMarginRadii * ref[at];
-    if (s[i] - s[0] > margin && s[n - 1] - s[end] > margin)
+    const isSeen = 2 * Math.abs(r[at] - ref[at]) >= voxel;
+    if (isSeen && s[i] - s[0] > margin && s[n - 1] - s[end] > margin)
       places.push({ kind, from: i, to: end, at, share: Math.abs(deviation[at]) });
     i = end;
   }

@@ -27,6 +27,11 @@ describe("findPlaces", () => {
   it("marksADilation", () => {
     expect(at(x => (Math.abs(x - 20) < 2 ? 4 : 2)).map(p => p.kind)).toEqual(["dilation"]);
   });
+  it("marksNothingThatDiffersByLessThanAVoxel", () => {
+    const r = s.map(x => (Math.abs(x - 20) < 1.1 ? 0.2 : 0.4));
+    expect(findPlaces(s, r, 0.3).map(p => p.kind)).toEqual(["stenosis"]);
+    expect(findPlaces(s, r, 0.5)).toEqual([]);
+  });
   it("doesNotMarkATaper", () => {
     expect(at(x => 3 - 0.05 * x)).toEqual([]);
   });

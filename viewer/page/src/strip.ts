@@ -161,7 +161,7 @@ export class Strip {
           ),
       );
     const r = nodes.map(n => tree.radius[n]),
-      places = b.kind === "vessel" ? findPlaces(s, r) : [];
+      places = b.kind === "vessel" ? findPlaces(s, r, view.tree?.voxelSize ?? 0) : [];
     this.curve = { branch: b.index, tree, nodes, s, r, places, reference: reference(s, r) };
     this.name.textContent = b.label;
     this.places.replaceChildren(

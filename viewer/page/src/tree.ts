@@ -30,7 +30,7 @@ export class Tree {
   readonly branches: Branch[];
   readonly hasModels: boolean;
   readonly voxelSize: number;
-  readonly reachable: { reached: number; total: number } | null;
+  readonly reachable: { reached: number; total: number; trees: number } | null;
   readonly count: number;
 
   constructor(pack: Pack) {

@@ -243,7 +243,7 @@ export class TreePanel {
                 `${
                   r === null
                     ? `${brief(view.tree.branches.reduce((s, x) => s + x.length, 0))} mm of vessels`
-                    : `${brief(r.reached)} of ${brief(r.total)} mm are reachable from the roots`
+                    : `${brief(r.reached)} of ${brief(r.total)} mm are reachable from ${r.trees === 1 ? "the root" : `the roots of ${r.trees} trees`}`
                 }. Click a vessel here or in a view.`,
               ),
             ]),
