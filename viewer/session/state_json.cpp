@@ -86,10 +86,19 @@ Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
           {"distance", surface + parts.truth}};
 }
 
-Json namesJson(const std::vector<std::filesystem::path>& files) {
-  Json names = Json::array();
-  for (const auto& file : files) names.push_back(formats::printable(file.filename().string()));
-  return names;
+/// Files of unsaved work; `target` is the one that is saved, or empty.
+Json unsavedJson(const std::vector<std::filesystem::path>& files,
+                 const std::filesystem::path& target) {
+  constexpr std::int64_t kNanoseconds = 1000000;  // of a millisecond
+  const std::int64_t saved = target.empty() ? 0 : readFileStamp(target).time;
+  Json list = Json::array();
+  for (const auto& file : files) {
+    const std::int64_t written = readFileStamp(file).time;
+    list.push_back({{"name", formats::printable(file.filename().string())},
+                    {"written", written / kNanoseconds},
+                    {"newer", written > saved}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -118,10 +127,10 @@ Json stateJson(const Workspace& workspace) {
   json["job"] = running ? Json({{"job", running->job}, {"name", running->name}}) : Json(nullptr);
   json["formats"] = formatsJson(document);
   json["files"] = filesJson(document, workspace.changedFiles.ids());
-  json["unsavedBefore"] = namesJson(workspace.unsavedWork.found());
   const auto openCase = workspace.library.openCase();
   json["openCase"] = openCase ? Json(*openCase) : Json(nullptr);
   const auto target = workspace.saving.target(document);
+  json["unsavedBefore"] = unsavedJson(workspace.unsavedWork.found(), target);
   json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
   json["check"] = workspace.findings.check();
   json["work"] = workspace.findings.work(document);

@@ -203,7 +203,14 @@ TEST_F(UnsavedTest, OfAnEarlierProgramIsOfferedAndNeverOverwritten) {
   writeCase("twofold.unsaved.lumen", named("of another file"));
   serve({"two.lumen"});
   EXPECT_EQ(session->findUnsaved(), std::vector{path("two.unsaved.lumen").string()});
-  EXPECT_EQ(state()["unsavedBefore"], Json({"two.unsaved.lumen"}));
+  const Json before = state()["unsavedBefore"];
+  ASSERT_EQ(before.size(), 1U);
+  EXPECT_EQ(before[0]["name"], "two.unsaved.lumen");
+  EXPECT_EQ(before[0]["newer"], true);
+  const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
+                       std::chrono::system_clock::now().time_since_epoch())
+                       .count();
+  EXPECT_NEAR(static_cast<double>(now - before[0]["written"].get<std::int64_t>()), 0, 60000);
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
   EXPECT_EQ(session->keepUnsaved(), std::vector{path("two.unsaved.2.lumen").string()});
   performAll({{"op", "recover"}, {"index", 0}});

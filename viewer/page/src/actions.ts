@@ -5,8 +5,9 @@ import type { App, Tool } from "./model";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { openHelp } from "./help";
+import { applyView, kViewEnding, kViewFormat, readView, takeView } from "./kept_view";
 import { Refused } from "./source";
-import { askYes, h } from "./ui";
+import { askYes, h, saveBlob, saveText } from "./ui";
 
 export class Actions {
   constructor(
@@ -75,6 +76,11 @@ export class Actions {
     }
   }
   download(format: string): void {
+    if (format === kViewFormat) {
+      const view = this.app.store.get();
+      saveText(`${view.state.title || "lumen"}${kViewEnding}`, JSON.stringify(takeView(view), null, 1));
+      return;
+    }
     const link = h("a", { href: this.app.source.download(format), download: "" });
     document.body.append(link);
     link.click();
@@ -88,6 +94,10 @@ export class Actions {
   }
   async openFiles(files: File[], as: "auto" | "truth" = "auto"): Promise<void> {
     for (const file of files) {
+      if (file.name.endsWith(kViewEnding)) {
+        await this.openView(file);
+        continue;
+      }
       try {
         this.app.inform(`Opening ${file.name}…`);
         await this.app.source.open(file.name, as, file);
@@ -97,6 +107,17 @@ export class Actions {
           "error",
         );
       }
+    }
+  }
+  private async openView(file: File): Promise<void> {
+    try {
+      applyView(this.app, readView(await file.text()));
+      this.app.inform(`The view of ${file.name} is shown.`);
+    } catch (error) {
+      this.app.inform(
+        `${file.name} is no view: ${error instanceof Error ? error.message : String(error)}`,
+        "error",
+      );
     }
   }
   async cancel(): Promise<void> {
@@ -141,14 +162,9 @@ export class Actions {
 
   picture(): void {
     const over = [...document.querySelectorAll<HTMLCanvasElement>("canvas.over")];
-    this.app.stage.picture(over, "#07090c").toBlob(blob => {
+    this.app.stage.picture(over, document.getElementById("legend"), "#07090c").toBlob(blob => {
       if (blob === null) return;
-      const address = URL.createObjectURL(blob),
-        link = h("a", { href: address, download: `${this.app.store.get().state.title || "lumen"}.png` });
-      document.body.append(link);
-      link.click();
-      link.remove();
-      window.setTimeout(() => URL.revokeObjectURL(address), 10_000);
+      saveBlob(`${this.app.store.get().state.title || "lumen"}.png`, blob);
     });
   }
 }

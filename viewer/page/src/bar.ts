@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The bar on top: files, history, tools, layout. */
+import { kViewFormat } from "./kept_view";
 import type { Actions } from "./actions";
 import type { App, Layout, Tool } from "./model";
 import { button, h, select } from "./ui";
@@ -63,6 +64,13 @@ export function makeBar(element: HTMLElement, app: App, actions: Actions): void 
       );
       return { ...t, b };
     });
+  const fold = (side: "left" | "right", label: string): HTMLButtonElement =>
+    button({ icon: side, label, key: "\\", id: `fold-${side}` }, () => {
+      const { panels } = store.get();
+      store.set({ panels: { ...panels, [side]: !panels[side] } });
+    });
+  const left = fold("left", "Fold or open the list of vessels"),
+    right = fold("right", "Fold or open display and work");
   const layout = select("layout", "Layout of the views  (1 to 6)", kLayouts, "four", value =>
     store.set({ layout: value }),
   );
@@ -94,12 +102,18 @@ export function makeBar(element: HTMLElement, app: App, actions: Actions): void 
       "div",
       { class: "group" },
       layout,
+      left,
+      right,
       button({ icon: "fit", label: "Show everything", key: "0", id: "fit" }, () => actions.fit()),
       button({ icon: "theme", label: "Light or dark", key: "Shift+L", id: "theme" }, () => actions.theme()),
       button({ icon: "help", label: "Help and keys", key: "?", id: "help" }, () => actions.help()),
     ),
   );
   for (const child of [...element.childNodes]) if (child.nodeType === Node.TEXT_NODE) child.remove();
+  store.watch(["panels"], ({ panels }) => {
+    left.setAttribute("aria-expanded", String(panels.left));
+    right.setAttribute("aria-expanded", String(panels.right));
+  });
   store.watch(["tool"], view => {
     for (const { tool, b } of tools) b.setAttribute("aria-pressed", String(tool === view.tool));
   });
@@ -122,7 +136,8 @@ export function makeBar(element: HTMLElement, app: App, actions: Actions): void 
     formats.replaceChildren(
       h("option", { value: "" }, "Export…"),
       ...state.formats.map(name => h("option", { value: name }, name === "html" ? "page (html)" : name)),
+      h("option", { value: kViewFormat }, "view (colours, window, measurements)"),
     );
-    formats.disabled = state.formats.length === 0;
+    formats.disabled = !state.hasCase && !state.hasVolume;
   });
 }

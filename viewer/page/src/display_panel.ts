@@ -23,6 +23,7 @@ const kLayerTitles: [keyof Layers, string, string][] = [
   ["seeds", "Seeds", "Clicks"],
   ["places", "Missing vessels", "Vessels that the check found missing"],
   ["proposals", "Proposals", "Vessels that were found and wait to be accepted, dashed"],
+  ["names", "Names", "Names of vessels in all views  (L)"],
   ["slices", "Slices in 3D", "The three slices as planes in the 3D view"],
 ];
 

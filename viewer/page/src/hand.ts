@@ -11,6 +11,7 @@ import type { MissingVessel, Seed, VesselAtClick, Vec3 } from "./types";
 import { distance } from "./vec";
 import { brief } from "./ui";
 
+const kRim = 0.75; // radii from the axis from which a click is at the rim
 const kNearSeed = 8; // pixels within which a press takes hold of a seed
 
 const sentence = (text: string): string =>
@@ -130,6 +131,11 @@ export class Hand {
     if (!atClick.found)
       app.inform(
         `${sentence(atClick.reason ?? "no vessel was found near there")} The seed stays where you clicked.`,
+        "warning",
+      );
+    else if (distance(p, point) > kRim * atClick.radius)
+      app.inform(
+        `The click was at the rim of a vessel of radius ${brief(atClick.radius)} mm, or beside it: the seed was moved ${brief(distance(p, point))} mm onto its axis.`,
         "warning",
       );
     else app.inform(`On the axis of a vessel, radius ${brief(atClick.radius)} mm.`);

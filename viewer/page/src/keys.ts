@@ -4,6 +4,7 @@ import type { Actions } from "./actions";
 import { kTools } from "./bar";
 import type { Hand } from "./hand";
 import type { App, Layout } from "./model";
+import { askPosition } from "./probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./selection";
 import { resetPlanes } from "./slice_input";
 import { renameBranch } from "./tree_panel";
@@ -100,6 +101,15 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case "c":
       store.set({ clip: { ...store.get().clip, on: !store.get().clip.on } });
       return true;
+    case "\\": {
+      const { left, right } = store.get().panels,
+        open = !(left || right);
+      store.set({ panels: { left: open, right: open } });
+      return true;
+    }
+    case "l":
+      store.set({ layers: { ...store.get().layers, names: !store.get().layers.names } });
+      return true;
     case "m":
       store.set({ cast: ({ off: "mip", mip: "volume", volume: "off" } as const)[store.get().cast] });
       return true;
@@ -138,6 +148,9 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       return working(() => void actions.find());
     case "k":
       return working(() => void actions.check());
+    case "j":
+      void askPosition(app);
+      return true;
     case ".":
       return source.live && work.walk(1);
     case ",":

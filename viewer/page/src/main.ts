@@ -10,11 +10,13 @@ import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
 import { libraryPanel } from "./library_panel";
 import { Loader } from "./loader";
+import { keepView } from "./kept_view";
 import { LocalModel } from "./local_model";
 import { MeshLayer } from "./mesh_layer";
 import { measurePanel } from "./measure_panel";
 import { newStore, type App } from "./model";
 import { Performer } from "./performer";
+import { offerUnsaved } from "./recover";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
 import { oneSourcePanel } from "./one_source";
@@ -77,6 +79,8 @@ async function start(): Promise<void> {
   const wire = new WireTool(app);
   const actions = new Actions(app, scene, slices, flight),
     work = new WorkList(app, actions);
+  offerUnsaved(app);
+  keepView(app);
   const tools = new Tools(app, hand, flight, wire);
   for (const slice of slices) listenToSlice(slice, app, tools);
   listenToScene(scene, app, tools);
@@ -120,6 +124,7 @@ async function start(): Promise<void> {
       "state",
       "proposals",
       "proposal",
+      "place",
     ],
     () => {
       for (const slice of slices) app.stage.invalidateOver(slice);

@@ -2,10 +2,11 @@
 /** Measurements, gaps between vessels, the wire, and the figures of a comparison. */
 import type { Actions } from "./actions";
 import type { Hand } from "./hand";
+import { measurementsCsv } from "./kept_view";
 import { gaps } from "./measure";
 import type { App } from "./model";
 import { goTo } from "./selection";
-import { brief, button, h, section, slider } from "./ui";
+import { brief, button, h, saveText, section, slider } from "./ui";
 import type { WireTool } from "./wire_tool";
 
 const kMostGaps = 40;
@@ -44,8 +45,26 @@ function measureSection(app: App, hand: Hand): HTMLElement {
     },
     () => hand.keepProbe(store.get().crosshair),
   );
+  const csv = (): string => measurementsCsv(store.get().measurements);
+  const copy = button(
+    { text: "Copy", label: "Copy the measurements as a table", id: "measure-copy", class: "button text" },
+    () =>
+      void navigator.clipboard.writeText(csv()).then(
+        () => app.inform("The measurements are copied, as comma-separated values."),
+        () => app.inform("The browser does not let the page copy: take the CSV file.", "warning"),
+      ),
+  );
+  const table = button(
+    {
+      text: "CSV",
+      label: "Save the measurements as comma-separated values",
+      id: "measure-csv",
+      class: "button text",
+    },
+    () => saveText(`${store.get().state.title || "lumen"}.measurements.csv`, csv()),
+  );
   store.watch(["measurements"], view => {
-    clear.disabled = view.measurements.length === 0;
+    clear.disabled = copy.disabled = table.disabled = view.measurements.length === 0;
     list.replaceChildren(
       ...view.measurements.map(m =>
         h(
@@ -77,7 +96,7 @@ function measureSection(app: App, hand: Hand): HTMLElement {
     "Measure",
     true,
     list,
-    h("div", { class: "row wrap" }, here, keep, clear),
+    h("div", { class: "row wrap" }, here, keep, copy, table, clear),
   );
 }
 

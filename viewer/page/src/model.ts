@@ -24,6 +24,8 @@ export type Tool =
 export type ColourBy = "branch" | "radius" | "confidence" | "error" | "root" | "compare";
 export type Cast = "off" | "mip" | "volume";
 export type Layout = "four" | "scene" | "rows" | "axial" | "coronal" | "sagittal";
+/** Axes in which coordinates are shown: x to the patient's left and y to the back, or both the other way. */
+export type Axes = "LPS" | "RAS";
 export type Planes = "patient" | "vessel" | "free";
 
 export interface Layers {
@@ -37,6 +39,7 @@ export interface Layers {
   slices: boolean;
   places: boolean;
   proposals: boolean;
+  names: boolean;
 }
 
 export interface Measurement {
@@ -75,6 +78,7 @@ export interface View {
   colourNumbers: ReadonlyMap<string, number>;
 
   crosshair: Vec3;
+  axes: Axes;
   /** Node of the selected vessel that the cursor is at, or -1. */
   node: number;
   planes: Planes;
@@ -90,6 +94,8 @@ export interface View {
   layout: Layout;
   theme: "dark" | "light";
   strip: boolean;
+  /** Panels that are open; the others are folded. */
+  panels: { left: boolean; right: boolean };
 
   measurements: Measurement[];
   /** Points of the measurement that is being made, or of what is dragged. */
@@ -124,6 +130,7 @@ export const kInitial: View = {
   colours: new Map(),
   colourNumbers: new Map(),
   crosshair: [0, 0, 0],
+  axes: "LPS",
   node: -1,
   planes: "patient",
   frame: kPatientFrame,
@@ -140,6 +147,7 @@ export const kInitial: View = {
     slices: false,
     places: true,
     proposals: true,
+    names: false,
   },
   colourBy: "branch",
   clip: { on: false, flip: false },
@@ -148,6 +156,7 @@ export const kInitial: View = {
   layout: "four",
   theme: "dark",
   strip: true,
+  panels: { left: true, right: true },
   measurements: [],
   pending: [],
   clicks: [],

@@ -3,7 +3,10 @@
 import type { App } from "./model";
 import { probe, type Answer, type Wall } from "./probe";
 import type { Tools } from "./tools";
-import { brief, h } from "./ui";
+import { goTo } from "./selection";
+import type { Axes } from "./model";
+import type { Vec3 } from "./types";
+import { askText, brief, h } from "./ui";
 
 const kTitles = {
   position: "mm",
@@ -21,6 +24,37 @@ export function distanceText(wall: Pick<Wall, "distance" | "converged">): string
   return wall.converged ? `${sign}${size.toFixed(3)} mm` : `about ${sign}${size.toPrecision(2)} mm`;
 }
 
+/** A position or direction in the axes that are shown, and back. */
+export function inAxes([x, y, z]: Vec3, axes: Axes): Vec3 {
+  return axes === "LPS" ? [x, y, z] : [0 - x, 0 - y, z];
+}
+
+/** Three numbers, apart by blanks, commas or semicolons; null for anything else. */
+export function parsePosition(text: string): Vec3 | null {
+  const words = text
+      .trim()
+      .split(/[\s,;]+/)
+      .map(Number),
+    [x, y, z] = words;
+  return words.length === 3 && words.every(Number.isFinite) && text.trim() !== "" ? [x, y, z] : null;
+}
+
+/** Asks for coordinates and goes there. */
+export async function askPosition(app: App): Promise<void> {
+  const { crosshair, axes } = app.store.get(),
+    text = await askText(
+      "Go to a place",
+      `x, y and z in mm, ${axes}`,
+      inAxes(crosshair, axes)
+        .map(mm => mm.toFixed(2))
+        .join(" "),
+    );
+  if (text === null) return;
+  const place = parsePosition(text);
+  if (place === null) app.inform(`“${text}” is no place: expected are three numbers.`, "warning");
+  else goTo(app, inAxes(place, axes));
+}
+
 export class ProbeLine {
   private readonly fields = Object.fromEntries(
     Object.keys(kTitles).map(name => [name, h("span", { id: `probe-${name}`, class: `field ${name}` })]),
@@ -32,6 +66,19 @@ export class ProbeLine {
     private readonly app: App,
     tools: Tools,
   ) {
+    const frame = h(
+      "button",
+      {
+        type: "button",
+        class: "title frame",
+        id: "probe-frame",
+        title:
+          "Axes of the coordinates, in mm: LPS (to the left, back, head) or RAS (to the right, front, head)",
+        onclick: () => app.store.set({ axes: app.store.get().axes === "LPS" ? "RAS" : "LPS" }),
+      },
+      "LPS",
+    );
+    element.append(frame);
     for (const [name, title] of Object.entries(kTitles))
       element.append(
         h(
@@ -49,6 +96,13 @@ export class ProbeLine {
     app.store.watch(["crosshair", "blob", "volumeReady"], () => {
       if (!this.pointing) this.rest();
     });
+    app.store.watch(["axes"], ({ axes }) => {
+      frame.textContent = axes;
+      frame.setAttribute("aria-label", `Coordinates in mm, ${axes}; press for the others`);
+      this.rest();
+    });
+    this.fields.position.title = "Go to a place  (J)";
+    this.fields.position.addEventListener("click", () => void askPosition(app));
   }
 
   private rest(): void {
@@ -57,13 +111,20 @@ export class ProbeLine {
   }
 
   private show(a: Answer): void {
-    const { tree } = this.app.store.get(),
+    const { tree, axes } = this.app.store.get(),
       branch = a.wall === null ? undefined : tree?.branches[tree.branch[a.wall.node]];
     const texts: Record<keyof typeof kTitles, string> = {
-      position: a.position.map(x => x.toFixed(2)).join("  "),
+      position: inAxes(a.position, axes)
+        .map(x => x.toFixed(2))
+        .join("  "),
       value: brief(a.value),
       distance: a.wall === null ? "–" : distanceText(a.wall),
-      normal: a.wall === null ? "–" : a.wall.normal.map(x => x.toFixed(2)).join(" "),
+      normal:
+        a.wall === null
+          ? "–"
+          : inAxes(a.wall.normal, axes)
+              .map(x => x.toFixed(2))
+              .join(" "),
       node: a.wall === null ? "–" : String(a.wall.node),
       branch: branch?.label ?? "–",
     };

@@ -8,6 +8,7 @@ import { strokeAxis } from "./scene_lines";
 import { drawMeasurements, drawScaleBar, drawWire, label, wirePoints } from "./slice_overlay";
 import type { Vec3 } from "./types";
 import { dot } from "./vec";
+import { drawNamesInScene } from "./vessel_names";
 
 const kAxes: [Vec3, string, string][] = [
   [[1, 0, 0], "L", "#e2605c"],
@@ -90,6 +91,7 @@ export function drawSceneOverlay(
   }
   drawSelected(c, camera, view);
   drawProposalsInScene(c, camera, view);
+  drawNamesInScene(c, camera, view);
   drawPoints(c, camera, view);
   drawMeasurements(c, view, project, Infinity);
   drawWire(c, wirePoints.points, project, Infinity);

@@ -74,8 +74,7 @@ export function makeShell(): Shell {
       h("div", { class: "middle" }, shell.views, shell.strip),
       shell.right,
     ),
-    h("footer", { class: "foot" }, shell.probe, shell.progress, shell.status),
-    shell.toasts,
+    h("footer", { class: "foot" }, shell.probe, shell.progress, shell.status, shell.toasts),
     shell.drop,
   );
   return shell;
@@ -83,6 +82,7 @@ export function makeShell(): Shell {
 
 const kShown = 6000; // ms that a note stays; errors stay until they are closed
 
+/** A message in the last line, where it covers no view; the pointer or the keys on it unfold those before. */
 export function toast(shell: Shell, text: string, severity: "note" | "warning" | "error" = "note"): void {
   for (const old of shell.toasts.children) if (old.firstElementChild?.textContent === text) old.remove(); // a repeated message shows once
   const close = (): void => element.remove();

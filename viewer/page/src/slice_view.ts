@@ -6,6 +6,7 @@ import type { App } from "./model";
 import { drawProposalsInSlice } from "./proposal_lines";
 import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
 import { drawSliceOverlay } from "./slice_overlay";
+import { drawNamesInSlice } from "./vessel_names";
 import { SliceMaterial } from "./slice_material";
 import type { StageView } from "./stage";
 import type { Vec3 } from "./types";
@@ -121,6 +122,7 @@ export class SliceView implements StageView, SliceProjection {
     const c = clearedContext(this.over, width, height);
     drawProposalsInSlice(c, this, this.app.store.get());
     drawSliceOverlay(c, this, this.app.store.get(), width, height);
+    drawNamesInSlice(c, this, this.app.store.get());
   }
 
   zoomBy(factor: number, x = this.width / 2, y = this.height / 2): void {

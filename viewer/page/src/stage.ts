@@ -143,7 +143,7 @@ export class Stage {
   }
 
   /** The picture of all views with their overlays. */
-  picture(over: HTMLCanvasElement[], background: string): HTMLCanvasElement {
+  picture(over: HTMLCanvasElement[], legend: HTMLElement | null, background: string): HTMLCanvasElement {
     const out = document.createElement("canvas"),
       all = this.canvas.getBoundingClientRect(),
       ratio = this.canvas.width / all.width;
@@ -164,6 +164,30 @@ export class Stage {
           box.height * ratio,
         );
     }
+    if (legend !== null && !legend.hidden) drawLegend(c, legend, all, ratio);
     return out;
+  }
+}
+
+/** A legend's scale and words, where they are on the page. */
+function drawLegend(c: CanvasRenderingContext2D, legend: HTMLElement, all: DOMRect, ratio: number): void {
+  const bar = legend.querySelector("canvas");
+  if (bar !== null) {
+    const box = bar.getBoundingClientRect();
+    c.drawImage(
+      bar,
+      (box.left - all.left) * ratio,
+      (box.top - all.top) * ratio,
+      box.width * ratio,
+      box.height * ratio,
+    );
+  }
+  c.textBaseline = "middle";
+  for (const word of legend.querySelectorAll("strong, span")) {
+    const box = word.getBoundingClientRect(),
+      style = getComputedStyle(word);
+    c.font = `${style.fontWeight} ${parseFloat(style.fontSize) * ratio}px ${style.fontFamily}`;
+    c.fillStyle = "#e8edf4";
+    c.fillText(word.textContent, (box.left - all.left) * ratio, (box.top + box.height / 2 - all.top) * ratio);
   }
 }

@@ -2,7 +2,7 @@
 /** Actions of the pointer with the chosen tool. */
 import type { Flight } from "./flight";
 import type { Hand } from "./hand";
-import { isShown, opacityOf, type App, type Tool } from "./model";
+import { isShown, opacityOf, type App, type Tool, type View } from "./model";
 import { probe, type Answer } from "./probe";
 import type { SceneView } from "./scene_view";
 import { goTo, goToNode, select } from "./selection";
@@ -13,6 +13,13 @@ import { kPlaceRing, placeReach } from "./slice_overlay";
 import { along, dot, length, sub, cross } from "./vec";
 import type { WireTool } from "./wire_tool";
 import { missingPlaces } from "./work_items";
+
+const kVisible = 0.04; // of the window: a grey that the eye tells from black
+
+/** Whether the clip plane cuts a place away. */
+function isCutAway({ clip, frame, crosshair }: View, p: Vec3): boolean {
+  return clip.on && (clip.flip ? -1 : 1) * dot(frame.normal, sub(p, crosshair)) > 0;
+}
 
 export interface Picked extends Hit {
   seed: string | null;
@@ -119,8 +126,7 @@ export class Tools {
     const view = this.app.store.get(),
       { camera } = scene,
       marks = this.pickMark(scene, x, y);
-    const beyond = (p: Vec3): boolean =>
-      !view.clip.on || (view.clip.flip ? -1 : 1) * dot(view.frame.normal, sub(p, view.crosshair)) <= 0;
+    const beyond = (p: Vec3): boolean => !isCutAway(view, p);
     const shown = (b: number): boolean => b < 0 || (isShown(view, b) && opacityOf(view, b) > 0.05);
     const hit =
       view.surface !== null && view.layers.surface && !view.layers.nodes
@@ -202,6 +208,13 @@ export class Tools {
         this.hand.release();
         return;
       }
+      if (p === null) {
+        this.app.inform(
+          "Nothing is drawn there: click on a vessel, or on something bright of the projection.",
+          "warning",
+        );
+        return;
+      }
     }
     if (hit === null) {
       const p = this.app.store.get().cast === "off" ? null : this.brightest(scene, x, y);
@@ -222,9 +235,11 @@ export class Tools {
     } else goTo(this.app, hit.point);
   }
 
-  /** The brightest voxel along the ray through a pixel: where a projection has its light from. */
+  /** The brightest place along the ray through a pixel, where a projection has its light from; null if the window shows
+   * it black. What the clip plane cuts away does not count. */
   brightest(scene: SceneView, x: number, y: number): Vec3 | null {
-    const { volume, window } = this.app.store.get();
+    const view = this.app.store.get(),
+      { volume, window } = view;
     if (volume === null) return null;
     const ray = scene.camera.ray(x, y),
       o = ray.origin.toArray() as Vec3,
@@ -233,12 +248,12 @@ export class Tools {
     const corners = volume.corners().map(c => dot(sub(c, o), d)),
       from = Math.max(0, Math.min(...corners)),
       to = Math.max(...corners);
-    let most = window[0] + 0.25 * (window[1] - window[0]),
+    let most = window[0] + kVisible * (window[1] - window[0]),
       best: Vec3 | null = null;
     for (let t = from; t < to; t += step) {
       const p = along(o, d, t),
         v = volume.sample(p);
-      if (v > most) {
+      if (v > most && !isCutAway(view, p)) {
         most = v;
         best = p;
       }

@@ -91,6 +91,14 @@ export interface CheckAnswer {
   dark_places?: { position: Vec3 }[];
 }
 
+export interface UnsavedFile {
+  name: string;
+  /** When it was written, ms since 1970. */
+  written: number;
+  /** Whether that was after the file that `save` writes. */
+  newer: boolean;
+}
+
 export interface FileEntry {
   id: number | string;
   kind: string;
@@ -131,8 +139,8 @@ export interface State {
   redo: string | null;
   unsaved: boolean;
   saveAs: string | null;
-  /** Names of files that hold what an earlier program did not save. */
-  unsavedBefore: string[];
+  /** Files that hold what an earlier program did not save. */
+  unsavedBefore: UnsavedFile[];
   /** Index in the library. */
   openCase: number | null;
   job: { job: number; name: string } | null;

@@ -22,6 +22,8 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 
 const kIcons: Record<string, string> = {
   // paths on a grid of 16, drawn as lines
+  left: "M2 3h12v10H2zM6 3v10",
+  right: "M2 3h12v10H2zM10 3v10",
   open: "M2 4h4l1.5 2H14v7H2z",
   save: "M3 2h8l2 2v10H3zM5 2v4h5V2M5 14v-4h6v4",
   undo: "M6 4L3 7l3 3M3 7h6a4 4 0 0 1 0 8H7",
@@ -246,4 +248,18 @@ export function choose(
     document.body.append(dialog);
     dialog.showModal();
   });
+}
+
+/** Gives the user a text as a file to download. */
+export function saveText(name: string, text: string): void {
+  saveBlob(name, new Blob([text], { type: "text/plain;charset=utf-8" }));
+}
+export function saveBlob(name: string, blob: Blob): void {
+  const kKept = 10_000, // ms until the bytes are given up
+    address = URL.createObjectURL(blob),
+    link = h("a", { href: address, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  window.setTimeout(() => URL.revokeObjectURL(address), kKept);
 }

@@ -210,6 +210,17 @@ export function applyLayout(app: App, shell: Shell): void {
     shell.views.dataset.layout = view.layout;
     app.stage.invalidate();
   });
+  const narrow = window.matchMedia("(max-width: 900px)"), // as page.css has it
+    foldIfNarrow = (): void => {
+      if (narrow.matches) app.store.set({ panels: { left: false, right: false } });
+    };
+  foldIfNarrow();
+  narrow.addEventListener("change", foldIfNarrow);
+  app.store.watch(["panels"], ({ panels }) => {
+    shell.left.classList.toggle("folded", !panels.left);
+    shell.right.classList.toggle("folded", !panels.right);
+    app.stage.invalidate();
+  });
   app.store.watch(["theme"], view => {
     document.documentElement.dataset.theme = view.theme;
   });

@@ -278,7 +278,7 @@ function fileSection(app: App): HTMLElement {
       ),
     );
     list.append(
-      ...state.unsavedBefore.map((name, index) =>
+      ...state.unsavedBefore.map(({ name }, index) =>
         h(
           "li",
           { class: "row item" },
