@@ -175,16 +175,17 @@ describe("colours", () => {
       ];
     const lab = (rgb: number[]): number[] => times(kLab, times(kLms, rgb).map(Math.cbrt)),
       seen = (rgb: number[]): number[] => times(kDeuteranopia, rgb).map(x => Math.min(1, Math.max(0, x)));
-    const least = (eye: (rgb: number[]) => number[]): number => {
+    const least = (eye: (rgb: number[]) => number[], places: number): number => {
       const all = Array.from({ length: 24 }, (_, i) => lab(eye(branchColour(i).map(linear))));
       return Math.min(
         ...all.flatMap((a, i) =>
-          all.slice(i + 1, i + 5).map(b => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2])),
+          all.slice(i + 1, i + 1 + places).map(b => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2])),
         ),
       );
     };
-    expect(least(rgb => rgb)).toBeGreaterThan(0.18);
-    expect(least(seen)).toBeGreaterThan(0.16);
+    expect(least(rgb => rgb, 4)).toBeGreaterThan(0.14);
+    expect(least(rgb => rgb, 12)).toBeGreaterThan(0.06);
+    expect(least(seen, 4)).toBeGreaterThan(0.08);
   });
   it("beginAndEndAsTheMap", () => {
     expect(mapColour("sequential", -1)).toEqual([0.267, 0.005, 0.329]);
