@@ -6,6 +6,7 @@ import { frames, openPage, picture, settled, startBrowser, story } from "./brows
 import {
   clickIn,
   document,
+  drop,
   kissing,
   lookAt,
   placeIn,
@@ -144,6 +145,29 @@ story("every correction can be made and undone", async t => {
   await frames(page, 3);
   assert.ok(away(await position(page), node) > 0.3, "the node is elsewhere");
   await undone("move");
+
+  const radius = async () =>
+    Number((await page.locator("#strip .striphead .note").textContent()).match(/radius ([\d.]+) mm/)[1]);
+  await toMiddle(page, "root");
+  const narrow = await radius(),
+    wall = await placeIn(page, "axial", [node[0], node[1] + narrow, node[2]]),
+    farther = await placeIn(page, "axial", [node[0], node[1] + 1.5 * narrow, node[2]]);
+  await page.keyboard.press("v");
+  await page.mouse.move(wall.x, wall.y);
+  await page.mouse.down();
+  await page.mouse.move(farther.x, farther.y, { steps: 5 });
+  await picture(page, "10-widening");
+  await step(page, () => page.mouse.up());
+  await toMiddle(page, "root");
+  assert.ok(Math.abs((await radius()) - 1.5 * narrow) < 0.25 * narrow, `${narrow} became ${await radius()}`);
+  await undone("move");
+  await toMiddle(page, "root");
+  await page.keyboard.press("r");
+  await page.locator("#ask-text").fill("2.25");
+  await step(page, () => page.keyboard.press("Enter"));
+  await toMiddle(page, "root");
+  assert.equal(await radius(), 2.25);
+  await undone("move");
   assert.ok(await page.locator("#undo").isDisabled());
 });
 
@@ -174,6 +198,11 @@ story("a seed is moved, and a vessel is tracked through several clicks", async t
   const moved = await position(page);
   assert.ok(away(moved, placed) > 1 && Math.abs(moved[2] - placed[2]) < 0.05, `from ${placed} to ${moved}`);
   assert.equal(await page.locator("#seed-list .item").count(), 1, "it was moved, and no other was placed");
+  await drop(page, "others.json", readFileSync(file("seeds.json")));
+  await page.locator("dialog[open]").filter({ hasText: "One seed waits" }).waitFor();
+  await page.keyboard.press("Escape");
+  await page.locator("dialog[open]").waitFor({ state: "detached" });
+  assert.equal(await page.locator("#seed-list .item").count(), 1, "seeds that wait are not replaced unasked");
   await undo(page);
   await undo(page);
   assert.equal(await page.locator("#seed-list .item").count(), 0);

@@ -9,6 +9,12 @@ import { applyView, kViewEnding, kViewFormat, readView, takeView } from "./kept_
 import { Refused } from "./source";
 import { askYes, h, saveBlob, saveText } from "./ui";
 
+/** Whether a file holds seeds, by its name and its first text: markups, a table of fiducials, or lumen's own. */
+export function holdsSeeds(name: string, head: string): boolean {
+  if (/\.(mrk\.json|fcsv)$/i.test(name)) return true;
+  return /\.json$/i.test(name) && /"(markups|branches)"\s*:/.test(head) && !/"(tree|centre)"\s*:/.test(head);
+}
+
 export class Actions {
   constructor(
     private readonly app: App,
@@ -98,6 +104,7 @@ export class Actions {
         await this.openView(file);
         continue;
       }
+      if (!(await this.mayReplaceSeeds(file))) continue;
       try {
         this.app.inform(`Opening ${file.name}…`);
         await this.app.source.open(file.name, as, file);
@@ -108,6 +115,17 @@ export class Actions {
         );
       }
     }
+  }
+  /** Asks before a file of seeds takes the place of seeds that wait. */
+  private async mayReplaceSeeds(file: File): Promise<boolean> {
+    const waiting = this.app.store.get().state.seeds.filter(seed => !seed.tracked).length,
+      kHead = 4096; // bytes that show what a file is
+    if (waiting === 0 || !holdsSeeds(file.name, await file.slice(0, kHead).text())) return true;
+    return askYes(
+      "Replace the seeds?",
+      `${waiting === 1 ? "One seed waits" : `${waiting} seeds wait`} to be tracked. The seeds of ${file.name} take their place; undo brings them back.`,
+      "Replace",
+    );
   }
   private async openView(file: File): Promise<void> {
     try {

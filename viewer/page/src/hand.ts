@@ -9,10 +9,22 @@ import type { SliceView } from "./slice_view";
 import type { Hit } from "./surface";
 import type { MissingVessel, Seed, VesselAtClick, Vec3 } from "./types";
 import { distance } from "./vec";
-import { brief } from "./ui";
+import { askText, brief } from "./ui";
 
+const kMiddle = 0.6; // radii from the axis within which a press takes the node, and beyond which its wall
 const kRim = 0.75; // radii from the axis from which a click is at the rim
 const kNearSeed = 8; // pixels within which a press takes hold of a seed
+
+/** A closed line around a centre, in the plane of two unit vectors at right angles. */
+export function circle(centre: Vec3, radius: number, right: Vec3, up: Vec3): Vec3[] {
+  const kPoints = 48;
+  return Array.from({ length: kPoints + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / kPoints,
+      x = radius * Math.cos(angle),
+      y = radius * Math.sin(angle);
+    return [0, 1, 2].map(a => centre[a] + x * right[a] + y * up[a]) as Vec3;
+  });
+}
 
 const sentence = (text: string): string =>
   `${text.charAt(0).toUpperCase()}${text.slice(1).replace(/\.$/, "")}.`;
@@ -28,7 +40,11 @@ export class Hand {
   /** The next clicks make a vessel of one click, a vessel through several clicks, or an aneurysm. */
   seedKind: "vessel" | "path" | "aneurysm" = "vessel";
   parent: string | null = null;
-  private held: { seed: string; point: number; to: Vec3 } | { node: number; to: Vec3 } | null = null;
+  private held:
+    | { seed: string; point: number; to: Vec3 }
+    | { node: number; to: Vec3 }
+    | { node: number; radius: number }
+    | null = null;
   private nextId = 1;
   private placing: Promise<void> = Promise.resolve(); // clicks come in their order, however long each takes
 
@@ -66,8 +82,11 @@ export class Hand {
   }
   drag(p: Vec3, slice: SliceView): boolean {
     if (this.held === null) return false;
-    this.held.to = p;
-    this.app.store.set({ pending: [p] });
+    if ("radius" in this.held) this.widen(this.held, p, slice);
+    else {
+      this.held.to = p;
+      this.app.store.set({ pending: [p] });
+    }
     this.app.stage.invalidate(slice);
     return true;
   }
@@ -81,8 +100,8 @@ export class Hand {
       void this.app.perform({
         op: "move",
         node: held.node,
-        position: held.to,
-        radius: tree!.radius[held.node],
+        position: "radius" in held ? tree!.position(held.node) : held.to,
+        radius: "radius" in held ? held.radius : tree!.radius[held.node],
       });
     else void this.app.perform({ op: "seedMove", label: held.seed, point: held.point, position: held.to });
     return true;
@@ -263,7 +282,29 @@ export class Hand {
       return true;
     }
     goToNode(this.app, node);
-    this.held = { node, to: tree.position(node) };
+    this.held =
+      distance(tree.position(node), p) > kMiddle * tree.radius[node]
+        ? { node, radius: tree.radius[node] }
+        : { node, to: tree.position(node) };
     return true;
+  }
+  /** Draws the circle that the wall becomes, in the plane of the slice. */
+  private widen(held: { node: number; radius: number }, p: Vec3, slice: SliceView): void {
+    const centre = this.app.store.get().tree!.position(held.node),
+      { right, up } = slice.frame;
+    held.radius = Math.max(distance(centre, p), slice.mmPerPixel);
+    this.app.store.set({ pending: circle(centre, held.radius, right, up) });
+  }
+  /** Asks for the radius of the vessel at the cursor's node. */
+  async askRadius(): Promise<void> {
+    const { tree, node } = this.app.store.get();
+    if (tree === null || node < 0 || !this.app.source.live) return;
+    const label = tree.branches[tree.branch[node]].label,
+      now = tree.radius[node].toFixed(2),
+      text = await askText(`Radius of ${label} at the cursor`, "Radius, mm", now),
+      radius = Number(text);
+    if (text === null || text.trim() === now) return;
+    if (radius > 0) await this.app.perform({ op: "move", node, position: tree.position(node), radius });
+    else this.app.inform(`“${text}” is no radius: expected is a number above 0.`, "warning");
   }
 }

@@ -27,7 +27,7 @@ const kGroups: Group[] = [
     [
       ["N", "Navigate"],
       ["S", "Seed"],
-      ["V", "Move a node"],
+      ["V", "Move a node, or drag its outline to another radius"],
       ["P", "Probe"],
       ["D", "Distance"],
       ["A", "Angle"],
@@ -90,6 +90,7 @@ const kGroups: Group[] = [
       ["I", "Ignore the place, with a reason; reject a proposed vessel"],
       ["Enter", "Finish a vessel of several clicks"],
       ["Delete", "Delete the selected vessel"],
+      ["R", "Radius of the vessel at the cursor"],
       ["Shift+X", "Cut it at the cursor"],
       ["Shift+Delete", "Delete it with all that leave it"],
       ["Ctrl+Enter", "Fit all models anew"],

@@ -148,6 +148,8 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       return working(() => void actions.find());
     case "k":
       return working(() => void actions.check());
+    case "r":
+      return working(() => void hand.askRadius());
     case "j":
       void askPosition(app);
       return true;

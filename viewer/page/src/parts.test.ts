@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
+import { holdsSeeds } from "./actions";
 import { branchColour, fromHex, mapColour, toHex, usualRange } from "./colour";
 import { locate, pointAt, makeFlightPath } from "./flight";
+import { circle } from "./hand";
 import { marchTetrahedra } from "./local_model";
 import { findPlaces } from "./narrowing";
 import { requestFor } from "./one_source";
@@ -37,6 +39,26 @@ describe("findPlaces", () => {
   });
   it("doesNotMarkAnEndThatPetersOut", () => {
     expect(at(x => (x > 38.4 ? 0.5 : 2))).toEqual([]);
+  });
+});
+describe("holdsSeeds", () => {
+  it("knowsSeedsByTheirNameOrTheirFirstText", () => {
+    expect(holdsSeeds("F.mrk.json", "")).toBe(true);
+    expect(holdsSeeds("F.FCSV", "")).toBe(true);
+    expect(holdsSeeds("seeds.json", '{"branches": [')).toBe(true);
+    expect(holdsSeeds("case.lumen.json", '{"format": "lumen", "tree": {"branches": [')).toBe(false);
+    expect(holdsSeeds("volume.nrrd", '"branches":')).toBe(false);
+  });
+});
+describe("circle", () => {
+  it("isClosedAndLiesInItsPlane", () => {
+    const line = circle([1, 2, 3], 2, [1, 0, 0], [0, 0, 1]);
+    expect(line[0][0]).toBeCloseTo(3, 9);
+    expect(line.at(-1)![2]).toBeCloseTo(line[0][2], 9);
+    for (const p of line) {
+      expect(p[1]).toBe(2);
+      expect(Math.hypot(p[0] - 1, p[2] - 3)).toBeCloseTo(2, 9);
+    }
   });
 });
 describe("distanceText", () => {
