@@ -2,9 +2,15 @@
 #include "converters/stages/finding/ridges.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include "converters/base/random.h"
 #include "tests/unit/tracking/tube_volume.h"
 
 namespace lumen::convert {
@@ -56,6 +62,93 @@ TEST(Ridges, NeitherASheetNorABallNorTheWallOfAWideTubeIsOne) {
                 },
                 {34, 24, 24}),
             20);
+}
+
+/// Values on a cube of voxels, which repeat its faces beyond them.
+struct Cube {
+  int edge = 0;
+  std::vector<double> value;
+
+  [[nodiscard]] double at(const Cell& cell) const {
+    const Cell inside = cell.cwiseMax(0).cwiseMin(edge - 1);
+    return value[static_cast<std::size_t>((inside[2] * edge + inside[1]) * edge + inside[0])];
+  }
+  template <class Of>
+  [[nodiscard]] Cube map(const Of& of) const {
+    Cube out{edge, {}};
+    for (int z = 0; z < edge; ++z)
+      for (int y = 0; y < edge; ++y)
+        for (int x = 0; x < edge; ++x) out.value.push_back(of(Cell(x, y, z)));
+    return out;
+  }
+};
+
+/// Smoothed by a Gaussian that is cut at three standard deviations, one axis after the other.
+Cube smoothed(Cube cube, double sigma) {
+  for (int axis = 0; axis < 3; ++axis)
+    cube = cube.map([&, before = cube](const Cell& cell) {
+      double sum = 0, weights = 0;
+      const int reach = static_cast<int>(std::ceil(3 * sigma));
+      for (int k = -reach; k <= reach; ++k) {
+        const double weight = std::exp(-0.5 * k * k / (sigma * sigma));
+        sum += weight * before.at(cell + k * Cell::Unit(axis));
+        weights += weight;
+      }
+      return sum / weights;
+    });
+  return cube;
+}
+
+/// The strength of a ridge by its definition; NaN where rounding may decide whether there is one.
+double ridgeBy(const Eigen::Matrix3d& hessian) {
+  constexpr double kRound = 0.4, kAlong = 0.5, kNear = 1e-3;
+  const Vector3d c = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(hessian).eigenvalues();
+  const double least = std::min({-c[1], kRound * c[0] - c[1], -kAlong * c[1] - std::abs(c[2])});
+  if (std::abs(least) < kNear * hessian.norm()) return std::numeric_limits<double>::quiet_NaN();
+  return least > 0 ? -c[1] : 0;
+}
+
+TEST(Ridges, OfNoiseAreThoseOfTheDefinition) {
+  constexpr int kEdge = 24, kRim = 9;  // voxels that no smoothing of clamped values reaches
+  const Volume drawn = drawVolume(kEdge, 1, [](const Vector3d&) { return 1.0; });
+  Volume volume = drawn;
+  Random random(7);
+  std::vector<std::int16_t> noise;
+  for (int i = 0; i < kEdge * kEdge * kEdge; ++i)
+    noise.push_back(static_cast<std::int16_t>(random.uniform(-3000, 3000)));
+  volume.voxels = noise;
+  const Cube cube{kEdge, {noise.begin(), noise.end()}};
+  const auto strength = ridgeStrength(volume, 1, Progress());
+  std::vector<Cube> smooth;
+  const std::vector<double> scales{1.0, 1.6, 2.5};
+  for (const double sigma : scales) smooth.push_back(smoothed(cube, sigma));
+  int compared = 0, ridges = 0;
+  const CellBox inside = CellBox::between(Cell::Constant(kRim), Cell::Constant(kEdge - kRim - 1));
+  inside.forEach([&](const Cell& cell) {
+    double expected = 0;
+    for (std::size_t s = 0; s < scales.size(); ++s) {
+      Eigen::Matrix3d h;
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+          const Cell p = Cell::Unit(a), q = Cell::Unit(b);
+          h(a, b) = a == b
+                        ? smooth[s].at(cell + p) + smooth[s].at(cell - p) - 2 * smooth[s].at(cell)
+                        : (smooth[s].at(cell + p + q) + smooth[s].at(cell - p - q) -
+                           smooth[s].at(cell + p - q) - smooth[s].at(cell - p + q)) /
+                              4;
+        }
+      const double ridge = scales[s] * scales[s] * ridgeBy(h);
+      if (std::isnan(ridge) || ridge > expected) expected = ridge;
+      if (std::isnan(expected)) break;
+    }
+    if (std::isnan(expected)) return;
+    const auto found = static_cast<double>(strength[volume.geometry.index(cell)]);
+    EXPECT_NEAR(found, expected, 1e-3 * expected + 1e-2) << cell.transpose();
+    ++compared;
+    ridges += expected > 0 ? 1 : 0;
+  });
+  EXPECT_GT(compared, 150);
+  EXPECT_GT(ridges, 30);
 }
 
 TEST(Ridges, AreTheSameInMillimetresForVoxelsOfAnySize) {
