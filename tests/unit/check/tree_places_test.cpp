@@ -53,7 +53,7 @@ TEST(TreePlaces, ThreePoorNodesInARowAreAPlace) {
   addVessel(value, "a", straightPath({0, 0, 0}, {0, 0, 1}, 10), 1.0, 1.0);
   addVessel(value, "b", straightPath({9, 0, 0}, {0, 0, 1}, 10), 1.0, 1.0);
   std::vector<Agreement> agreement(20, Agreement::Good);
-  for (const std::size_t n : {1, 2, 7, 8, 9, 10, 11, 15, 16, 17, 18})
+  for (const std::size_t n : {1U, 2U, 7U, 8U, 9U, 10U, 11U, 15U, 16U, 17U, 18U})
     agreement[n] = Agreement::Poor;
   const auto poor = findPoorStretches(value.tree, agreement);
   ASSERT_EQ(poor.size(), 2U) << "two of one branch, and two of the next, are too few";
