@@ -44,7 +44,7 @@ const kSliceHelp =
 
 export function makeShell(): Shell {
   const shell: Shell = {
-    bar: h("header", { class: "bar", role: "toolbar", "aria-label": "Tools" }),
+    bar: h("div", { class: "bar", role: "toolbar", "aria-label": "Tools" }),
     left: h("aside", { class: "panel left", "aria-label": "Vessels" }),
     right: h("aside", { class: "panel right", "aria-label": "Display and work" }),
     strip: h("section", { class: "strip", id: "strip", "aria-label": "Radius along the vessel" }),
@@ -66,7 +66,7 @@ export function makeShell(): Shell {
   shell.views.append(shell.canvas, shell.axial, shell.scene, shell.coronal, shell.sagittal, shell.empty);
   document.body.append(
     h("a", { class: "skip", href: "#tree-list" }, "To the list of vessels"),
-    shell.bar,
+    h("header", {}, h("h1", { class: "unseen" }, "lumen"), shell.bar),
     h(
       "div",
       { class: "work" },

@@ -85,14 +85,15 @@ export function button(
   },
   action: () => void,
 ): HTMLButtonElement {
-  const { label, key } = options,
+  const { label, key, text = "" } = options,
+    name = label.toLowerCase().includes(text.toLowerCase()) ? label : `${text}: ${label}`, // speech says what it sees
     tip = key === undefined ? label : `${label}  (${key})`;
   const element = h("button", {
     type: "button",
     id: options.id,
     class: options.class ?? "button",
     title: tip,
-    "aria-label": label,
+    "aria-label": name,
     "aria-keyshortcuts": key,
     "aria-pressed": options.pressed === undefined ? undefined : String(options.pressed),
     onclick: action,
