@@ -49,7 +49,10 @@ story("axe-core finds no fault in the page, whatever it shows", async t => {
   assert.deepEqual(await findings(page), [], "narrow");
   const wide = await page.evaluate(() =>
     [...document.body.querySelectorAll("*")]
-      .filter(e => e.checkVisibility() && e.getBoundingClientRect().right > innerWidth + 0.5)
+      .filter(
+        e =>
+          e.checkVisibility() && e.getBoundingClientRect().right > document.documentElement.clientWidth + 0.5,
+      )
       .map(e => `${e.tagName}#${e.id}.${e.className}`),
   );
   assert.ok(

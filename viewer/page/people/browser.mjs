@@ -75,7 +75,7 @@ const isOfTheDriver = text =>
 /** Until nothing works any more, and the list of vessels is that of the document as it is. */
 export async function settled(page) {
   await page.locator("#progress").waitFor({ state: "hidden" });
-  await page.locator("#tree-list[aria-busy=false]").waitFor();
+  await page.locator("#tree-list[aria-busy=false]").waitFor({ state: "attached" }); // its panel may be folded
   await frames(page, 3);
 }
 

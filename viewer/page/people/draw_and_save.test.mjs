@@ -51,11 +51,17 @@ story(
 
     const colour = await vessel(page, "carotid").locator(".swatch").inputValue(),
       [r, g, b] = [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16));
-    // lit and shaded, the wall keeps its hue
-    const hue = (x, y, z) =>
-      x + y + z > 120 &&
-      Math.abs(x * g - y * r) + Math.abs(y * b - z * g) + Math.abs(x * b - z * r) <
-        (0.12 * (r + g + b) * (x + y + z)) / 3;
+    // lit and shaded, the wall keeps its hue; the light adds white
+    const pure = (...rgb) => rgb.map(x => x - Math.min(...rgb)),
+      [p, q, s] = pure(r, g, b);
+    const hue = (...rgb) => {
+      const [x, y, z] = pure(...rgb);
+      return (
+        x + y + z > 40 &&
+        Math.abs(x * q - y * p) + Math.abs(y * s - z * q) + Math.abs(x * s - z * p) <
+          (0.3 * (p + q + s) * (x + y + z)) / 3
+      );
+    };
     await page.locator("#view-scene").hover({ position: { x: 3, y: 60 } });
     const shown = find(await pixels(page, "#view-scene"), hue).count;
     await vessel(page, "carotid").locator(".name").click();

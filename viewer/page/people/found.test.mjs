@@ -139,6 +139,7 @@ story("proposals in a light and narrow window", async t => {
       colorScheme: "light",
     });
   await settled(page);
+  await page.locator("#fold-right").click(); // in a narrow window panels are folded at first
   await page.locator("#find").click();
   await waiting(page, 2);
   await picture(page, "12-narrow-light");
