@@ -22,8 +22,8 @@ public:
 
   /// Null if there was no check; it may be about an earlier case.
   [[nodiscard]] Json check() const;
-  /// What the last check leaves to be done in the case of `document` (workJson()); null if there was no
-  /// check, or is no case.
+  /// The places that the last check leaves to a person in the case of `document` (workJson()). Null
+  /// without a check or a case.
   [[nodiscard]] Json work(const Document& document) const;
   /// The item of the last check with that number. Throws Error(Usage) if there is none.
   [[nodiscard]] WorkItem workItem(std::size_t number) const;

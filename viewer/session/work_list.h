@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a check leaves to be done: everything that check and reachability know, as one list of places that a
-// person walks through, and ignores with a reason that the case keeps.
+// Places that a check leaves to a person, from everything that check and reachability know: one list to walk
+// through. A place may be ignored with a reason, which the case keeps.
 #pragma once
 
 #include <cstddef>

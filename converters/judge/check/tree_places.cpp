@@ -13,13 +13,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAtFace =
-    1.5;  // radii from the border to the first node of a vessel that enters the volume
-constexpr double kDeep = 0.5;   // radii from the axis of a vessel in whose lumen another one runs
-constexpr double kAlike = 0.8;  // cosine of the angle between both
-constexpr double kDoubledRadii =
-    4;  // length of a stretch that no fork explains, in radii of the wider vessel
-constexpr std::uint32_t kFewestPoor = 3;  // nodes
+/// Radii from the volume's border to the first node of a vessel that comes in there.
+constexpr double kAtFace = 1.5;
+/// Radii from the axis of a vessel within which another one runs in it, and the least cosine of their
+/// directions.
+constexpr double kDeep = 0.5, kAlike = 0.8;
+/// Radii of the wider vessel: a doubled stretch that is longer is no fork.
+constexpr double kDoubledRadii = 4;
+constexpr std::uint32_t kFewestPoor = 3;  // nodes of a stretch
 
 template <class Place>
 void sortByLength(std::vector<Place>& places) {

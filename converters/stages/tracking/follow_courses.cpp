@@ -39,8 +39,8 @@ void dropBareEnds(std::vector<TrackedNode>& nodes) {
   nodes.erase(nodes.begin(), std::find_if(nodes.begin(), nodes.end(), isFitted));
 }
 
-/// Leaves the longest stretch, from a cylinder to a cylinder, of which they are the least share; the first of several.
-/// A course that follows a vessel and then something else is a vessel as far as the cylinders bear it out.
+/// Leaves the longest stretch that begins and ends with a cylinder and has the least share of them; the first of
+/// several. A course that follows a vessel and then something else is a vessel as far as cylinders bear it out.
 void keepSupported(std::vector<TrackedNode>& nodes) {
   struct Stretch {
     std::size_t first = 0, end = 0;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // axe-core has nothing to say of the page: names, roles, contrast, order, in the dark and in the light, wide and narrow.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { openPage, settled, startBrowser, story } from "./browser.mjs";
-import { lumen, makeFolder, view } from "./lumen.mjs";
+import { settled, startBrowser, story } from "./browser.mjs";
+import { firstVessel, openVessels } from "./hand.mjs";
+import { makeFolder } from "./lumen.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
@@ -20,13 +21,8 @@ async function findings(page) {
 story("axe-core finds no fault in the page, whatever it shows", async t => {
   const file = makeFolder(t),
     browser = await startBrowser(t);
-  lumen("phantom", "bifurcation", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
-  writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("one.json"), "--seeds-only");
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-    page = await openPage(t, browser, server.address);
-  await settled(page);
+  firstVessel(file, "bifurcation");
+  const page = await openVessels(t, browser, file);
   await page.locator("#tree-list [role=treeitem]").first().click();
   await page.keyboard.press("k");
   await page.locator("#work-list .item").first().waitFor();

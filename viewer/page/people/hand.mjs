@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hand on mouse and keys. Where it points it reads off the line below the views, as a person would.
-import { readFileSync } from "node:fs";
-import { frames } from "./browser.mjs";
-import { lumen } from "./lumen.mjs";
+import { readFileSync, writeFileSync } from "node:fs";
+import { frames, openPage, settled } from "./browser.mjs";
+import { lumen, view } from "./lumen.mjs";
 
 const subtract = (a, b) => a.map((x, i) => x - b[i]);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -92,8 +92,38 @@ export async function document(page) {
   return readFileSync(await download.path());
 }
 
-/** Two vessels that touch: volume.nrrd, seeds.json and vessels.lumen. */
-export function kissing(file) {
-  lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
+/** Two vessels of a phantom: volume.nrrd, seeds.json and vessels.lumen. */
+export function bothVessels(file, phantom) {
+  lumen("phantom", phantom, file("volume.nrrd"), "--seeds", file("seeds.json"));
   lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"), "--seeds-only");
+}
+
+/** Two vessels that touch. */
+export const kissing = file => bothVessels(file, "kissing");
+
+/** The same phantom, with a case of its first vessel alone. */
+export function firstVessel(file, phantom, target = "vessels.lumen") {
+  lumen("phantom", phantom, file("volume.nrrd"), "--seeds", file("seeds.json"));
+  const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
+  writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
+  lumen("convert", file("volume.nrrd"), file(target), "--seeds", file("one.json"), "--seeds-only");
+}
+
+/** A page of the phantom's volume and case. */
+export async function openVessels(t, browser, file) {
+  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
+    page = await openPage(t, browser, server.address);
+  await settled(page);
+  return page;
+}
+
+/** Checks the case against its volume by a key, until the page has the answer. */
+export async function checkCase(page) {
+  await page.keyboard.press("k");
+  await page
+    .locator("#check-about")
+    .filter({ hasText: "the wall is off" })
+    .filter({ hasNotText: "check again" })
+    .waitFor();
+  await settled(page);
 }

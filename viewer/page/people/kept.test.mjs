@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person has set up is there after a reload, in a file beside the case, and after a crash.
+// The view that a person has set up is there after a reload, in a file beside the case, and work after a crash.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
-import { drop, vessel, vessels } from "./hand.mjs";
-import { lumen, makeFolder, view } from "./lumen.mjs";
+import { bothVessels, drop, firstVessel, openVessels, vessel, vessels } from "./hand.mjs";
+import { makeFolder, view } from "./lumen.mjs";
 
 const measured = page => page.locator("#measure-list .item"),
   place = async page =>
     (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number),
   near = (a, b) => a.every((x, i) => Math.abs(x - b[i]) < 0.011);
-
-function makeCase(file) {
-  lumen("phantom", "bifurcation", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"), "--seeds-only");
-}
 
 async function goTo(page, text) {
   await page.keyboard.press("j");
@@ -27,10 +22,8 @@ async function goTo(page, text) {
 story("coordinates are typed and shown in the axes that the user chose", async t => {
   const file = makeFolder(t),
     browser = await startBrowser(t);
-  makeCase(file);
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-    page = await openPage(t, browser, server.address);
-  await settled(page);
+  bothVessels(file, "bifurcation");
+  const page = await openVessels(t, browser, file);
   await goTo(page, "10.5, 11 12");
   assert.ok(near(await place(page), [10.5, 11, 12]));
   assert.equal(await page.locator("#probe-position").textContent(), "10.50  11.00  12.00");
@@ -48,7 +41,7 @@ story(
   async t => {
     const file = makeFolder(t),
       browser = await startBrowser(t);
-    makeCase(file);
+    bothVessels(file, "bifurcation");
     const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
       page = await openPage(t, browser, server.address);
     await settled(page);
@@ -97,11 +90,8 @@ story(
 story("after a crash the page asks in the middle what becomes of the work, and takes it up", async t => {
   const file = makeFolder(t),
     browser = await startBrowser(t);
-  makeCase(file);
-  const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
-  writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
-  const crashed = file("vessels.unsaved.lumen");
-  lumen("convert", file("volume.nrrd"), crashed, "--seeds", file("one.json"), "--seeds-only");
+  bothVessels(file, "bifurcation");
+  firstVessel(file, "bifurcation", "vessels.unsaved.lumen");
   const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
     page = await openPage(t, browser, server.address);
   const question = page.locator("dialog[open]");

@@ -1,42 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // A vessel that the check finds missing is a place to click, and then a vessel.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
-import { find, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
-import { placeIn } from "./hand.mjs";
-import { lumen, makeFolder, view } from "./lumen.mjs";
+import { find, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
+import { checkCase, firstVessel, openVessels, placeIn } from "./hand.mjs";
+import { makeFolder } from "./lumen.mjs";
 
 const places = page => page.locator("#work-list .item.row:is([data-kind=missing], [data-kind=early-end])");
-
-async function check(page) {
-  await page.locator("#check-about").filter({ hasNotText: "check again" }).waitFor();
-  await page.keyboard.press("k");
-  await page
-    .locator("#check-about")
-    .filter({ hasText: "the wall is off" })
-    .filter({ hasNotText: "check again" })
-    .waitFor();
-  await settled(page);
-}
-
-/** Both vessels of the phantom, of which only the first is tracked. */
-function half(file, name) {
-  lumen("phantom", name, file("volume.nrrd"), "--seeds", file("seeds.json"));
-  const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
-  writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("one.json"), "--seeds-only");
-}
 
 story(
   "a click on a ring in the 3D view places a seed in what is missing, and tracking leaves less of it",
   async t => {
     const file = makeFolder(t),
       browser = await startBrowser(t);
-    half(file, "bifurcation");
-    const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-      page = await openPage(t, browser, server.address);
-    await settled(page);
-    await check(page);
+    firstVessel(file, "bifurcation");
+    const page = await openVessels(t, browser, file);
+    await checkCase(page);
     const before = await places(page).count();
     assert.ok(before > 0, "the second vessel is missing");
     await picture(page, "2-missing");
@@ -71,11 +49,9 @@ story(
 story("a click on a ring in a slice does the same", async t => {
   const file = makeFolder(t),
     browser = await startBrowser(t);
-  half(file, "kissing");
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-    page = await openPage(t, browser, server.address);
-  await settled(page);
-  await check(page);
+  firstVessel(file, "kissing");
+  const page = await openVessels(t, browser, file);
+  await checkCase(page);
   const before = await places(page).count();
   await page.locator("#work-list [data-kind] .link >> nth=0").click();
   const there = (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The check is a list of work: a person walks through it by keys, and it ends with nothing left.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
 import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
+import { checkCase, firstVessel, openVessels } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 const rows = (page, kind) =>
     page.locator(`#work-list .item${kind === undefined ? "" : `[data-kind="${kind}"]`}`),
   counts = async page => (await page.locator("#work-count").textContent()).match(/\d+/g).map(Number);
-
-async function check(page) {
-  await page.keyboard.press("k");
-  await page
-    .locator("#check-about")
-    .filter({ hasText: "the wall is off" })
-    .filter({ hasNotText: "check again" })
-    .waitFor();
-  await settled(page);
-}
 
 /** The place of the row that is shown: crosshair and row agree. */
 async function shown(page) {
@@ -32,12 +22,17 @@ async function ignore(page, reason) {
   await page.keyboard.press("Enter");
 }
 
-/** Both vessels of the phantom, of which only the trunk is in the case. */
-function half(file) {
-  lumen("phantom", "bifurcation", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
-  writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("one.json"), "--seeds-only");
+/** A page of the trunk alone, cut in two: its piece hangs on nothing, and the other vessel is missing. */
+async function openCut(t, browser, file) {
+  firstVessel(file, "bifurcation");
+  const page = await openVessels(t, browser, file);
+  await page.locator("#tree-list [role=treeitem]").first().click();
+  await settled(page);
+  await page.keyboard.press("Shift+X");
+  await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
+  await settled(page);
+  await checkCase(page);
+  return page;
 }
 
 story(
@@ -45,18 +40,7 @@ story(
   async t => {
     const file = makeFolder(t),
       browser = await startBrowser(t);
-    half(file);
-    const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-      page = await openPage(t, browser, server.address);
-    await settled(page);
-
-    // a cut leaves a piece that hangs on nothing
-    await page.locator("#tree-list [role=treeitem]").first().click();
-    await settled(page);
-    await page.keyboard.press("Shift+X");
-    await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
-    await settled(page);
-    await check(page);
+    const page = await openCut(t, browser, file);
     const found = await rows(page).count();
     assert.deepEqual(await counts(page), [0, found]);
     assert.equal(await rows(page, "loose").count(), 1, "the piece behind the cut");
@@ -105,10 +89,8 @@ story(
     await page.keyboard.press("Control+s");
     await page.locator(".toast").filter({ hasText: "saved" }).waitFor();
 
-    const again = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-      fresh = await openPage(t, browser, again.address);
-    await settled(fresh);
-    await check(fresh);
+    const fresh = await openVessels(t, browser, file);
+    await checkCase(fresh);
     assert.equal(await rows(fresh).count(), 0, "what is ignored stays so in the file");
     await fresh.locator("#ignored summary").click();
     const kept = await fresh.locator("#ignored-list .item").count();
@@ -122,16 +104,7 @@ story(
 story("a button that changes a vessel shows the place first, and acts when it is pressed again", async t => {
   const file = makeFolder(t),
     browser = await startBrowser(t);
-  half(file);
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-    page = await openPage(t, browser, server.address);
-  await settled(page);
-  await page.locator("#tree-list [role=treeitem]").first().click();
-  await settled(page);
-  await page.keyboard.press("Shift+X");
-  await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
-  await settled(page);
-  await check(page);
+  const page = await openCut(t, browser, file);
   const remove = page.locator("#work-list .item[data-kind=loose] .button.delete");
   await remove.click();
   await page.locator(".toast").filter({ hasText: "once more deletes" }).waitFor();

@@ -86,7 +86,7 @@ const kGroups: Group[] = [
       ["Shift+F", "Find the vessels that the case lacks"],
       ["K", "Check against the volume"],
       [". and ,", "Next place of the list, and the one before"],
-      ["Y", "What the list proposes there: track, cut, join, delete; accept a proposed vessel"],
+      ["Y", "Do what the list proposes there: track, cut, join or delete; accept a proposed vessel"],
       ["I", "Ignore the place, with a reason; reject a proposed vessel"],
       ["Enter", "Finish a vessel of several clicks"],
       ["Delete", "Delete the selected vessel"],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** How a case is looked at: survives a reload of the page, and may be kept as a small file beside the case. */
+/** The view of a case: it survives a reload of the page, and may be kept as a small file beside the case. */
 import { fromHex, toHex, type Rgb } from "./colour";
 import { kInitial, type App, type Measurement, type View } from "./model";
 import type { Vec3 } from "./types";

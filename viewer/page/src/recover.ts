@@ -9,7 +9,7 @@ const kChoices = [
   { value: "recover", label: "Take it" },
 ] as const;
 
-/** What the question says of a file: where it comes from, when, and what is newer. */
+/** A sentence on a file: where it comes from, when it was written, and whether the case is newer. */
 export function aboutUnsaved(file: UnsavedFile, saveAs: string | null): string {
   const written = new Date(file.written).toLocaleString(),
     beside =

@@ -153,35 +153,28 @@ export class Stage {
     c.fillStyle = background;
     c.fillRect(0, 0, out.width, out.height);
     c.drawImage(this.canvas, 0, 0);
-    for (const layer of over) {
-      const box = layer.getBoundingClientRect();
-      if (box.width > 0)
-        c.drawImage(
-          layer,
-          (box.left - all.left) * ratio,
-          (box.top - all.top) * ratio,
-          box.width * ratio,
-          box.height * ratio,
-        );
-    }
+    for (const layer of over) drawWhereItIs(c, layer, all, ratio);
     if (legend !== null && !legend.hidden) drawLegend(c, legend, all, ratio);
     return out;
   }
 }
 
+/** A canvas at its place on the page; nothing if it is not shown. */
+function drawWhereItIs(
+  c: CanvasRenderingContext2D,
+  drawn: HTMLCanvasElement,
+  all: DOMRect,
+  ratio: number,
+): void {
+  const { left, top, width, height } = drawn.getBoundingClientRect();
+  if (width > 0)
+    c.drawImage(drawn, (left - all.left) * ratio, (top - all.top) * ratio, width * ratio, height * ratio);
+}
+
 /** A legend's scale and words, where they are on the page. */
 function drawLegend(c: CanvasRenderingContext2D, legend: HTMLElement, all: DOMRect, ratio: number): void {
   const bar = legend.querySelector("canvas");
-  if (bar !== null) {
-    const box = bar.getBoundingClientRect();
-    c.drawImage(
-      bar,
-      (box.left - all.left) * ratio,
-      (box.top - all.top) * ratio,
-      box.width * ratio,
-      box.height * ratio,
-    );
-  }
+  if (bar !== null) drawWhereItIs(c, bar, all, ratio);
   c.textBaseline = "middle";
   for (const word of legend.querySelectorAll("strong, span")) {
     const box = word.getBoundingClientRect(),

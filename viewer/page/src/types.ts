@@ -145,7 +145,7 @@ export interface State {
   openCase: number | null;
   job: { job: number; name: string } | null;
   check: CheckAnswer | null;
-  /** What the check leaves to be done; null before. */
+  /** Places that the check leaves to a person; null before a check. */
   work: Work | null;
   /** The case has changed since it was checked. */
   checkIsOld: boolean;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What is to be done with a place that the check names: words, and the requests that do it. */
+/** Places that the check leaves to a person: their words, and the requests that answer them. */
 import type { Tree } from "./tree";
 import type { MissingVessel, Operation, State, WorkItem, WorkKind } from "./types";
 
@@ -48,7 +48,7 @@ const kRemedies: Record<WorkKind, Remedy[]> = {
   thin: ["delete"],
 };
 
-/** What may be done with an item; the likeliest first. */
+/** The remedies that an item may have, the likeliest first. */
 export function remediesOf(item: WorkItem): Remedy[] {
   return kRemedies[item.kind].filter(remedy => remedy !== "track" || item.missing !== null);
 }

@@ -28,6 +28,12 @@ export class WorkList {
     return state.work?.items.find(item => item.id === place);
   }
 
+  /** The label of the proposal that was shown last and waits, or undefined. */
+  private get proposed(): string | undefined {
+    const { state, proposal } = this.app.store.get();
+    return state.proposals.find(each => each.label === proposal)?.label;
+  }
+
   /** Shows a place in every view. */
   show(item: WorkItem): void {
     const { store } = this.app;
@@ -62,24 +68,24 @@ export class WorkList {
 
   /** The likeliest remedy for what was shown last. */
   accept(): boolean {
-    const { proposal } = this.app.store.get(),
+    const proposal = this.proposed,
       item = this.current;
-    if (proposal !== null) void this.actions.accept([proposal]);
+    if (proposal !== undefined) void this.actions.accept([proposal]);
     else if (item !== undefined) void this.act(item, remediesOf(item)[0]);
     else return false;
     return true;
   }
   /** Rejects or ignores what was shown last. */
   dismiss(): boolean {
-    const { proposal } = this.app.store.get(),
+    const proposal = this.proposed,
       item = this.current;
-    if (proposal !== null) void this.actions.reject([proposal]);
+    if (proposal !== undefined) void this.actions.reject([proposal]);
     else if (item !== undefined) void this.ignore(item);
     else return false;
     return true;
   }
 
-  /** What changes a vessel acts only on a place that the views show: elsewhere the first press goes there. */
+  /** A remedy that changes a vessel acts only on a place that the views show: elsewhere the first press goes there. */
   async act(item: WorkItem, remedy: Remedy | undefined): Promise<void> {
     if (remedy === undefined) return;
     const { state, tree, place } = this.app.store.get();
@@ -153,10 +159,10 @@ export function checkSection(app: App, actions: Actions, work: WorkList): HTMLEl
       list,
       items.map((item, i) => workRow(app, work, item, i > 0 && items[i - 1].kind === item.kind)),
     );
-    const set_ = state.work?.ignored ?? [];
-    ignored.hidden = set_.length === 0;
-    ignored.querySelector("summary")!.textContent = `Ignored: ${set_.length}`;
-    set.replaceChildren(...set_.map((place, i) => ignoredRow(app, place, i)));
+    const places = state.work?.ignored ?? [];
+    ignored.hidden = places.length === 0;
+    ignored.querySelector("summary")!.textContent = `Ignored: ${places.length}`;
+    set.replaceChildren(...places.map((place, i) => ignoredRow(app, place, i)));
   });
   store.watch(["place"], ({ place }) => {
     for (const row of list.children) {
