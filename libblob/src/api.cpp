@@ -263,14 +263,19 @@ size_t blob_model_neighbours(const blob_model* model, uint32_t node, uint32_t* n
   if (node >= model->nodes.size()) return 0;
   const NodeRecord& record = model->nodes[node];
   std::size_t count = 0;
-  for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b)
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const NeighbourBlock& block = model->neighbours[record.firstNeighbours + b];
-      if (isPadding(block, lane)) continue;
-      if (count < capacity) neighbours[count] = block.node[lane];
-      ++count;
-    }
-  return count;
+  // the next greater index each time: blocks are in another order, and this needs no memory
+  for (std::int64_t last = -1;; ++count) {
+    std::int64_t next = std::numeric_limits<std::int64_t>::max();
+    for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b)
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const NeighbourBlock& block = model->neighbours[record.firstNeighbours + b];
+        const std::int64_t k = block.node[lane];
+        if (!isPadding(block, lane) && k > last) next = std::min(next, k);
+      }
+    if (next == std::numeric_limits<std::int64_t>::max()) return count;
+    if (count < capacity) neighbours[count] = static_cast<std::uint32_t>(next);
+    last = next;
+  }
 }
 
 uint32_t blob_cursor_locate(const blob_model* model, const double point[3]) noexcept {

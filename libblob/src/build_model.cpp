@@ -94,35 +94,67 @@ std::vector<FieldNode> buildField(const blob_model_def& def, const Neighbourhood
   return nodes;
 }
 
-void setNeighbour(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool isEdge,
-                  double spacing, std::size_t lane, NeighbourBlock& block) {
+// A neighbour of a node, as a lane of a block, and the distance from the node at which it begins to
+// blend.
+struct Neighbour {
+  float nx, ny, nz, c, inverseTau;
+  std::uint32_t node;
+  double begin;  // mm
+};
+
+// The distance from a node's centre within which, rounding included, the node beats a neighbour by
+// tau: p_k - p_i >= c - |n| |x|.
+double beginOfBlending(const double* offset, double c, double tau) {
+  constexpr double kRounding = 1e-5;
+  const double slope =
+      2.0 * std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
+  const double margin = c - tau - kRounding * (std::abs(c) + tau);
+  if (!(margin > 0)) return 0;
+  return slope > 0 ? margin / (slope * (1.0 + kRounding)) : kFarthestMm;
+}
+
+Neighbour makeNeighbour(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool isEdge,
+                        double spacing) {
   double offset[3], square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     offset[axis] = double{def.centre[k][axis]} - double{def.centre[i][axis]};
     square += offset[axis] * offset[axis];
   }
-  const double ri = def.radius[i], rk = def.radius[k];
-  block.nx[lane] = static_cast<float>(-2.0 * offset[0]);
-  block.ny[lane] = static_cast<float>(-2.0 * offset[1]);
-  block.nz[lane] = static_cast<float>(-2.0 * offset[2]);
-  block.c[lane] = static_cast<float>(square - rk * rk + ri * ri);
-  block.inverseTau[lane] =
-      static_cast<float>(1.0 / field::blendingWidth(treeOf(def), i, k, isEdge, spacing));
-  block.node[lane] = k;
+  const double ri = def.radius[i], rk = def.radius[k], c = square - rk * rk + ri * ri;
+  const double tau = field::blendingWidth(treeOf(def), i, k, isEdge, spacing);
+  return {static_cast<float>(-2.0 * offset[0]), static_cast<float>(-2.0 * offset[1]),
+          static_cast<float>(-2.0 * offset[2]), static_cast<float>(c),
+          static_cast<float>(1.0 / tau),        k,
+          beginOfBlending(offset, c, tau)};
+}
+
+void setLane(const Neighbour& neighbour, std::size_t lane, NeighbourBlock& block) {
+  block.nx[lane] = neighbour.nx;
+  block.ny[lane] = neighbour.ny;
+  block.nz[lane] = neighbour.nz;
+  block.c[lane] = neighbour.c;
+  block.inverseTau[lane] = neighbour.inverseTau;
+  block.node[lane] = neighbour.node;
 }
 
 void addNeighbours(const blob_model_def& def, const Neighbourhood& around,
                    const std::vector<double>& spacing, std::uint32_t i, blob_model& model) {
-  const std::uint32_t begin = around.offset[i], end = around.offset[i + 1];
-  const std::size_t first = model.neighbours.size(), count = (end - begin + kLanes - 1) / kLanes;
+  std::vector<Neighbour> sorted;
+  for (std::uint32_t e = around.offset[i]; e < around.offset[i + 1]; ++e)
+    sorted.push_back(makeNeighbour(def, i, around.node[e], around.isEdge[e],
+                                   0.5 * (spacing[i] + spacing[around.node[e]])));
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Neighbour& a, const Neighbour& b) { return a.begin < b.begin; });
+  const std::size_t first = model.neighbours.size(),
+                    count = std::max<std::size_t>(1, (sorted.size() + kLanes - 1) / kLanes);
   NeighbourBlock empty{};
   std::fill_n(empty.c, kLanes, kNeverLess);
   std::fill_n(empty.inverseTau, kLanes, 1.0f);
   model.neighbours.resize(first + count, empty);
-  for (std::uint32_t e = begin; e < end; ++e)
-    setNeighbour(def, i, around.node[e], around.isEdge[e],
-                 0.5 * (spacing[i] + spacing[around.node[e]]), (e - begin) % kLanes,
-                 model.neighbours[first + (e - begin) / kLanes]);
+  for (std::size_t e = 0; e < sorted.size(); ++e)
+    setLane(sorted[e], e % kLanes, model.neighbours[first + e / kLanes]);
+  const double quiet = count > 1 ? sorted[kLanes].begin : kFarthestMm;
+  model.nodes[i].centre[3] = quiet * quiet;
   model.nodes[i].firstNeighbours = static_cast<std::uint32_t>(first);
   model.nodes[i].neighbourBlocks = static_cast<std::uint32_t>(count);
 }

@@ -39,7 +39,8 @@ struct alignas(32) BlobBlock {
 };
 
 /// Eight neighbours k of a node i and the radical planes between: p_k - p_i = n . (X - O_i) + c,
-/// in square millimetres. Padding has n = 0 and a c that no point undercuts.
+/// in square millimetres. Padding has n = 0 and a c that no point undercuts. A node has one block at
+/// least; its neighbours ascend by the distance from the node at which they begin to blend with it.
 struct alignas(32) NeighbourBlock {
   float nx[kLanes], ny[kLanes], nz[kLanes], c[kLanes];
   float inverseTau[kLanes];  ///< 1 / tau_ik of the blending weights, 1/mm^2
@@ -62,11 +63,14 @@ inline bool isPadding(const NeighbourBlock& block, int lane) noexcept {
 }
 
 struct alignas(64) NodeRecord {
-  double centre[4];  ///< mm, LPS, and zero
+  /// mm, LPS; then the square of the distance from the centre within which only the first block of
+  /// neighbours counts, mm^2
+  double centre[4];
   FieldNode field;
   std::uint32_t firstNeighbours, neighbourBlocks;  ///< into the model's blocks of neighbours
 
   [[nodiscard]] float radius() const noexcept { return field.place[3]; }
+  [[nodiscard]] double quietSquare() const noexcept { return centre[3]; }
 };
 static_assert(sizeof(NodeRecord) == 64, "one cache line");
 

@@ -24,20 +24,20 @@ inline void leaveEmpty(Group& g, std::size_t i) {
   g.shift[i] = 0;
 }
 
-// Finds the node of a point; false for a point out of range.
-inline bool placeLane(const View& view, bool hold, const D4& point, std::uint32_t& node, Group& g,
+// Parts of a query that flags leave out.
+struct Parts {
+  bool follows, blends;
+};
+
+// Finds the node of a point, and its rivals; false for a point out of range.
+inline bool placeLane(const View& view, Parts parts, const D4& point, std::uint32_t& node, Group& g,
                       std::size_t i) {
   F4 x;
   if (!enterNode(view, point, node, x)) return false;
-  if (!hold) node = followFrom(view, point, node, x);
+  if (parts.follows) node = followFrom(view, point, node, x);
   store4(g.at[i], x);
+  if (parts.blends) g.rivals[i] = findRivals(view, node, x, g.difference[i]);
   return true;
-}
-
-inline void keep(const Lane& lane, Group& g, std::size_t i) {
-  store4(g.field[i], lane.field);
-  g.at[i][3] = lane.radius;
-  g.shift[i] = lane.shift;
 }
 
 inline void fillSample(const Group& g, std::size_t i, std::uint32_t node, blob_sample& sample) {
@@ -49,11 +49,6 @@ inline void fillSample(const Group& g, std::size_t i, std::uint32_t node, blob_s
   sample.node = node;
   sample.state = g.insideBits >> i & 1U;
 }
-
-struct alignas(32) Inputs {
-  double point[kLanes][4];  ///< the fourth is not used
-  std::uint32_t node[kLanes];
-};
 
 LUMEN_NOINLINE void readInputs(const blob_columns& c, std::size_t first, std::size_t count,
                                Inputs& in) {
@@ -98,32 +93,25 @@ struct Batch {
 
 // Finds the nodes of a group. Separate from evaluation, as short loops overlap better in the
 // processor.
-LUMEN_NOINLINE unsigned placeGroup(const View& view, bool hold, std::size_t count, Inputs& in,
+LUMEN_NOINLINE unsigned placeGroup(const View& view, Parts parts, std::size_t count, Inputs& in,
                                    Group& g) {
   unsigned outOfRange = 0;
   for (std::size_t i = 0; i < count; ++i)
-    if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) outOfRange |= 1U << i;
+    if (!placeLane(view, parts, load4(in.point[i]), in.node[i], g, i)) outOfRange |= 1U << i;
   return outOfRange;
 }
 
-// Number of points processed side by side, so that one's chain of operations fills the pauses of
-// another's: the processor does not look far enough ahead to find the next point by itself.
-constexpr std::size_t kTogether = 4;
-
-// Bits of the points whose cursors may move, or all if a node does not have exactly one block of
-// neighbours; the other points are placed.
-inline unsigned stayTogether(const View& view, bool hold, const Inputs& in, Group& g,
+// Bits of the points that need a look of their own: their cursors may move, or later blocks of
+// neighbours count. The other points are placed, and have their rivals.
+inline unsigned placeAtNodes(const View& view, Parts parts, const Inputs& in, Group& g,
                              std::size_t first) {
   constexpr unsigned kAll = (1U << kTogether) - 1U;
   const NodeRecord* node[kTogether];
-  unsigned others = 0;
   for (std::size_t k = 0; k < kTogether; ++k) {
     const std::uint32_t index = in.node[first + k];
     if (index >= view.nodeCount) return kAll;
     node[k] = view.nodes + index;
-    others |= node[k]->neighbourBlocks ^ 1U;
   }
-  if (others != 0) return kAll;
   F4 squares = set4(0.0f);
   for (std::size_t k = 0; k < kTogether; ++k) {
     const F4 x = relative(*node[k], load4(in.point[first + k]));
@@ -131,42 +119,31 @@ inline unsigned stayTogether(const View& view, bool hold, const Inputs& in, Grou
     squares = squares + x * x;
   }
   if (!isWithin(squares, static_cast<float>(kFarthestMm * kFarthestMm))) return kAll;
-  if (hold) return 0;
-  unsigned moving = 0;
+  if (!parts.follows && !parts.blends) return 0;
+  unsigned others = 0;
   for (std::size_t k = 0; k < kTogether; ++k) {
-    const F8 difference =
-        powerDifference(view.neighbours[node[k]->firstNeighbours], Splats(g.at[first + k]));
-    moving |= (maskBits(less(difference, set1(0.0f))) != 0 ? 1U : 0U) << k;
+    const std::size_t i = first + k;
+    const NeighbourBlock& block = view.neighbours[node[k]->firstNeighbours];
+    const F8 difference = powerDifference(block, Splats(g.at[i]));
+    const bool moves = parts.follows && maskBits(less(difference, set1(0.0f))) != 0;
+    others |= (moves || blocksAt(*node[k], load4(g.at[i])) != 1 ? 1U : 0U) << k;
+    if (!parts.blends) continue;
+    store(g.difference[i], difference);
+    g.rivals[i] = rivalsIn(block, difference);
   }
-  return moving;
-}
-
-template <class K>
-inline void evaluateTogether(const View& view, const Inputs& in, Group& g, std::size_t first) {
-  Terms terms[kTogether];
-  for (std::size_t k = 0; k < kTogether; ++k) {
-    const FieldNode& node = view.fieldNode(in.node[first + k]);
-    const Splats at(g.at[first + k]);
-    const BlobBlock& block = view.blocks[node.block];
-    const float shift = kIsShifted<K> ? leastExponent(&block, 1, at) : 0.0f;
-    terms[k] = computeTerms<K>(block, at, shift);
-    g.shift[first + k] = shift;
-    g.at[first + k][3] = node.place[3];
-  }
-  for (std::size_t k = 0; k < kTogether; ++k)
-    store4(g.field[first + k], sums(terms[k].f, terms[k].x, terms[k].y, terms[k].z));
+  return others;
 }
 
 // Finds the nodes of a group side by side; returns the bits of the points out of range.
-LUMEN_NOINLINE unsigned placeTogether(const View& view, bool hold, std::size_t count, Inputs& in,
+LUMEN_NOINLINE unsigned placeTogether(const View& view, Parts parts, std::size_t count, Inputs& in,
                                       Group& g) {
-  if (count != kLanes) return placeGroup(view, hold, count, in, g);
+  if (count != kLanes) return placeGroup(view, parts, count, in, g);
   unsigned outOfRange = 0;
   for (std::size_t first = 0; first < kLanes; first += kTogether) {
-    unsigned left = stayTogether(view, hold, in, g, first);
+    unsigned left = placeAtNodes(view, parts, in, g, first);
     for (; left != 0; left &= left - 1) {
       const std::size_t i = first + static_cast<std::size_t>(__builtin_ctz(left));
-      if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) outOfRange |= 1U << i;
+      if (!placeLane(view, parts, load4(in.point[i]), in.node[i], g, i)) outOfRange |= 1U << i;
     }
   }
   return outOfRange;
@@ -181,7 +158,7 @@ LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned 
     for (const std::uint32_t node : in.node) simple &= view.fieldNode(node).isSimple;
   if (simple != 0) {
     for (std::size_t first = 0; first < kLanes; first += kTogether)
-      evaluateTogether<K>(view, in, g, first);
+      evaluateTogether<K>(view, in.node + first, g.at + first, g.field + first, g.shift + first);
     return;
   }
   for (std::size_t i = 0; i < kLanes; ++i)
@@ -189,27 +166,6 @@ LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned 
       leaveEmpty(g, i);
     else
       keep(evaluateLocal<K>(view, in.node[i], load4(g.at[i])), g, i);
-}
-
-// Blends a group: finds the points that need it first, then blends them. In one loop the processor
-// would often mispredict whether the next point needs that long work.
-template <class K>
-LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned outOfRange,
-                               const Inputs& in, Group& g) {
-  float difference[kLanes][kLanes];
-  unsigned rivals[kLanes], left = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if ((outOfRange >> i & 1U) != 0) continue;
-    rivals[i] = findRivals(view, in.node[i], Splats(g.at[i]), difference[i]);
-    left |= (rivals[i] != 0 ? 1U : 0U) << i;
-  }
-  for (; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::size_t>(__builtin_ctz(left));
-    Lane lane{load4(g.field[i]), g.shift[i], g.at[i][3]};
-    blendLane<K>(view, load4(in.point[i]), in.node[i], load4(g.at[i]), difference[i], rivals[i],
-                 lane);
-    keep(lane, g, i);
-  }
 }
 
 inline void writeCursors(const blob_columns& c, std::size_t first, std::size_t count,
@@ -245,6 +201,7 @@ LUMEN_NOINLINE void writeGroup(const View& view, const Job& job, std::size_t fir
 template <class K>
 inline void queryBatch(const View& view, std::uint32_t flags, const Job& job, std::size_t first,
                        std::size_t count, Batch& batch) {
+  const Parts parts{(flags & BLOB_HOLD) == 0, (flags & BLOB_LOCAL) == 0};
   const std::size_t groups = (count + kLanes - 1) / kLanes;
   const auto sizeOf = [count](std::size_t g) {
     const std::size_t left = count - g * kLanes;
@@ -253,11 +210,9 @@ inline void queryBatch(const View& view, std::uint32_t flags, const Job& job, st
   for (std::size_t g = 0; g < groups; ++g) {
     readInputs(job.columns, first + g * kLanes, sizeOf(g), batch.in[g]);
     Inputs& in = batch.in[g];
-    const bool hold = (flags & BLOB_HOLD) != 0;
-    batch.outOfRange[g] = placeTogether(view, hold, sizeOf(g), in, batch.group[g]);
+    batch.outOfRange[g] = placeTogether(view, parts, sizeOf(g), in, batch.group[g]);
     evaluateGroup<K>(view, sizeOf(g), batch.outOfRange[g], in, batch.group[g]);
-    if ((flags & BLOB_LOCAL) == 0)
-      blendGroup<K>(view, sizeOf(g), batch.outOfRange[g], in, batch.group[g]);
+    if (parts.blends) blendGroup<K>(view, sizeOf(g), batch.outOfRange[g], in, batch.group[g]);
   }
   for (std::size_t g = 0; g < groups; ++g) finishGroup<K>(view, batch.group[g]);
   for (std::size_t g = 0; g < groups; ++g)

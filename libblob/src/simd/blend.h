@@ -6,9 +6,16 @@
 // exponential kernel's f comes with a shift. The choice of the nodes that blend and the polynomial
 // of psi are shared. tests/unit/field compares the two.
 
+constexpr float kLeastWeight = 1e-20f;  // a node's weight; less counts as none
+
 // Neighbours in a block that a node does not beat by tau: all others have no weight.
 inline unsigned rivalsIn(const NeighbourBlock& block, F8 difference) {
   return maskBits(less(difference * load(block.inverseTau), set1(1.0f)));
+}
+
+// Whether a neighbour in a block beats the node by tau, so that it has no weight.
+inline bool isBeaten(const NeighbourBlock& block, F8 difference) {
+  return maskBits(less(difference * load(block.inverseTau), set1(-1.0f))) != 0;
 }
 
 // psi against each neighbour k in a block, at s = (1 + (p_k - p_node) / tau) / 2 in 0 to 1: the
@@ -24,25 +31,41 @@ inline F4 weighAgainst(const NeighbourBlock& block, F8 difference, float& produc
   return sums(zero, q * load(block.nx), q * load(block.ny), q * load(block.nz));
 }
 
+// Whether k is a neighbour of a node.
+inline bool isNeighbour(const View& view, const NodeRecord& node, std::uint32_t k) {
+  const NeighbourBlock* blocks = view.neighbours + node.firstNeighbours;
+  for (std::uint32_t b = 0; b < node.neighbourBlocks; ++b) {
+    std::uint32_t least = ~0U;  // a minimum is a loop that compilers turn into vectors
+    for (const std::uint32_t n : blocks[b].node) least = (n ^ k) < least ? n ^ k : least;
+    if (least == 0) return true;
+  }
+  return false;
+}
+
 // The weight u of a node and its gradient, or zero if u is below kLeastWeight. Neighbours that the
-// node does not beat by tau are added: all others have no weight.
-inline F4 weigh(const View& view, std::uint32_t node, F4 x, ActiveNodes& active) {
-  constexpr float kLeastWeight = 1e-20f;
+// node does not beat by tau are added: all others have no weight. Neither have neighbours of `start`,
+// the first node, that it beats by tau, and these are left out; it has added its own rivals itself.
+inline F4 weigh(const View& view, std::uint32_t start, std::uint32_t node, F4 x,
+                ActiveNodes& active) {
   const NodeRecord& record = view.nodes[node];
   const NeighbourBlock* blocks = view.neighbours + record.firstNeighbours;
   const Splats splats(x);
   float u = 1;
   F4 logarithmic = set4(0.0f);
-  for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b) {
+  for (std::uint32_t b = 0, count = blocksAt(record, x); b < count; ++b) {
     const F8 difference = powerDifference(blocks[b], splats);
     unsigned rivals = rivalsIn(blocks[b], difference);
     if (rivals == 0) continue;
+    if (isBeaten(blocks[b], difference)) return set4(0.0f);
     float product;
     const F4 part = weighAgainst(blocks[b], difference, product);
     u *= product;
     if (!(u > kLeastWeight)) return set4(0.0f);
     logarithmic = logarithmic + part;
-    for (; rivals != 0; rivals &= rivals - 1) active.add(blocks[b].node[__builtin_ctz(rivals)]);
+    for (; rivals != 0; rivals &= rivals - 1) {
+      const std::uint32_t k = blocks[b].node[__builtin_ctz(rivals)];
+      if (node == start || !isNeighbour(view, view.nodes[start], k)) active.add(k);
+    }
   }
   return withFirst(u, set4(u) * logarithmic);
 }
@@ -71,19 +94,17 @@ struct Mixture {
   bool empty = true;
 };
 
+// Adds a node's own answer, with a weight above zero.
 template <class K>
-inline void addNode(const View& view, std::uint32_t node, F4 x, F4 weight, Mixture& sum) {
+inline void addAnswer(const Lane& own, F4 weight, Mixture& sum) {
   const float u = firstLane(weight);
-  if (!(u > 0)) return;
-  float shift;
-  const FieldNode& at = view.fieldNode(node);
-  F4 field = evaluateNode<K>(view, at, x, shift);
+  F4 field = own.field;
   if (sum.empty) {
     sum.empty = false;
     sum.f0 = firstLane(field);
-    sum.shift = shift;
+    sum.shift = own.shift;
   } else if constexpr (kIsShifted<K>) {
-    const Factors factors = shareShift(sum.shift, shift);
+    const Factors factors = shareShift(sum.shift, own.shift);
     sum.f0 *= factors.first;
     sum.excess = sum.excess * set4(factors.first);
     sum.field = sum.field * set4(factors.first);
@@ -92,7 +113,7 @@ inline void addNode(const View& view, std::uint32_t node, F4 x, F4 weight, Mixtu
   sum.weight = sum.weight + weight;
   sum.excess = sum.excess + set4(firstLane(field) - sum.f0) * weight;
   sum.field = sum.field + set4(u) * field;
-  sum.radius += u * at.place[3];
+  sum.radius += u * own.radius;
 }
 
 inline Lane quotient(const Mixture& sum) {
@@ -106,88 +127,131 @@ template <class K>
 struct AddActiveNode {
   const View& view;
   const D4& point;
+  std::uint32_t start;
+  const Lane& own;  // the answer of `start` alone
   Mixture& sum;
 
   bool operator()(std::uint32_t k, ActiveNodes& active) const {
     const F4 x = relative(view.nodes[k], point);
-    const F4 weight = weigh(view, k, x, active);
-    addNode<K>(view, k, x, weight, sum);
-    return firstLane(weight) > 0;
+    const F4 weight = weigh(view, start, k, x, active);
+    if (!(firstLane(weight) > 0)) return false;
+    addAnswer<K>(k == start ? own : evaluateLocal<K>(view, k, x), weight, sum);
+    return true;
   }
 };
 
-// Blends any number of nodes.
+// Blends any number of nodes into the answer of one alone.
 template <class K>
-LUMEN_NOINLINE Lane blendAll(const View& view, const D4& point, std::uint32_t node, F4 x) {
+LUMEN_NOINLINE void blendAll(const View& view, const D4& point, std::uint32_t node, Lane& lane) {
   Mixture sum;
-  visitActiveNodes(node, AddActiveNode<K>{view, point, sum});
-  return sum.empty ? evaluateLocal<K>(view, node, x) : quotient(sum);
+  visitActiveNodes(node, AddActiveNode<K>{view, point, node, lane, sum});
+  if (!sum.empty) lane = quotient(sum);
 }
 
-// Blends two nodes that have no rivals but each other, as along a tube: their weights are psi and 1
-// - psi,
-// with sum 1. False if there are more nodes, or if the first has hardly a weight.
-template <class K>
-inline bool blendPair(const View& view, const D4& point, std::uint32_t node,
-                      const NeighbourBlock& block, const float* difference, unsigned rivals,
-                      Lane& lane) {
-  constexpr float kLeastDifference = -0.999f;  // difference of powers over tau
-  const int rival = __builtin_ctz(rivals);
-  const float inverseTau = block.inverseTau[rival], t = difference[rival] * inverseTau;
-  const NodeRecord& other = view.nodes[block.node[rival]];
-  if (other.neighbourBlocks != 1 || !(t > kLeastDifference)) return false;
-  const F4 x = relative(other, point);
-  const NeighbourBlock& back = view.neighbours[other.firstNeighbours];
-  const unsigned beyond = rivalsIn(back, powerDifference(back, Splats(x)));
-  if ((beyond & (beyond - 1)) != 0) return false;
-  if (beyond != 0 && back.node[__builtin_ctz(beyond)] != node) return false;
+constexpr unsigned kManyRivals = ~0U;
 
-  const FieldNode& where = view.fieldNode(block.node[rival]);
-  float shift;
-  F4 field = evaluateNode<K>(view, where, x, shift);
+// Bits of a node's rivals in its first block, whose differences of power are given; kManyRivals if a
+// later block has one.
+inline unsigned addLaterRivals(const View& view, const NodeRecord& record, F4 x, unsigned rivals) {
+  const std::uint32_t count = blocksAt(record, x);
+  if (count == 1) return rivals;
+  const NeighbourBlock* blocks = view.neighbours + record.firstNeighbours;
+  const Splats at(x);
+  for (std::uint32_t b = 1; b < count; ++b)
+    if (rivalsIn(blocks[b], powerDifference(blocks[b], at)) != 0) return kManyRivals;
+  return rivals;
+}
+
+// Bits of a node's rivals, and the differences of power in its first block.
+inline unsigned findRivals(const View& view, std::uint32_t node, F4 x, float* difference) {
+  const NodeRecord& record = view.nodes[node];
+  const NeighbourBlock& block = view.neighbours[record.firstNeighbours];
+  const F8 differences = powerDifference(block, Splats(x));
+  store(difference, differences);
+  return addLaterRivals(view, record, x, rivalsIn(block, differences));
+}
+
+// Kinds of a node with one rival: the rival has no rivals but the node, as along a tube; its others
+// are neighbours of the node, and so have no weight; or more nodes may blend.
+enum class PairKind : std::uint8_t { Alone, Two, Several };
+
+// `back`: the rival's first block of neighbours; t: the difference of powers over tau.
+inline PairKind kindOfPair(const View& view, std::uint32_t node, const NeighbourBlock& back,
+                           unsigned rivals, float t) {
+  constexpr float kLeastDifference = -0.999f;
+  if (rivals == kManyRivals || !(t > kLeastDifference)) return PairKind::Several;
+  if ((rivals & (rivals - 1)) == 0 && (rivals == 0 || back.node[__builtin_ctz(rivals)] == node))
+    return PairKind::Alone;
+  for (; rivals != 0; rivals &= rivals - 1) {
+    const std::uint32_t k = back.node[__builtin_ctz(rivals)];
+    if (k != node && !isNeighbour(view, view.nodes[node], k)) return PairKind::Several;
+  }
+  return PairKind::Two;
+}
+
+// Mixes the answers of a node and its rival whose weights are psi and 1 - psi.
+template <class K>
+inline void mixPair(const NeighbourBlock& block, int rival, float t, const Lane& other,
+                    Lane& lane) {
+  F4 field = other.field;
   if constexpr (kIsShifted<K>) {
-    const Factors factors = shareShift(lane.shift, shift);
+    const Factors factors = shareShift(lane.shift, other.shift);
     lane.field = lane.field * set4(factors.first);
     field = field * set4(factors.second);
   }
   const float s = 0.5f + 0.5f * t, rest = 1.0f - s;
   const float psi = smoothStep(s);
-  const float slope = (15.0f * ((s * s) * (rest * rest))) * inverseTau;
+  const float slope = (15.0f * ((s * s) * (rest * rest))) * block.inverseTau[rival];
   const F4 excess = lane.field - field;
   const F4 normal = makeRow(0.0f, block.nx[rival], block.ny[rival], block.nz[rival]);
   lane.field = (field + set4(psi) * excess) + set4(slope * firstLane(excess)) * normal;
-  lane.radius = where.place[3] + psi * (lane.radius - where.place[3]);
-  return true;
+  lane.radius = other.radius + psi * (lane.radius - other.radius);
 }
 
-// Bits of a node's rivals, and its differences of power, if it has one block of neighbours; else
-// all bits.
-inline unsigned findRivals(const View& view, std::uint32_t node, const Splats& x,
-                           float* difference) {
-  const NodeRecord& record = view.nodes[node];
-  if (record.neighbourBlocks != 1) return ~0U;
-  const NeighbourBlock& block = view.neighbours[record.firstNeighbours];
-  const F8 differences = powerDifference(block, x);
-  store(difference, differences);
-  return rivalsIn(block, differences);
+// Mixes the answers of a node and its rival, which has other rivals, too, at these differences.
+template <class K>
+inline void mixTwo(const NeighbourBlock& block, int rival, float t, const NeighbourBlock& back,
+                   F8 difference, const Lane& other, Lane& lane) {
+  const float s = 0.5f + 0.5f * t, rest = 1.0f - s, sp = s * smoothStepOverCube(s);
+  const float u = (s * s) * sp, q = (15.0f * (rest * rest)) * block.inverseTau[rival] / sp;
+  const F4 normal = makeRow(0.0f, block.nx[rival], block.ny[rival], block.nz[rival]);
+  Mixture sum;
+  addAnswer<K>(lane, withFirst(u, set4(u) * (set4(q) * normal)), sum);
+  float product;
+  const F4 part = weighAgainst(back, difference, product);
+  if (product > kLeastWeight) addAnswer<K>(other, withFirst(product, set4(product) * part), sum);
+  lane = quotient(sum);
 }
 
 // Blends the models of a node's rivals into the node's own answer.
 template <class K>
-inline void blendLane(const View& view, const D4& point, std::uint32_t node, F4 x,
+inline void blendLane(const View& view, const D4& point, std::uint32_t node,
                       const float* difference, unsigned rivals, Lane& lane) {
-  const bool isPair = (rivals & (rivals - 1)) == 0;
-  if (isPair && blendPair<K>(view, point, node, view.neighbours[view.nodes[node].firstNeighbours],
-                             difference, rivals, lane))
-    return;
-  lane = blendAll<K>(view, point, node, x);
+  if ((rivals & (rivals - 1)) != 0) return blendAll<K>(view, point, node, lane);
+  const NeighbourBlock& block = view.neighbours[view.nodes[node].firstNeighbours];
+  const int rival = __builtin_ctz(rivals);
+  const float t = difference[rival] * block.inverseTau[rival];
+  const std::uint32_t k = block.node[rival];
+  const NeighbourBlock& back = view.neighbours[view.nodes[k].firstNeighbours];
+  const F4 x = relative(view.nodes[k], point);
+  const F8 differences = powerDifference(back, Splats(x));
+  const unsigned rivalsOfRival =
+      addLaterRivals(view, view.nodes[k], x, rivalsIn(back, differences));
+  switch (kindOfPair(view, node, back, rivalsOfRival, t)) {
+    case PairKind::Alone:
+      return mixPair<K>(block, rival, t, evaluateLocal<K>(view, k, x), lane);
+    case PairKind::Two:
+      return mixTwo<K>(block, rival, t, back, differences, evaluateLocal<K>(view, k, x), lane);
+    case PairKind::Several:
+      return blendAll<K>(view, point, node, lane);
+  }
 }
 
 template <class K>
 inline Lane evaluateBlended(const View& view, const D4& point, std::uint32_t node, F4 x) {
   Lane lane = evaluateLocal<K>(view, node, x);
   float difference[kLanes];
-  const unsigned rivals = findRivals(view, node, Splats(x), difference);
-  if (rivals != 0) blendLane<K>(view, point, node, x, difference, rivals, lane);
+  const unsigned rivals = findRivals(view, node, x, difference);
+  if (rivals != 0) blendLane<K>(view, point, node, difference, rivals, lane);
   return lane;
 }

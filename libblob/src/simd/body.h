@@ -11,6 +11,7 @@
 #include "simd/blend.h"
 #include "simd/locate_least.h"
 #include "simd/wall_distance.h"
+#include "simd/blend_group.h"
 #include "simd/batch.h"
 #include "simd/entry.h"
 // clang-format on

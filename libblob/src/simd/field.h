@@ -124,19 +124,31 @@ inline F8 powerDifference(const NeighbourBlock& block, const Splats& x) {
   return ((load(block.nx) * x.x + load(block.ny) * x.y) + load(block.nz) * x.z) + load(block.c);
 }
 
-// The neighbour of least power, if that is less than the node's own; else the node.
-inline std::uint32_t lowerNeighbour(const View& view, std::uint32_t node, const Splats& x) {
+// Number of a node's blocks of neighbours that count at x, relative to it: those of later blocks are
+// beaten by tau within the quiet distance.
+inline std::uint32_t blocksAt(const NodeRecord& node, F4 x) {
+  if (node.neighbourBlocks == 1) return 1;
+  float at[4];
+  store4(at, x);
+  const float square = (at[0] * at[0] + at[1] * at[1]) + at[2] * at[2];
+  return static_cast<double>(square) < node.quietSquare() ? 1 : node.neighbourBlocks;
+}
+
+// The neighbour of least power, if that is less than the node's own, the first of equals; else the
+// node.
+inline std::uint32_t lowerNeighbour(const View& view, std::uint32_t node, F4 x) {
   const NodeRecord& record = view.nodes[node];
   const NeighbourBlock* blocks = view.neighbours + record.firstNeighbours;
+  const Splats at(x);
   std::uint32_t best = node;
   float least = 0;
-  for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b) {
-    const F8 difference = powerDifference(blocks[b], x);
-    if (maskBits(less(difference, set1(least))) == 0) continue;
+  for (std::uint32_t b = 0, count = blocksAt(record, x); b < count; ++b) {
+    const F8 difference = powerDifference(blocks[b], at);
+    if (maskBits(less(difference, set1(0.0f))) == 0) continue;
     float lanes[kLanes];
     store(lanes, difference);
     for (int i = 0; i < kLanes; ++i)
-      if (lanes[i] < least) {
+      if (lanes[i] < least || (lanes[i] == least && best != node && blocks[b].node[i] < best)) {
         least = lanes[i];
         best = blocks[b].node[i];
       }
@@ -151,7 +163,7 @@ inline std::uint32_t followFrom(const View& view, const D4& point, std::uint32_t
   constexpr int kMaxSteps = 256;
   std::uint32_t before = node;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const std::uint32_t next = lowerNeighbour(view, node, Splats(x));
+    const std::uint32_t next = lowerNeighbour(view, node, x);
     if (next == node || next == before) break;
     before = node;
     node = next;

@@ -7,9 +7,22 @@ struct Group {
   float field[kLanes][4];  ///< f and grad f
   float at[kLanes][4];     ///< the point relative to its node's centre, and the radius
   float shift[kLanes];
-  float wall[kLanes][4];  ///< distance and normal
+  float wall[kLanes][4];             ///< distance and normal
+  float difference[kLanes][kLanes];  ///< of power, in the first block of neighbours, if blended
+  unsigned rivals[kLanes];           ///< findRivals(), if blended
   unsigned insideBits;
 };
+
+struct alignas(32) Inputs {
+  double point[kLanes][4];  ///< the fourth is not used
+  std::uint32_t node[kLanes];
+};
+
+inline void keep(const Lane& lane, Group& g, std::size_t i) {
+  store4(g.field[i], lane.field);
+  g.at[i][3] = lane.radius;
+  g.shift[i] = lane.shift;
+}
 
 // With D = h_T - h, g = |grad h| and s = sqrt(D^2 + R^2 g^2), |grad h| / (2 c) - R is, without
 // cancellation, K R / (D + s) inside and K / g outside, where K = |D| (g R + s + |D|) / (g R + s).

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Value, gradient and distance along paths that cross seams between models that disagree.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -163,6 +166,53 @@ TEST(BlobSeam, AtANodeOfAStraightTubeItsModelAnswersAlone) {
 
 // A hub and ten leaves, more neighbours than one block of lanes. The last leaf, close to the hub,
 // beats it by tau; the others are its rivals and would have weights.
+// A hub with more neighbours than fit into a block, in all directions and at many distances.
+Tree hub() {
+  constexpr int kArms = 14;
+  Tree tree;
+  const std::int32_t middle = tree.addNode({0, 0, 0}, 1);
+  tree.addBlob({0, 0, 0}, 0.5);
+  for (int n = 0; n < kArms; ++n) {
+    const double z = 1 - (2 * n + 1.0) / kArms, across = std::sqrt(1 - z * z), turn = 2.4 * n;
+    const Point side = {across * std::cos(turn), across * std::sin(turn), z};
+    std::int32_t parent = middle;
+    for (int k = 1; k <= 3; ++k) {
+      const double away = (0.5 + 0.05 * n) * k;
+      const Point at = {away * side[0], away * side[1], away * side[2]};
+      parent = tree.addNode(at, 0.9 - 0.02 * n, parent);
+      tree.addBlob(at, 0.4 + 0.02 * n);
+    }
+  }
+  return tree;
+}
+
+TEST(BlobSeam, ANodeOfManyNeighboursBlendsWithAllOfThem) {
+  const Model model = hub().build();
+  std::array<std::uint32_t, 64> around{};
+  const std::size_t count = blob_model_neighbours(model.get(), 0, around.data(), around.size());
+  ASSERT_GT(count, 16U);
+  EXPECT_TRUE(std::is_sorted(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(count)));
+  std::uint64_t state = 1;
+  const auto uniform = [&state] {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state >> 11) / 9007199254740992.0;
+  };
+  for (int n = 0; n < 20000; ++n) {
+    const Point p = {3 * uniform() - 1.5, 3 * uniform() - 1.5, 3 * uniform() - 1.5};
+    std::uint32_t cursor = BLOB_NOWHERE;
+    blob_sample sample;
+    blob_query(model.get(), BLOB_BLENDED, p.data(), &cursor, &sample);
+    // in doubles, from all neighbours of each node
+    blob_hessian all;
+    blob_query_hessian(model.get(), BLOB_BLENDED | BLOB_HOLD, p.data(), &cursor, &all);
+    double change[3];
+    for (int i = 0; i < 3; ++i) change[i] = sample.gradient[i] - all.gradient[i];
+    ASSERT_NEAR(sample.value, all.value, 1e-5 * all.value) << p[0] << " " << p[1] << " " << p[2];
+    ASSERT_LT(norm(change), 1e-4 * norm(all.gradient) + 1e-5 * all.value)
+        << p[0] << " " << p[1] << " " << p[2];
+  }
+}
+
 TEST(BlobSeam, AHeldNodeWithoutWeightAnswersAlone) {
   Tree tree;
   tree.addNode({0, 0, 0}, 0.6);
