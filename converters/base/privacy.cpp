@@ -96,13 +96,21 @@ void scanBytes(std::span<const std::byte> bytes, const std::string& pointer, Fin
   }
 }
 
-// Bytes that were read as JSON before.
-void scanJsonBytes(std::span<const std::byte> bytes, const std::string& pointer,
+// False if the bytes are no JSON.
+bool scanJsonBytes(std::span<const std::byte> bytes, const std::string& pointer,
                    Findings& findings) {
   formats::IssueList issues(1);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (const auto document = formats::parseJson(text, 0, pointer, issues))
-    scanJson(document->root(), pointer, findings);
+  const auto document = formats::parseJson(text, 0, pointer, issues);
+  if (document) scanJson(document->root(), pointer, findings);
+  return document.has_value();
+}
+
+// Seeds are JSON, whose coordinates are no numbers of persons.
+void scanOther(const formats::OtherChunk& chunk, const std::string& pointer, Findings& findings) {
+  const bool areSeeds = chunk.type == formats::chunkName(formats::chunk::kSeeds);
+  if (!areSeeds || !scanJsonBytes(chunk.bytes, pointer, findings))
+    scanBytes(chunk.bytes, pointer, findings);
 }
 
 // The texts of a binary file are its metadata, which are JSON, and its labels.
@@ -144,7 +152,7 @@ std::vector<PrivacyFinding> scanPrivacy(std::span<const std::byte> file) {
     scanJsonBytes(file, "", findings);
   }
   for (std::size_t i = 0; i < value->otherChunks.size(); ++i)
-    scanBytes(value->otherChunks[i].bytes, "/otherChunks/" + std::to_string(i), findings);
+    scanOther(value->otherChunks[i], "/otherChunks/" + std::to_string(i), findings);
   return findings;
 }
 

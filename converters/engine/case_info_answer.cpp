@@ -86,6 +86,9 @@ void addExtras(const convert::CaseInfo& info, Lines& lines) {
     lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
                             shownNumber(rounded->step) + " mm");
   for (const auto& name : info.nodeArrays) lines.add("node array", name);
+  if (const auto& seeds = info.seeds; seeds && seeds->tracked + seeds->waiting > 0)
+    lines.add("seeds", std::to_string(seeds->tracked) + " tracked, " +
+                           std::to_string(seeds->waiting) + " waiting");
   if (!metadata.parentSha256.empty()) lines.add("made from", "sha256 " + metadata.parentSha256);
   if (!metadata.note.empty()) lines.add("note", metadata.note);
 }
@@ -115,6 +118,9 @@ Json caseInfoJson(const convert::CaseInfo& info) {
   json["provenance"] = provenanceJson(info.metadata);
   json["note"] = info.metadata.note.empty() ? Json(nullptr) : Json(info.metadata.note);
   json["node_arrays"] = info.nodeArrays;
+  json["seeds"] = nullptr;
+  if (info.seeds)
+    json["seeds"] = {{"tracked", info.seeds->tracked}, {"waiting", info.seeds->waiting}};
   json["branch_table"] = Json::array();
   for (const auto& branch : info.branches) json["branch_table"].push_back(branchJson(branch));
   return json;

@@ -12,6 +12,7 @@
 #include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"
 #include "converters/engine/tracking_input.h"
+#include "converters/io/seeds/case_seeds.h"
 #include "converters/stages/editing/hints.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/selection.h"
@@ -107,6 +108,7 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
     result = convert::trackFromSeeds(volume, placed.seeds, track.options, progress);
     reportOnSeeds(volume, seeds, track, placed, result, progress);
     apply(result.result, file, seeds, track);
+    convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
     return result;
   }
   requireInVessels(result.result, file, track);
@@ -120,6 +122,7 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   reportOnSeeds(volume, seeds, track, placed, result, progress);
   select(result.result, labelsOf(placed.seeds), track);
   renameEnds(result.result, result.ends);
+  convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
   return result;
 }
 

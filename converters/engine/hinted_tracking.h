@@ -16,8 +16,8 @@ namespace lumen::engine {
 
 /// Tracks the vessels of `volume`, read from `file`: those of `seeds`, or all that are found where
 /// there are none or `track` wants all vessels. In the last case seeds are hints: they name what is
-/// found, divide and join it, and start tracks of their own where no vessel is. Roots and selection of
-/// `track` apply. Warnings and errors are those of findAndTrack() and placeAndTrack(); also throws
+/// found, divide and join it, and start tracks of their own where no vessel is. The case holds the seeds
+/// that lie in the volume (case_seeds.h). Roots and selection of `track` apply. Warnings and errors are those of findAndTrack() and placeAndTrack(); also throws
 /// Error(Failed) for a root that lies in no vessel.
 convert::TrackResult trackVessels(const convert::Volume& volume, const std::string& file,
                                   const std::vector<convert::SeedBranch>& seeds,

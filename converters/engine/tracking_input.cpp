@@ -8,6 +8,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/engine/file_access.h"
+#include "converters/io/seeds/case_seeds.h"
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/stages/editing/find_inlets.h"
 #include "converters/stages/editing/inlets.h"
@@ -226,6 +227,7 @@ convert::TrackResult placeAndTrack(const convert::Volume& volume,
   convert::TrackResult result =
       convert::trackFromSeeds(volume, placed.seeds, track.options, progress);
   reportOnSeeds(volume, seeds, track, placed, result, progress);
+  convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
   return result;
 }
 

@@ -68,7 +68,7 @@ void reportOnSeeds(const convert::Volume& volume, const std::vector<convert::See
                    const TrackArguments& track, convert::PlacedSeeds& placed,
                    convert::TrackResult& result, Progress& progress);
 
-/// Tracks `seeds` alone through the volume, from their clicks on. Seeds that cannot be placed in it or that start no track
+/// Tracks `seeds` alone through the volume, from their clicks on; the case holds them. Seeds that cannot be placed in it or that start no track
 /// become warnings, and failures of the result. `track.seeds` is where they are from, for messages.
 /// Throws Error(InvalidInput) if none can be placed, and Error(Failed) if nothing was tracked.
 convert::TrackResult placeAndTrack(const convert::Volume& volume,

@@ -38,6 +38,7 @@ void addUnknown(const Chunk& chunk, CaseChunks& sorted, IssueList& issues) {
     return issues.add(chunkIssue(ErrorCode::ChunkUnknown, chunk,
                                  "is critical, and this reader does not know it"));
   sorted.others.push_back(chunk);
+  if (chunk.type == chunk::kSeeds) return;
   issues.add(chunkIssue(ErrorCode::ChunkIgnored, chunk, "is not known and is ignored"));
 }
 

@@ -34,6 +34,9 @@ inline constexpr ChunkType kModelCentre = chunkType("MCEN");     ///< f32[3] per
 inline constexpr ChunkType kModelWidth = chunkType("MWID");      ///< f32 per blob
 /// The values of one node array; occurs once for each that the metadata describes, in that order.
 inline constexpr ChunkType kNodeArray = chunkType("NARR");
+/// Seeds, as a text of the seeds format (spec/lumen.md, "Seeds"). The model holds it as it holds
+/// chunks of unknown types, so that a program without seeds keeps it.
+inline constexpr ChunkType kSeeds = chunkType("SEED");
 }  // namespace chunk
 
 inline constexpr std::size_t kBranchRecordSize = 24;

@@ -162,6 +162,7 @@ def make_cases(lumen, folder):
     go("export-list.schema.json", "export", "--list")
     go("convert.schema.json", "convert", "two.swc", "two.lumen")
     go("export.schema.json", "export", "sofa", "two.lumen", "two-sofa")
+    go("seeds.schema.json", "seeds", "tracked.lumen", "kept.json")
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")

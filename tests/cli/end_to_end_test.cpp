@@ -49,7 +49,7 @@ TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   const Json info = Json::parse(told.out);
   EXPECT_EQ(keys(info), (Names{"branches", "nodes", "links", "points", "blobs", "blobs_per_node",
                                "length_mm", "reachable", "radius_mm", "error_of_fit_mm",
-                               "provenance", "note", "node_arrays", "branch_table"}));
+                               "provenance", "note", "node_arrays", "seeds", "branch_table"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);
   EXPECT_EQ(keys(info["provenance"]),
@@ -77,6 +77,37 @@ TEST_F(TubeTest, ProposalsOfSeedsAreSeedsInBothFormats) {
     const Outcome compared = lumen({"compare", "again.lumen", "truth.lumen", "--json"});
     EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98) << file;
   }
+}
+
+TEST_F(TubeTest, TheSeedsOfATrackStayInTheCaseAndComeOutAgain) {
+  Json seeds = Json::parse(read("seeds.json"));
+  Json stray = seeds["branches"][0];
+  stray["label"] = "stray";
+  stray["points"] = {{0.2, 0.2, 0.2}};
+  seeds["branches"].push_back(stray);
+  write("two.json", seeds.dump());
+  const Outcome made = lumen({"convert", "tube.nrrd", "kept.lumen", "--seeds", "two.json",
+                              "--seeds-only", "--inlier-rate", "0.9"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto seedsOf = [this](const std::string& file) {
+    return Json::parse(lumen({"info", file, "--json"}).out)["seeds"];
+  };
+  EXPECT_EQ(seedsOf("kept.lumen"), Json({{"tracked", 1}, {"waiting", 1}}));
+  ASSERT_EQ(lumen({"convert", "kept.lumen", "kept.lumen.json"}).code, 0);
+  EXPECT_EQ(seedsOf("kept.lumen.json"), Json({{"tracked", 1}, {"waiting", 1}}));
+  ASSERT_EQ(lumen({"convert", "kept.lumen.json", "again.lumen"}).code, 0);
+  EXPECT_EQ(read("again.lumen"), read("kept.lumen"));
+  ASSERT_EQ(lumen({"seeds", "kept.lumen", "out.mrk.json"}).code, 0);
+  const Outcome again = lumen({"convert", "tube.nrrd", "from.lumen", "--seeds", "out.mrk.json",
+                               "--seeds-only", "--inlier-rate", "0.9"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(seedsOf("from.lumen"), Json({{"tracked", 1}, {"waiting", 1}}));
+}
+
+TEST_F(TubeTest, ACaseWithoutSeedsHasNoneToWrite) {
+  const Outcome none = lumen({"seeds", "truth.lumen", "out.json"});
+  EXPECT_EQ(none.code, 4);
+  EXPECT_NE(none.err.find("truth.lumen: it holds no seeds"), std::string::npos) << none.err;
 }
 
 /// A fork with its truth and clicks, and the clicks on its trunk alone.

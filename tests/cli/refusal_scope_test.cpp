@@ -153,6 +153,8 @@ TEST_F(RefusalScopeTest, AnOptionForOtherFilesIsRefusedByEveryCommand) {
     // a case may lie beside each of them
     count += refusedFor("view", {input.file}, {{"html", "out/v.html"}},
                         input.content | engine::kFittedCase);
+    if (input.content == engine::kFittedCase)
+      count += refusedFor("seeds", {input.file, "out/s.json"}, {}, input.content);
     if ((input.content & engine::kVolumes) == 0) continue;
     const Given volume = {{"volume", input.file}};
     count += refusedFor("track", {input.file, "out/t.lumen"}, {}, input.content);

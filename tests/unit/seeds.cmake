@@ -2,6 +2,7 @@ lumen_test(seeds_test
   LABELS memory
   LIBS lumen_seeds
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/seeds/case_seeds_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/seeds/fcsv_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/seeds/markups_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/seeds/place_seeds_test.cpp

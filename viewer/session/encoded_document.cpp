@@ -11,8 +11,9 @@
 #include "converters/engine/file_format.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"
-#include "converters/io/seeds/seeds.h"
+#include "converters/io/seeds/case_seeds.h"
 #include "converters/stages/fitting/fit.h"
+#include "viewer/session/document_seeds.h"
 
 namespace lumen::viewer {
 
@@ -48,7 +49,9 @@ const engine::FileFormat& writableFormat(const std::string& name) {
                                     engine::formatNames(engine::canWrite));
 }
 
-std::string encodedSeeds(const Seeds& seeds, DroppedFiles& places) {
+std::string encodedSeeds(Seeds seeds, DroppedFiles& places) {
+  convert::dropOtherParents(seeds);
+  for (convert::SeedBranch& seed : seeds) seed.isTracked = false;  // counts in a case alone
   const auto file = places.placeFor("seeds.json");
   convert::writeSeeds(seeds, file->path());
   return readWholeFile(file->path(), "document");
@@ -64,12 +67,13 @@ std::string encoded(const Document& document, const std::string& format,
   if (!document.value) throw Error(ErrorKind::Usage, "there is no case to save");
   const engine::OutputOptions output = outputOptions(options, writer, progress);
   const auto file = places.placeFor("case" + std::string(writer.endings.front()));
-  if (engine::canWriteMesh(writer) && !document.value->models) {
-    formats::Case fitted = *document.value;
+  const auto value = caseWithSeeds(document);
+  if (engine::canWriteMesh(writer) && !value->models) {
+    formats::Case fitted = *value;
     convert::fit(fitted, settings.fit, progress);
     writer.writeCase(fitted, file->path(), output, progress);
   } else {
-    writer.writeCase(*document.value, file->path(), output, progress);
+    writer.writeCase(*value, file->path(), output, progress);
   }
   return readWholeFile(file->path(), "document");
 }

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/text.h"
 #include "formats/container/printable.h"
 #include "viewer/session/conflict.h"
+#include "viewer/session/document_seeds.h"
 #include "viewer/session/proposals.h"
 
 namespace lumen::viewer {
@@ -27,8 +29,10 @@ void FileOperations::open(const Opening& opening, Progress& progress) {
   const Moment before = m_workspace.history.now();
   Document document = withFile(before.document, opening, m_workspace.nextFile(),
                                m_workspace.options.volume, progress);
-  if (document.value != before.document.value) m_workspace.saving.holdCase(document.value);
-  if (document.seeds != before.document.seeds) m_workspace.saving.holdSeeds(document.seeds);
+  if (document.value != before.document.value)
+    m_workspace.saving.holdCase(document);
+  else if (document.seeds != before.document.seeds)
+    m_workspace.saving.holdSeeds(document.seeds);
   if (opening.dropped)
     return m_workspace.commit("open " + opening.label, before, std::move(document));
   // the files that the user began with cannot be undone
@@ -66,7 +70,7 @@ std::string FileOperations::openListed(std::size_t index, Progress& progress) {
       withFile({}, {file, name}, m_workspace.nextFile(), m_workspace.options.volume, progress);
   progress.check();
   const auto kept = m_workspace.keepUnsaved();  // nothing can be undone afterwards
-  m_workspace.saving.holdCase(document.value);
+  m_workspace.saving.holdCase(document);
   m_workspace.saving.holdSeeds(nullptr);
   m_workspace.findings.clear();
   m_workspace.library.setOpenCase(index);
@@ -103,7 +107,7 @@ void FileOperations::reloadFile(const OpenFile& file, const Moment& from, Progre
   const Document before =
       file.role == FileRole::Mesh ? withoutFile(from.document, file.id) : from.document;
   Document document = withFile(before, opening, file.id, m_workspace.options.volume, progress);
-  if (file.role == FileRole::Case) m_workspace.saving.holdCase(document.value);
+  if (file.role == FileRole::Case) m_workspace.saving.holdCase(document);
   if (file.role == FileRole::Seeds) m_workspace.saving.holdSeeds(document.seeds);
   m_workspace.saving.acceptTarget(file.path);
   m_workspace.commit("read " + file.label + " again", from, std::move(document));
@@ -121,13 +125,12 @@ Json FileOperations::save(const Arguments& request, const Moment& from) {
   Document document = from.document;
   const fs::path file = m_workspace.saving.save(document, request.flag("force"));
   m_workspace.history.restamp(document.files);
-  const auto kept = m_workspace.keepUnsaved();
-  const bool areSeedsKept = m_workspace.saving.unsaved(m_workspace.history.now().document).hasSeeds;
+  m_workspace.keepUnsaved();
+  const std::size_t waiting = waitingSeeds(document).size();
   m_workspace.sendMessage(
-      "note", file.filename().string() + " is saved" +
-                  (areSeedsKept && !kept.empty()
-                       ? "; seeds that are not tracked yet are in " + nameOf(kept.front())
-                       : ""));
+      "note",
+      file.filename().string() + " is saved" +
+          (waiting == 0 ? "" : ", with " + counted(waiting, "seed that waits", "seeds that wait")));
   m_workspace.announce();
   return m_workspace.revision();
 }
@@ -142,8 +145,11 @@ Json FileOperations::recover(const Arguments& request, const Moment& from) {
   const std::string name = nameOf(file);
   return m_workspace.startJob(
       "reading " + name, true, [this, file, name, from](Progress& progress) {
+        Document before = from.document;
+        // a copy has all that waited
+        before.seeds = std::make_shared<const Seeds>(trackedSeeds(from.document));
         const Document read =
-            withFile(from.document, {file, name}, 0, m_workspace.options.volume, progress);
+            withFile(before, {file, name}, 0, m_workspace.options.volume, progress);
         Document document = from.document;
         if (holdsProposals(file)) {
           document.proposals = proposalsFor(from.document, read.value);

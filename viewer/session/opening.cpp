@@ -14,6 +14,7 @@
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/fitting/fit.h"
+#include "viewer/session/document_seeds.h"
 #include "viewer/session/surface_pack.h"
 
 namespace lumen::viewer {
@@ -76,13 +77,19 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Truth: {
       auto value = std::make_shared<const formats::Case>(
           caseOf(opening, engine::inputFormat(opening.path, ""), arguments, progress));
-      (role == FileRole::Truth ? document.truth : document.value) = std::move(value);
-      if (role == FileRole::Case) document.proposals.reset();
+      if (role == FileRole::Truth) {
+        document.truth = std::move(value);
+        break;
+      }
+      document.seeds = joined(seedsInCase(*value, opening.label, progress), waitingSeeds(document));
+      document.value = std::move(value);
+      document.proposals.reset();
       break;
     }
     case FileRole::Seeds:
-      document.seeds = std::make_shared<const Seeds>(
-          placed(document.volume.get(), convert::readSeeds(opening.path), opening, progress));
+      document.seeds =
+          joined(placed(document.volume.get(), convert::readSeeds(opening.path), opening, progress),
+                 trackedSeeds(document));
       break;
     case FileRole::Mesh:
       document.meshes.push_back(
@@ -135,6 +142,7 @@ Document withoutFile(const Document& document, int id) {
       result.proposals.reset();
       break;
     case FileRole::Case:
+      result.seeds = std::make_shared<const Seeds>(waitingSeeds(document));
       result.value.reset();
       result.proposals.reset();
       break;
@@ -142,7 +150,7 @@ Document withoutFile(const Document& document, int id) {
       result.truth.reset();
       break;
     case FileRole::Seeds:
-      result.seeds = std::make_shared<const Seeds>();
+      result.seeds = std::make_shared<const Seeds>(trackedSeeds(document));
       break;
     case FileRole::Mesh:
       std::erase_if(result.meshes, [id](const OpenMesh& mesh) { return mesh.id == id; });

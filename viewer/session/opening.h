@@ -23,12 +23,14 @@ struct Opening {
 FileRole openingRole(const Opening& opening);
 
 /// The document with one more file, as number `id`. A volume, a case, a truth or seeds replace
-/// those that were open; meshes are added. A centerline becomes a case, and is fitted. Throws as
+/// those that were open; meshes are added. A case brings the seeds that it holds, beside those that
+/// wait; a file of seeds leaves those that are tracked. A centerline becomes a case, and is fitted. Throws as
 /// its reader.
 Document withFile(const Document& document, const Opening& opening, int id,
                   const engine::VolumeArguments& volume, Progress& progress);
 
-/// The document without that file and its part. Throws Error(Usage) if there is none.
+/// The document without that file and its part: with a case its tracked seeds go, with a file of
+/// seeds those that wait. Throws Error(Usage) if there is none.
 Document withoutFile(const Document& document, int id);
 
 }  // namespace lumen::viewer

@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/saving.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/progress.h"
 #include "converters/engine/file_format.h"
-#include "converters/io/seeds/seeds.h"
+#include "converters/io/seeds/case_seeds.h"
 #include "viewer/session/conflict.h"
+#include "viewer/session/document_seeds.h"
 
 namespace lumen::viewer {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// Whether each seed is a vessel of the case, which then needs no file of seeds.
-bool areTracked(const Document& document) {
-  const auto labels = vesselLabels(document);
-  return std::all_of(document.seeds->begin(), document.seeds->end(),
-                     [&labels](const auto& seed) { return labels.contains(seed.label); });
-}
-
-}  // namespace
 
 void Saving::saveTo(const fs::path& file) {
   const std::lock_guard lock(m_mutex);
@@ -43,9 +32,11 @@ void Saving::acceptTarget(const fs::path& file) {
   if (fs::absolute(file) == m_target) m_stamp = readFileStamp(m_target);
 }
 
-void Saving::holdCase(std::shared_ptr<const formats::Case> value) {
+void Saving::holdCase(const Document& document) {
+  const bool areInCase = caseWithSeeds(document) == document.value;
   const std::lock_guard lock(m_mutex);
-  m_case = std::move(value);
+  m_case = document.value;
+  m_caseSeeds = areInCase ? document.seeds : nullptr;
 }
 
 void Saving::holdSeeds(std::shared_ptr<const Seeds> seeds) {
@@ -76,10 +67,10 @@ fs::path Saving::place(const Document& document) const {
 
 UnsavedParts Saving::unsaved(const Document& document) const {
   const std::lock_guard lock(m_mutex);
-  const bool areInCase = document.fileOf(FileRole::Seeds) == nullptr && areTracked(document);
-  const bool otherSeeds = m_seeds ? document.seeds != m_seeds : !document.seeds->empty();
-  return {document.value && document.value != m_case, otherSeeds && !areInCase,
-          document.proposals != nullptr};
+  const bool areHeld = m_seeds ? document.seeds == m_seeds : document.seeds->empty();
+  const bool hasCase = document.value != nullptr;
+  return {hasCase && (document.value != m_case || (document.seeds != m_caseSeeds && !areHeld)),
+          !hasCase && !areHeld, document.proposals != nullptr};
 }
 
 fs::path Saving::checkedTarget(const Document& document, bool force) const {
@@ -93,20 +84,29 @@ fs::path Saving::checkedTarget(const Document& document, bool force) const {
   return file;
 }
 
+void Saving::saveSeeds(const Document& document) {
+  const OpenFile* file = document.fileOf(FileRole::Seeds);
+  const std::lock_guard lock(m_mutex);
+  if (file == nullptr || file->path.empty() || document.seeds == m_seeds) return;
+  Seeds seeds = *document.seeds;
+  convert::dropOtherParents(seeds);
+  for (convert::SeedBranch& seed : seeds) seed.isTracked = false;
+  if (!seeds.empty()) convert::writeSeeds(seeds, file->path);
+  m_seeds = document.seeds;
+}
+
 fs::path Saving::save(Document& document, bool force) {
   const fs::path file = checkedTarget(document, force);
   Progress silent;
-  engine::caseOutputFormat(file, "", "the saved case").writeCase(*document.value, file, {}, silent);
-  const OpenFile* seeds = document.fileOf(FileRole::Seeds);
-  const bool haveFile = seeds != nullptr && !seeds->path.empty();
-  if (haveFile && unsaved(document).hasSeeds) convert::writeSeeds(*document.seeds, seeds->path);
+  engine::caseOutputFormat(file, "", "the saved case")
+      .writeCase(*caseWithSeeds(document), file, {}, silent);
+  saveSeeds(document);
   for (OpenFile& open : document.files)
     if ((open.role == FileRole::Case || open.role == FileRole::Seeds) && !open.path.empty())
       open.stamp = readFileStamp(open.path);
   const std::lock_guard lock(m_mutex);
   m_case = document.value;
-  // seeds that wait and have no file stay unsaved work
-  if (haveFile || areTracked(document)) m_seeds = document.seeds;
+  m_caseSeeds = document.seeds;
   m_stamp = readFileStamp(file);
   return file;
 }

@@ -12,7 +12,8 @@ namespace lumen::viewer {
 
 /// The parts of a document that no file holds.
 struct UnsavedParts {
-  bool hasCase = false, hasSeeds = false;
+  bool hasCase = false;   ///< or its seeds
+  bool hasSeeds = false;  ///< where there is no case
   /// Proposals wait: they are kept, but a document without a decision on them can be saved.
   bool hasProposals = false;
   [[nodiscard]] bool any() const { return hasCase || hasSeeds; }
@@ -29,8 +30,9 @@ public:
   /// Another program's version of the file was read: if it is the target, it may be overwritten.
   void acceptTarget(const std::filesystem::path& file);
 
-  /// Files hold these parts.
-  void holdCase(std::shared_ptr<const formats::Case> value);
+  /// The file of the case holds the document's case, and its seeds if these are in that case.
+  void holdCase(const Document& document);
+  /// A file of seeds holds these.
   void holdSeeds(std::shared_ptr<const Seeds> seeds);
 
   /// The target, or an empty path: a dropped case, which has replaced the one of the target, is
@@ -39,7 +41,8 @@ public:
   /// The file beside which unsaved work is kept.
   [[nodiscard]] std::filesystem::path place(const Document& document) const;
   [[nodiscard]] UnsavedParts unsaved(const Document& document) const;
-  /// Writes the case into the target and changed seeds into their own file; returns the target and
+  /// Writes the case, with all seeds, into the target, and changed seeds into their own file if they
+  /// have one; returns the target and
   /// gives these files of `document` their new stamps. Throws Conflict if another program has
   /// changed the target, unless `force`; Error(Usage) if there is no case or no target. One call at
   /// a time.
@@ -48,6 +51,8 @@ public:
 private:
   /// Call it with the mutex held.
   [[nodiscard]] std::filesystem::path lockedTarget(const Document& document) const;
+  /// Writes changed seeds into their file, if they have one.
+  void saveSeeds(const Document& document);
   [[nodiscard]] std::filesystem::path checkedTarget(const Document& document, bool force) const;
 
   mutable std::mutex m_mutex;  ///< guards all that follow
@@ -55,7 +60,8 @@ private:
   FileStamp m_stamp;               ///< stamp of the target
   std::filesystem::path m_keepAt;  ///< counts where there is no target
   std::shared_ptr<const formats::Case> m_case;
-  std::shared_ptr<const Seeds> m_seeds;
+  std::shared_ptr<const Seeds> m_caseSeeds;  ///< in the file of the case
+  std::shared_ptr<const Seeds> m_seeds;      ///< in a file of seeds
 };
 
 }  // namespace lumen::viewer

@@ -8,6 +8,7 @@
 #include "converters/engine/file_format.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
+#include "viewer/session/document_seeds.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/source_match.h"
 
@@ -31,7 +32,7 @@ Json seedsJson(const Document& document) {
                     {"kind", formats::enumName(formats::kBranchKindNames, seed.kind)},
                     {"parent", orNull(seed.parent)},
                     {"points", std::move(points)},
-                    {"tracked", labels.contains(seed.label)}});
+                    {"tracked", isTracked(seed, labels)}});
   }
   return list;
 }

@@ -11,6 +11,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/container/printable.h"
+#include "viewer/session/document_seeds.h"
 
 namespace lumen::viewer {
 
@@ -80,32 +81,45 @@ void UnsavedWork::keepPart(fs::path& file, std::shared_ptr<const Part>& kept,
   if (!part) removeFile(file);
   if (part && part != kept) {
     if (file.empty()) file = freeName(m_place, ending);
-    write(*part, file);
+    write(part, file);
   }
   kept = part;
 }
 
-std::vector<fs::path> UnsavedWork::keep(const fs::path& place,
-                                        const std::shared_ptr<const formats::Case>& value,
-                                        const std::shared_ptr<const Seeds>& seeds,
-                                        const std::shared_ptr<const formats::Case>& proposals) {
+void UnsavedWork::forgetPlace(const fs::path& place) {
+  m_place = place;
+  m_caseFile.clear();
+  m_seedsFile.clear();
+  m_proposalsFile.clear();
+  m_case = nullptr;
+  m_caseSeeds = nullptr;
+  m_seeds = nullptr;
+  m_proposals = nullptr;
+}
+
+void UnsavedWork::keepCase(const std::shared_ptr<const formats::Case>& value,
+                           const std::shared_ptr<const Seeds>& seeds) {
+  if (seeds != m_caseSeeds) m_case = nullptr;  // written anew
+  keepPart(m_caseFile, m_case, value, kCase, [&seeds](const auto& part, const fs::path& file) {
+    Document document;
+    document.value = part;
+    document.seeds = seeds;
+    engine::writeCase(*caseWithSeeds(document), file, formats::CaseEncoding::Binary, {});
+  });
+  m_caseSeeds = seeds;
+}
+
+std::vector<fs::path> UnsavedWork::keep(const fs::path& place, const Document& document,
+                                        const UnsavedParts& parts) {
   const std::lock_guard lock(m_keepMutex);
-  if (place != m_place) {
-    m_place = place;
-    m_caseFile.clear();
-    m_seedsFile.clear();
-    m_proposalsFile.clear();
-    m_case = nullptr;
-    m_seeds = nullptr;
-    m_proposals = nullptr;
-  }
-  const auto write = [](const formats::Case& part, const fs::path& file) {
-    engine::writeCase(part, file, formats::CaseEncoding::Binary, {});
-  };
-  keepPart(m_caseFile, m_case, value, kCase, write);
-  keepPart(m_proposalsFile, m_proposals, proposals, kProposals, write);
-  keepPart(m_seedsFile, m_seeds, seeds, kSeeds,
-           [](const Seeds& part, const fs::path& file) { convert::writeSeeds(part, file); });
+  if (place != m_place) forgetPlace(place);
+  keepCase(parts.hasCase ? document.value : nullptr, document.seeds);
+  keepPart(m_proposalsFile, m_proposals, parts.hasProposals ? document.proposals : nullptr,
+           kProposals, [](const auto& part, const fs::path& file) {
+             engine::writeCase(*part, file, formats::CaseEncoding::Binary, {});
+           });
+  keepPart(m_seedsFile, m_seeds, parts.hasSeeds ? document.seeds : nullptr, kSeeds,
+           [](const auto& part, const fs::path& file) { convert::writeSeeds(*part, file); });
   std::vector<fs::path> copies;
   for (const fs::path& file : {m_caseFile, m_seedsFile, m_proposalsFile})
     if (!file.empty()) copies.push_back(file);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "viewer/session/document.h"
+#include "viewer/session/saving.h"
 
 namespace lumen::viewer {
 
@@ -25,13 +26,11 @@ bool holdsProposals(const std::filesystem::path& file);
 /// it takes the first free name and keeps it. All calls are thread-safe.
 class UnsavedWork {
 public:
-  /// Writes changed parts, each atomically, beside `place`; null for a part that is saved, whose
-  /// copy is removed. Copies beside another place stay there. Returns the copies that there are.
+  /// Writes those parts of the document that have changed, each atomically, beside `place`, the case
+  /// with all seeds. The copy of a part that is not among `parts`, as it is saved, is removed. Copies beside another place stay there. Returns the copies that there are.
   /// Throws as the writers.
   std::vector<std::filesystem::path> keep(const std::filesystem::path& place,
-                                          const std::shared_ptr<const formats::Case>& value,
-                                          const std::shared_ptr<const Seeds>& seeds,
-                                          const std::shared_ptr<const formats::Case>& proposals);
+                                          const Document& document, const UnsavedParts& parts);
 
   /// Looks for copies of an earlier program beside `place`, and returns them.
   std::vector<std::filesystem::path> find(const std::filesystem::path& place);
@@ -41,13 +40,17 @@ public:
   void remove(const std::filesystem::path& file);
 
 private:
+  void forgetPlace(const std::filesystem::path& place);
+  void keepCase(const std::shared_ptr<const formats::Case>& value,
+                const std::shared_ptr<const Seeds>& seeds);
   template <class Part, class Write>
   void keepPart(std::filesystem::path& file, std::shared_ptr<const Part>& kept,
                 const std::shared_ptr<const Part>& part, const char* ending, const Write& write);
 
-  std::mutex m_keepMutex;  ///< guards the next seven; never held with the other mutex
+  std::mutex m_keepMutex;  ///< guards the next eight; never held with the other mutex
   std::filesystem::path m_place, m_caseFile, m_seedsFile, m_proposalsFile;
   std::shared_ptr<const formats::Case> m_case;
+  std::shared_ptr<const Seeds> m_caseSeeds;  ///< written with the case
   std::shared_ptr<const Seeds> m_seeds;
   std::shared_ptr<const formats::Case> m_proposals;
 

@@ -16,6 +16,7 @@
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
+#include "viewer/session/document_seeds.h"
 #include "viewer/session/proposals.h"
 
 namespace lumen::viewer {
@@ -81,7 +82,7 @@ Seeds untrackedSeeds(const Document& document, const Arguments& request) {
     for (std::string& label : request.texts("labels")) wanted.insert(std::move(label));
   Seeds seeds;
   for (const convert::SeedBranch& seed : *document.seeds)
-    if (!known.contains(seed.label) && (wanted.empty() || wanted.contains(seed.label)))
+    if (!isTracked(seed, known) && (wanted.empty() || wanted.contains(seed.label)))
       seeds.push_back(seed);
   for (const convert::SeedBranch& seed : seeds) known.insert(seed.label);
   for (convert::SeedBranch& seed : seeds)

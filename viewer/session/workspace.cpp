@@ -82,9 +82,7 @@ Json Workspace::startJob(const std::string& name, bool changes, JobRunner::Work 
 std::vector<std::string> Workspace::keepUnsaved() {
   const Document document = history.now().document;
   const UnsavedParts parts = saving.unsaved(document);
-  return namesOf(unsavedWork.keep(saving.place(document), parts.hasCase ? document.value : nullptr,
-                                  parts.hasSeeds ? document.seeds : nullptr,
-                                  parts.hasProposals ? document.proposals : nullptr));
+  return namesOf(unsavedWork.keep(saving.place(document), document, parts));
 }
 
 std::vector<std::string> Workspace::findUnsaved() {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen seeds: the vessels of a volume as seeds for a person to edit.
+// lumen seeds: the vessels of a volume, or the seeds that a case holds, for a person to edit.
 #include "converters/io/seeds/seeds.h"
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "converters/base/vectors.h"
@@ -12,6 +13,8 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
+#include "converters/io/seeds/case_seeds.h"
+#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
@@ -48,15 +51,16 @@ class SeedsCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "seeds"; }
   [[nodiscard]] std::string summary() const override {
-    return "Find the vessels of a volume, and write them as seeds to edit";
+    return "Write the vessels of a volume, or the seeds that a case holds, as seeds to edit";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen seeds head.nrrd head.mrk.json        # curves that 3D Slicer shows\n"
-           "  lumen convert head.nrrd head.lumen --seeds head.mrk.json";
+           "  lumen convert head.nrrd head.lumen --seeds head.mrk.json\n"
+           "  lumen seeds head.lumen kept.mrk.json        # the seeds that the case holds";
   }
 
   void addRows(OptionTable& table) override {
-    table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
+    table.argument("INPUT", &m_input, "Volume or case");
     table.argument(
         "OUT", &m_output,
         "Seeds to write: curves of 3D Slicer if it ends in .mrk.json, else lumen's JSON");
@@ -66,33 +70,52 @@ public:
     m_options.addFoundRows(table);
     table.scope(kAnyContent);
     table.group("");
-    addFormatRow(table, "from", m_from, "VOLUME");
+    addFormatRow(table, "from", m_from, "INPUT");
   }
 
   Answer run(Surroundings& around) override {
     requireOrder(m_input, m_output);
-    requireInput(m_input, "volume");
+    requireInput(m_input, "volume or case");
     const FileFormat& from = inputFormat(m_input, m_from);
-    if (from.kind != FormatKind::Volume) {
+    if (from.kind != FormatKind::Volume && from.kind != FormatKind::Case) {
       const std::string other = convert::notA(convert::ContentKind::Volume, m_input);
-      throw unsupported(m_input + ": " +
-                        (other.empty() ? "this is not a volume, which lumen seeds reads" : other));
+      throw unsupported(
+          m_input + ": " +
+          (other.empty() ? "this is no volume and no case, which lumen seeds reads" : other));
     }
     requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, m_output},
                    around.progress);
     requireWritable(m_output, convert::ContentKind::Seeds);
     around.willWrite(m_output);
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    const formats::Case found = findAndTrack(volume, m_input, m_options, around.progress).result;
-    const std::vector<convert::SeedBranch> seeds = seedsOn(found);
-    convert::writeSeeds(seeds, m_output);
-    Json json;
-    json["seeds"] = seeds.size();
-    json["length_mm"] = caseSummary(found)["length_mm"];
-    return {json, m_output + ": " + counted(seeds.size(), "vessel", "vessels") + "\n"};
+    return from.kind == FormatKind::Case ? writeKept(from.readCase(m_input))
+                                         : writeFound(from, around.progress);
   }
 
 private:
+  [[nodiscard]] Answer answer(const std::vector<convert::SeedBranch>& seeds, Json length,
+                              const std::string& one, const std::string& many) const {
+    convert::writeSeeds(seeds, m_output);
+    Json json;
+    json["seeds"] = seeds.size();
+    json["length_mm"] = std::move(length);
+    return {json, m_output + ": " + counted(seeds.size(), one, many) + "\n"};
+  }
+
+  [[nodiscard]] Answer writeFound(const FileFormat& from, Progress& progress) const {
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    const formats::Case found = findAndTrack(volume, m_input, m_options, progress).result;
+    return answer(seedsOn(found), caseSummary(found)["length_mm"], "vessel", "vessels");
+  }
+
+  /// The seeds that the case holds, whether they are tracked or wait.
+  [[nodiscard]] Answer writeKept(const formats::Case& value) const {
+    std::vector<convert::SeedBranch> seeds = convert::seedsOf(value, m_input);
+    if (seeds.empty()) throw failed(formats::printable(m_input) + ": it holds no seeds");
+    for (convert::SeedBranch& seed : seeds) seed.isTracked = false;  // counts in a case alone
+    convert::dropOtherParents(seeds);
+    return answer(seeds, nullptr, "seed", "seeds");
+  }
+
   std::string m_input, m_output, m_from;
   VolumeArguments m_volume;
   convert::TrackOptions m_options;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -77,7 +79,8 @@ void checkLabel(const std::string& label, std::size_t number, const fs::path& fi
 using Labels = std::unordered_map<std::string, std::size_t>;
 
 /// Index of each label, after the checks that need one branch or a pair of them.
-Labels checkBranches(std::vector<SeedBranch>& branches, const fs::path& file) {
+Labels checkBranches(std::vector<SeedBranch>& branches, const fs::path& file,
+                     const std::set<std::string>& vessels) {
   Labels index;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     SeedBranch& branch = branches[i];
@@ -97,7 +100,7 @@ Labels checkBranches(std::vector<SeedBranch>& branches, const fs::path& file) {
     if (branch.parent && branch.isRoot)
       throw invalidInput(branchOf(file, branch) + "it is of kind root and has the parent " +
                          quotedText(*branch.parent) + "; expected one of both");
-    else if (branch.parent && !index.contains(*branch.parent))
+    else if (branch.parent && !index.contains(*branch.parent) && !vessels.contains(*branch.parent))
       throw invalidInput(branchOf(file, branch) + "its parent " + quotedText(*branch.parent) +
                          " is unknown; expected the label of another branch");
   return index;
@@ -129,8 +132,9 @@ std::vector<SeedBranch> parentsFirst(std::vector<SeedBranch> branches, const Lab
       if (state[at] == State::InChain) refuseCycle(branches, chain, at, file);
       state[at] = State::InChain;
       chain.push_back(at);
-      if (!branches[at].parent) break;
-      at = index.at(*branches[at].parent);
+      const auto parent = branches[at].parent ? index.find(*branches[at].parent) : index.end();
+      if (parent == index.end()) break;
+      at = parent->second;
     }
     for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
       state[*at] = State::Placed;
@@ -145,7 +149,8 @@ std::vector<SeedBranch> parentsFirst(std::vector<SeedBranch> branches, const Lab
 
 }  // namespace
 
-std::vector<SeedBranch> checkedSeeds(std::vector<SeedBranch> branches, const fs::path& file) {
+std::vector<SeedBranch> checkedSeeds(std::vector<SeedBranch> branches, const fs::path& file,
+                                     const std::set<std::string>& vessels) {
   const std::string name = printable(file.string());
   if (branches.empty())
     throw invalidInput(name + ": holds no seeds; expected at least one branch with a point");
@@ -153,7 +158,7 @@ std::vector<SeedBranch> checkedSeeds(std::vector<SeedBranch> branches, const fs:
     throw invalidInput(name + ": has " + std::to_string(branches.size()) +
                        " seeds; expected at most " + std::to_string(formats::kMaxBranches) +
                        ", which is what a case can hold; give one for each vessel");
-  const Labels index = checkBranches(branches, file);
+  const Labels index = checkBranches(branches, file, vessels);
   return parentsFirst(std::move(branches), index, file);
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "converters/io/seeds/seeds.h"
@@ -10,8 +12,10 @@
 namespace lumen::convert {
 
 /// Branches in file order, checked, with doubled points merged and unit directions, parents first.
-/// Throws Error(InvalidInput), naming `file` and the label.
+/// A parent is another branch, or one of `vessels`. Throws Error(InvalidInput), naming `file` and
+/// the label.
 std::vector<SeedBranch> checkedSeeds(std::vector<SeedBranch> branches,
-                                     const std::filesystem::path& file);
+                                     const std::filesystem::path& file,
+                                     const std::set<std::string>& vessels = {});
 
 }  // namespace lumen::convert

@@ -46,7 +46,8 @@ struct SeedBranch {
   std::optional<Eigen::Vector3d> direction;  ///< unit, LPS
   /// Frame of its coordinates; Voxel until they are placed (place_seeds.h).
   SeedFrame frame{};
-  bool isRoot = false;  ///< blood comes in through its end nearest to the first point
+  bool isRoot = false;     ///< blood comes in through its end nearest to the first point
+  bool isTracked = false;  ///< the case that it lies in was tracked with it (case_seeds.h)
 };
 
 /// A seed that started no track, or a point of one that the track does not pass through.

@@ -47,7 +47,8 @@ void spreadRadius(SeedBranch& branch, double radius) {
 }
 
 SeedBranch parseBranch(const JsonPlace& place, const SeedFrame& frame) {
-  place.onlyKeys({"label", "kind", "parent", "points", "radius", "direction", "comment"});
+  place.onlyKeys(
+      {"label", "kind", "parent", "points", "radius", "direction", "comment", "tracked"});
   SeedBranch branch;
   branch.frame = frame;
   branch.label = place.at("label").text();
@@ -60,6 +61,7 @@ SeedBranch parseBranch(const JsonPlace& place, const SeedFrame& frame) {
   if (place.has("radius")) spreadRadius(branch, frame.unit * place.at("radius").number());
   if (place.has("direction")) branch.direction = frame.direction(place.at("direction").vector());
   if (place.has("comment")) (void)place.at("comment").text();
+  if (place.has("tracked")) branch.isTracked = place.at("tracked").boolean();
   return branch;
 }
 
@@ -72,6 +74,7 @@ std::string branchText(const SeedBranch& branch) {
   text += "      \"kind\": \"" + kindOf(branch) + "\",\n";
   if (branch.parent) text += "      \"parent\": " + json(*branch.parent).dump() + ",\n";
   if (branch.direction) text += "      \"direction\": " + jsonText(*branch.direction) + ",\n";
+  if (branch.isTracked) text += "      \"tracked\": true,\n";
   text += "      \"points\": [\n";
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
     const SeedPoint& p = branch.points[i];

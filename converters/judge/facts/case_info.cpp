@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "converters/base/error.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/topology.h"
 
@@ -32,6 +33,11 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   if (value.models) info.blobs = value.models->centre.size();
   info.links = value.tree.links.size();
   for (const auto& array : value.nodeArrays) info.nodeArrays.push_back(array.name);
+  try {
+    info.seeds = countSeeds(value, "the case");
+  } catch (const Error& error) {
+    progress.warn(error.what());
+  }
   info.length = totalLength(value.tree);
   if (info.nodes > 0) info.radius = radiusRange(value.tree.radius);
   info.errorOfFit = fittedError(value, progress);

@@ -8,6 +8,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/base/tree_figures.h"
+#include "converters/io/seeds/case_seeds.h"
 #include "converters/judge/facts/reachable.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/case.h"
@@ -30,6 +31,7 @@ struct CaseInfo {
   std::optional<std::size_t> blobs;
   std::size_t links = 0;
   std::vector<std::string> nodeArrays;          ///< names
+  std::optional<SeedCounts> seeds;              ///< absent if they cannot be read
   double length = 0;                            ///< mm
   std::optional<RadiusRange> radius;            ///< absent without nodes
   std::optional<ErrorOfFitSummary> errorOfFit;  ///< over the nodes
@@ -38,6 +40,7 @@ struct CaseInfo {
   formats::Metadata metadata;
 };
 
+/// Warns if the case holds seeds that cannot be read.
 CaseInfo describeCase(const formats::Case& value, Progress& progress);
 
 }  // namespace lumen::convert

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/judge/facts/examination.h"
 
+#include <optional>
 #include <utility>
 
+#include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/privacy.h"
 #include "converters/base/text.h"
 #include "converters/io/content/file_content.h"
+#include "converters/io/seeds/case_seeds.h"
 #include "converters/judge/facts/reachable.h"
 
 namespace lumen::convert {
@@ -17,7 +20,8 @@ using formats::ErrorCode;
 using formats::Issue;
 using formats::ValidationReport;
 
-constexpr int kClosedEdge = 651;  // not a rule of the format: see spec/errors.md
+// not rules of the format: see spec/errors.md
+constexpr int kClosedEdge = 651, kSeedsUnreadable = 653;
 
 Remark remarkOf(const Issue& issue) {
   return {formats::errorName(issue.code),
@@ -55,6 +59,22 @@ Remark remarkOf(const ClosedPath& path) {
           code + " at " + pointer + ": " + message};
 }
 
+/// The remark on seeds that cannot be read, if there are any.
+std::optional<Remark> seedsRemark(const formats::Case& value) {
+  try {
+    (void)seedsOf(value, "the case");
+    return std::nullopt;
+  } catch (const Error& error) {
+    Remark remark;
+    remark.code = "SEEDS";
+    remark.number = kSeedsUnreadable;
+    remark.severity = formats::severityName(formats::Severity::Warning);
+    remark.message = error.what();
+    remark.text = remark.code + " at file: " + remark.message;
+    return remark;
+  }
+}
+
 /// The issue; its message names the file's kind if that is another than a case.
 Issue named(Issue issue, const std::string& file) {
   const std::string other = notA(ContentKind::Case, file);
@@ -82,14 +102,17 @@ FileReport examineBytes(std::span<const std::byte> bytes, const std::string& fil
   for (const Issue& issue : report.issues)
     result.remarks.push_back(
         remarkOf(issue.code == ErrorCode::NotLumen ? named(issue, file) : issue));
-  const auto warn = [&](const auto& finding) {
+  const auto addWarning = [&](Remark remark) {
     ++result.counts.warnings;
-    if (result.remarks.size() < maxIssues) result.remarks.push_back(remarkOf(finding));
+    if (result.remarks.size() < maxIssues) result.remarks.push_back(std::move(remark));
   };
+  const auto warn = [&](const auto& finding) { addWarning(remarkOf(finding)); };
   if (result.valid) {
-    if (const auto value = formats::decodeCase(bytes))
+    if (const auto value = formats::decodeCase(bytes)) {
+      if (auto remark = seedsRemark(*value)) addWarning(*std::move(remark));
       if (const auto reach = measureReach(*value, progress))
         for (const ClosedPath& path : reach->closed) warn(path);
+    }
   }
   if (!privacy) return result;
   for (const PrivacyFinding& finding : scanPrivacy(bytes)) {

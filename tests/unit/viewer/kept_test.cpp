@@ -258,33 +258,79 @@ TEST_F(UnsavedTest, SeedsAreKeptBesideTheirVolume) {
   EXPECT_EQ(state()["seeds"][0]["label"], "a");
 }
 
-TEST_F(UnsavedTest, SeedsThatWaitBesideACaseAreKeptUntilTheyAreTracked) {
-  writeTube("tube.nrrd");
-  writeCase("two.lumen", twoVessels());
-  serve({"tube.nrrd", "two.lumen"});
-  const auto place = [this](const std::string& label) {
+/// A case and its volume, in which the seed "waits" is placed.
+class WaitingSeedTest : public UnsavedTest {
+protected:
+  void SetUp() override {
+    UnsavedTest::SetUp();
+    writeTube("tube.nrrd");
+    writeCase("two.lumen", twoVessels());
+    serve({"tube.nrrd", "two.lumen"});
     ASSERT_EQ(perform({{"op", "seedAdd"},
-                       {"label", label},
-                       {"points", Json::array({{{"position", {6.4, 6.4, 6.4}}}})}})
+                       {"label", "waits"},
+                       {"points", Json::array({{{"position", {6.4, 6.4, 6.4}}, {"radius", 1.5}}})}})
                   .status,
               200);
-  };
-  place("waits");
-  const std::vector kept{path("two.unsaved.seeds.json").string()};
-  EXPECT_EQ(session->keepUnsaved(), kept);
-  EXPECT_EQ(state()["unsaved"], true);
-  ASSERT_EQ(perform({{"op", "save"}}).status, 200);  // a case does not hold them
-  EXPECT_EQ(session->keepUnsaved(), kept);
-  EXPECT_EQ(state()["unsaved"], true);
+  }
+  void expectItWaits() {
+    ASSERT_EQ(state()["seeds"].size(), 1U);
+    EXPECT_EQ(state()["seeds"][0]["label"], "waits");
+    EXPECT_EQ(state()["seeds"][0]["tracked"], false);
+    EXPECT_EQ(state()["seeds"][0]["points"][0]["radius"], 1.5);
+  }
+  const std::vector<std::string> m_kept{path("two.unsaved.lumen").string()};
+};
 
+TEST_F(WaitingSeedTest, IsSavedWithTheCaseAndWaitsWhenThatIsOpenedAgain) {
+  EXPECT_EQ(state()["unsaved"], true);
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);
+  EXPECT_EQ(state()["unsaved"], false);
+  EXPECT_TRUE(session->keepUnsaved().empty());
   serve({"tube.nrrd", "two.lumen"});
-  ASSERT_EQ(session->findUnsaved(), kept);
+  EXPECT_EQ(state()["unsaved"], false);
+  expectItWaits();
+}
+
+TEST_F(WaitingSeedTest, IsKeptWithUnsavedWorkAndRecovered) {
+  EXPECT_EQ(session->keepUnsaved(), m_kept);
+  const auto written = fs::last_write_time(m_kept.front());
+  EXPECT_EQ(session->keepUnsaved(), m_kept);
+  EXPECT_EQ(fs::last_write_time(m_kept.front()), written);  // nothing has changed since
+  serve({"tube.nrrd", "two.lumen"});
+  EXPECT_EQ(state()["seeds"].size(), 0U);
+  ASSERT_EQ(session->findUnsaved(), m_kept);
   performAll({{"op", "recover"}, {"index", 0}});
-  EXPECT_EQ(state()["seeds"][0]["label"], "waits");
-  EXPECT_EQ(state()["hasCase"], true);
+  expectItWaits();
+  EXPECT_EQ(state()["unsaved"], true);
+}
+
+TEST_F(WaitingSeedTest, IsProvenanceOnceItIsTracked) {
   performAll({{"op", "track"}});
   ASSERT_EQ(perform({{"op", "save"}}).status, 200);
   EXPECT_EQ(state()["unsaved"], false);
+  serve({"tube.nrrd", "two.lumen"});
+  ASSERT_EQ(state()["seeds"].size(), 1U);
+  EXPECT_EQ(state()["seeds"][0]["tracked"], true);
+  const auto again = perform({{"op", "track"}});
+  EXPECT_EQ(again.status, 400);  // nothing waits
+}
+
+TEST_F(WaitingSeedTest, IsInADownloadedCaseAndBesideAnotherCaseThatIsOpened) {
+  write("copy.lumen", get("save?format=lumen").body);
+  serve({"tube.nrrd", "copy.lumen"});
+  expectItWaits();
+  EXPECT_EQ(state()["unsaved"], false);
+  ASSERT_EQ(perform({{"op", "seedAdd"},
+                     {"label", "more"},
+                     {"points", Json::array({{{"position", {6.4, 6.4, 8.0}}}})}})
+                .status,
+            200);
+  std::ifstream stream(path("two.lumen"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  ASSERT_EQ(post("file?name=two.lumen&as=auto", bytes).status, 200);
+  waitForJob();
+  EXPECT_EQ(state()["seeds"].size(), 2U);
+  EXPECT_EQ(state()["unsaved"], true);
 }
 
 }  // namespace lumen::test
