@@ -8,6 +8,7 @@
 #include "converters/judge/facts/case_info.h"
 #include "converters/judge/facts/reachable.h"
 #include "converters/stages/fitting/error_of_fit.h"
+#include "formats/case/edited_walls.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"
@@ -90,12 +91,19 @@ void addOrigins(PackWriter& pack, const formats::Case& value) {
   pack.add("origin", origins);
 }
 
+void addEdited(PackWriter& pack, const formats::Case& value) {
+  const std::vector<bool> edited = formats::readEditedWalls(value);
+  if (std::find(edited.begin(), edited.end(), true) != edited.end())
+    pack.add("edited", std::vector<std::uint8_t>(edited.begin(), edited.end()));
+}
+
 }  // namespace
 
 std::string casePack(const formats::Case& value, bool withPoints, Progress& progress) {
   PackWriter pack;
   addNodes(pack, value.tree);
   addOrigins(pack, value);
+  addEdited(pack, value);
   if (value.points && value.models)
     pack.add("error",
              convert::errorOfFit(value, convert::fittedNeighbourhood(value.metadata), progress));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/stages/editing/wall_edits.h"
 #include "formats/case/enum_names.h"
 
 namespace lumen::viewer {
@@ -83,6 +84,33 @@ constexpr NamedEdit kEdits[] = {
        return [n = nodeIn(request, tree), p = request.position("position"),
                r = request.number("radius")](formats::Case& value) {
          return convert::moveNode(value, n, p, r);
+       };
+     }},
+    {"widen",
+     [](const Arguments& request, const Tree& tree) -> Edit {
+       return [n = nodeIn(request, tree), radius = request.number("radius"),
+               reach = request.number("reach")](formats::Case& value) {
+         return convert::widenAround(value, n, radius, reach);
+       };
+     }},
+    {"push",
+     [](const Arguments& request, const Tree& tree) -> Edit {
+       return [n = nodeIn(request, tree),
+               stroke = convert::Stroke{request.position("at"), request.position("by"),
+                                        request.number("radius")}](formats::Case& value) {
+         return convert::pushWall(value, n, stroke);
+       };
+     }},
+    {"nodeAdd",
+     [](const Arguments& request, const Tree& tree) -> Edit {
+       return [n = nodeIn(request, tree)](formats::Case& value) {
+         return convert::addNodeBehind(value, n);
+       };
+     }},
+    {"nodeDelete",
+     [](const Arguments& request, const Tree& tree) -> Edit {
+       return [n = nodeIn(request, tree)](formats::Case& value) {
+         return convert::deleteNode(value, n);
        };
      }},
     {"kind",

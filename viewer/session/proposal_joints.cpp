@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/tracking/tracked_tree.h"
+#include "formats/case/edited_walls.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "viewer/session/proposals.h"
@@ -51,7 +52,8 @@ Case readyToGrow(const Case& known, std::vector<std::string>& dropped) {
   Case out = known;
   if (!out.points) out.points.emplace().offset.assign(known.tree.nodeCount() + 1, 0);
   std::erase_if(out.nodeArrays, [&](const formats::NodeArray& array) {
-    if (array.name == formats::kOriginArray) return false;
+    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray)
+      return false;
     dropped.push_back(array.name);
     return true;
   });

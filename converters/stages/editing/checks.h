@@ -9,6 +9,9 @@
 
 namespace lumen::convert {
 
+/// mm: positions and lengths beyond are implausible in a patient, and their squares still fit a float.
+constexpr double kFarthest = 1e6;
+
 /// Throw Error(InvalidInput) for an index out of range.
 void requireBranch(const formats::Case& value, std::uint32_t branch);
 void requireNode(const formats::Case& value, std::uint32_t node);

@@ -8,6 +8,7 @@
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/fitting/refit.h"
+#include "formats/case/edited_walls.h"
 #include "formats/case/validate.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
@@ -46,9 +47,10 @@ struct Draft::Layout {
 Draft::Draft(const Case& value) : links(value.tree.links), m_case(value) {
   const formats::CenterlineTree& tree = value.tree;
   const auto origins = formats::readNodeOrigins(value);
+  const auto edited = formats::readEditedWalls(value);
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
     nodes.push_back({i, tree.centre[i], tree.direction[i], tree.radius[i], tree.height[i],
-                     tree.inlierRate.empty() ? 0 : tree.inlierRate[i], origins[i]});
+                     tree.inlierRate.empty() ? 0 : tree.inlierRate[i], origins[i], edited[i]});
   for (const formats::Branch& branch : tree.branches) {
     DraftBranch draft{branch, kNoNode, {}};
     if (branch.parentNode != formats::kNoParent)
@@ -152,15 +154,25 @@ void Draft::putLinks(const Layout& layout, Case& out) const {
   std::sort(out.tree.links.begin(), out.tree.links.end());
 }
 
+std::vector<std::vector<std::uint32_t>> Draft::pointsByOwner() const {
+  const formats::PointSets& points = *m_case.points;
+  std::vector<std::vector<std::uint32_t>> owned(nodes.size());
+  for (std::uint32_t node = 0; node + 1 < points.offset.size(); ++node)
+    for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k)
+      owned[pointOwner.empty() ? node : pointOwner[k]].push_back(k);
+  return owned;
+}
+
 void Draft::putPoints(const Layout& layout, Case& out) const {
   if (!m_case.points) return;
   const formats::PointSets& points = *m_case.points;
   out.points.emplace();
   out.points->offset.push_back(0);
-  for (const std::uint32_t node : layout.before) {
-    if (node != kNewNode)
-      for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k)
-        if (isGone.empty() || !isGone[k]) out.points->position.push_back(points.position[k]);
+  const std::vector<Vec3f>& places = pointPosition.empty() ? points.position : pointPosition;
+  const std::vector<std::vector<std::uint32_t>> owned = pointsByOwner();
+  for (const std::uint32_t node : layout.nodes) {
+    for (const std::uint32_t k : owned[node])
+      if (isGone.empty() || !isGone[k]) out.points->position.push_back(places[k]);
     out.points->offset.push_back(static_cast<std::uint32_t>(out.points->position.size()));
   }
 }
@@ -187,7 +199,7 @@ void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
   const bool hasNew =
       std::find(layout.before.begin(), layout.before.end(), kNewNode) != layout.before.end();
   for (const formats::NodeArray& array : m_case.nodeArrays) {
-    if (array.name == formats::kOriginArray) continue;
+    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray) continue;
     if (hasNew) {
       change.droppedArrays.push_back(array.name);
       continue;
@@ -201,8 +213,13 @@ void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
     out.nodeArrays.push_back(std::move(kept));
   }
   std::vector<formats::NodeOrigin> origins;
-  for (const std::uint32_t node : layout.nodes) origins.push_back(nodes[node].origin);
+  std::vector<bool> edited;
+  for (const std::uint32_t node : layout.nodes) {
+    origins.push_back(nodes[node].origin);
+    edited.push_back(nodes[node].isEdited);
+  }
   formats::setNodeOrigins(out, origins);
+  formats::setEditedWalls(out, edited);
 }
 
 Change Draft::finish(Case& target, const std::string& sentence) const {

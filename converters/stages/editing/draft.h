@@ -22,6 +22,7 @@ struct DraftNode {
   formats::Vec3f centre{}, direction{};
   float radius = 0, height = 0, inlierRate = 0;
   formats::NodeOrigin origin = formats::NodeOrigin::Measured;
+  bool isEdited = false;  ///< its wall was changed by hand
 };
 
 struct DraftBranch {
@@ -45,7 +46,10 @@ public:
   std::vector<DraftNode> nodes;
   std::vector<DraftBranch> branches;
   std::vector<std::array<std::uint32_t, 2>> links;
-  std::vector<bool> isGone;  ///< for each wall point of the case; may be empty
+  // for each wall point of the case; empty: all are there, as they are
+  std::vector<bool> isGone;
+  std::vector<formats::Vec3f> pointPosition;
+  std::vector<std::uint32_t> pointOwner;  ///< the node of the draft that it belongs to
 
   /// The branch of a node of the case, before anything was moved.
   [[nodiscard]] std::uint32_t branchOf(std::uint32_t node) const {
@@ -68,6 +72,8 @@ private:
   [[nodiscard]] Layout layOut() const;
   void putTree(const Layout& layout, formats::Case& out) const;
   void putLinks(const Layout& layout, formats::Case& out) const;
+  /// The wall points of each node of the draft, in the order of the case.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> pointsByOwner() const;
   void putPoints(const Layout& layout, formats::Case& out) const;
   void putModels(const Layout& layout, formats::Case& out) const;
   void putArrays(const Layout& layout, formats::Case& out, Change& change) const;

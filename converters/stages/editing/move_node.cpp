@@ -19,8 +19,6 @@ using formats::Case;
 
 /// Nodes along the branch whose wall points may lie in a node's section: cylinders overlap by half.
 constexpr std::uint32_t kBeside = 4;
-/// mm: positions beyond are implausible in a patient, and their squares still fit a float.
-constexpr double kFarthest = 1e6;
 
 /// The part of a vessel that a node stands for: between the planes halfway to its neighbours.
 struct Section {

@@ -17,6 +17,7 @@
 #include "converters/stages/tracking/track_by_depth.h"
 #include "converters/stages/tracking/tree_joins.h"
 #include "converters/stages/tracking/wall_review.h"
+#include "formats/case/edited_walls.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "formats/container/printable.h"
@@ -145,7 +146,8 @@ std::string sentenceOn(const SeedBranch& seed) {
 
 void dropOtherArrays(AddedTracks& out) {
   std::erase_if(out.result.nodeArrays, [&](const formats::NodeArray& array) {
-    if (array.name == formats::kOriginArray) return false;
+    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray)
+      return false;
     out.droppedArrays.push_back(array.name);
     return true;
   });

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "converters/base/vectors.h"
+#include "formats/case/edited_walls.h"
 
 namespace lumen::convert {
 namespace {
@@ -134,12 +135,15 @@ void appendTracks(const TrackedTree& tree, formats::Case& target) {
   for (std::size_t i = 0; i < tree.known; ++i)
     firstNode[i] = static_cast<std::int32_t>(target.tree.branches[i].firstNode);
   std::vector<formats::NodeOrigin> origins = formats::readNodeOrigins(target);
+  std::vector<bool> edited = formats::readEditedWalls(target);
   for (const std::size_t i : parentsFirst(tree)) {
     firstNode[i] = static_cast<std::int32_t>(target.tree.nodeCount());
     appendBranch(tree.seeds[i], tree.branches[i], firstNode, target);
     for (const TrackedNode& node : tree.branches[i].nodes) origins.push_back(node.origin);
   }
   setNodeOrigins(target, origins);
+  edited.resize(target.tree.nodeCount(), false);
+  setEditedWalls(target, edited);
 }
 
 formats::Case caseOfTracks(const TrackedTree& tree) {

@@ -13,6 +13,7 @@
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/centerline/read_swc.h"
 #include "converters/stages/editing/edit.h"
+#include "converters/stages/editing/wall_edits.h"
 #include "converters/stages/phantom/phantom.h"
 #include "formats/case/case_file.h"
 #include "formats/case/topology.h"
@@ -48,7 +49,7 @@ Change randomEdit(Case& value, Random& random) {
     return random.below(static_cast<std::uint32_t>(value.tree.nodeCount() + 1));
   };
   const bool coin = random.uniform() < 0.5;
-  switch (random.below(10)) {
+  switch (random.below(14)) {
     case 0:
       return deleteBranch(value, branch(), coin ? Hanging::Stay : Hanging::Go);
     case 1:
@@ -66,6 +67,20 @@ Change randomEdit(Case& value, Random& random) {
     case 8:
       return coin ? setKind(value, branch(), formats::BranchKind::Aneurysm)
                   : renameBranch(value, branch(), "name " + std::to_string(random.below(20)));
+    case 9:
+      return addNodeBehind(value, node());
+    case 10:
+      return deleteNode(value, node());
+    case 11:
+      return widenAround(value, node(), 0.5 + random.uniform(), 3 * random.uniform());
+    case 12: {
+      const std::uint32_t at = node();
+      const formats::Vec3f centre =
+          at < value.tree.nodeCount() ? value.tree.centre[at] : formats::Vec3f{};
+      return pushWall(
+          value, at,
+          {toEigen(centre) + Vector3d(0, 1, 0), Vector3d(0.1, 0.3, -0.2), 2 * random.uniform()});
+    }
     default: {
       const std::uint32_t moved = node();
       if (moved == value.tree.nodeCount()) return moveNode(value, moved, Vector3d::Zero(), 1);

@@ -137,6 +137,11 @@ TEST_F(WorkTest, AnUnknownOperationIsCalledUnknownWithAndWithoutACase) {
 TEST_F(WorkTest, EveryChangeIsUndoneAndDoneAgainToTheSameCaseUnderNewRevisions) {
   formats::Case two = twoVessels();
   two.models.reset();  // so that nothing has to be fitted
+  two.points.emplace().offset.push_back(0);
+  for (const formats::Vec3f& c : two.tree.centre) {
+    two.points->position.push_back({c.x, c.y + 1, c.z});
+    two.points->offset.push_back(two.points->offset.back() + 1);
+  }
   writeCase("two.lumen", two);
   const auto last = two.tree.nodeCount() - 1;
   const std::vector<Json> changes = {
@@ -147,6 +152,10 @@ TEST_F(WorkTest, EveryChangeIsUndoneAndDoneAgainToTheSameCaseUnderNewRevisions) 
       {{"op", "rename"}, {"branch", 1}, {"label", "ica"}},
       {{"op", "kind"}, {"branch", 1}, {"kind", "aneurysm"}},
       {{"op", "move"}, {"node", last}, {"position", {5.5, 10, 0.5}}, {"radius", 0.9}},
+      {{"op", "widen"}, {"node", 3}, {"radius", 1.4}, {"reach", 2}},
+      {{"op", "push"}, {"node", 3}, {"at", {3, 1, 0}}, {"by", {0, 0.4, 0}}, {"radius", 0.8}},
+      {{"op", "nodeAdd"}, {"node", 3}},
+      {{"op", "nodeDelete"}, {"node", 3}},
       {{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}};
   for (const Json& change : changes) {
     serve({"two.lumen"});
