@@ -10,6 +10,7 @@ void Findings::setCheck(Json answer, std::vector<WorkItem> work,
   const std::lock_guard lock(m_mutex);
   m_check = std::move(answer);
   m_work = std::move(work);
+  m_worked = nullptr;
   m_checked = std::move(of);
 }
 
@@ -25,7 +26,7 @@ void Findings::clear() {
   const std::lock_guard lock(m_mutex);
   m_check = m_figures = nullptr;
   m_work.clear();
-  m_checked = m_compared = m_truth = nullptr;
+  m_checked = m_compared = m_truth = m_worked = nullptr;
 }
 
 Json Findings::check() const {
@@ -35,7 +36,12 @@ Json Findings::check() const {
 
 Json Findings::work(const Document& document) const {
   const std::lock_guard lock(m_mutex);
-  return m_check.is_object() && document.value ? workJson(m_work, *document.value) : Json(nullptr);
+  if (!m_check.is_object() || !document.value) return nullptr;
+  if (m_worked != document.value) {
+    m_workJson = workJson(m_work, *document.value);
+    m_worked = document.value;
+  }
+  return m_workJson;
 }
 
 WorkItem Findings::workItem(std::size_t number) const {

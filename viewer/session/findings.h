@@ -37,6 +37,8 @@ private:
   Json m_check, m_figures;
   std::vector<WorkItem> m_work;
   std::shared_ptr<const formats::Case> m_checked, m_compared, m_truth;
+  mutable std::shared_ptr<const formats::Case> m_worked;  ///< case that m_workJson is of, or null
+  mutable Json m_workJson;
 };
 
 }  // namespace lumen::viewer
