@@ -116,6 +116,7 @@ def make_cases(lumen, folder):
     (folder / "astray.json").write_text(json.dumps(dict(seeds, branches=seeds["branches"] + [air])))
     go("track.schema.json", "track", "a.nrrd", "tracked.lumen", "--seeds", "astray.json")
     go("fit.schema.json", "fit", "tracked.lumen", "fitted.lumen")
+    go("trim.schema.json", "trim", "fitted.lumen", "trimmed.lumen", "--min-length", "1")
     go("convert.schema.json", "convert", "a.nrrd", "made.lumen.json", "--seeds", "astray.json")
     hold_or_silent("convert.schema.json", run(lumen, folder, "convert", "a.nrrd", "strict.lumen", "--seeds", "astray.json", "--strict"),
                    "convert --strict")
@@ -130,6 +131,7 @@ def make_cases(lumen, folder):
     (folder / "fork.json").write_text(json.dumps(dict(fork, branches=fork["branches"][:1])))
     go("convert.schema.json", "convert", "fork.nrrd", "trunk.lumen", "--seeds", "fork.json", "--seeds-only")
     go("check.schema.json", "check", "fork.nrrd", "trunk.lumen")
+    go("trim.schema.json", "trim", "proposed.lumen", "trimmed.lumen", "--min-radius", "0.1")
     for case in ("fitted.lumen", "vessel.lumen"): go("check.schema.json", "check", "a.nrrd", case)
     go("picture.schema.json", "picture", "fitted.lumen", "fitted.png", "--size", "200x160")
     go("picture.schema.json", "picture", "fitted.lumen", "turn.png", "--size", "64x64", "--turntable", "3")
@@ -198,6 +200,7 @@ def bad_input(lumen, folder):
         say("info-volume.schema.json" if name.endswith("nrrd") else "info-case.schema.json", "info", name)
         say("info-chunks.schema.json", "info", name, "--chunks")
         say("fit.schema.json", "fit", name, "out.lumen")
+        say("trim.schema.json", "trim", name, "out.lumen", "--min-length", "1")
         say("compare.schema.json", "compare", name, name)
         say("check.schema.json", "check", "a.nrrd", name)
         say("picture.schema.json", "picture", name, "out.png")

@@ -48,6 +48,7 @@ def roles(file, seeds, good):
         yield f"convert to {output[3:]}", ["convert", file, output, "--seeds", seeds]
     yield "track", ["track", file, "out.lumen", "--seeds", seeds]
     yield "fit", ["fit", file, "out.lumen"]
+    yield "trim", ["trim", file, "out.lumen", "--min-length", "1"]
     yield "compare", ["compare", file, file]
     yield "track --seeds", ["track", good / "tube.nrrd", "out.lumen", "--seeds", file]
     yield "--config", ["info", good / "case.lumen", "--config", file]

@@ -45,12 +45,13 @@ struct Effect {
 /// | vessels.scn | a scene that loads its surface and another mesh |
 /// | tracked.lumen, case.lumen, tree.lumen | its case with points, with models too, without both |
 /// | two.nrrd, two.json, two.lumen | two vessels that touch, and clicks on them |
-/// | apart.nrrd, apart.lumen, apart-labels.nrrd | two vessels that are apart, in two trees |
+/// | apart.nrrd, apart.lumen, apart-labels.nrrd, apart.stl | two vessels that are apart, in two trees |
 /// | apart.json, one.json | clicks on both of them, and on one |
 /// | series | a folder of DICOM: the tube as series 1, the other two vessels as series 2 |
 /// | times.nii | both as a volume of two times |
 /// | header/tube.nhdr | a header of voxels outside of its folder |
 /// | header/vessels.scn | a scene of a mesh outside of its folder |
+/// | ends.lumen | a vessel with a thin branch and a short one |
 /// | table.csv | names of labels |
 class ScopeTest : public CliTest {
 protected:

@@ -8,7 +8,7 @@ namespace lumen::test {
 
 namespace {
 
-const std::vector<std::string> kCommands = {"convert", "track",    "fit",     "info",
+const std::vector<std::string> kCommands = {"convert", "track",    "fit",     "trim",      "info",
                                             "compare", "validate", "phantom", "completion"};
 
 bool contains(const std::string& text, const std::string& part) {
@@ -96,6 +96,7 @@ TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
       {"track", "a.nrrd", "b.lumen", "--crop", "1,2,3"},
       {"fit", "a.lumen", "b.lumen", "--kernel", "boxy"},
       {"fit", "a.lumen", "b.lumen", "--accuracy", "-1"},
+      {"trim", "a.lumen", "b.lumen", "--min-radius", "0"},
       {"info", "a.lumen", "--threads", "-2"},
       {"info", "a.lumen", "--quiet", "--verbose"},
       {"phantom", "cube", "a.nrrd"},
@@ -132,6 +133,7 @@ TEST_F(UsageTest, AMissingInputExitsWithThreeAndIsNamed) {
       {"info", "gone.nrrd"},
       {"compare", "gone.lumen", "gone.lumen"},
       {"fit", "gone.lumen", "out.lumen"},
+      {"trim", "gone.lumen", "out.lumen", "--min-length", "1"},
       {"convert", "gone.lumen", "out.glb"},
       {"track", "gone.nrrd", "out.lumen", "--seeds", "seeds.json"},
       {"info", "seeds.json", "--config", "gone.toml"}};

@@ -7,6 +7,7 @@ lumen_test(editing_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/hints_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/random_edits_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/smooth_axes_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/trim_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/untangle_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/wall_edits_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)

@@ -8,7 +8,7 @@ Engine makeEngine() {
   Engine engine;
   for (const auto make :
        {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand,
-        makeInfoCommand, makeValidateCommand, makeCompareCommand, makeCheckCommand,
+        makeTrimCommand, makeInfoCommand, makeValidateCommand, makeCompareCommand, makeCheckCommand,
         makePictureCommand, makeReportCommand, makePhantomCommand})
     engine.add(make);
 #ifdef LUMEN_WITH_LIBRARY

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen trim: a case without ends that are too thin or too short.
+#include "converters/stages/editing/trim.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/engine/answer_text.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/reachable_answer.h"
+#include "converters/engine/scope.h"
+#include "converters/engine/stage_options.h"
+#include "converters/stages/fitting/refit.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+
+namespace {
+
+Json trimmedJson(const std::vector<convert::TrimmedEnd>& ends) {
+  Json list = Json::array();
+  for (const convert::TrimmedEnd& end : ends)
+    list.push_back({{"label", end.label},
+                    {"whole", end.isWhole},
+                    {"nodes", end.nodes},
+                    {"length_mm", jsonNumber(end.length)},
+                    {"least_radius_mm", jsonNumber(end.radius)}});
+  return list;
+}
+
+class TrimCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "trim"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Remove the ends of vessels that are too thin or too short";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen trim head.lumen flow.lumen --min-radius 0.4 --min-length 2";
+  }
+
+  void addRows(OptionTable& table) override {
+    table.argument("CASE", &m_input, "Case");
+    table.argument("OUT", &m_output,
+                   "Case to write, " + formatEndings(canWriteCase) + "; may be CASE");
+    table
+        .add("min-radius", &m_minRadius, "MM",
+             "Remove the end of a vessel, from its tip to its first node of this radius, in mm")
+        .in(kPositive);
+    table
+        .add("min-length", &m_minLength, "MM",
+             "Remove the end of a vessel behind its last branch if it is shorter than this, in mm")
+        .in(kPositive);
+    addFormatRow(table, "to", m_to, "OUT");
+  }
+
+  Answer run(Surroundings& around) override {
+    requireOrder(m_input, m_output);
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "the trimmed tree");
+    requireInput(m_input, "case file");
+    requireInScope(*around.table, {}, around.progress);
+    if (!m_minRadius && !m_minLength)
+      throw Error(ErrorKind::Usage, "nothing to trim by; expected --min-radius, --min-length or both");
+    requireWritable(m_output, convert::ContentKind::Case);
+    around.willWrite(m_output);
+
+    formats::Case value = readParentCase(m_input);
+    const convert::TrimResult trimmed = made(value);
+    if (!trimmed.change.stale.empty() && value.points)
+      convert::refit(value, trimmed.change.stale, convert::recordedFitOptions(value),
+                     around.progress);
+    const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
+    convert::warnOfClosed(reach, around.progress);
+    to.writeCase(value, m_output, {}, around.progress);
+    Json json = caseSummary(value);
+    json["trimmed"] = trimmedJson(trimmed.ends);
+    json["reachable"] = reachJson(reach);
+    std::string text = caseLine(m_output, value);
+    for (const convert::TrimmedEnd& end : trimmed.ends)
+      text += Lines().add("trimmed", formats::printable(convert::trimmedText(end))).text();
+    if (trimmed.ends.empty()) text += Lines().add("trimmed", "nothing").text();
+    return {std::move(json), text + convert::reachLine(reach)};
+  }
+
+private:
+  /// Adds the file's name to the error about a case.
+  [[nodiscard]] convert::TrimResult made(formats::Case& value) const {
+    try {
+      return convert::trimEnds(value, {m_minRadius.value_or(0), m_minLength.value_or(0)});
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::InvalidInput) throw;
+      throw invalidInput(m_input + ": " + error.what());
+    }
+  }
+
+  std::string m_input, m_output, m_to;
+  std::optional<double> m_minRadius, m_minLength;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeTrimCommand() {
+  return std::make_unique<TrimCommand>();
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/editing/trim.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "converters/base/error.h"
+#include "converters/base/number_text.h"
+#include "converters/base/text.h"
+#include "converters/base/vectors.h"
+#include "converters/stages/editing/draft.h"
+#include "formats/case/topology.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using formats::Branch;
+using formats::CenterlineTree;
+
+/// The nodes of each branch that are left.
+class Trimmer {
+public:
+  Trimmer(const formats::Case& value, const TrimLimits& limits)
+      : m_tree(value.tree),
+        m_limits(limits),
+        m_origins(formats::readNodeOrigins(value)),
+        m_holds(m_tree.nodeCount(), 0) {
+    for (const Branch& branch : m_tree.branches) {
+      m_left.push_back(branch.nodeCount);
+      if (branch.parentNode >= 0) ++m_holds[static_cast<std::size_t>(branch.parentNode)];
+    }
+    for (const auto& link : m_tree.links)
+      for (const std::uint32_t node : link) ++m_holds[node];
+  }
+
+  /// Number of nodes left in each branch when no end is too thin or too short.
+  std::vector<std::uint32_t> trim() {
+    for (bool isMore = true; isMore;) {
+      isMore = false;
+      for (auto b = static_cast<std::uint32_t>(m_left.size()); b-- > 0;)
+        if (trimBranch(b)) isMore = true;
+    }
+    return m_left;
+  }
+
+private:
+  [[nodiscard]] double radius(std::uint32_t node) const {
+    return static_cast<double>(m_tree.radius[node]);
+  }
+
+  /// Removes what is too thin or too short of the end of a branch; false if it stays as it is.
+  bool trimBranch(std::uint32_t b) {
+    const Branch& branch = m_tree.branches[b];
+    if (branch.kind == formats::BranchKind::Aneurysm || m_left[b] == 0) return false;
+    std::uint32_t held = m_left[b];  // nodes up to the last one that holds something
+    while (held > 0 && m_holds[branch.firstNode + held - 1] == 0) --held;
+    const std::uint32_t left = lengthOfEnd(branch, held, withoutThin(branch, held, m_left[b]));
+    if (left == m_left[b]) return false;
+    m_left[b] = left;
+    if (left == 0 && branch.parentNode >= 0)
+      --m_holds[static_cast<std::size_t>(branch.parentNode)];
+    return true;
+  }
+
+  /// Nodes left of a branch whose tip is as wide as it must be.
+  [[nodiscard]] std::uint32_t withoutThin(const Branch& branch, std::uint32_t held,
+                                          std::uint32_t left) const {
+    while (left > held && radius(branch.firstNode + left - 1) < m_limits.minRadius) --left;
+    return left;
+  }
+
+  /// Nodes left of a branch whose end is as long as it must be, and lies outside of its parent.
+  [[nodiscard]] std::uint32_t lengthOfEnd(const Branch& branch, std::uint32_t held,
+                                          std::uint32_t left) const {
+    if (left == held) return left;
+    double length = 0;
+    bool isBridged = branch.parentNode >= 0 && held == 0;
+    for (std::uint32_t node = branch.firstNode + held; node < branch.firstNode + left; ++node) {
+      length += formats::edgeLength(m_tree, node);
+      isBridged = isBridged && m_origins[node] == formats::NodeOrigin::Bridged;
+    }
+    if (held > 0) length -= radius(branch.firstNode + held - 1);
+    if (length < m_limits.minLength) return held;
+    // of a vessel whose end went, neither a part within its parent nor a single root stays
+    const bool isNothing = isBridged || (branch.parentNode < 0 && held == 0 && left < 2);
+    return isNothing && left < branch.nodeCount ? held : left;
+  }
+
+  const CenterlineTree& m_tree;
+  const TrimLimits& m_limits;
+  std::vector<formats::NodeOrigin> m_origins;
+  std::vector<std::uint32_t> m_holds;  ///< branches and links at each node
+  std::vector<std::uint32_t> m_left;   ///< nodes left of each branch
+};
+
+TrimmedEnd describe(const CenterlineTree& tree, const Branch& branch, std::uint32_t left) {
+  TrimmedEnd end{branch.label, left == 0, branch.nodeCount - left, 0, 0};
+  for (std::uint32_t n = branch.firstNode + left; n < branch.firstNode + branch.nodeCount; ++n) {
+    end.length += formats::edgeLength(tree, n);
+    const auto radius = static_cast<double>(tree.radius[n]);
+    end.radius = n == branch.firstNode + left ? radius : std::min(end.radius, radius);
+  }
+  return end;
+}
+
+std::string limitsText(const TrimLimits& limits) {
+  std::string text;
+  if (limits.minRadius > 0) text = "thinner than " + shownNumber(limits.minRadius) + " mm";
+  if (limits.minLength > 0)
+    text += (text.empty() ? "" : " or ") + ("shorter than " + shownNumber(limits.minLength)) + " mm";
+  return text;
+}
+
+}  // namespace
+
+TrimResult trimEnds(formats::Case& target, const TrimLimits& limits) {
+  TrimResult result;
+  const std::vector<std::uint32_t> left = Trimmer(target, limits).trim();
+  Draft draft(target);
+  std::vector<DraftBranch> kept;
+  for (std::uint32_t b = 0; b < left.size(); ++b) {
+    const Branch& branch = target.tree.branches[b];
+    if (left[b] < branch.nodeCount) result.ends.push_back(describe(target.tree, branch, left[b]));
+    if (left[b] == 0) continue;
+    DraftBranch& one = draft.branches[b];
+    if (left[b] < branch.nodeCount) {
+      one.nodes.resize(left[b]);
+      one.record.stopReason = formats::StopReason::Unknown;
+      one.isOther = true;
+    }
+    kept.push_back(std::move(one));
+  }
+  if (result.ends.empty()) return result;
+  const bool hasVessel = std::any_of(kept.begin(), kept.end(), [](const DraftBranch& branch) {
+    return branch.record.kind == formats::BranchKind::Vessel;
+  });
+  if (!hasVessel)
+    throw invalidInput("all vessels are " + limitsText(limits) +
+                       ", so nothing would be left; expected lesser limits");
+  draft.branches = std::move(kept);
+  result.change = draft.finish(
+      target, "trimmed " + counted(result.ends.size(), "end", "ends") + " " + limitsText(limits));
+  return result;
+}
+
+std::string trimmedText(const TrimmedEnd& end) {
+  return end.label + ": " + shownFigure(end.length) + " mm" +
+         (end.isWhole ? ", the whole branch" : " of its end") + ", down to a radius of " +
+         shownFigure(end.radius) + " mm";
+}
+
+}  // namespace lumen::convert
