@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "formats/container/printable.h"
 
@@ -32,17 +31,11 @@ void chooseUnit(MeshInfo& info, const std::string& name, const std::string& unit
       info.unitFrom = unit.empty() ? "file" : "option";
       return;
     }
-  const convert::UnitGuess guess = convert::guessUnit(info.report);
+  const convert::UnitGuess guess =
+      guessUnitOf(convert::vesselSize(info.report), name, info.file, progress);
   info.unit = guess.unit;
   info.millimetres = guess.millimetres;
   info.unitFrom = "guess";
-  if (!guess.plausible)
-    progress.warn(name + ": its size is not that of vessels in mm, cm or m; taken as mm; " +
-                  kOption.unit.shown() + " states the unit");
-  else if (guess.millimetres != 1)
-    progress.warn(name + ": its size is that of vessels in " + guess.unit +
-                  ", not in mm; taken as " + guess.unit + "; " + kOption.unit.shown() +
-                  " states the unit");
 }
 
 Json pointJson(const Eigen::Vector3d& point, double scale) {

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/mesh_input.h"
 
-#include <cmath>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
-#include "converters/geometry/mesh_measures.h"
 #include "converters/io/centerline/read_curves.h"
 #include "converters/io/centerline/read_swc.h"
 #include "converters/io/centerline/read_tre.h"
 #include "converters/io/centerline/read_vtp.h"
 #include "converters/io/mesh/mesh_file.h"
-#include "converters/stages/repair/mesh_report.h"
+#include "converters/stages/editing/find_inlets.h"
+#include "converters/stages/editing/inlets.h"
 #include "converters/stages/repair/repair.h"
 #include "formats/container/printable.h"
 
@@ -67,38 +67,36 @@ std::optional<convert::GivenCenterline> givenCenterline(const MeshArguments& arg
   return given;
 }
 
-/// The unit of a mesh whose file states none, by the mesh's size; warns where that is not mm.
-std::string guessedUnit(const convert::TriangleMesh& mesh, const std::string& name,
-                        Progress& progress) {
-  convert::MeshReport size;
-  size.low = size.high = mesh.position.front();
-  for (const convert::Triangle& t : mesh.triangle) {
-    const Eigen::Vector3d& a = mesh.position[t[0]];
-    size.area += 0.5 * (mesh.position[t[1]] - a).cross(mesh.position[t[2]] - a).norm();
-  }
-  for (const Eigen::Vector3d& p : mesh.position) {
-    size.low = size.low.cwiseMin(p);
-    size.high = size.high.cwiseMax(p);
-  }
-  size.volume = convert::signedVolume(mesh);
-  const convert::UnitGuess guess = convert::guessUnit(size);
-  const double radius = 2 * std::abs(size.volume) / size.area;
-  if (!guess.plausible)
-    progress.warn(name + ": taken to be in mm, although vessels of " + foundNumber(radius) +
-                  " mm radius are implausible, and in cm and m, too; " + kOption.unit.shown() +
-                  " states the unit");
-  else if (guess.millimetres != 1)
-    progress.warn(name + ": taken to be in " + guess.unit + ": in mm its vessels would have " +
-                  foundNumber(radius) + " mm radius; " + kOption.unit.shown() + " states the unit");
-  return guess.unit;
+/// Whether the file is a model of SimVascular, which names its faces in an array or beside it.
+bool isOfSimVascular(const fs::path& file, const convert::MeshFile& read) {
+  std::error_code ignored;
+  const std::string ending = lowerCase(file.extension().string());
+  const bool hasFaceIds = (ending == ".vtp" || ending == ".vtk") && !read.groups.empty();
+  return hasFaceIds || fs::exists(file.string() + ".facenames", ignored);
 }
 
-/// The unit of the mesh and its axes; warns where the unit is a guess that is not mm.
-MeshFrame chooseFrame(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
-                      const std::string& name, const MeshArguments& arguments, Progress& progress) {
-  if (millimetresIn(arguments.unit) > 0) return {arguments.unit, "option", file.frameStated};
-  if (file.unitMm > 0) return {"mm", "file", file.frameStated};
-  return {guessedUnit(mesh, name, progress), "guess", file.frameStated};
+/// The unit of the mesh and its axes; warns as guessUnitOf().
+MeshFrame chooseFrame(const convert::MeshFile& read, const convert::TriangleMesh& mesh,
+                      const fs::path& file, const MeshArguments& arguments, Progress& progress) {
+  if (millimetresIn(arguments.unit) > 0) return {arguments.unit, "option", read.frameStated};
+  if (read.unitMm > 0) return {"mm", "file", read.frameStated};
+  return {guessUnitOf(convert::vesselSize(mesh), file, read, progress).unit, "guess",
+          read.frameStated};
+}
+
+/// Begins trees at the openings through which blood comes in besides the widest one.
+void beginAtFurtherInlets(convert::MeshCase& made, Progress& progress) {
+  constexpr double kBeyondRadii = 3;  // behind an opening, within these multiples of its radius
+  const auto isInside = [&](const Eigen::Vector3d& point) {
+    return std::none_of(made.openings.begin(), made.openings.end(), [&](const auto& end) {
+      return (point - end.centre).dot(end.normal) > 0 &&
+             (point - end.centre).norm() < kBeyondRadii * end.radius;
+    });
+  };
+  const std::vector<Eigen::Vector3d> inlets = convert::furtherInlets(made.result.tree, isInside);
+  convert::beginAt(made.result, inlets);
+  for (const Eigen::Vector3d& place : inlets)
+    progress.detail("blood comes in at " + convert::vectorText(place) + " mm, too");
 }
 
 std::string listed(const std::vector<std::string>& sentences) {
@@ -130,6 +128,16 @@ Json meshFrameJson(const std::optional<MeshFrame>& frame) {
       {"unit", frame->unit}, {"unit_from", frame->unitFrom}, {"frame_stated", frame->frameStated}};
 }
 
+convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const fs::path& file,
+                               const convert::MeshFile& read, Progress& progress) {
+  const bool isSimVascular = isOfSimVascular(file, read);
+  convert::UnitGuess guess = convert::guessUnit(size, isSimVascular);
+  if (const std::string warning = convert::unitWarning(guess, size, isSimVascular);
+      !warning.empty())
+    progress.warn(formats::printable(file.string()) + ": " + warning);
+  return guess;
+}
+
 CaseOfMeshFile caseOfMeshFile(const fs::path& file, const FileFormat& format,
                               const MeshArguments& arguments, Progress& progress) {
   const std::string name = formats::printable(file.string());
@@ -140,13 +148,14 @@ CaseOfMeshFile caseOfMeshFile(const fs::path& file, const FileFormat& format,
   progress.end();
   for (const std::string& note : read.notes) progress.warn(name + ": " + note);
   if (!repaired.repairs.empty()) progress.warn(name + ": repaired: " + listed(repaired.repairs));
-  const MeshFrame frame = chooseFrame(read, repaired.mesh, name, arguments, progress);
+  const MeshFrame frame = chooseFrame(read, repaired.mesh, file, arguments, progress);
   const double unit = millimetresIn(frame.unit);
   for (Eigen::Vector3d& p : repaired.mesh.position) p *= unit;
   const auto centerline = givenCenterline(arguments, unit, progress);
   convert::MeshCase made =
       convert::caseOfMesh(std::move(repaired.mesh), name, centerline, {{"unit", unit}}, progress);
   for (const std::string& note : made.notes) progress.warn(note);
+  beginAtFurtherInlets(made, progress);
   return {std::move(made.result), frame};
 }
 

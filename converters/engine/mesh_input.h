@@ -9,6 +9,8 @@
 #include "converters/base/progress.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_format.h"
+#include "converters/io/mesh/mesh_file.h"
+#include "converters/stages/repair/unit_guess.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 
 namespace lumen::engine {
@@ -44,6 +46,11 @@ struct CaseOfMeshFile {
   formats::Case value;
   MeshFrame frame;
 };
+
+/// The unit of a mesh of this size whose file states none. Warns where another unit is plausible,
+/// too, where it is not mm, and where none is plausible.
+convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const std::filesystem::path& file,
+                               const convert::MeshFile& read, Progress& progress);
 
 /// Tree and wall points of the mesh in `file`. Repairs and assumptions become warnings. Throws
 /// Error(InvalidInput) for a mesh that is no surface of vessels, and for a centerline that does not

@@ -179,11 +179,11 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
           "each tree]. May be given several times")
       .checkedBy(placeFault)
       .many()
-      .forInputs(kImage | kLabels);
+      .forInputs(kImage | kLabels | kMeshes);
   table
       .flag(kOption.onlyConnected.name, track.isOnlyConnected,
             "Leave out trees in which no seed and no root lies")
-      .forInputs(kImage | kLabels)
+      .forInputs(kImage | kLabels | kMeshes)
       .onlyWith(kOption.seeds.name)
       .onlyWith(kOption.root.name);
   table

@@ -209,14 +209,25 @@ std::vector<VesselPath> VesselPaths::find(std::uint32_t root, const Progress& pr
       continue;
     }
     findLoop(path);
-    for (std::size_t k = path.parent == kNone ? 0 : 1; k < path.voxels.size(); ++k) {
-      m_path[path.voxels[k]] = static_cast<std::uint32_t>(paths.size());
-      m_place[path.voxels[k]] = static_cast<std::uint32_t>(k);
-    }
-    cover(path);
-    paths.push_back(std::move(path));
+    append(std::move(path), paths);
   }
   return paths;
+}
+
+void VesselPaths::append(VesselPath path, std::vector<VesselPath>& paths) {
+  for (std::size_t k = path.parent == kNone ? 0 : 1; k < path.voxels.size(); ++k) {
+    m_path[path.voxels[k]] = static_cast<std::uint32_t>(paths.size());
+    m_place[path.voxels[k]] = static_cast<std::uint32_t>(k);
+  }
+  cover(path);
+  paths.push_back(std::move(path));
+}
+
+bool VesselPaths::addPath(std::uint32_t tip, std::vector<VesselPath>& paths) {
+  VesselPath path = pathTo(tip);
+  if (path.voxels.size() < 2) return false;
+  append(std::move(path), paths);
+  return true;
 }
 
 std::uint32_t VesselPaths::farthest(std::uint32_t from, const Progress& progress) {

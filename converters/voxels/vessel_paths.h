@@ -45,6 +45,10 @@ public:
   /// a neck by a fifth, as a sac does. Throws Error(Cancelled).
   std::vector<VesselPath> find(std::uint32_t root, const Progress& progress);
 
+  /// Adds the path to `tip`, however short it is, to those that find() found in its part. False if
+  /// another path runs through it.
+  bool addPath(std::uint32_t tip, std::vector<VesselPath>& paths);
+
   /// The voxels of a connected part; the given one is the first.
   [[nodiscard]] std::vector<std::uint32_t> connectedPart(std::uint32_t voxel) const;
 
@@ -81,6 +85,7 @@ private:
   [[nodiscard]] bool isVessel(VesselPath& path) const;
   void findLoop(VesselPath& path) const;
   void cover(const VesselPath& path);
+  void append(VesselPath path, std::vector<VesselPath>& paths);
   void coverAround(std::uint32_t i, bool isBall);
   [[nodiscard]] bool isOpen(std::uint32_t i, std::uint32_t j) const;
   [[nodiscard]] double depth(std::uint32_t i) const {

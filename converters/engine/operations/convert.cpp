@@ -88,6 +88,7 @@ private:
     if (from.kind == FormatKind::Mesh) {
       CaseOfMeshFile made = caseOfMeshFile(m_input, from, meshArguments(), progress);
       m_meshFrame = std::move(made.frame);
+      applyRoots(made.value, m_input, m_track);
       return std::move(made.value);
     }
     if (from.kind == FormatKind::Case) {

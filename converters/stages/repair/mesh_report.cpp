@@ -21,9 +21,6 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kLeastRadius = 0.2, kMostRadius = 30;      // mm
-constexpr double kLeastDiagonal = 3, kMostDiagonal = 2000;  // mm
-
 /// The diagnosis while it is made: triangles with equal points made one, and without those that
 /// name a point twice.
 class Diagnosis {
@@ -242,18 +239,6 @@ private:
 
 MeshReport diagnoseMesh(const TriangleMesh& mesh, const Progress& progress) {
   return Diagnosis(mesh).make(progress);
-}
-
-UnitGuess guessUnit(const MeshReport& report) {
-  const double diagonal = (report.high - report.low).norm();
-  const double radius = report.area > 0 ? 2 * std::abs(report.volume) / report.area : 0;
-  const auto plausible = [&](double mm) {
-    return diagonal * mm >= kLeastDiagonal && diagonal * mm <= kMostDiagonal &&
-           radius * mm >= kLeastRadius && radius * mm <= kMostRadius;
-  };
-  for (const auto& [mm, unit] : {std::pair(1.0, "mm"), {1000.0, "m"}, {10.0, "cm"}})
-    if (plausible(mm)) return {mm, unit, true};
-  return {1, "mm", false};
 }
 
 }  // namespace lumen::convert

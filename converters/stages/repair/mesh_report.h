@@ -48,16 +48,4 @@ struct MeshReport {
 /// that a soup of triangles is judged as the surface that it is. Throws Error(Cancelled).
 MeshReport diagnoseMesh(const TriangleMesh& mesh, const Progress& progress);
 
-/// A unit that makes vessels of a mesh of this size plausible.
-struct UnitGuess {
-  double millimetres = 1;   ///< in one unit of the mesh: 1, 10 or 1000
-  std::string unit = "mm";  ///< "mm", "cm" or "m"
-  bool plausible = true;    ///< false: none of them is
-};
-
-/// The unit mm, unless vessels would be implausible in mm and plausible in m or cm. Twice the
-/// volume over the area of a tube is its radius: it is plausible from 0.2 to 30 mm, in boxes of 3
-/// mm to 2 m.
-UnitGuess guessUnit(const MeshReport& report);
-
 }  // namespace lumen::convert

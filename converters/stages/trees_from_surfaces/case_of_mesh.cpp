@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/geometry/mesh_edges.h"
 #include "converters/geometry/triangle_tree.h"
 #include "converters/stages/repair/repair.h"
@@ -23,6 +26,8 @@ namespace {
 
 /// Half of the least width that the search resolves, in its voxels.
 constexpr double kLeastRadius = 0.5;
+/// Radii of an opening from it to the end of a centerline that leads to it.
+constexpr double kNearOpening = 3;
 
 /// "The surface has 3 loops; 2 of them became links". Empty if there are as many.
 std::string loopsNote(const ClosedMesh& surface, const formats::CenterlineTree& tree) {
@@ -34,6 +39,24 @@ std::string loopsNote(const ClosedMesh& surface, const formats::CenterlineTree& 
   if (handles <= 0 || handles == links) return {};
   return "the surface has " + std::to_string(handles) + (handles == 1 ? " loop; " : " loops; ") +
          std::to_string(links) + " of the tree are closed by a link";
+}
+
+/// A remark on each opening near which no line ends.
+std::vector<std::string> missedOpenings(const std::vector<VesselLine>& lines,
+                                        const std::vector<MeshEnd>& openings) {
+  std::vector<std::string> notes;
+  for (const MeshEnd& end : openings) {
+    const auto isNear = [&](const Eigen::Vector3d& tip) {
+      return (tip - end.centre).norm() < kNearOpening * end.radius;
+    };
+    const bool isReached = std::any_of(lines.begin(), lines.end(), [&](const VesselLine& line) {
+      return (line.parent < 0 && isNear(line.point.front())) || isNear(line.point.back());
+    });
+    if (!isReached)
+      notes.push_back("the opening at " + vectorText(end.centre) + " mm, of " +
+                      shownFigure(end.radius) + " mm radius, is no end of the tree");
+  }
+  return notes;
 }
 
 /// A surface without openings and without nested parts, which is no wall with a thickness: such a
@@ -103,6 +126,10 @@ MeshCase caseOfLumen(const ClosedMesh& surface, double resolution, const std::st
   if (lines.lines.empty())
     throw invalidInput(name + ": no vessel was found inside of this surface");
   out.notes.insert(out.notes.end(), lines.notes.begin(), lines.notes.end());
+  std::copy_if(surface.ends.begin(), surface.ends.end(), std::back_inserter(out.openings),
+               [](const MeshEnd& end) { return end.wasOpen; });
+  for (const std::string& note : missedOpenings(lines.lines, out.openings))
+    out.notes.push_back(name + ": " + note);
   out.result = nodesOnLines(lines.lines, lumen, kLeastRadius * grid.voxelSize(), progress);
   if (const std::string note = loopsNote(surface, out.result.tree); !note.empty())
     out.notes.push_back(name + ": " + note);

@@ -24,6 +24,7 @@ struct GivenCenterline {
 
 struct MeshCase {
   formats::Case result;            ///< tree, wall points and metadata, without models
+  std::vector<MeshEnd> openings;   ///< of the surface: all of them are ends, but for remarks
   std::vector<std::string> notes;  ///< remarks for the user, a sentence each
 };
 

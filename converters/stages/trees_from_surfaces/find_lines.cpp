@@ -46,7 +46,7 @@ public:
         ++small;
         continue;
       }
-      addPart(findRoot(atEnd, part));
+      addPart(findRoot(atEnd, part), atEnd, part);
     }
     if (small > 0)
       m_out.notes.push_back(std::to_string(small) + " part" + (small == 1 ? "" : "s") +
@@ -106,12 +106,35 @@ private:
     return m_paths.widestTip(part.front(), m_progress);
   }
 
-  void addPart(std::uint32_t root) {
-    const std::vector<VesselPath> paths = m_paths.find(root, m_progress);
+  /// Adds paths to the openings of a part that no path leads to.
+  void reachOpenings(std::vector<VesselPath>& paths, const std::vector<std::uint32_t>& atEnd,
+                     const std::vector<std::uint32_t>& part) {
+    std::vector<std::uint32_t> sorted = part;
+    std::sort(sorted.begin(), sorted.end());
+    const std::vector<MeshEnd>& ends = m_lumen.surface().ends;
+    std::vector<const MeshEnd*> reached;
+    const auto reach = [&](std::uint32_t voxel) {
+      reached.push_back(endAt(m_set.position(voxel), m_lumen.surface()));
+    };
+    for (const VesselPath& path : paths) {
+      if (path.parent == kNowhere) reach(path.voxels.front());
+      if (path.meets == kNowhere) reach(path.voxels.back());
+    }
+    for (std::size_t e = 0; e < ends.size(); ++e)
+      if (ends[e].wasOpen && std::binary_search(sorted.begin(), sorted.end(), atEnd[e]) &&
+          std::find(reached.begin(), reached.end(), &ends[e]) == reached.end())
+        m_paths.addPath(atEnd[e], paths);
+  }
+
+  void addPart(std::uint32_t root, const std::vector<std::uint32_t>& atEnd,
+               const std::vector<std::uint32_t>& part) {
+    std::vector<VesselPath> paths = m_paths.find(root, m_progress);
+    const std::size_t found = paths.size();
+    reachOpenings(paths, atEnd, part);
     const std::size_t first = m_out.lines.size();
     for (std::size_t w = 0; w < paths.size(); ++w) {
       m_progress.check();
-      m_out.lines.push_back(makeLine(paths, w, first));
+      m_out.lines.push_back(makeLine(paths, w, first, w >= found));
     }
   }
 
@@ -137,8 +160,9 @@ private:
     return seen == order.end() ? from : line.point[seen->second];
   }
 
-  VesselLine makeLine(const std::vector<VesselPath>& paths, std::size_t w,
-                      std::size_t first) const {
+  /// The line of a path; that of a stub, which is too short to be found as a vessel, is straight.
+  VesselLine makeLine(const std::vector<VesselPath>& paths, std::size_t w, std::size_t first,
+                      bool isStub) const {
     const VesselPath& path = paths[w];
     VesselLine line;
     line.label = "vessel-" + std::to_string(first + w + 1);
@@ -148,7 +172,11 @@ private:
     if (path.parent != kNowhere) {
       line.parent = static_cast<int>(first + path.parent);
       parent = &m_out.lines[first + path.parent];
-      line.point.front() = nearestSeen(*parent, line.point.front());
+      const Vector3d tip = line.point.back(), seen = nearestSeen(*parent, tip);
+      if (isStub && seen != tip)
+        line.point = {seen, tip};
+      else
+        line.point.front() = nearestSeen(*parent, line.point.front());
     } else {
       trim(line, true, m_lumen);
     }

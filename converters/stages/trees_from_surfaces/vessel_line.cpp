@@ -71,7 +71,8 @@ void bridge(std::vector<Vector3d>& line, std::size_t last) {
     line[i] = line[0] + double(i) / double(last) * (line[last] - line[0]);
 }
 
-/// The flat end that a tip lies at; null if there is none.
+}  // namespace
+
 const MeshEnd* endAt(const Vector3d& tip, const ClosedMesh& surface) {
   const MeshEnd* best = nullptr;
   for (const MeshEnd& end : surface.ends) {
@@ -80,8 +81,6 @@ const MeshEnd* endAt(const Vector3d& tip, const ClosedMesh& surface) {
   }
   return best;
 }
-
-}  // namespace
 
 TriangleMesh LumenGeometry::extractWall(const ClosedMesh& surface) {
   TriangleMesh wall{surface.mesh.position, {}};

@@ -89,6 +89,10 @@ void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lum
 /// wall is; `atStart`: to its first.
 void trim(VesselLine& line, bool atStart, const LumenGeometry& lumen);
 
+/// The flat end that a tip lies at, nearer to its centre than 1.5 of its radii: the nearest one; null
+/// if there is none.
+const MeshEnd* endAt(const Eigen::Vector3d& tip, const ClosedMesh& surface);
+
 /// Extends a line to the end of its lumen: straight on to the wall, or to the centre of a flat end
 /// there, if that is within `reach` depths.
 void extend(VesselLine& line, bool atStart, double reach, const LumenGeometry& lumen);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/stages/repair/unit_guess.h"
 #include "mesh_shapes.h"
 
 namespace lumen::test {
@@ -115,11 +116,38 @@ TEST(MeshReport, ThatTrianglesCutEachOtherIsSeen) {
 
 TEST(UnitGuess, AnAortaIsToldInMillimetresCentimetresAndMetres) {
   const TriangleMesh aorta = openTube(10, 300);
-  EXPECT_EQ(guessUnit(diagnosed(aorta)).unit, "mm");
-  EXPECT_EQ(guessUnit(diagnosed(scaled(aorta, 0.001))).unit, "m");
+  EXPECT_EQ(guessUnit(vesselSize(aorta)).unit, "mm");
+  EXPECT_EQ(guessUnit(vesselSize(aorta)).other, "");
+  EXPECT_EQ(guessUnit(vesselSize(scaled(aorta, 0.001))).unit, "m");
   // vessels of 1.5 mm in cm: too thin for mm
-  EXPECT_EQ(guessUnit(diagnosed(scaled(openTube(1.5, 90), 0.1))).unit, "cm");
-  EXPECT_FALSE(guessUnit(diagnosed(scaled(aorta, 1e6))).plausible);
+  EXPECT_EQ(guessUnit(vesselSize(scaled(openTube(1.5, 90), 0.1))).unit, "cm");
+  EXPECT_FALSE(guessUnit(vesselSize(scaled(aorta, 1e6))).plausible);
+}
+
+TEST(UnitGuess, AModelOfSimVascularIsInCentimetresIfItHasTheSizeOfVesselsThen) {
+  const VesselSize aorta = vesselSize(openTube(1.2, 25));
+  const UnitGuess plain = guessUnit(aorta), model = guessUnit(aorta, true);
+  EXPECT_EQ(plain.unit + plain.other, "mmcm");
+  EXPECT_EQ(model.unit + model.other, "cmmm");
+  EXPECT_EQ(guessUnit(vesselSize(openTube(10, 300)), true).unit, "mm");
+}
+
+TEST(UnitGuess, TheRadiusOfAnOpenTubeIsKnownWhereverItLies) {
+  TriangleMesh tube = openTube(3, 100);
+  for (Eigen::Vector3d& p : tube.position) p += Eigen::Vector3d(500, -300, 900);
+  EXPECT_NEAR(vesselSize(tube).radius, 3, 0.1);
+}
+
+TEST(UnitGuess, AWarningNamesBothUnitsThatArePlausible) {
+  const VesselSize aorta = vesselSize(openTube(1.2, 25));
+  for (const bool isSimVascular : {false, true}) {
+    const std::string warning = unitWarning(guessUnit(aorta, isSimVascular), aorta, isSimVascular);
+    EXPECT_NE(warning.find("in mm"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("in cm"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("--unit"), std::string::npos) << warning;
+  }
+  const VesselSize whole = vesselSize(openTube(10, 300));
+  EXPECT_EQ(unitWarning(guessUnit(whole), whole, false), "");
 }
 
 }  // namespace

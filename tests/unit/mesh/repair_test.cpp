@@ -13,6 +13,7 @@
 #include "converters/geometry/mesh_edges.h"
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/repair/mesh_report.h"
+#include "converters/stages/repair/unit_guess.h"
 #include "mesh_shapes.h"
 
 namespace lumen::test {
@@ -283,7 +284,7 @@ TEST_F(RealMeshes, ASoupInMetresBecomesManifold) {
   for (const char* name : {"AbdominalAorta.stl", "AbdominalAorticAneurysm.stl"}) {
     const MeshFile file = read(std::string("aorta-metres/") + name, MeshFormat::Stl);
     EXPECT_FALSE(diagnoseMesh(file.mesh, Progress()).manifold);
-    EXPECT_EQ(guessUnit(diagnoseMesh(file.mesh, Progress())).unit, "m");
+    EXPECT_EQ(guessUnit(vesselSize(diagnoseMesh(file.mesh, Progress()))).unit, "m");
     const RepairResult result = repaired(file.mesh);
     std::size_t open = 0;
     EXPECT_EQ(badEdges(result.mesh, &open), 0U);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -62,6 +64,30 @@ TEST(CaseOfMesh, KeepsTubesApartThatNearlyTouch) {
     EXPECT_NEAR(value.tree.radius[i], value.tree.centre[i].y > 2 ? 1 : 3, 0.05);
 }
 
+/// A tube of radius 2 along x, open at both ends, with a hole of about 0.8 in its side at x = 20.
+TriangleMesh tubeWithHole() {
+  TriangleMesh mesh = test::tube(test::straight(40, 0, 200), 2, false, 64);
+  std::erase_if(mesh.triangle, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return (mesh.position[v] - Vector3d(20, 2, 0)).norm() < 0.9;
+    });
+  });
+  return mesh;
+}
+
+TEST(CaseOfMesh, AnOpeningIsAnEndHoweverShortItsVessel) {
+  const MeshCase out = made(tubeWithHole());
+  ASSERT_EQ(out.openings.size(), 3U);
+  const formats::CenterlineTree& tree = out.result.tree;
+  ASSERT_EQ(tree.branches.size(), 2U);
+  const std::uint32_t last = tree.branches[1].firstNode + tree.branches[1].nodeCount - 1;
+  EXPECT_GE(tree.branches[1].parentNode, 0);
+  EXPECT_NEAR(tree.centre[last].x, 20, 0.5);
+  EXPECT_GT(tree.centre[last].y, 0.5);
+  for (const std::string& note : out.notes)
+    EXPECT_EQ(note.find("no end of the tree"), std::string::npos) << note;
+}
+
 TEST(CaseOfMesh, ClosesALoopByALink) {
   const formats::Case value = made(test::ring(10, 2)).result;
   ASSERT_EQ(value.tree.links.size(), 1U);
@@ -97,6 +123,15 @@ GivenCenterline alongTube(double scale) {
   for (int i = 0; i <= 36; ++i)
     given.file.points.push_back({Vector3d(scale * (2 + i), 0, 0), 2.0, i - 1});
   return given;
+}
+
+TEST(CaseOfMesh, AnOpeningThatAGivenCenterlineMissesIsReported) {
+  const MeshCase out = made(tubeWithHole(), alongTube(1));
+  EXPECT_EQ(std::count_if(out.notes.begin(), out.notes.end(),
+                          [](const std::string& note) {
+                            return note.find("no end of the tree") != std::string::npos;
+                          }),
+            1);
 }
 
 TEST(CaseOfMesh, FollowsAGivenCenterline) {
