@@ -12,6 +12,7 @@
 #include "converters/base/suggestion.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"
+#include "converters/export/shared/flow_option_name.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -38,6 +39,12 @@ const std::map<std::string, convert::GridFormat> kGridFormats = {
     {"vdb", convert::GridFormat::Vdb},
     {"cdf", convert::GridFormat::Cdf}};
 
+const std::map<std::string, convert::FoamGrain> kGrains = {{"coarse", convert::FoamGrain::Coarse},
+                                                           {"medium", convert::FoamGrain::Medium},
+                                                           {"fine", convert::FoamGrain::Fine}};
+const std::map<std::string, convert::FoamFlow> kFlows = {
+    {"steady", convert::FoamFlow::Steady}, {"pulsatile", convert::FoamFlow::Pulsatile}};
+
 const std::map<std::string, convert::LengthUnit> kUnits = {{"mm", convert::LengthUnit::Millimetre},
                                                            {"cm", convert::LengthUnit::Centimetre},
                                                            {"m", convert::LengthUnit::Metre}};
@@ -59,6 +66,22 @@ void addSofaRows(OptionTable& table, convert::ExportOptions& options) {
       .in(NumberRange{0.001, 1});
   table.add(kOption.insert.name, &options.insert, "LABEL",
             "Branch at whose beginning it is inserted [the root]");
+}
+
+void addFlowRows(OptionTable& table, convert::ExportOptions& options) {
+  table.group("Flow");
+  table
+      .add(convert::kFlowOption.inlets.name, &options.inlets, "LABEL",
+           "Branches of roots through which blood comes in, each with its mean flow in ml/s if it "
+           "is known, as in ICA=4.2; parts of the case that no inlet leads to are left out [roots "
+           "at the volume's border, 20 cm/s]")
+      .many()
+      .delimiter = ',';
+  table.choice(
+      convert::kFlowOption.cells.name, options.foam.cells, kGrains,
+      "Cells of the mesh: 6, 9 or 14 across each vessel, and 0.3, 1.2 or 5 million at most");
+  table.choice(convert::kFlowOption.flow.name, options.foam.flow, kFlows,
+               "Flow at the ends: its mean, or two cycles of the heart");
 }
 
 void setFormats(convert::GridOptions& grid, const std::vector<std::string>& words) {
@@ -142,6 +165,7 @@ void addExportRows(OptionTable& table, convert::ExportOptions& options) {
   addSurfaceRows(table, options.surface);
   addGridRows(table, options);
   addSofaRows(table, options);
+  addFlowRows(table, options);
   table.group("");
 }
 

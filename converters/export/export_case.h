@@ -8,6 +8,7 @@
 
 #include "converters/export/shared/target.h"
 #include "converters/export/targets/grid/grid_options.h"
+#include "converters/export/targets/openfoam/openfoam_options.h"
 #include "converters/export/targets/sofa/sofa_options.h"
 
 namespace lumen::convert {
@@ -16,6 +17,7 @@ namespace lumen::convert {
 struct ExportOptions : CommonOptions {
   GridOptions grid;
   SofaOptions sofa;
+  FoamOptions foam;
 };
 
 struct ExportTarget : TargetRow {

@@ -29,6 +29,10 @@ ExportResult sofa(const ExportInput& input, const ExportOptions& options) {
   return exportSofa(input, options.sofa);
 }
 
+ExportResult openFoam(const ExportInput& input, const ExportOptions& options) {
+  return exportOpenFoam(input, options.foam);
+}
+
 ExportResult grid(const ExportInput& input, const ExportOptions& options) {
   return exportGrid(input, options.grid);
 }
@@ -43,7 +47,7 @@ const std::vector<ExportTarget>& exportTargets() {
       {steveRow(), common<exportSteve>},
       {svZeroDRow(), common<exportSvZeroD>},
       {oneDRow(), common<exportOneD>},
-      {openFoamRow(), common<exportOpenFoam>},
+      {openFoamRow(), openFoam},
       {simVascularRow(), common<exportSimVascular>},
       {godotRow(), common<exportGodot>},
       {unityRow(), common<exportUnity>},

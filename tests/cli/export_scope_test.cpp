@@ -30,6 +30,9 @@ const std::map<std::string, std::string> kValues = {{"unit", "m"},
                                                     {"dialect", "v23.06"},
                                                     {"instrument", "catheter"},
                                                     {"step", "0.2"},
+                                                    {"inlets", "vessel1=3"},
+                                                    {"cells", "coarse"},
+                                                    {"flow", "pulsatile"},
                                                     {"insert", "vessel2"}};
 
 /// Options of a target that another must accompany.

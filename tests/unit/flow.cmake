@@ -1,9 +1,11 @@
 lumen_test(flow_test
   LIBS lumen_export lumen_base
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/flow_inlets_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/flow_pressure_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/network_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/oned_network_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/openfoam_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/run_program_test.cpp)
 
 # Folders for flow solvers, from outside: by the solvers where they are, else by readers of our own.

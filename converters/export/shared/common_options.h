@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "converters/export/shared/frame.h"
 #include "converters/stages/surface/closed_surface.h"
@@ -25,6 +26,8 @@ struct CommonOptions {
   std::optional<Axes> axes;        ///< one of the target's; none: the first of these
   ClosedSurfaceOptions surface = exportedSurfaceOptions();
   double spacing = 0;  ///< mm between samples of grids; 0: by the size of the vessels
+  /// Inlets of a flow, as statedInlets() takes them; empty: found by the case.
+  std::vector<std::string> inlets;
   std::string insert;  ///< label of the branch where an instrument enters; empty: the root
 };
 

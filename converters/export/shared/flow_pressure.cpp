@@ -38,6 +38,27 @@ std::vector<double> computeConductances(const FlowNetwork& network) {
   return conductances;
 }
 
+/// Flows between joints for their pressures.
+std::vector<Entry> entriesOf(const FlowNetwork& network, const std::vector<double>& conductances) {
+  std::vector<Entry> entries;
+  for (std::size_t s = 0; s < conductances.size(); ++s) {
+    const auto a = static_cast<int>(network.segments[s].from),
+               b = static_cast<int>(network.segments[s].to);
+    const double g = conductances[s];
+    for (const Entry& entry : {Entry(a, a, g), Entry(b, b, g), Entry(a, b, -g), Entry(b, a, -g)})
+      entries.push_back(entry);
+  }
+  return entries;
+}
+
+std::vector<double> solve(const std::vector<Entry>& entries, const Eigen::VectorXd& flow) {
+  Eigen::SparseMatrix<double> matrix(flow.size(), flow.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  const Eigen::VectorXd pressure = solver.solve(flow);
+  return {pressure.begin(), pressure.end()};
+}
+
 /// The sentence on one inlet: the segment of its tree with the greatest drop, and its least radius.
 std::string warningAt(const FlowNetwork& network, const std::vector<double>& pressures,
                       std::uint32_t inlet) {
@@ -60,31 +81,29 @@ std::string warningAt(const FlowNetwork& network, const std::vector<double>& pre
 }  // namespace
 
 std::vector<double> steadyPressures(const FlowNetwork& network) {
-  const auto joints = static_cast<Eigen::Index>(network.joints.size());
-  const std::vector<double> conductances = computeConductances(network);
-  std::vector<Entry> entries;
-  for (std::size_t s = 0; s < conductances.size(); ++s) {
-    const auto a = static_cast<int>(network.segments[s].from),
-               b = static_cast<int>(network.segments[s].to);
-    const double g = conductances[s];
-    for (const Entry& entry : {Entry(a, a, g), Entry(b, b, g), Entry(a, b, -g), Entry(b, a, -g)})
-      entries.push_back(entry);
-  }
-  Eigen::VectorXd flow = Eigen::VectorXd::Zero(joints);
+  std::vector<Entry> entries = entriesOf(network, computeConductances(network));
+  Eigen::VectorXd flow = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.joints.size()));
   for (const FlowTree& tree : network.trees) {
-    for (const std::uint32_t inlet : tree.inlets)
-      flow[inlet] = blood::meanFlow(kMetres * endRadius(network, inlet));
+    for (const std::uint32_t inlet : tree.inlets) flow[inlet] = network.joints[inlet].inflow;
     const std::vector<double> resistances = outletResistances(network, tree);
     for (std::size_t k = 0; k < resistances.size(); ++k) {
       const auto at = static_cast<int>(tree.outlets[k]);
       entries.emplace_back(at, at, 1 / resistances[k]);
     }
   }
-  Eigen::SparseMatrix<double> matrix(joints, joints);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-  const Eigen::VectorXd pressure = solver.solve(flow);
-  return {pressure.begin(), pressure.end()};
+  return solve(entries, flow);
+}
+
+std::vector<double> pressuresOfFlows(const FlowNetwork& network, const std::vector<double>& into,
+                                     const std::vector<std::uint32_t>& zero) {
+  const std::vector<double> conductances = computeConductances(network);
+  std::vector<Entry> entries = entriesOf(network, conductances);
+  // nothing flows through it, as all flows sum to 0
+  const double ground = *std::max_element(conductances.begin(), conductances.end());
+  for (const std::uint32_t joint : zero)
+    entries.emplace_back(static_cast<int>(joint), static_cast<int>(joint), ground);
+  const Eigen::Map<const Eigen::VectorXd> flow(into.data(), static_cast<Eigen::Index>(into.size()));
+  return solve(entries, flow);
 }
 
 std::vector<std::string> pressureWarnings(const FlowNetwork& network) {

@@ -39,7 +39,7 @@ public:
     leaveOutDomes();
   }
 
-  FlowNetwork build() {
+  FlowNetwork build(const std::vector<StatedInlet>& stated) {
     for (std::uint32_t n = 0; n < m_tree.nodeCount(); ++n)
       if (isBreak(n)) addJoint(n);
     // walks from a joint to the next one, each edge once
@@ -54,6 +54,7 @@ public:
     for (FlowTree& tree : m_made.trees)
       if (tree.inlets.empty()) addInlet(tree);
     nameEnds();
+    setInflows(stated);
     reportSacs();
     return std::move(m_made);
   }
@@ -248,6 +249,16 @@ private:
             ": nothing can flow in here, since its vessels have no end to flow out of");
   }
 
+  void setInflows(const std::vector<StatedInlet>& stated) {
+    for (std::uint32_t j = 0; j < m_made.joints.size(); ++j) {
+      FlowJoint& joint = m_made.joints[j];
+      if (joint.kind != JointKind::Inlet) continue;
+      joint.inflow = blood::meanFlow(kMetres * endRadius(m_made, j));
+      for (const StatedInlet& inlet : stated)
+        if (inlet.label == labelAt(j) && inlet.flow > 0) joint.inflow = inlet.flow;
+    }
+  }
+
   void reportSacs() {
     for (const Branch& branch : m_tree.branches) {
       if (branch.kind != BranchKind::Aneurysm) continue;
@@ -276,8 +287,8 @@ double FlowSegment::length() const {
   return sum;
 }
 
-FlowNetwork flowNetwork(const CenterlineTree& tree) {
-  return NetworkBuilder(tree).build();
+FlowNetwork flowNetwork(const CenterlineTree& tree, const std::vector<StatedInlet>& stated) {
+  return NetworkBuilder(tree).build(stated);
 }
 
 std::vector<NamedEnd> findEnds(const FlowNetwork& network) {
@@ -339,8 +350,7 @@ double endRadius(const FlowNetwork& network, std::uint32_t joint) {
 
 std::vector<double> outletResistances(const FlowNetwork& network, const FlowTree& tree) {
   double flow = 0, shares = 0;
-  for (const std::uint32_t inlet : tree.inlets)
-    flow += blood::meanFlow(kMetres * endRadius(network, inlet));
+  for (const std::uint32_t inlet : tree.inlets) flow += network.joints[inlet].inflow;
   std::vector<double> share;
   for (const std::uint32_t outlet : tree.outlets) {
     share.push_back(blood::murrayShare(kMetres * endRadius(network, outlet)));

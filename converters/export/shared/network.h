@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/export/shared/flow_inlets.h"
 #include "converters/export/shared/named_end.h"
 #include "formats/case/case.h"
 
@@ -26,6 +27,7 @@ struct FlowJoint {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< mm, LPS
   std::vector<std::uint32_t> in, out;               ///< segments that end and begin here, ascending
   std::uint32_t tree = 0;                           ///< index into `trees`
+  double inflow = 0;                                ///< m^3/s, into an inlet
 };
 
 /// A vessel without forks. Its radius changes linearly between points.
@@ -60,7 +62,9 @@ struct FlowNetwork {
 /// a vessel is connected to them. Where several vessels leave a root's first node, an inlet of one
 /// radius is put before it. Throws Error(InvalidInput) if no vessel has a length, or a tree has no
 /// end that blood could leave through.
-FlowNetwork flowNetwork(const formats::CenterlineTree& tree);
+/// Inlets have the flow that `stated` has for the branch of their root, or else blood::meanFlow().
+FlowNetwork flowNetwork(const formats::CenterlineTree& tree,
+                        const std::vector<StatedInlet>& stated = {});
 
 /// Inlets and outlets, under their names; positions are those of the first and last nodes.
 std::vector<NamedEnd> findEnds(const FlowNetwork& network);

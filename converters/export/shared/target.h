@@ -31,8 +31,9 @@ struct ExportInput {
 struct ExportFile {
   std::string name;
   std::string bytes;
-  std::string about;  ///< its line in the table of README.md, Markdown; empty: it has none
-  std::string unit;   ///< unit of its lengths, where it is not the folder's
+  std::string about;       ///< its line in the table of README.md, Markdown; empty: it has none
+  std::string unit;        ///< unit of its lengths, where it is not the folder's
+  bool isProgram = false;  ///< people run it
 };
 
 struct ExportResult {

@@ -12,6 +12,8 @@
 #include "converters/base/number_text.h"
 #include "converters/export/shared/blood.h"
 #include "converters/export/shared/export_text.h"
+#include "converters/export/shared/flow_inlets.h"
+#include "converters/export/shared/flow_option_name.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/units.h"
 #include "converters/export/targets/oned/oned_network.h"
@@ -138,7 +140,9 @@ void addTree(ExportResult& result, const OneDNetwork& network, const std::string
 }  // namespace
 
 ExportResult exportOneD(const ExportInput& input) {
-  const FlowNetwork network = flowNetwork(input.source.tree);
+  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets);
+  FlowCase flowing = flowCase(input.source, inlets);
+  const FlowNetwork network = flowNetwork(flowing.value.tree, inlets);
   ExportResult result;
   result.start = exportText("oned/README.md");
   std::size_t stubs = 0, lengthened = 0;
@@ -149,7 +153,8 @@ ExportResult exportOneD(const ExportInput& input) {
     addTree(result, tree, t == 0 ? "vessels" : "vessels" + std::to_string(t + 1));
   }
   result.ends = findEnds(network);
-  result.losses = network.messages;
+  result.losses = std::move(flowing.losses);
+  result.losses.insert(result.losses.end(), network.messages.begin(), network.messages.end());
   for (std::string& warning : pressureWarnings(network))
     result.losses.push_back(std::move(warning));
   if (lengthened > 0)
@@ -168,7 +173,7 @@ TargetRow oneDRow() {
           .axes = {Axes::Lps},
           .holds = "lengths, radii, junctions; svOneDSolver also positions of junctions",
           .lacks = "aneurysms; the shape of sections; of vessels all but a cone",
-          .options = {},
+          .options = {kFlowOption.inlets},
           .needsModels = false};
 }
 

@@ -38,7 +38,7 @@ public:
     requireOneInlet();
     const FlowTree& tree = m_network.trees[m_tree];
     const std::uint32_t inlet = tree.inlets.front();
-    m_made.flow = blood::meanFlow(kMetres * endRadius(m_network, inlet));
+    m_made.flow = m_network.joints[inlet].inflow;
     addVessels(inlet);
     splitJunctions();
     splitParallels();

@@ -3,14 +3,17 @@
 #pragma once
 
 #include "converters/export/shared/target.h"
+#include "converters/export/targets/openfoam/openfoam_options.h"
 
 namespace lumen::convert {
 
 /// Case in metres: constant/triSurface/vessel.stl with a solid for each end, dictionaries for
-/// blockMesh, snappyHexMesh and simpleFoam, and Allrun. Inlets get the mean flow of blood.h,
-/// outlets a pressure of 0; an end that is not flat is wall. Throws as lumenSurface(), and
-/// Error(InvalidInput) for a surface without a flat inlet or a flat outlet.
-ExportResult exportOpenFoam(const ExportInput& input);
+/// blockMesh, snappyHexMesh and the solver, Allrun, and the pressures that Poiseuille expects. Parts
+/// without a path from an inlet, and ends that the cells cannot resolve, are left out; an end that is
+/// not flat is wall. Inlets get the flows of flowNetwork(), which outlets share by murrayShare().
+/// Throws as flowCase() and lumenSurface(), and Error(InvalidInput) for a surface that nothing can
+/// flow through.
+ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options);
 
 TargetRow openFoamRow();
 

@@ -5,62 +5,119 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 
+#include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "converters/export/shared/surface.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/triangle_tree.h"
+#include "formats/case/topology.h"
 
 namespace lumen::convert {
 
 namespace {
 
-constexpr double kAcross = 10;        // cells across a vessel that resolve a parabola of speeds
-constexpr double kMostAtWall = 1e6;   // cells: some 2 GB and half an hour for the mesh
+struct Preset {
+  int across, layers;
+  double most;  ///< cells
+};
+/// Across: cells that resolve a parabola of speeds, of which layers take the steep part. Most: a
+/// steady flow takes some 2 s a thousand cells on one core.
+constexpr std::array<Preset, 3> kPresets = {{{6, 2, 3e5}, {9, 3, 1.2e6}, {14, 4, 5e6}}};
 constexpr double kMostInBlock = 3e5;  // cells before they are halved
-// Layers of the finest cells on both sides of the wall while the mesh is made: nCellsBetweenLevels
-// and the wall's own.
-constexpr double kLayers = 8;
+constexpr int kMostLevels = 8;
+constexpr int kShifts = 8;  // sizes of a block's cubes that are tried, within a factor of two
 
-Eigen::Vector3d at(const SurfaceMesh& surface, std::uint32_t vertex) {
-  return toEigen(surface.position[vertex]);
+const Preset& presetOf(FoamGrain grain) {
+  return kPresets[static_cast<std::size_t>(grain)];
 }
 
-double areaOf(const SurfaceMesh& surface) {
-  double area = 0;
-  for (const Triangle& t : surface.triangle)
-    area +=
-        0.5 *
-        (at(surface, t[1]) - at(surface, t[0])).cross(at(surface, t[2]) - at(surface, t[0])).norm();
-  return area;
+Box3d boxOf(const formats::CenterlineTree& tree) {
+  Box3d box;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+    box.add(toEigen(tree.centre[n]), static_cast<double>(tree.radius[n]));
+  return box;
+}
+
+/// Cells inside of all vessels, and in the layers at their walls.
+double estimate(const formats::CenterlineTree& tree, const FoamCells& cells) {
+  double count = 0;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
+    const auto r = static_cast<double>(tree.radius[n]);
+    const double e = cells.edgeAt(cells.level(r));
+    count += formats::edgeLength(tree, n) * std::numbers::pi * r *
+             (r / (e * e * e) + 2 * cells.layers / (e * e));
+  }
+  return count;
 }
 
 TriangleMesh trianglesOf(const SurfaceMesh& surface) {
   TriangleMesh mesh;
-  for (std::uint32_t v = 0; v < surface.position.size(); ++v)
-    mesh.position.push_back(at(surface, v));
+  for (const Float3& p : surface.position) mesh.position.push_back(toEigen(p));
   mesh.triangle = surface.triangle;
   return mesh;
 }
 
 }  // namespace
 
-FoamCells foamCells(const SurfaceMesh& surface, double least) {
-  const Box3d box = boundingBox(surface);
-  FoamCells cells;
-  cells.atWall = std::max(2 * least / kAcross, std::sqrt(kLayers * areaOf(surface) / kMostAtWall));
-  cells.acrossThinnest = 2 * least / cells.atWall;
-  // one halving at least: cells in the middle of vessels may be larger than those at walls
-  const double edge = std::max(2 * cells.atWall, std::cbrt(box.size().prod() / kMostInBlock));
-  cells.level = static_cast<int>(std::ceil(std::log2(edge / cells.atWall) - 1e-9));
+int FoamCells::level(double radius) const {
+  const double halvings = std::ceil(std::log2(edge * across / (2 * radius)) - 1e-9);
+  return std::clamp(static_cast<int>(halvings), 1, mostLevels);
+}
+
+FoamCells foamCells(const formats::CenterlineTree& tree, FoamGrain grain) {
+  const Preset& preset = presetOf(grain);
+  const auto widest =
+      static_cast<double>(*std::max_element(tree.radius.begin(), tree.radius.end()));
+  const double least = std::cbrt(boxOf(tree).size().prod() / kMostInBlock);
+  FoamCells best;
+  for (int shift = 0; shift < kShifts; ++shift) {
+    FoamCells cells{std::max(4 * widest / preset.across, least) *
+                        std::exp2(static_cast<double>(shift) / kShifts),
+                    preset.across, preset.layers, 0, kMostLevels};
+    cells.count = estimate(tree, cells);
+    if (shift == 0 || cells.count < best.count) best = cells;
+  }
+  return best;
+}
+
+double mostCells(FoamGrain grain) {
+  return presetOf(grain).most;
+}
+
+std::vector<TrimmedEnd> trimToCells(formats::Case& target, FoamGrain grain) {
+  constexpr double kStep = 1.1;
+  formats::Case tree = target;  // without the parts that are costly to change
+  tree.points.reset();
+  tree.models.reset();
+  const auto& radius = target.tree.radius;
+  double least = static_cast<double>(*std::min_element(radius.begin(), radius.end()));
+  const auto most = static_cast<double>(*std::max_element(radius.begin(), radius.end()));
+  double limit = 0;
+  while (foamCells(tree.tree, grain).count > mostCells(grain) && least < most) {
+    least *= kStep;
+    try {
+      trimEnds(tree, {least, 0});
+    } catch (const Error&) {
+      break;  // nothing would be left
+    }
+    limit = least;
+  }
+  if (limit == 0) return {};
+  return trimEnds(target, {limit, 0}).ends;
+}
+
+FoamBlock foamBlock(const Box3d& box, double edge) {
   // no face of a cell may lie in a flat end, so the block begins at an uneven share of a cell
   // before the surface
   constexpr double kMargin = 1.37;
-  cells.low = box.low - Eigen::Vector3d::Constant(kMargin * cells.edge());
+  FoamBlock block;
+  block.low = box.low - Eigen::Vector3d::Constant(kMargin * edge);
   for (int a = 0; a < 3; ++a)
-    cells.count[static_cast<std::size_t>(a)] =
-        static_cast<int>(std::ceil((box.high[a] - cells.low[a]) / cells.edge() + kMargin));
-  return cells;
+    block.count[static_cast<std::size_t>(a)] =
+        static_cast<int>(std::ceil((box.high[a] - block.low[a]) / edge + kMargin));
+  block.high = block.low + edge * Eigen::Vector3d(block.count[0], block.count[1], block.count[2]);
+  return block;
 }
 
 std::vector<Eigen::Vector3d> deepestPoints(const formats::CenterlineTree& tree,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size of the cells inside vessels, and the points from which the inside is found.
+// Size of the cells inside vessels, the ends that are too thin for them, and the points from which
+// the inside is found.
 #pragma once
 
 #include <array>
@@ -9,25 +10,43 @@
 
 #include "converters/base/progress.h"
 #include "converters/export/shared/frame.h"
+#include "converters/export/targets/openfoam/openfoam_options.h"
+#include "converters/geometry/box.h"
 #include "converters/io/mesh/surface_mesh.h"
+#include "converters/stages/editing/trim.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
-/// Cubes around a surface, halved `level` times at it. Lengths are in the unit of the surface.
+/// Cubes that are halved until enough of them lie across each vessel. Lengths are in mm.
 struct FoamCells {
-  double atWall = 0;                              ///< edge of the cells at the wall
-  int level = 0;                                  ///< halvings
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< least corner of the block
-  std::array<int, 3> count{};                     ///< number of its cells, before they are halved
-  double acrossThinnest = 0;                      ///< cells across the thinnest vessel
+  double edge = 0;     ///< of the cubes before they are halved
+  int across = 0;      ///< cells across a vessel at least, layers at the wall not counted
+  int layers = 0;      ///< at the wall
+  double count = 0;    ///< estimate of the number of cells
+  int mostLevels = 0;  ///< halvings at most
 
-  [[nodiscard]] double edge() const { return atWall * (1 << level); }  ///< the block's cells'
+  /// Halvings in a vessel of this radius: one at least, as cells in the middle may be larger.
+  [[nodiscard]] int level(double radius) const;
+  [[nodiscard]] double edgeAt(int level) const { return edge / (1 << level); }
 };
 
-/// Ten cells across the thinnest vessel, of the radius `least`; fewer where more than about a
-/// million would be needed.
-FoamCells foamCells(const SurfaceMesh& surface, double least);
+/// The cells for a tree: as many across each vessel as `grain` asks for. Their number is estimated.
+FoamCells foamCells(const formats::CenterlineTree& tree, FoamGrain grain);
+
+/// Cells that a preset may have: more take hours.
+double mostCells(FoamGrain grain);
+
+/// Removes the thinnest ends of a case until the estimate of foamCells() is at most mostCells(), or
+/// no end can be removed. Returns the ends that are gone.
+std::vector<TrimmedEnd> trimToCells(formats::Case& target, FoamGrain grain);
+
+/// The block of cubes around a surface; `cells` and `box` in the same unit as the result.
+struct FoamBlock {
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;
+  std::array<int, 3> count{};
+};
+FoamBlock foamBlock(const Box3d& box, double edge);
 
 /// The node's centre that lies deepest inside each connected tree with a surface, by tree.
 /// `surface`: closed, in `frame`; so are the points.

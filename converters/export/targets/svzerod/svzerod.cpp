@@ -12,6 +12,8 @@
 
 #include "converters/export/shared/blood.h"
 #include "converters/export/shared/export_text.h"
+#include "converters/export/shared/flow_inlets.h"
+#include "converters/export/shared/flow_option_name.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/network.h"
 #include "converters/export/shared/units.h"
@@ -78,7 +80,7 @@ Json conditionsJson(const FlowNetwork& network, const std::vector<std::string>& 
   Json list = Json::array();
   for (const FlowTree& tree : network.trees) {
     for (const std::uint32_t inlet : tree.inlets) {
-      const double flow = kCgsFlow * blood::meanFlow(kMetres * endRadius(network, inlet));
+      const double flow = kCgsFlow * network.joints[inlet].inflow;
       list.push_back({{"bc_name", names[inlet]},
                       {"bc_type", "FLOW"},
                       {"bc_values", {{"Q", {flow, flow}}, {"t", {0.0, 1.0}}}},
@@ -123,14 +125,17 @@ Json makeModel(const FlowNetwork& network) {
 }  // namespace
 
 ExportResult exportSvZeroD(const ExportInput& input) {
-  const FlowNetwork network = flowNetwork(input.source.tree);
+  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets);
+  FlowCase flowing = flowCase(input.source, inlets);
+  const FlowNetwork network = flowNetwork(flowing.value.tree, inlets);
   ExportResult result;
   result.start = exportText("svzerod/README.md");
   result.files = {{"model.json",
                    makeModel(network).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                    "vessels, junctions, inlets and outlets", ""}};
   result.ends = findEnds(network);
-  result.losses = network.messages;
+  result.losses = std::move(flowing.losses);
+  result.losses.insert(result.losses.end(), network.messages.begin(), network.messages.end());
   for (std::string& warning : pressureWarnings(network))
     result.losses.push_back(std::move(warning));
   result.remarks = {networkSummary(network)};
@@ -147,7 +152,7 @@ TargetRow svZeroDRow() {
               "lengths, radii, junctions and loops, as resistance, compliance and inertance of "
               "each segment",
           .lacks = "aneurysms; the shape of sections",
-          .options = {},
+          .options = {kFlowOption.inlets},
           .needsModels = false};
 }
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/shared/flow_inlets.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "converters/base/error.h"
+#include "converters/base/number_text.h"
+#include "converters/base/parsed_number.h"
+#include "converters/base/text.h"
+#include "converters/base/vectors.h"
+#include "converters/export/shared/flow_option_name.h"
+#include "converters/geometry/disjoint_sets.h"
+#include "converters/stages/editing/selection.h"
+#include "formats/case/topology.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using formats::Branch;
+using formats::CenterlineTree;
+
+constexpr double kMillilitre = 1e-6;   // m^3
+constexpr double kAtBorder = 1.5;      // radii from the border at which a vessel comes in
+constexpr double kFragment = 0.1;      // of the length of the longest part
+constexpr std::size_t kMostNamed = 3;  // parts that messages name one by one
+
+/// A connected part of a case.
+struct Part {
+  double length = 0;  ///< mm
+  std::vector<std::uint32_t> branches;
+  bool hasInlet = false;
+};
+
+bool isRoot(const Branch& branch) {
+  return branch.parentNode < 0 && branch.kind == formats::BranchKind::Vessel;
+}
+
+/// The connected parts, by their first branch.
+std::vector<Part> findParts(const CenterlineTree& tree) {
+  DisjointSets sets(tree.branches.size());
+  for (std::uint32_t b = 0; b < tree.branches.size(); ++b)
+    if (const std::int32_t parent = tree.branches[b].parentNode; parent >= 0)
+      sets.join(tree.branch[static_cast<std::size_t>(parent)], b);
+  for (const auto& [a, b] : tree.links) sets.join(tree.branch[a], tree.branch[b]);
+  std::map<std::uint32_t, std::size_t> numbers;
+  std::vector<Part> parts;
+  for (std::uint32_t b = 0; b < tree.branches.size(); ++b) {
+    const auto [at, isNew] = numbers.emplace(sets.find(b), parts.size());
+    if (isNew) parts.emplace_back();
+    Part& part = parts[at->second];
+    part.branches.push_back(b);
+    part.length += formats::branchLength(tree, tree.branches[b]);
+  }
+  return parts;
+}
+
+/// Whether a place lies within `reach` mm of the border of a volume, or outside.
+bool isAtBorder(const formats::SourceVolume& volume, const Eigen::Vector3d& place, double reach) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> direction(
+      volume.direction.data());
+  const Eigen::Vector3d along =
+      direction.inverse() * (place - Eigen::Vector3d(volume.origin.data()));
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double at = along[static_cast<Eigen::Index>(a)];
+    const double far = (static_cast<double>(volume.size[a]) - 1) * volume.spacing[a] - at;
+    if (std::min(at, far) <= reach) return true;
+  }
+  return false;
+}
+
+void markStated(const CenterlineTree& tree, const std::vector<StatedInlet>& inlets,
+                std::vector<Part>& parts) {
+  std::string roots;
+  for (const Branch& branch : tree.branches)
+    if (isRoot(branch)) roots += (roots.empty() ? "" : ", ") + formats::printable(branch.label);
+  for (const StatedInlet& inlet : inlets) {
+    bool isFound = false;
+    for (Part& part : parts)
+      for (const std::uint32_t b : part.branches)
+        if (isRoot(tree.branches[b]) && tree.branches[b].label == inlet.label)
+          part.hasInlet = isFound = true;
+    if (!isFound)
+      throw Error(ErrorKind::Usage, kFlowOption.inlets.shown() + ": found " +
+                                        formats::printable(inlet.label) +
+                                        ", expected the branch of a root: " + roots);
+  }
+}
+
+void markUsual(const formats::Case& source, std::vector<Part>& parts) {
+  const CenterlineTree& tree = source.tree;
+  const auto longest = std::max_element(
+      parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.length < b.length; });
+  for (Part& part : parts) {
+    const bool begins = std::any_of(part.branches.begin(), part.branches.end(), [&](auto b) {
+      const std::uint32_t node = tree.branches[b].firstNode;
+      return isRoot(tree.branches[b]) &&
+             (!source.metadata.source ||
+              isAtBorder(*source.metadata.source, toEigen(tree.centre[node]),
+                         kAtBorder * static_cast<double>(tree.radius[node])));
+    });
+    part.hasInlet = &part == &*longest || (begins && part.length >= kFragment * longest->length);
+  }
+}
+
+std::vector<std::string> lossesOf(const CenterlineTree& tree, const std::vector<Part>& parts) {
+  std::vector<std::string> losses;
+  std::size_t others = 0;
+  double length = 0;
+  for (const Part& part : parts) {
+    if (part.hasInlet) continue;
+    if (losses.size() == kMostNamed) {
+      ++others;
+      length += part.length;
+      continue;
+    }
+    losses.push_back(tree.branches[part.branches.front()].label + ": this part, of " +
+                     counted(part.branches.size(), "branch", "branches") + " and " +
+                     shownFigure(part.length) +
+                     " mm, has no path from an inlet, so it is left out; " +
+                     kFlowOption.inlets.shown() + " states inlets");
+  }
+  if (others > 0)
+    losses.push_back(counted(others, "more part", "more parts") + " of " + shownFigure(length) +
+                     " mm together have no path from an inlet either");
+  return losses;
+}
+
+}  // namespace
+
+std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words) {
+  std::vector<StatedInlet> inlets;
+  for (const std::string& word : words) {
+    const std::size_t sign = word.rfind('=');
+    StatedInlet inlet{word.substr(0, sign), 0};
+    if (sign != std::string::npos) {
+      const auto flow = parsedNumber(word.substr(sign + 1));
+      if (!flow || !(*flow > 0))
+        throw Error(ErrorKind::Usage, kFlowOption.inlets.shown() + ": found " +
+                                          formats::printable(word) +
+                                          ", expected a label, or LABEL=FLOW with a positive flow "
+                                          "in ml/s");
+      inlet.flow = kMillilitre * *flow;
+    }
+    inlets.push_back(std::move(inlet));
+  }
+  return inlets;
+}
+
+FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& inlets) {
+  FlowCase made{source, {}};
+  std::vector<Part> parts = findParts(source.tree);
+  if (inlets.empty())
+    markUsual(source, parts);
+  else
+    markStated(source.tree, inlets, parts);
+  std::vector<bool> goes(source.tree.branches.size(), false);
+  for (const Part& part : parts)
+    for (const std::uint32_t b : part.branches) goes[b] = !part.hasInlet;
+  made.losses = lossesOf(source.tree, parts);
+  leaveOutBranches(made.value, goes);
+  return made;
+}
+
+}  // namespace lumen::convert

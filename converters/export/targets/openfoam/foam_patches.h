@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patches of a mesh of OpenFOAM, and the flows through them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "converters/export/shared/named_end.h"
+#include "converters/export/shared/network.h"
+#include "converters/export/targets/openfoam/openfoam_cells.h"
+#include "converters/io/mesh/surface_mesh.h"
+
+namespace lumen::convert {
+
+/// A group of faces as a patch of the mesh.
+struct FoamPatch {
+  std::string end;                  ///< name of the group
+  std::string name;                 ///< as OpenFOAM takes it
+  FaceKind kind = FaceKind::Wall;   ///< an end that is not flat is a wall
+  double radius = 0;                ///< mm, of an end
+  int level = 0;                    ///< halvings of cells there
+  double flow = 0;                  ///< m^3/s, in or out
+  bool holdsPressure = false;       ///< an outlet of pressure 0, through which the rest flows
+  double drop = 0;                  ///< Pa, by Poiseuille: above the outlet that holds pressure
+};
+
+/// Divides the wall of a surface into groups by the levels that `cells` has for its radii: the first
+/// stays "wall", further ones are "wall-2", ... `scale`: units of the surface in a millimetre. Returns
+/// the level of each group; an end has the finest one of its triangles.
+std::vector<int> divideWall(SurfaceMesh& mesh, const FoamCells& cells, double scale);
+
+/// A patch for each group of faces. Ends that are not flat are walls.
+std::vector<FoamPatch> foamPatches(const SurfaceMesh& mesh, const std::vector<int>& levels,
+                                   const std::vector<NamedEnd>& ends);
+
+/// Sets flows and drops: each connected part of the network takes in the flows of its inlets, and its
+/// outlets share them by blood::murrayShare() of their radii; the widest one holds the pressure.
+/// Inlets without an outlet, and outlets without an inlet, become walls, for which a sentence is
+/// returned. Throws Error(InvalidInput) if nothing flows.
+std::vector<std::string> assignFlows(std::vector<FoamPatch>& patches, const FlowNetwork& network);
+
+}  // namespace lumen::convert
