@@ -34,6 +34,7 @@ ROOMS = [
      "stages/surface": [], "stages/surface/patches": ["stages/surface"],
      "stages/trees_from_surfaces": ["stages/repair"], "stages/phantom": []},
     {"judge/compare": [], "judge/check": []},
+    {"judge/measure": []},
     {"judge/facts": []},
     {"draw/raster": [], "draw/overlay": ["draw/raster"], "draw/picture": ["draw/raster"],
      "draw/report": ["draw/overlay", "draw/raster"]},
