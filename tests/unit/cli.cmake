@@ -2,7 +2,7 @@
 find_package(PNG REQUIRED)
 lumen_test(cli_test
   LABELS slow
-  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_base lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
+  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_base lumen_csv lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
@@ -16,6 +16,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/interrupt_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_content_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/loss_report_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/measure_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_info_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp

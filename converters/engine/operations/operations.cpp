@@ -9,7 +9,7 @@ Engine makeEngine() {
   for (const auto make :
        {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand,
         makeTrimCommand, makeInfoCommand, makeValidateCommand, makeCompareCommand, makeCheckCommand,
-        makePictureCommand, makeReportCommand, makePhantomCommand})
+        makeMeasureCommand, makePictureCommand, makeReportCommand, makePhantomCommand})
     engine.add(make);
 #ifdef LUMEN_WITH_LIBRARY
   for (const auto make :

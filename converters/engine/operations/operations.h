@@ -18,6 +18,7 @@ std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeValidateCommand();
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeCheckCommand();
+std::unique_ptr<Command> makeMeasureCommand();
 std::unique_ptr<Command> makePictureCommand();
 std::unique_ptr<Command> makeReportCommand();
 std::unique_ptr<Command> makePhantomCommand();

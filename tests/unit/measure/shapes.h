@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases of vessels with closed forms: exact nodes and exact models.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/case/case.h"
+
+namespace lumen::convert::test {
+
+/// A tube along a curve, s in mm from 0 to `length`.
+struct Tube {
+  std::string label = "root";
+  std::function<Eigen::Vector3d(double)> position;  ///< parametrised by arc length
+  std::function<double(double)> radius;             ///< mm at s
+  double length = 0;
+  int parent = -1;        ///< index of another tube
+  double parentAlong = 0;  ///< mm along it
+};
+
+/// The tubes as a tree without points or models, with a node about every `spacing` mm.
+formats::Case treeOf(const std::vector<Tube>& tubes, double spacing);
+
+/// treeOf() with models whose surface is exact: each node has the cylinder of the radius in its
+/// power cell along its direction, and neighbours blend. Between nodes it differs from the tube by the sagitta
+/// of a step in a bend, and by a share of the step of the radius.
+formats::Case caseOf(const std::vector<Tube>& tubes, double spacing);
+
+/// Adds wall points on the surface of caseOf(), moved outwards by `offset(index of the point)` mm.
+void addPoints(formats::Case& value, double voxel,
+               const std::function<double(std::size_t)>& offset);
+
+Tube straightTube(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double length,
+                  double radius);
+Tube helixTube(double helixRadius, double rise, double turns, double radius);
+Tube arcTube(double bend, double angle, double radius);
+
+}  // namespace lumen::convert::test
