@@ -52,6 +52,7 @@ lumen_test(read_mesh_test
   LIBS lumen_repair
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/box_tree_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/convex_hull_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_faults_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The convex hull of points.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/geometry/triangle_mesh.h"
+
+namespace lumen::convert {
+
+/// The triangles of the convex hull of points, counter-clockwise seen from outside, as indices of
+/// the points; none if all points lie in one plane. Exact: no point lies outside of it, as
+/// orientation() of exact_predicates.h decides; points must be within its range. Of points in the
+/// plane of a face, only those that a triangle needs are its corners. C. B. Barber, D. P. Dobkin and
+/// H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996.
+std::vector<Triangle> convexHull(std::span<const Eigen::Vector3d> points);
+
+}  // namespace lumen::convert
