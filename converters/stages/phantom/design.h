@@ -50,6 +50,9 @@ struct Design {
   std::vector<SeedBranch> seeds;
   std::map<std::string, formats::ParameterValue>
       notes;  ///< what else a reader of the truth should know
+  /// Signed distance to the wall, mm, negative inside, right to first order near it and to a factor of
+  /// two elsewhere; empty: the wall is that of the tree taken as tubes. Contrast is full.
+  std::function<double(const Eigen::Vector3d&)> wall;
 };
 
 /// Appends branches to a design, resampled to the frame's node spacing.
@@ -131,6 +134,14 @@ Design designHairpin(const Frame& frame);
 Design designRightAngle(const Frame& frame);
 Design designFading(const Frame& frame);
 Design designThickSlices(const Frame& frame);
+Design designCoil(const Frame& frame);
+Design designArc(const Frame& frame);
+Design designCone(const Frame& frame);
+Design designEllipseTube(const Frame& frame);
+Design designFork(const Frame& frame);
+Design designSacSphere(const Frame& frame);
+Design designSacEllipsoid(const Frame& frame);
+Design designSacFork(const Frame& frame);
 Design designWillis(const Frame& frame);
 Design designPatient(const Frame& frame, std::uint64_t seed, Progress& progress);
 

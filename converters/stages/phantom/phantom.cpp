@@ -173,9 +173,10 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
 
 const std::vector<std::string>& phantomNames() {
   static const std::vector<std::string> names = {
-      "tube",        "helix",   "bifurcation",  "kissing",   "aneurysm",
-      "stenosis",    "dropout", "sac-lobes",    "companion", "hairpin",
-      "right-angle", "fading",  "thick-slices", "willis",    "patient"};
+      "tube",         "helix",         "bifurcation", "kissing", "aneurysm",     "stenosis",
+      "dropout",      "sac-lobes",     "companion",   "hairpin", "right-angle",  "fading",
+      "thick-slices", "coil",          "arc",         "cone",    "ellipse-tube", "fork",
+      "sac-sphere",   "sac-ellipsoid", "sac-fork",    "willis",  "patient"};
   return names;
 }
 

@@ -29,6 +29,10 @@
 // | right-angle | narrow children that leave a wide parent at a right angle |
 // | fading | contrast that falls along the tree |
 // | thick-slices | a fork in slices of five voxels |
+// | coil, arc, cone, ellipse-tube | tubes whose measures have closed forms |
+// | fork | straight vessels that part at known angles |
+// | sac-sphere, sac-ellipsoid | sacs above a plane that touches a straight vessel: their neck |
+// | sac-fork | a sac at the end of a trunk that parts to both sides |
 // | willis | a circle of Willis: three inlets, and communicating arteries as links |
 // | patient | a random tree |
 //
@@ -41,6 +45,10 @@
 //
 // `willis` keeps its radii of 2 to 0.7 mm in volumes of 51 mm, and scales by no less than 0.5 and no
 // more than 1.5. --clutter (clutter.h) adds to each of them.
+//
+// The truth of phantoms whose measures have closed forms (measured_designs.cpp, stenosis, helix)
+// states these in its step, as true.BRANCH.MEASURE. The wall of `ellipse-tube` is not that of its
+// tree, whose radii are those of the balls inside.
 //
 // A tree from a file is smoothed by the rule of smooth_chain.h. Its branches are b000, b001 and so
 // on, its seeds those of the vessels that are longer than 5 mm and wide enough to be tracked

@@ -127,6 +127,14 @@ PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
       {"right-angle", designRightAngle},
       {"fading", designFading},
       {"thick-slices", designThickSlices},
+      {"coil", designCoil},
+      {"arc", designArc},
+      {"cone", designCone},
+      {"ellipse-tube", designEllipseTube},
+      {"fork", designFork},
+      {"sac-sphere", designSacSphere},
+      {"sac-ellipsoid", designSacEllipsoid},
+      {"sac-fork", designSacFork},
       {"willis", designWillis}};
   const auto found = small.find(options.name);
   const bool patient = found == small.end();

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include <tbb/parallel_for.h>
@@ -86,6 +87,39 @@ double integrateOccupancy(const TubeTreeDistance& wall, const std::vector<float>
         sum += inside * (a + hit.along * (b - a));
       }
   return sum / (kSubvoxels * kSubvoxels * kSubvoxels);
+}
+
+// Integrates over the voxel around `centre` with a wall of closed form.
+double integrateOccupancy(const std::function<double(const Vector3d&)>& wall,
+                          const Vector3d& centre, double voxel) {
+  const double step = voxel / kSubvoxels;
+  double sum = 0;
+  for (int k = 0; k < kSubvoxels; ++k)
+    for (int j = 0; j < kSubvoxels; ++j)
+      for (int i = 0; i < kSubvoxels; ++i)
+        sum +=
+            std::clamp(0.5 - wall(centre + step * Vector3d(i - 1, j - 1, k - 1)) / step, 0.0, 1.0);
+  return sum / (kSubvoxels * kSubvoxels * kSubvoxels);
+}
+
+void drawClosedForm(const std::function<double(const Vector3d&)>& wall, const VolumeGeometry& grid,
+                    Image& image, Progress& progress) {
+  const double far = 2 * kHalfDiagonal * grid.spacing.x();
+  tbb::parallel_for(0, grid.size[2], [&](int z) {
+    progress.check();
+    for (int y = 0; y < grid.size[1]; ++y) {
+      float* row = image.row(y, z);
+      for (int x = 0; x < grid.size[0]; ++x) {
+        const Vector3d centre = centreOf(grid, x, y, z);
+        const double distance = wall(centre);
+        if (std::abs(distance) > far)
+          row[x] = distance < 0 ? 1 : 0;
+        else
+          row[x] = static_cast<float>(integrateOccupancy(wall, centre, grid.spacing.x()));
+      }
+    }
+    progress.advance();
+  });
 }
 
 std::vector<float> gaussianWeights(double sigma) {
@@ -174,6 +208,10 @@ void addBias(float* row, int n, int y, double z, const std::array<Wave, 4>& wave
 Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress) {
   const auto [nx, ny, nz] = grid.size;
   Image image{grid.cells().size, std::vector<float>(grid.voxelCount(), kUndrawn)};
+  if (design.wall) {
+    drawClosedForm(design.wall, grid, image, progress);
+    return image;
+  }
   const double rim = kHalfDiagonal * grid.spacing.x();
   const std::vector<Segment> segments = makeSegments(design.tree, rim);
   const TubeTreeDistance wall(design.tree);

@@ -67,6 +67,12 @@ Design designHelix(const Frame& frame) {
                                     0.5 * e + 0.28 * e * std::sin(angle), e * (0.14 + 0.72 * t));
                   },
                   constant(0.8 * frame.radiusScale())));
+  const double bend = 0.28 * e, climb = 0.72 * e / (4 * std::numbers::pi);
+  const double square = bend * bend + climb * climb;
+  auto& notes = builder.design().notes;
+  notes["true.root.length_mm"] = 4 * std::numbers::pi * std::sqrt(square);
+  notes["true.root.curvature_per_mm"] = bend / square;
+  notes["true.root.torsion_per_mm"] = climb / square;
   return builder.design();
 }
 
@@ -152,6 +158,11 @@ Design designStenosis(const Frame& frame) {
   builder.add("root", formats::kNoParent, bow(frame, 0.1 * e, [=](double t) {
                 return r * (1 - 0.55 * bump((t - 0.5) * e / (3 * r)));
               }));
+  auto& notes = builder.design().notes;
+  notes["true.root.stenosis_diameter_degree"] = 0.55;
+  notes["true.root.stenosis_area_degree"] = 1 - 0.45 * 0.45;
+  notes["true.root.stenosis_smallest_radius_mm"] = 0.45 * r;
+  notes["true.root.stenosis_at_share"] = 0.5;
   return builder.design();
 }
 
