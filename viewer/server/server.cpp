@@ -176,6 +176,11 @@ private:
     get("library", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.library());
     });
+    get("measures", [this](const Request& request, Response& response) {
+      answerPart(request, response,
+                 request.has_param("kind") ? m_session.measures(request.get_param_value("kind"))
+                                           : m_session.measures());
+    });
     get("case.lumen", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.caseFile());
     });

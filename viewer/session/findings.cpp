@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/findings.h"
 
+#include <string>
 #include <utility>
+
+#include "viewer/session/events.h"
 
 namespace lumen::viewer {
 
@@ -22,11 +25,22 @@ void Findings::setFigures(Json answer, std::shared_ptr<const formats::Case> of,
   m_truth = std::move(truth);
 }
 
+void Findings::setMeasures(std::string name, std::vector<convert::MeasureTable> tables,
+                           std::shared_ptr<const formats::Case> of) {
+  std::string text = jsonText(convert::measuresJson(tables));
+  const std::lock_guard lock(m_mutex);
+  m_tables = {std::move(name), std::move(tables)};
+  m_measures = tagged("measures-" + std::to_string(++m_measurings), std::move(text));
+  m_measured = std::move(of);
+}
+
 void Findings::clear() {
   const std::lock_guard lock(m_mutex);
   m_check = m_figures = nullptr;
   m_work.clear();
-  m_checked = m_compared = m_truth = m_worked = nullptr;
+  m_measures = {};
+  m_tables = {};
+  m_checked = m_compared = m_truth = m_worked = m_measured = nullptr;
 }
 
 Json Findings::check() const {
@@ -58,6 +72,29 @@ bool Findings::isCheckOld(const Document& document) const {
 Json Findings::figures(const Document& document) const {
   const std::lock_guard lock(m_mutex);
   return m_compared == document.value && m_truth == document.truth ? m_figures : Json(nullptr);
+}
+
+Tagged Findings::measures() const {
+  const std::lock_guard lock(m_mutex);
+  return m_measures;
+}
+
+Tagged Findings::measures(const std::string& kind) const {
+  const std::lock_guard lock(m_mutex);
+  for (std::size_t k = 0; k < m_tables.tables.size(); ++k)
+    if (m_tables.tables[k].kind == kind)
+      return tagged(m_measures.tag + kind, convert::measuresCsv({&m_tables, 1}, k));
+  return {};
+}
+
+std::uint64_t Findings::measuresRevision() const {
+  const std::lock_guard lock(m_mutex);
+  return m_measures.bytes ? m_measurings : 0;
+}
+
+bool Findings::areMeasuresOld(const Document& document) const {
+  const std::lock_guard lock(m_mutex);
+  return m_measures.bytes && m_measured != document.value;
 }
 
 }  // namespace lumen::viewer

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers of checks and comparisons, each with the parts that it is about.
+// Answers of checks, comparisons and measurings, each with the parts that it is about.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
+#include "converters/judge/measure/measure_text.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"
+#include "viewer/session/tagged.h"
 #include "viewer/session/work_list.h"
 
 namespace lumen::viewer {
@@ -18,6 +22,9 @@ public:
   void setCheck(Json answer, std::vector<WorkItem> work, std::shared_ptr<const formats::Case> of);
   void setFigures(Json answer, std::shared_ptr<const formats::Case> of,
                   std::shared_ptr<const formats::Case> truth);
+  /// `name`: of the case, for tables of comma-separated values.
+  void setMeasures(std::string name, std::vector<convert::MeasureTable> tables,
+                   std::shared_ptr<const formats::Case> of);
   void clear();
 
   /// Null if there was no check; it may be about an earlier case.
@@ -31,12 +38,23 @@ public:
   [[nodiscard]] bool isCheckOld(const Document& document) const;
   /// Null if there was no comparison of the case and the truth of `document`.
   [[nodiscard]] Json figures(const Document& document) const;
+  /// The tables of measures as measuresJson() has them; null if there are none. They may be about an
+  /// earlier case.
+  [[nodiscard]] Tagged measures() const;
+  /// One of them as comma-separated values; null if there is none of that kind.
+  [[nodiscard]] Tagged measures(const std::string& kind) const;
+  /// Counts up with each measuring; 0 if there are no measures.
+  [[nodiscard]] std::uint64_t measuresRevision() const;
+  [[nodiscard]] bool areMeasuresOld(const Document& document) const;
 
 private:
   mutable std::mutex m_mutex;  ///< guards all that follow
   Json m_check, m_figures;
   std::vector<WorkItem> m_work;
-  std::shared_ptr<const formats::Case> m_checked, m_compared, m_truth;
+  Tagged m_measures;
+  convert::MeasuredCase m_tables;
+  std::uint64_t m_measurings = 0;
+  std::shared_ptr<const formats::Case> m_checked, m_compared, m_truth, m_measured;
   mutable std::shared_ptr<const formats::Case> m_worked;  ///< case that m_workJson is of, or null
   mutable Json m_workJson;
 };

@@ -22,6 +22,7 @@ Json Operations::run(formats::JsonValue request) {
   if (op == "forget") return m_files.forget(arguments);
   if (op == "check") return m_stages.check(from);
   if (op == "compare") return m_stages.compare(from);
+  if (op == "measure") return m_stages.measure(from);
   m_workspace.jobs.requireNoChange();
   return change(op, arguments, from);
 }

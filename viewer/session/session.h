@@ -53,6 +53,11 @@ public:
 
   // Parts of the document for pages. Empty `bytes` if there is no such part.
   [[nodiscard]] Tagged library() const { return m_workspace.library.pack(); }
+  /// The tables of the last measuring, as JSON; one of them as comma-separated values.
+  [[nodiscard]] Tagged measures() const { return m_workspace.findings.measures(); }
+  [[nodiscard]] Tagged measures(const std::string& kind) const {
+    return m_workspace.findings.measures(kind);
+  }
   Tagged casePack(Progress& progress) { return m_workspace.packs.casePack(now(), progress); }
   [[nodiscard]] Tagged caseFile() const { return viewer::caseFile(now()); }
   Tagged proposalsPack(Progress& progress) { return viewer::proposalsPack(now(), progress); }

@@ -12,6 +12,7 @@
 #include "converters/engine/comparison_answer.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/judge/compare/compare.h"
+#include "converters/judge/measure/measure_text.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
 #include "viewer/session/proposals.h"
@@ -159,6 +160,20 @@ Json StageJobs::compare(const Moment& from) {
     const auto comparison = convert::compareCases(*value, *truth, progress);
     workspace.findings.setFigures(engine::comparisonJson(comparison), value, truth);
     return std::string("compared");
+  });
+}
+
+Json StageJobs::measure(const Moment& from) {
+  if (!from.document.value) throw Error(ErrorKind::Usage, "there is no case to measure");
+  Workspace& workspace = m_workspace;
+  return workspace.startJob("measuring", false, [&workspace, from](Progress& progress) {
+    progress.begin("measure", 0);
+    const formats::Case& value = *from.document.value;
+    const convert::CaseMeasures measures = convert::measureCase(value, {}, progress);
+    progress.end();
+    workspace.findings.setMeasures(from.document.labelOf(FileRole::Case),
+                                   convert::measureTables(value, measures), from.document.value);
+    return counted(measures.vessels.size(), "branch is", "branches are") + " measured";
   });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stages of the chain as jobs: tracking, fitting, checks and comparisons.
+// Stages of the chain as jobs: tracking, fitting, checks, comparisons and measures.
 #pragma once
 
 #include "viewer/session/corrections.h"
@@ -26,6 +26,8 @@ public:
   Json refit(Correction correction, const Moment& from);
   Json check(const Moment& from);
   Json compare(const Moment& from);
+  /// Measures the case.
+  Json measure(const Moment& from);
 
 private:
   Json trackSeeds(const Seeds& seeds, const Moment& from);

@@ -83,6 +83,7 @@ Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
           {"meshes", parts.meshes},
           {"truth", parts.truth},
           {"library", workspace.library.revision()},
+          {"measures", workspace.findings.measuresRevision()},
           // of a surface and a truth
           {"distance", surface + parts.truth}};
 }
@@ -137,6 +138,7 @@ Json stateJson(const Workspace& workspace) {
   json["work"] = workspace.findings.work(document);
   json["checkIsOld"] = workspace.findings.isCheckOld(document);
   json["figures"] = workspace.findings.figures(document);
+  json["measuresAreOld"] = workspace.findings.areMeasuresOld(document);
   return json;
 }
 

@@ -111,18 +111,16 @@ LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned out
     const auto n = static_cast<std::size_t>(__builtin_ctz(pairs));
     const std::uint32_t i = s.lane[n];
     Lane lane{load4(g.field[i]), g.shift[i], g.at[i][3]};
-    mixPair<K>(view.neighbours[view.nodes[in.node[i]].firstNeighbours],
-               __builtin_ctz(g.rivals[i]), s.t[n], {load4(s.field[n]), s.shift[n], s.at[n][3]},
-               lane);
+    mixPair<K>(view.neighbours[view.nodes[in.node[i]].firstNeighbours], __builtin_ctz(g.rivals[i]),
+               s.t[n], {load4(s.field[n]), s.shift[n], s.at[n][3]}, lane);
     keep(lane, g, i);
   }
   for (; twos != 0; twos &= twos - 1) {
     const auto n = static_cast<std::size_t>(__builtin_ctz(twos));
     const std::uint32_t i = s.lane[n];
     Lane lane{load4(g.field[i]), g.shift[i], g.at[i][3]};
-    mixTwo<K>(view.neighbours[view.nodes[in.node[i]].firstNeighbours],
-              __builtin_ctz(g.rivals[i]), s.t[n],
-              view.neighbours[view.nodes[s.node[n]].firstNeighbours], load(s.difference[n]),
+    mixTwo<K>(view.neighbours[view.nodes[in.node[i]].firstNeighbours], __builtin_ctz(g.rivals[i]),
+              s.t[n], view.neighbours[view.nodes[s.node[n]].firstNeighbours], load(s.difference[n]),
               {load4(s.field[n]), s.shift[n], s.at[n][3]}, lane);
     keep(lane, g, i);
   }

@@ -3,6 +3,7 @@
 import { Actions } from "./actions";
 import { assumptionsPanel } from "./assumptions_panel";
 import { makeBar } from "./bar";
+import { caseMeasuresPanel } from "./case_measures_panel";
 import { displayPanel, legend } from "./display_panel";
 import { findPanel } from "./find_panel";
 import { Flight } from "./flight";
@@ -95,6 +96,7 @@ async function start(): Promise<void> {
     ...displayPanel(app, actions),
     new MeshLayer(app, scene).panel,
     ...measurePanel(app, actions, hand, wire),
+    ...caseMeasuresPanel(app),
   );
   new Strip(shell.strip, app, actions, flight);
   new ProbeLine(shell.probe, app, tools);

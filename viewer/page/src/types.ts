@@ -118,6 +118,7 @@ export interface Revisions {
   truth?: number;
   distance?: number;
   library?: number;
+  measures?: number;
 }
 
 export interface State {
@@ -149,6 +150,8 @@ export interface State {
   work: Work | null;
   /** The case has changed since it was checked. */
   checkIsOld: boolean;
+  /** The case has changed since it was measured. */
+  measuresAreOld: boolean;
   /** As `lumen compare` answers, or null. */
   figures: Record<string, unknown> | null;
   formats: string[];
@@ -177,6 +180,7 @@ export const kEmptyState: State = {
   check: null,
   work: null,
   checkIsOld: false,
+  measuresAreOld: false,
   figures: null,
   formats: [],
 };
