@@ -106,7 +106,7 @@ TEST_F(TubeTest, TheSeedsOfATrackStayInTheCaseAndComeOutAgain) {
 
 TEST_F(TubeTest, ACaseWithoutSeedsHasNoneToWrite) {
   const Outcome none = lumen({"seeds", "truth.lumen", "out.json"});
-  EXPECT_EQ(none.code, 4);
+  EXPECT_EQ(none.code, 1);
   EXPECT_NE(none.err.find("truth.lumen: it holds no seeds"), std::string::npos) << none.err;
 }
 
