@@ -9,6 +9,7 @@ export const kTools: { tool: Tool; label: string; key: string; live?: boolean }[
   { tool: "navigate", label: "Navigate: crosshair, select vessels", key: "N" },
   { tool: "seed", label: "Seed: click vessels to track", key: "S", live: true },
   { tool: "move", label: "Move a node of the selected vessel, or drag its outline", key: "V", live: true },
+  { tool: "brush", label: "Brush: push or pull the wall of a vessel in a slice", key: "E", live: true },
   { tool: "probe", label: "Probe: value, distance to the wall, normal", key: "P" },
   { tool: "distance", label: "Distance between two points", key: "D" },
   { tool: "angle", label: "Angle of three points", key: "A" },

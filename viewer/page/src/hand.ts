@@ -2,29 +2,20 @@
 /** Clicks with a tool: seeds, measurements, a node that is moved. */
 import type { App, Measurement } from "./model";
 import { isShown } from "./model";
+import { Brush } from "./brush";
 import { angle, gaps, sectionAt } from "./measure";
 import { probe } from "./probe";
 import { goToNode, select } from "./selection";
 import type { SliceView } from "./slice_view";
 import type { Hit } from "./surface";
+import { trackOn } from "./track_on";
 import type { MissingVessel, Seed, VesselAtClick, Vec3 } from "./types";
-import { distance } from "./vec";
+import { along, circle, distance, dot, sub } from "./vec";
 import { askText, brief } from "./ui";
 
 const kMiddle = 0.6; // radii from the axis within which a press takes the node, and beyond which its wall
 const kRim = 0.75; // radii from the axis from which a click is at the rim
 const kNearSeed = 8; // pixels within which a press takes hold of a seed
-
-/** A closed line around a centre, in the plane of two unit vectors at right angles. */
-export function circle(centre: Vec3, radius: number, right: Vec3, up: Vec3): Vec3[] {
-  const kPoints = 48;
-  return Array.from({ length: kPoints + 1 }, (_, i) => {
-    const angle = (2 * Math.PI * i) / kPoints,
-      x = radius * Math.cos(angle),
-      y = radius * Math.sin(angle);
-    return [0, 1, 2].map(a => centre[a] + x * right[a] + y * up[a]) as Vec3;
-  });
-}
 
 const sentence = (text: string): string =>
   `${text.charAt(0).toUpperCase()}${text.slice(1).replace(/\.$/, "")}.`;
@@ -36,19 +27,24 @@ function seedPoints(place: MissingVessel): Seed["points"] {
   return points.map((position, i) => ({ position, radius: i === 0 ? radius : null }));
 }
 
+const kStretch = 3; // radii over which a radius that is dragged fades, unless the user states another length
+
 export class Hand {
+  readonly brush: Brush;
   /** The next clicks make a vessel of one click, a vessel through several clicks, or an aneurysm. */
   seedKind: "vessel" | "path" | "aneurysm" = "vessel";
   parent: string | null = null;
   private held:
-    | { seed: string; point: number; to: Vec3 }
+    | { seed: string; point: number; from: Vec3; to: Vec3 }
     | { node: number; to: Vec3 }
     | { node: number; radius: number }
     | null = null;
   private nextId = 1;
   private placing: Promise<void> = Promise.resolve(); // clicks come in their order, however long each takes
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: App) {
+    this.brush = new Brush(app);
+  }
 
   /** True: the press was used. */
   press(p: Vec3, slice: SliceView | null, hit: Hit | null = null): boolean {
@@ -76,32 +72,43 @@ export class Hand {
         return true;
       case "move":
         return slice !== null && this.holdNode(p);
+      case "brush":
+        return slice !== null && this.brush.press(p, slice);
       default:
         return false;
     }
   }
   drag(p: Vec3, slice: SliceView): boolean {
+    if (this.brush.drag(p, slice)) return true;
     if (this.held === null) return false;
     if ("radius" in this.held) this.widen(this.held, p, slice);
     else {
-      this.held.to = p;
-      this.app.store.set({ pending: [p] });
+      this.held.to = "seed" in this.held ? this.atDepthOf(this.held.from, p, slice) : p;
+      this.app.store.set({ pending: [this.held.to] });
     }
     this.app.stage.invalidate(slice);
     return true;
   }
+  /** A seed that a slab shows keeps its depth. */
+  private atDepthOf(from: Vec3, p: Vec3, slice: SliceView): Vec3 {
+    const { normal } = slice.frame,
+      isSlab = this.app.store.get().slabs[slice.name].kind !== "off";
+    return isSlab ? along(p, normal, dot(sub(from, p), normal)) : p;
+  }
   release(): boolean {
+    if (this.brush.release()) return true;
     const held = this.held,
       { tree } = this.app.store.get();
     if (held === null) return false;
     this.held = null;
     this.app.store.set({ pending: [] });
-    if ("node" in held)
+    if ("radius" in held) void this.setRadius(held.node, held.radius);
+    else if ("node" in held)
       void this.app.perform({
         op: "move",
         node: held.node,
-        position: "radius" in held ? tree!.position(held.node) : held.to,
-        radius: "radius" in held ? held.radius : tree!.radius[held.node],
+        position: held.to,
+        radius: tree!.radius[held.node],
       });
     else void this.app.perform({ op: "seedMove", label: held.seed, point: held.point, position: held.to });
     return true;
@@ -116,7 +123,7 @@ export class Hand {
           !seed.tracked &&
           distance(point.position, p) < Math.max(kNearSeed * slice.mmPerPixel, 0.5 * (point.radius ?? 0))
         ) {
-          this.held = { seed: seed.label, point: i, to: point.position };
+          this.held = { seed: seed.label, point: i, from: point.position, to: point.position };
           return true;
         }
     return false;
@@ -172,6 +179,7 @@ export class Hand {
   }
   giveUp(): void {
     this.held = null;
+    this.brush.giveUp();
     this.app.store.set({ pending: [], clicks: [] });
   }
   private async addSeed(points: Seed["points"], kind: string): Promise<void> {
@@ -295,6 +303,19 @@ export class Hand {
     held.radius = Math.max(distance(centre, p), slice.mmPerPixel);
     this.app.store.set({ pending: circle(centre, held.radius, right, up) });
   }
+  /** Gives the vessel another radius at a node, which fades along it; with no stretch, that node alone becomes a circle. */
+  private async setRadius(node: number, radius: number): Promise<void> {
+    const { tree, stretch } = this.app.store.get(),
+      reach = stretch ?? kStretch * tree!.radius[node];
+    await this.app.perform(
+      reach > 0
+        ? { op: "widen", node, radius, reach }
+        : { op: "move", node, position: tree!.position(node), radius },
+    );
+  }
+  trackOn(): Promise<void> {
+    return trackOn(this.app);
+  }
   /** Asks for the radius of the vessel at the cursor's node. */
   async askRadius(): Promise<void> {
     const { tree, node } = this.app.store.get();
@@ -304,7 +325,7 @@ export class Hand {
       text = await askText(`Radius of ${label} at the cursor`, "Radius, mm", now),
       radius = Number(text);
     if (text === null || text.trim() === now) return;
-    if (radius > 0) await this.app.perform({ op: "move", node, position: tree.position(node), radius });
+    if (radius > 0) await this.setRadius(node, radius);
     else this.app.inform(`“${text}” is no radius: expected is a number above 0.`, "warning");
   }
 }

@@ -2,6 +2,7 @@
 /** The view of a case: it survives a reload of the page, and may be kept as a small file beside the case. */
 import { fromHex, toHex, type Rgb } from "./colour";
 import { kInitial, type App, type Measurement, type View } from "./model";
+import { areSlabs, type Slabs } from "./slab";
 import type { Vec3 } from "./types";
 
 /** The name of the format in the list of exports, and how such a file's name ends. */
@@ -26,7 +27,10 @@ const kPlain = [
   "strip",
   "panels",
   "axes",
+  "slabs",
 ] as const;
+/** Those that a file of before may lack. */
+const kLater: readonly string[] = ["slabs"];
 /** The words that some of them may be. */
 const kWords: { readonly [name in (typeof kPlain)[number]]?: readonly string[] } = {
   cast: ["off", "mip", "volume"],
@@ -97,8 +101,13 @@ export function readView(text: string): KeptView {
   if (!isObject(value) || value.format !== kFormat) throw new Error(`its "format" is not "${kFormat}"`);
   if (value.version !== kVersion)
     throw new Error(`its version is ${String(value.version)}, this page reads ${kVersion}`);
+  for (const name of kPlain)
+    if (kLater.includes(name) && value[name] === undefined) value[name] = kInitial[name];
   const wrong = kPlain.find(
-    name => !isLike(value[name], kInitial[name]) || kWords[name]?.includes(value[name] as string) === false,
+    name =>
+      !isLike(value[name], kInitial[name]) ||
+      kWords[name]?.includes(value[name] as string) === false ||
+      (name === "slabs" && !areSlabs(value.slabs as Slabs)),
   );
   if (wrong !== undefined) throw new Error(`its "${wrong}" is no value that a view has`);
   const colours = value.colours;

@@ -6,6 +6,7 @@ import type { Hand } from "./hand";
 import type { App, Layout } from "./model";
 import { askPosition } from "./probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./selection";
+import { slabKey } from "./slab";
 import { resetPlanes } from "./slice_input";
 import { renameBranch } from "./tree_panel";
 import type { WorkList } from "./work_list";
@@ -173,8 +174,16 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       return store.get().clicks.length > 0 && working(() => void hand.finish());
     case "escape":
       return giveUp(app, actions, hand);
+    case "Shift+T":
+      return working(() => void hand.trackOn());
+    case "Shift+A":
+      return working(() => atCursor(app, node => void app.perform({ op: "nodeAdd", node }), "adds a node"));
+    case "Shift+D":
+      return working(() =>
+        atCursor(app, node => void app.perform({ op: "nodeDelete", node }), "deletes the node"),
+      );
     default:
-      return false;
+      return slabKey(app, null, key);
   }
 }
 

@@ -106,12 +106,15 @@ async function start(): Promise<void> {
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene),
     watcher = new Watcher(app, shell, loader, actions);
-  app.store.watch(["crosshair", "frame", "planes", "tree", "window", "layout", "interpolate"], view => {
-    for (const slice of slices) {
-      slice.texture?.interpolate(view.interpolate);
-      app.stage.invalidate(slice);
-    }
-  });
+  app.store.watch(
+    ["crosshair", "frame", "planes", "tree", "window", "layout", "interpolate", "slabs"],
+    view => {
+      for (const slice of slices) {
+        slice.texture?.interpolate(view.interpolate);
+        app.stage.invalidate(slice);
+      }
+    },
+  );
   app.store.watch(
     [
       "surface",
@@ -122,6 +125,7 @@ async function start(): Promise<void> {
       "layers",
       "measurements",
       "pending",
+      "brushLines",
       "clicks",
       "state",
       "proposals",

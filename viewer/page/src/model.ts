@@ -2,6 +2,7 @@
 /** The page's model: one value that panels and views watch. */
 import type { Model } from "../../../libblob/wasm/blob.mjs";
 import { branchColour, type Rgb } from "./colour";
+import { kNoSlabs, type Slabs } from "./slab";
 import type { Source } from "./source";
 import type { Stage } from "./stage";
 import { Store } from "./store";
@@ -20,7 +21,8 @@ export type Tool =
   | "section"
   | "touch"
   | "wire"
-  | "move";
+  | "move"
+  | "brush";
 export type ColourBy = "branch" | "radius" | "confidence" | "error" | "root" | "compare";
 export type Cast = "off" | "mip" | "volume";
 export type Layout = "four" | "scene" | "rows" | "axial" | "coronal" | "sagittal";
@@ -89,6 +91,7 @@ export interface View {
   layers: Layers;
   colourBy: ColourBy;
   clip: { on: boolean; flip: boolean };
+  slabs: Slabs;
   interpolate: boolean;
   tool: Tool;
   layout: Layout;
@@ -100,6 +103,12 @@ export interface View {
   measurements: Measurement[];
   /** Points of the measurement that is being made, or of what is dragged. */
   pending: Vec3[];
+  /** The brush at the pointer, and the way that it pushes the wall. */
+  brushLines: Vec3[][];
+  /** Radius of the brush, mm; null: that of the vessel. */
+  brush: number | null;
+  /** mm along a vessel over which a radius that is dragged fades; null: as the vessel is wide, 0: one node. */
+  stretch: number | null;
   /** Clicks of the seed that is being made; they stay while other tools are used to look for the next one. */
   clicks: Seed["points"];
   job: { job: number; name: string; stage: string; done: number; total: number } | null;
@@ -151,6 +160,7 @@ export const kInitial: View = {
   },
   colourBy: "branch",
   clip: { on: false, flip: false },
+  slabs: kNoSlabs,
   interpolate: true,
   tool: "navigate",
   layout: "four",
@@ -159,6 +169,9 @@ export const kInitial: View = {
   panels: { left: true, right: true },
   measurements: [],
   pending: [],
+  brushLines: [],
+  brush: null,
+  stretch: null,
   clicks: [],
   job: null,
   lost: false,

@@ -3,7 +3,6 @@ import { describe, expect, it } from "vitest";
 import { holdsSeeds } from "./actions";
 import { branchColour, fromHex, mapColour, toHex, usualRange } from "./colour";
 import { locate, pointAt, makeFlightPath } from "./flight";
-import { circle } from "./hand";
 import { marchTetrahedra } from "./local_model";
 import { findPlaces } from "./narrowing";
 import { requestFor } from "./one_source";
@@ -15,7 +14,7 @@ import { straighten } from "./straightened";
 import { sampleTree } from "./sample_tree";
 import { isCursorShown } from "./selection";
 import { vertexNormals } from "./surface";
-import { dot, sub } from "./vec";
+import { circle, dot, sub } from "./vec";
 
 describe("findPlaces", () => {
   const s = Array.from({ length: 81 }, (_, i) => i / 2),

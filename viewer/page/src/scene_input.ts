@@ -121,6 +121,7 @@ function sceneKey(scene: SceneView, tools: Tools, e: KeyboardEvent): boolean {
       scene.fit();
       return true;
     case "Enter":
+      if (tools.areClicksWaiting()) return false; // it finishes them
       tools.clickInScene(scene, camera.width / 2, camera.height / 2, 1);
       return true;
     default:

@@ -48,7 +48,7 @@ export function isCursorShown({ tree, node, crosshair }: Pick<View, "tree" | "no
 }
 
 /** Acts on the cursor's node where every view shows it. Elsewhere the views go there first, and nothing else happens. */
-export function atCursor(app: App, act: (node: number) => void): void {
+export function atCursor(app: App, act: (node: number) => void, doing = "cuts"): void {
   const view = app.store.get();
   if (view.node < 0) return;
   if (isCursorShown(view)) {
@@ -56,7 +56,7 @@ export function atCursor(app: App, act: (node: number) => void): void {
     return;
   }
   goToNode(app, view.node);
-  app.inform("The views were elsewhere. They show the cursor now: once more cuts there.", "warning");
+  app.inform(`The views were elsewhere. They show the cursor now: once more ${doing} there.`, "warning");
 }
 
 /** Puts the crosshair anywhere. */

@@ -2,6 +2,7 @@
 /** Pointer and keys in a slice. Left: the tool (or the crosshair); right: window and level; middle or shift: pan; wheel:
  * slices, with control zoom; control and left: turns the planes. */
 import { kPatientFrame, type App } from "./model";
+import { slabKey } from "./slab";
 import type { SliceView } from "./slice_view";
 import type { Tools } from "./tools";
 import type { Vec3 } from "./types";
@@ -64,8 +65,11 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
   });
   element.addEventListener("pointermove", e => {
     const { x, y } = place(e);
-    tools.hover(slice.toPosition(x, y), slice);
-    if (drag === null) return;
+    tools.hover(slice.picked(slice.toPosition(x, y)), slice);
+    if (drag === null) {
+      tools.hoverInSlice(slice, slice.toPosition(x, y));
+      return;
+    }
     const dx = x - drag.x,
       dy = y - drag.y;
     if (drag.kind === "pan") slice.panBy(dx, dy);
@@ -83,13 +87,20 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
   };
   element.addEventListener("pointerup", end);
   element.addEventListener("pointercancel", end);
-  element.addEventListener("pointerleave", () => tools.leave());
+  element.addEventListener("pointerleave", () => {
+    if (drag === null) tools.leaveSlice();
+    tools.leave();
+  });
   element.addEventListener("contextmenu", e => e.preventDefault());
   element.addEventListener("dblclick", () => slice.fit());
   element.addEventListener(
     "wheel",
     e => {
       const { x, y } = place(e);
+      if (e.shiftKey && tools.wheelInSlice(slice, slice.toPosition(x, y), -Math.sign(e.deltaY + e.deltaX))) {
+        e.preventDefault();
+        return;
+      }
       if (e.ctrlKey || e.metaKey) slice.zoomBy(kZoomStep ** e.deltaY, x, y);
       else slice.step(-Math.sign(e.deltaY));
       e.preventDefault();
@@ -146,11 +157,12 @@ function sliceKey(slice: SliceView, app: App, tools: Tools, e: KeyboardEvent): b
       return true;
     case "Enter":
     case " ":
+      if (e.key === "Enter" && tools.areClicksWaiting()) return false; // it finishes them
       tools.pressInSlice(slice, crosshair);
       tools.releaseInSlice(slice);
       return true;
     default:
-      return false;
+      return slabKey(app, slice.name, e.key);
   }
 }
 

@@ -12,6 +12,7 @@ import {
   Vector3,
   type WebGLRenderer,
 } from "three";
+import { kMostSamples, samplesOf, throughOf, type Slab } from "./slab";
 import type { Vec3 } from "./types";
 import type { Frame } from "./vec";
 import type { Volume } from "./volume";
@@ -32,11 +33,30 @@ uniform vec3 centre, right, up;   // mm; right and up reach to the edge of the v
 uniform vec2 window;              // stored numbers
 uniform vec2 channels;            // 255 and 65280: stored = dot(channels, texel.rg)
 uniform float ready;              // share of the slices that have arrived
+uniform vec3 through;             // mm: half a slab, 0 for a plane
+uniform int samples, kind;        // of a slab: places through it; 1 greatest, 2 least, 3 mean
+bool isOutside(vec3 p) { return any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0))); }
+float storedAt(vec3 p) { return dot(texture(voxels, p).rg, channels); }
 void main() {
   vec3 p = (toTexture * vec4(centre + at.x * right + at.y * up, 1.0)).xyz;
-  if (any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) { colour = vec4(0.027, 0.035, 0.047, 1.0); return; }
-  if (p.z > ready) { colour = vec4(0.05, 0.06, 0.08, 1.0); return; }
-  float stored = dot(texture(voxels, p).rg, channels);
+  float stored = 0.0, count = 0.0;
+  if (samples > 1) {
+    vec3 most = mat3(toTexture) * through;
+    for (int i = 0; i < SAMPLES; ++i) {
+      if (i >= samples) break;
+      vec3 q = p + (2.0 * float(i) / float(samples - 1) - 1.0) * most;
+      if (isOutside(q) || q.z > ready) continue;
+      float value = storedAt(q);
+      stored = count == 0.0 ? value : kind == 1 ? max(stored, value) : kind == 2 ? min(stored, value) : stored + value;
+      count += 1.0;
+    }
+    if (kind == 3) stored /= max(count, 1.0);
+    if (count == 0.0) { colour = vec4(0.027, 0.035, 0.047, 1.0); return; }
+  } else {
+    if (isOutside(p)) { colour = vec4(0.027, 0.035, 0.047, 1.0); return; }
+    if (p.z > ready) { colour = vec4(0.05, 0.06, 0.08, 1.0); return; }
+    stored = storedAt(p);
+  }
   float shade = clamp((stored - window.x) / max(window.y - window.x, 1e-6), 0.0, 1.0);
   colour = vec4(vec3(shade), 1.0);
 }`;
@@ -48,6 +68,7 @@ export class SliceMaterial {
     glslVersion: GLSL3,
     vertexShader: kVertex,
     fragmentShader: kFragment,
+    defines: { SAMPLES: kMostSamples },
     depthTest: false,
     depthWrite: false,
     uniforms: {
@@ -59,6 +80,9 @@ export class SliceMaterial {
       window: { value: new Vector2() },
       channels: { value: new Vector2(255, 0) },
       ready: { value: 0 },
+      through: { value: new Vector3() },
+      samples: { value: 1 },
+      kind: { value: 0 },
     },
   });
 
@@ -75,6 +99,7 @@ export class SliceMaterial {
     plane: { centre: Vec3; frame: Frame; halfWidth: number; halfHeight: number },
     window: [number, number],
     ready: number,
+    slab: Slab,
   ): void {
     const u = this.material.uniforms,
       volume: Volume = texture.volume;
@@ -86,6 +111,9 @@ export class SliceMaterial {
     (u.window.value as Vector2).set(volume.stored(window[0]), volume.stored(window[1]));
     (u.channels.value as Vector2).set(255, volume.bytesPerVoxel === 1 ? 0 : 65280);
     u.ready.value = ready;
+    (u.through.value as Vector3).set(...throughOf(slab, plane.frame));
+    u.samples.value = samplesOf(slab, volume.spacing);
+    u.kind.value = ["off", "max", "min", "mean"].indexOf(slab.kind);
     renderer.render(this.scene, this.camera);
   }
 }

@@ -3,6 +3,7 @@
 import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
 import type { Pixel, SliceProjection } from "./slice_frame";
+import { reachOf } from "./slab";
 import type { Surface } from "./surface";
 import type { MissingVessel, Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
@@ -66,7 +67,7 @@ function drawOutlines(c: Context, slice: SliceProjection, view: View): void {
 function drawLines(c: Context, slice: SliceProjection, view: View): void {
   const { tree } = view;
   if (tree === null || !view.layers.lines) return;
-  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5),
+  const near = reachOf(view, slice, 2 * slice.mmPerPixel + (tree.voxelSize || 0.5)),
     { x, y, depth } = slice.toPixels(),
     p = tree.centre;
   const on = (row: { by: Vec3; offset: number }, k: number): number =>
@@ -113,7 +114,7 @@ function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
     for (const seed of view.state.seeds) {
       seed.points.forEach((point, i) => {
         const r = point.radius ?? 0,
-          reach = Math.max(r, 4 * pixel, 1.5);
+          reach = reachOf(view, slice, Math.max(r, 4 * pixel, 1.5));
         if (r > 0) ring(c, slice, point.position, r / pixel, seed.tracked ? "#7dd3a8" : "#ffd166", reach);
         ring(c, slice, point.position, 3, seed.tracked ? "#7dd3a8" : "#ffd166", reach, true);
         const at = slice.toPixel(point.position);
@@ -184,6 +185,18 @@ export function drawMeasurements(
       }
     const last = shown.at(-1);
     if (last !== undefined && text !== "") label(c, text, last.x + 8, last.y - 8, "#ffe08a");
+  }
+}
+
+function drawBrush(c: Context, slice: SliceProjection, view: View): void {
+  c.strokeStyle = "#ffd166";
+  c.lineWidth = 1.5;
+  for (const line of view.brushLines) {
+    c.beginPath();
+    for (const [i, p] of line.map(q => slice.toPixel(q)).entries())
+      if (i === 0) c.moveTo(p.x, p.y);
+      else c.lineTo(p.x, p.y);
+    c.stroke();
   }
 }
 
@@ -299,6 +312,7 @@ export function drawSliceOverlay(
   drawLines(c, slice, view);
   drawSeeds(c, slice, view);
   drawMeasurements(c, view, project, Math.max(1.5, 4 * slice.mmPerPixel));
+  drawBrush(c, slice, view);
   drawWire(c, wirePoints.points, project, 1.5);
   drawCrosshair(c, slice, view, width, height);
   drawMarks(c, slice, width, height);

@@ -7,6 +7,7 @@ import { drawProposalsInSlice } from "./proposal_lines";
 import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
 import { drawSliceOverlay } from "./slice_overlay";
 import { drawNamesInSlice } from "./vessel_names";
+import { pickInSlab, slabControl } from "./slab";
 import { SliceMaterial } from "./slice_material";
 import type { StageView } from "./stage";
 import type { Vec3 } from "./types";
@@ -31,6 +32,7 @@ export class SliceView implements StageView, SliceProjection {
     readonly app: App,
   ) {
     this.over = element.querySelector("canvas")!;
+    element.querySelector(".viewtools")!.append(slabControl(app, name));
   }
 
   get frame(): Frame {
@@ -84,6 +86,11 @@ export class SliceView implements StageView, SliceProjection {
       s = this.mmPerPixel;
     return along(along(this.centre(), f.right, (x - this.width / 2) * s), f.up, (this.height / 2 - y) * s);
   }
+  /** What is drawn at a place of the plane: the brightest or darkest through a slab, otherwise the place itself. */
+  picked(p: Vec3): Vec3 {
+    const { volume, slabs } = this.app.store.get();
+    return pickInSlab(volume, slabs[this.name], p, this.frame.normal);
+  }
   toPixel(p: Vec3): Pixel {
     const { x, y, depth } = this.toPixels();
     return { x: dot(p, x.by) + x.offset, y: dot(p, y.by) + y.offset, depth: dot(p, depth.by) + depth.offset };
@@ -115,6 +122,7 @@ export class SliceView implements StageView, SliceProjection {
       { centre: this.centre(), frame: this.frame, halfWidth: (halfHeight * width) / height, halfHeight },
       view.window,
       view.volumeReady / view.volume.size[2],
+      view.slabs[this.name],
     );
   }
 

@@ -37,11 +37,15 @@ export class Tools {
     private readonly wire: WireTool,
   ) {}
 
+  /** Whether clicks of a vessel wait for its end. */
+  areClicksWaiting(): boolean {
+    return this.app.store.get().clicks.length > 0;
+  }
   get tool(): Tool {
     return this.app.store.get().tool;
   }
   choose(tool: Tool): void {
-    this.app.store.set({ tool, pending: [] });
+    this.app.store.set({ tool, pending: [], brushLines: [] });
   }
   onProbe(call: (answer: Answer | null) => void): void {
     this.listeners.push(call);
@@ -49,8 +53,9 @@ export class Tools {
 
   // ---- slices
 
-  pressInSlice(slice: SliceView, p: Vec3): void {
+  pressInSlice(slice: SliceView, plane: Vec3): void {
     const { store } = this.app,
+      p = this.tool === "move" || this.tool === "brush" ? plane : slice.picked(plane),
       place = this.tool === "navigate" || this.tool === "seed" ? this.placeAt(slice, p) : -1;
     if (place >= 0) {
       this.hand.takePlace(place);
@@ -78,6 +83,20 @@ export class Tools {
   dragInSlice(slice: SliceView, p: Vec3): void {
     if (this.hand.drag(p, slice)) return;
     if (this.tool === "navigate" || this.tool === "probe") goTo(this.app, p);
+  }
+  /** The pointer moves without a button. */
+  hoverInSlice(slice: SliceView, p: Vec3): void {
+    if (this.tool === "brush") this.hand.brush.show(p, slice);
+  }
+  leaveSlice(): void {
+    if (this.tool === "brush") this.hand.brush.hide();
+  }
+  /** True: the turn was used. */
+  wheelInSlice(slice: SliceView, p: Vec3, way: number): boolean {
+    if (this.tool !== "brush" || way === 0) return false;
+    this.hand.brush.grow(p, way);
+    this.hand.brush.show(p, slice);
+    return true;
   }
   releaseInSlice(slice: SliceView): void {
     if (this.hand.release() || this.tool !== "navigate") return;

@@ -23,6 +23,8 @@ export class Tree {
   readonly branch: Uint32Array;
   readonly inlierRate: Float32Array | null;
   readonly error: Float32Array | null;
+  /** 1 for a node whose wall was changed by hand; null if there is none. */
+  readonly edited: Uint8Array | null;
   readonly rootDistance: Float32Array;
   readonly pointOffset: Uint32Array | null;
   readonly point: Float32Array | null;
@@ -42,6 +44,7 @@ export class Tree {
     this.branch = pack.get("branch", "u32");
     this.inlierRate = pack.optional("inlierRate", "f32");
     this.error = pack.optional("error", "f32");
+    this.edited = pack.optional("edited", "u8");
     this.rootDistance = pack.get("rootDistance", "f32");
     this.pointOffset = pack.optional("pointOffset", "u32");
     this.point = pack.optional("point", "f32");
@@ -78,6 +81,11 @@ export class Tree {
   nodesOf(record: BranchRecord): number[] {
     const own = Array.from({ length: record.nodeCount }, (_, i) => record.firstNode + i);
     return record.parentNode < 0 ? own : [record.parentNode, ...own];
+  }
+
+  /** Number of nodes of a branch whose wall was changed by hand. */
+  countEdited({ firstNode, nodeCount }: BranchRecord): number {
+    return this.edited?.subarray(firstNode, firstNode + nodeCount).reduce((sum, each) => sum + each, 0) ?? 0;
   }
 
   /** Nodes from the root to the end of a branch: the way of a tool. */

@@ -258,6 +258,8 @@ export class TreePanel {
       ["Stopped by", b.stopReason.replaceAll("-", " ")],
       ["Parent", parent],
     ];
+    const edited = view.tree!.countEdited(b);
+    if (edited > 0) rows.push(["Edited", `${edited} of ${b.nodeCount} nodes, by hand`]);
     const opacity = slider(
       "branch-opacity",
       `Opacity of ${b.label}`,

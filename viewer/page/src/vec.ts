@@ -91,3 +91,14 @@ export function segmentsNearest(
   s = a > 0 ? clamp((b * t - d) / a) : 0;
   return { s, t, distance: distance(along(a0, u, s), along(b0, v, t)) };
 }
+
+/** A closed line around a centre, in the plane of two unit vectors at right angles. */
+export function circle(centre: Vec3, radius: number, right: Vec3, up: Vec3): Vec3[] {
+  const kPoints = 48;
+  return Array.from({ length: kPoints + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / kPoints,
+      x = radius * Math.cos(angle),
+      y = radius * Math.sin(angle);
+    return [0, 1, 2].map(a => centre[a] + x * right[a] + y * up[a]) as Vec3;
+  });
+}

@@ -1,23 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Work on the document: files, seeds and tracking, what the check found, corrections of the tree. */
 import type { Actions } from "./actions";
+import { editSection } from "./edit_panel";
 import type { Hand } from "./hand";
-import type { App, View } from "./model";
-import { atCursor, goTo } from "./selection";
-import { renameBranch } from "./tree_panel";
+import type { App } from "./model";
+import { goTo } from "./selection";
 import type { Seed } from "./types";
 import { askYes, brief, button, h, section, select } from "./ui";
 import { checkSection, type WorkList } from "./work_list";
 
 export function workPanel(app: App, actions: Actions, hand: Hand, work: WorkList): HTMLElement[] {
   return app.source.live
-    ? [seedSection(app, actions, hand), checkSection(app, actions, work), editSection(app), fileSection(app)]
+    ? [
+        seedSection(app, actions, hand),
+        checkSection(app, actions, work),
+        editSection(app, hand),
+        fileSection(app),
+      ]
     : [];
 }
 
 function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
   const { store } = app,
-    list = h("ul", { class: "list", id: "seed-list", "aria-label": "Seeds" });
+    list = h("ul", { class: "list", id: "seed-list", "aria-label": "Seeds" }),
+    trackedCount = h("summary", {}),
+    trackedList = h("ul", {
+      class: "list",
+      id: "seed-tracked-list",
+      "aria-label": "Seeds that were tracked",
+    }),
+    tracked = h("details", { id: "seed-tracked", class: "tracked", hidden: true }, trackedCount, trackedList);
   const kind = select(
     "seed-kind",
     "Meaning of the next clicks",
@@ -81,6 +93,11 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
             : "Seeds need a volume: open one, or drop it here.",
         ),
       );
+    const done = state.seeds.filter(s => s.tracked);
+    tracked.hidden = done.length === 0;
+    trackedCount.textContent =
+      done.length === 1 ? "One seed was tracked" : `${done.length} seeds were tracked`;
+    trackedList.replaceChildren(...done.map(seed => trackedRow(app, seed)));
     const labels = [
       ...new Set([...state.seeds.map(s => s.label), ...(store.get().tree?.branches.map(b => b.label) ?? [])]),
     ];
@@ -99,7 +116,22 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
     h("label", { class: "line" }, "Parent", parent),
     finish,
     list,
+    tracked,
     h("div", { class: "row end" }, all),
+  );
+}
+
+/** A seed that the case was tracked with. */
+function trackedRow(app: App, seed: Seed): HTMLElement {
+  return h(
+    "li",
+    { class: "row item" },
+    h(
+      "button",
+      { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, seed.points[0].position) },
+      seed.label,
+    ),
+    h("span", { class: "note" }, seed.points.length > 1 ? `${seed.points.length} clicks` : "one click"),
   );
 }
 
@@ -130,121 +162,6 @@ function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
       () => void app.perform({ op: "seedDelete", label: seed.label }),
     ),
   );
-}
-
-function editSection(app: App): HTMLElement {
-  const { store } = app,
-    name = h("p", { class: "hint", id: "edit-name" });
-  const act = (
-    id: string,
-    text: string,
-    label: string,
-    make: (view: View) => { op: string; [key: string]: unknown } | null,
-    iconName?: string,
-    key?: string,
-  ): HTMLButtonElement =>
-    button({ id: `edit-${id}`, text, label, icon: iconName, key, class: "button text" }, () => {
-      const operation = make(store.get());
-      if (operation === null) return;
-      if (operation.op === "cut") atCursor(app, () => void app.perform(operation));
-      else void app.perform(operation);
-    });
-  const target = h("select", {
-    id: "edit-target",
-    "aria-label": "Vessel to join to",
-    title: "Vessel to join to",
-  });
-  const branch = (v: View): number => v.selected;
-  const buttons = [
-    button(
-      { id: "edit-rename", text: "Rename", label: "Rename", icon: "edit", key: "F2", class: "button text" },
-      () => void renameBranch(app, store.get().selected),
-    ),
-    act(
-      "delete",
-      "Delete",
-      "Delete the vessel",
-      v => ({ op: "delete", branch: branch(v) }),
-      "trash",
-      "Delete",
-    ),
-    act(
-      "cut",
-      "Cut here",
-      "Cut the vessel before the cursor's node; what follows becomes a vessel of its own",
-      v => (v.node < 0 ? null : { op: "cut", node: v.node }),
-      "cut",
-      "Shift+X",
-    ),
-    act("reverse", "Reverse", "Turn the vessel round", v => ({ op: "reverse", branch: branch(v) })),
-    act("root", "Make root", "Let the tree begin at this vessel", v => ({ op: "root", branch: branch(v) })),
-    act("merge", "Merge", "Make it the continuation of its parent", v => ({
-      op: "merge",
-      branch: branch(v),
-    })),
-    act("kind", "Vessel ↔ sac", "Change between vessel and aneurysm", v => ({
-      op: "kind",
-      branch: branch(v),
-      kind: v.tree?.branches[v.selected].kind === "aneurysm" ? "vessel" : "aneurysm",
-    })),
-    act(
-      "split",
-      "Split here",
-      "Cut the vessel at the cursor; what follows stays joined as a vessel of its own",
-      v => (v.node < 0 ? null : { op: "cut", node: v.node, rest: "child" }),
-    ),
-    act(
-      "prune",
-      "Delete below",
-      "Delete the vessel and all that leave it",
-      v => ({ op: "delete", branch: branch(v), hanging: "go" }),
-      undefined,
-      "Shift+Delete",
-    ),
-    act("fit", "Fit all", "Fit all models anew", () => ({ op: "fit" }), undefined, "Control+Enter"),
-  ];
-  const join = act(
-    "join",
-    "Join to",
-    "Make its first node a child of the nearest node of the chosen vessel",
-    v => {
-      const { tree } = v,
-        to = Number(target.value);
-      if (tree === null || target.value === "") return null;
-      const first = tree.position(tree.branches[v.selected].firstNode);
-      return { op: "join", branch: branch(v), node: tree.nearest(first, b => b === to) };
-    },
-  );
-  const box = section(
-    "section-edit",
-    "Correct",
-    true,
-    name,
-    h("div", { class: "grid" }, ...buttons),
-    h("div", { class: "row" }, join, target),
-  );
-  store.watch(["tree", "selected", "state", "node"], view => {
-    const b = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;
-    box.hidden = view.tree === null;
-    name.textContent =
-      b === undefined
-        ? "Select a vessel."
-        : `${b.label}${view.node >= 0 ? `, cursor at node ${view.node - b.firstNode + 1} of ${b.nodeCount}` : ""}`;
-    for (const each of [...buttons, join])
-      each.disabled = (b === undefined && each.id !== "edit-fit") || view.state.job !== null;
-  });
-  store.watch(["tree", "selected"], view => {
-    const before = target.value;
-    target.replaceChildren(
-      h("option", { value: "" }, "choose a vessel"),
-      ...(view.tree?.branches ?? [])
-        .filter(x => x.index !== view.selected)
-        .map(x => h("option", { value: x.index }, x.label)),
-    );
-    target.value = before;
-    if (target.selectedIndex < 0) target.value = "";
-  });
-  return box;
 }
 
 function fileSection(app: App): HTMLElement {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { onward } from "./track_on";
+import type { Tree } from "./tree";
+import type { Vec3 } from "./types";
+
+/** Nodes of radius 1 at x = 0, 1, ..., 5, in one branch. */
+function straight(parentNode: number): Tree {
+  const position = (i: number): Vec3 => [i, 0, 0];
+  return {
+    branches: [{ firstNode: 0, nodeCount: 6, label: "ica", parentNode }],
+    radius: new Float32Array(6).fill(1),
+    position,
+    axis: (): Vec3 => [1, 0, 0],
+    nearest: (p: Vec3) => Math.max(0, Math.min(5, Math.round(p[0]))),
+  } as unknown as Tree;
+}
+
+describe("a vessel is tracked on", () => {
+  it("from the crosshair outside of it, as its child", () => {
+    expect(onward(straight(-1), 0, [5, 3, 0])).toEqual({ from: [5, 3, 0], parent: "ica" });
+  });
+  it("beyond its last node where the crosshair is in it", () => {
+    expect(onward(straight(-1), 0, [4, 0.2, 0])).toEqual({ from: [7, 0, 0], parent: "ica" });
+  });
+  it("before the first node of a root, as a root, if that is nearer", () => {
+    expect(onward(straight(-1), 0, [1, 0.2, 0])).toEqual({ from: [-2, 0, 0], parent: null });
+    expect(onward(straight(3), 0, [1, 0.2, 0])).toEqual({ from: [7, 0, 0], parent: "ica" });
+  });
+});
