@@ -39,8 +39,7 @@ void dropUnknownParents(std::vector<SeedBranch>& seeds, std::set<std::string> kn
 }  // namespace
 
 std::vector<SeedBranch> seedsOf(const formats::Case& value, const std::string& name) {
-  const auto chunk =
-      std::find_if(value.otherChunks.begin(), value.otherChunks.end(), isSeeds);
+  const auto chunk = std::find_if(value.otherChunks.begin(), value.otherChunks.end(), isSeeds);
   if (chunk == value.otherChunks.end()) return {};
   const std::string place = name + ": its seeds";
   if (chunk->version != 1 || chunk->encoding != 0)

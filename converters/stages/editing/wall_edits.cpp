@@ -49,8 +49,8 @@ std::vector<double> lengthsAlong(const formats::CenterlineTree& tree,
 
 /// A wall point in the frame of its node.
 struct Polar {
-  double along;    ///< mm along the node's direction
-  Vector3d across; ///< from the axis to the point
+  double along;     ///< mm along the node's direction
+  Vector3d across;  ///< from the axis to the point
 
   Polar(const DraftNode& node, const Vector3d& p) {
     const Vector3d axis = toEigen(node.direction), from = p - toEigen(node.centre);
@@ -182,8 +182,8 @@ Change pushWall(Case& target, std::uint32_t node, const Stroke& stroke) {
   requireNode(target, node);
   if (!stroke.at.allFinite() || !(stroke.by.cwiseAbs().maxCoeff() <= kFarthest) ||
       !isLength(stroke.radius))
-    throw invalidInput("found a brush of radius " + shownNumber(stroke.radius, 4) + " mm that moves by " +
-                       vectorText(stroke.by) +
+    throw invalidInput("found a brush of radius " + shownNumber(stroke.radius, 4) +
+                       " mm that moves by " + vectorText(stroke.by) +
                        " mm, expected a radius above 0 and lengths within a kilometre");
   Draft draft(target);
   std::size_t moved = 0;

@@ -17,11 +17,11 @@
 namespace lumen::convert {
 namespace {
 
+using Eigen::Vector3d;
 using formats::Case;
 using formats::Vec3f;
 using formats::test::addBeads;
 using formats::test::alongX;
-using Eigen::Vector3d;
 
 /// "a" has nodes 0 to 10 at x = 0, 0.5, ..., "b" 11 to 13 on its node 4, and "c", 14 to 24, is a tree
 /// of its own in the very place of "a".
