@@ -21,6 +21,9 @@ const std::map<std::string, convert::ColorBy> kColorBy = {
     {"radius", convert::ColorBy::Radius},
     {"confidence", convert::ColorBy::Confidence}};
 
+const std::map<std::string, convert::Touching> kTouching = {{"share", convert::Touching::Share},
+                                                            {"apart", convert::Touching::Apart}};
+
 void setEdge(convert::EdgeLength& edge, const std::string& text) {
   const convert::Length length = convert::parseLength(text, kOption.edge.shown());
   edge.share = length.radii;
@@ -109,8 +112,9 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
             surface.thickness = convert::parseLength(texts.back(), kOption.thickness.shown());
           },
           "LENGTH",
-          "Thickness of a solid wall around the lumen, such as 0.5 (mm) or 0.2r; lumen reports "
-          "where it is thinner because vessels touch")
+          "Thickness of a solid wall around the lumen, such as 0.5 (mm) or 0.2r; between lumens "
+          "that "
+          "touch it is down to half, and lumen reports where")
       .without("patches");
   table
       .add(kOption.maxError.name, &surface.maxError, "MM",
@@ -126,6 +130,12 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
   table.group("Mesh");
   table.scope(kAnyContent, kAllMeshes);
   addSurfaceRows(table, surface);
+  table
+      .choice(
+          "touching", surface.touching, kTouching,
+          "Walls of vessels that touch: they share one, or keep apart, each a sixth as thick as "
+          "asked for or more")
+      .onlyWith(kOption.thickness.name);
   convert::EdgeLength& edge = surface.edge;
   addBound(table, "edge-min", edge, edge.minimum, "Least length of edges")
       .in(kNotNegative)

@@ -16,6 +16,26 @@ Json placeJson(const Eigen::Vector3d& p) {
   return Json::array({p.x(), p.y(), p.z()});
 }
 
+Json wallJson(const std::optional<convert::WallThickness>& wall) {
+  if (!wall) return nullptr;
+  return {{"least_mm", wall->least},
+          {"least_place", placeJson(wall->place)},
+          {"median_mm", wall->median},
+          {"step", convert::WallThickness::kStep},
+          {"histogram", wall->histogram}};
+}
+
+std::string wallLine(const convert::WallThickness& wall) {
+  constexpr std::size_t kFull = 9;  // bins below nine tenths of the thickness
+  std::size_t thin = 0;
+  for (std::size_t bin = 0; bin < kFull; ++bin) thin += wall.histogram[bin];
+  const double share =
+      wall.measured == 0 ? 0 : static_cast<double>(thin) / static_cast<double>(wall.measured);
+  return "wall         " + fixedText(wall.median, 3) + " mm thick (median), " +
+         fixedText(100 * share, 1) + " % under nine tenths of the thickness, least " +
+         fixedText(wall.least, 3) + " mm at " + convert::placeText(wall.place) + "\n";
+}
+
 }  // namespace
 
 std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report) {
@@ -62,6 +82,7 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
   if (!report->errors.empty() && report->errors.front() >= 0)
     text += ", within " + fixedText(report->errors.front(), 4) + " mm of that with all triangles";
   text += "\n";
+  if (report->wall) text += wallLine(*report->wall);
   constexpr std::size_t kMostOverlapLines = 5;
   const auto& branches = value.tree.branches;
   for (std::size_t i = 0; i < std::min(kMostOverlapLines, report->overlaps.size()); ++i) {
@@ -90,6 +111,7 @@ Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const form
                {"offField", report->offField},
                {"sharpTriangles", report->sharpTriangles},
                {"crossings", report->crossings},
+               {"wall", wallJson(report->wall)},
                {"cuts", Json::array()},
                {"overlaps", Json::array()}};
   json["errors_mm"] = Json::array();

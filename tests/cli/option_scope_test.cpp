@@ -31,6 +31,7 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = {
     {"centerline-unit", {"centerline", "truth.swc"}},
     {"cohesion-scale", {"cohesion-weight", "1e-3"}},
     {"cell", {"patches", "true"}},
+    {"touching", {"thickness", "1"}},
     {"draco-position-bits", {"draco", "true"}},
     {"draco-normal-bits", {"draco", "true"}}};
 
@@ -60,6 +61,7 @@ const std::map<std::string, std::vector<Input>>& specialInputs() {
        {{"header/tube.nhdr", none, engine::kFileImage},
         {"header/vessels.scn", {{"mesh", "tip"}}, engine::kScene}}},
       {"gap", {{"two.lumen", none, engine::kFittedCase}}},
+      {"touching", {{"apart.lumen", none, engine::kFittedCase}}},
       // labels that are recognised by their voxels are such without it
       {"mask", {{"tube.nrrd", none, engine::kFileImage}}},
       {"mesh-per", {{"two.lumen", none, engine::kFittedCase}}}};

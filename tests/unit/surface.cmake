@@ -13,6 +13,12 @@ lumen_test(surface_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/remesh_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/to_surface_mesh_test.cpp)
 
+# Closed surfaces of random trees.
+lumen_test(random_surface_test
+  LIBS lumen_surface
+  SLOW "RandomTrees[.]Have.*"
+  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/random_trees_test.cpp)
+
 # Ends of closed surfaces.
 lumen_test(ends_test
   LIBS lumen_surface

@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/bare_stretches.h"
 #include "converters/stages/surface/cut_ends.h"
 #include "converters/stages/surface/decimate.h"
 #include "converters/stages/surface/end_planes.h"
 #include "converters/stages/surface/extract.h"
 #include "converters/stages/surface/flow_extension.h"
-#include "converters/stages/surface/mend_crossings.h"
 #include "converters/stages/surface/offset_field.h"
 #include "converters/stages/surface/overlaps.h"
-#include "converters/stages/surface/remesh.h"
+#include "converters/stages/surface/refine.h"
 #include "converters/stages/surface/surface_size.h"
 #include "converters/stages/surface/thick_wall.h"
 #include "converters/stages/surface/thin_walls.h"
@@ -35,6 +35,7 @@ constexpr double kSharedWall = 0.5;
 constexpr double kBeyondEnds = 1;
 // Reduction of a wall's thickness that is allowed in the middle of a triangle, as a share of it.
 constexpr double kWallSag = 0.03;
+constexpr std::size_t kMostCrossings = 1'000'000;
 // Edges of the preview's lattice in radii: twice the others, they take a quarter of the time, and a
 // vessel still has six sides or more.
 constexpr double kQuickShare = 2.0;
@@ -90,23 +91,22 @@ private:
   CaseSurface lumen() {
     CaseSurface surface = extract(m_field, m_result.report);
     noteEnds(cutEnds(surface, m_field, m_progress));
-    refine(surface, m_field, edgeOf(m_options));
-    m_result.report.crossings = mendCrossings(surface, m_field, m_progress);
+    m_result.report.crossings = remeshed(surface, m_field);
     m_result.report.overlaps = findOverlaps(surface, m_field);
-    for (std::string& sentence : bareStretches(surface, m_source.tree))
-      m_result.report.messages.push_back(std::move(sentence));
+    note(bareStretches(surface, m_source.tree));
     return surface;
   }
 
-  // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
-  // and its lumen.
+  // Outer walls that keep apart have a third of the gap between them, so a wall is left between
+  // each and its lumen.
   CaseSurface wall() {
     CaseSurface inner = lumen();
     const Length& thickness = *m_options.thickness;
     // beyond its ends, so that the outer surface is cut where it runs on
     CaseSurface prolonged = inner;
     extendEnds(prolonged, m_source, {{"", {thickness.mm, kBeyondEnds + thickness.radii}}});
-    const OffsetField around(m_source, m_blended, m_field.options().gap / 3, prolonged, thickness);
+    const OffsetField around(m_source, m_blended, m_field.options().gap / 3, prolonged, thickness,
+                             m_options.touching);
     SurfaceReport ofOuter;
     CaseSurface outer = extract(around, ofOuter);
     EndsReport ends;
@@ -114,12 +114,25 @@ private:
     ends.flat = m_result.report.flatEnds - ends.messages.size();
     ends.rounded = m_result.report.roundedEnds + ends.messages.size();
     noteEnds(std::move(ends));
-    refine(outer, around, edgeOf(m_options));
-    mendCrossings(outer, around, m_progress);
+    remeshed(outer, around);
     m_progress.check();
-    for (std::string& sentence : thinWalls(outer, around, m_progress))
-      m_result.report.messages.push_back(std::move(sentence));
-    return thickWall(inner, outer, m_source);
+    if (m_options.touching == Touching::Apart) note(thinWalls(outer, around, m_progress));
+    CaseSurface solid = thickWall(inner, outer);
+    std::size_t& crossings = m_result.report.crossings;
+    crossings = selfIntersections(solid.mesh, kMostCrossings, &m_progress).pairs.size();
+    if (crossings > 0) {
+      liftOuter(inner, outer, around, m_progress);
+      solid = thickWall(inner, outer);
+      crossings = selfIntersections(solid.mesh, kMostCrossings, &m_progress).pairs.size();
+    }
+    m_result.report.wall = measureWall(solid, m_field, thickness, m_progress);
+    note(m_result.report.wall->shared);
+    return solid;
+  }
+
+  void note(const std::vector<std::string>& sentences) {
+    std::vector<std::string>& messages = m_result.report.messages;
+    messages.insert(messages.end(), sentences.begin(), sentences.end());
   }
 
   void extend(CaseSurface& surface) {
@@ -146,10 +159,12 @@ private:
     for (const std::string& sentence : found.moved) m_progress.detail(sentence);
   }
 
-  void refine(CaseSurface& surface, const SheetField& field, const EdgeLength& edge) {
-    const RemeshReport found = remesh(surface, field, edge, m_progress);
+  // Returns the crossings that are left.
+  std::size_t remeshed(CaseSurface& surface, const SheetField& field) {
+    const RefineReport found = refine(surface, field, edgeOf(m_options), m_progress);
     m_result.report.offField += found.offField;
     m_result.report.sharpTriangles += found.sharp;
+    return found.crossings;
   }
 
   // The surface with as few triangles as --max-error allows, and in the requested number of levels.

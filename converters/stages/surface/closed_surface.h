@@ -15,6 +15,8 @@
 #include "converters/stages/surface/length.h"
 #include "converters/stages/surface/overlaps.h"
 #include "converters/stages/surface/remesh_target.h"
+#include "converters/stages/surface/touching.h"
+#include "converters/stages/surface/wall_thickness.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -27,8 +29,9 @@ struct ClosedSurfaceOptions {
   bool open = false;                ///< flat ends are left out
   std::vector<EndLength> extend;    ///< flow extensions
   std::optional<Length> thickness;  ///< thickness of a wall around the lumen: the solid is the wall
-  std::optional<double> maxError;   ///< mm: above 0, triangles are dropped within this distance
-  int levels = 1;                   ///< number of levels of detail
+  Touching touching = Touching::Share;  ///< walls of vessels that touch
+  std::optional<double> maxError;       ///< mm: above 0, triangles are dropped within this distance
+  int levels = 1;                       ///< number of levels of detail
 };
 
 /// Results besides the surface, and its differences from the field. Places are in mm, LPS.
@@ -43,6 +46,7 @@ struct SurfaceReport {
   std::size_t offField = 0;           ///< vertices with no surface of the field near by
   std::size_t sharpTriangles = 0;     ///< with an angle under 15 degrees
   std::size_t crossings = 0;          ///< pairs of triangles that pass through each other
+  std::optional<WallThickness> wall;  ///< where a thickness was asked for
   std::vector<double> errors;         ///< by level: greatest distance from the surface with all
                                       ///< triangles, mm; below 0: it has all
   std::vector<std::string> messages;  ///< sentences about ends and extensions
@@ -57,8 +61,9 @@ struct ClosedSurface {
 /// oriented 2-manifold whose genus is the number of loops that links close, with planar ends.
 /// Vertices lie within 1e-3 of the local radius of the blended field, but on ends and where vessels
 /// overlap. Throws Error(InvalidInput) if the case has no models or the surface would not fit into
-/// memory, Error(Usage) for options that do not go together, Error(Failed) where a wall of that
-/// thickness would meet itself, and Error(Cancelled).
+/// memory, Error(Usage) for options that do not go together, and Error(Cancelled). A wall is closed
+/// whatever its thickness. Between lumens that touch it is half as thick as asked for, or more, and
+/// with Touching::Apart each lumen has a third of that, and a gap in the middle.
 ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
                             Progress& progress);
 

@@ -21,11 +21,12 @@ constexpr int kAttempts = 3;          // where that was not enough
 RemeshState makeState(CaseSurface& surface) {
   const TriangleMesh& mesh = surface.mesh;
   const std::size_t vertices = mesh.position.size();
-  RemeshState state{surface, std::vector<double>(vertices, 0), {}, {}, {}, {}};
+  RemeshState state{surface, std::vector<double>(vertices, 0), {}, {}, {}, {}, {}};
   state.gradient.assign(vertices, Eigen::Vector3d::Zero());
   state.isSeparated.assign(vertices, 0);
   state.isOffField.assign(vertices, 0);
   state.isBoundary.assign(vertices, 0);
+  state.isKept.assign(vertices, 0);
   std::vector<double> edges(vertices, 0);
   for (std::size_t f = 0; f < mesh.triangle.size(); ++f) {
     const Triangle& t = mesh.triangle[f];

@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/stages/surface/hollows.h"
 #include "converters/stages/surface/lattice_topology.h"
 #include "converters/stages/surface/marching_tetrahedra.h"
 #include "converters/stages/surface/sampled_lattice.h"
@@ -29,6 +30,11 @@ public:
     m_report.trees = m_trees.size();
     m_progress.check();
     march();
+    if (m_field.options().isUnion) {
+      CaseSurface surface = assemble();
+      dropHollows(surface);
+      return surface;
+    }
     bool isGrown = false;
     for (const TreeLumen& tree : m_trees) {
       if (tree.lumen == kOutside ||
@@ -70,7 +76,8 @@ private:
     return vertices - triangles / 2;
   }
 
-  CaseSurface assemble() const {
+  CaseSurface assemble() {
+    placeSplits();
     CaseSurface surface;
     surface.groups = {{"wall", FaceKind::Wall}};
     surface.mesh.triangle.resize(m_triangles.size());
@@ -95,34 +102,71 @@ private:
     return surface;
   }
 
-  [[nodiscard]] Eigen::Vector3d farEnd(const Crossing& crossing) const {
-    if (crossing.outside < m_lattice.size()) return m_lattice.place(crossing.outside);
-    const auto& [u, v] = m_lattice.split().edgeOf(crossing.outside);
-    if (u == crossing.inside) return m_lattice.place(v);
-    if (v == crossing.inside) return m_lattice.place(u);
-    return 0.5 * (m_lattice.place(u) + m_lattice.place(v));
+  // Where both walls and the point between them are on a split edge, as shares of it from its first
+  // end: each wall is on its own side of the point, so no two triangles pass through each other.
+  struct SplitPlace {
+    double first = 0, point = 0.5, second = 1;
+  };
+
+  void placeSplits() {
+    const SplitEdges& split = m_lattice.split();
+    m_splits.resize(split.size());
+    tbb::parallel_for(std::size_t{0}, m_splits.size(), [&](std::size_t i) {
+      const auto& [u, v] = split.edgeOf(split.firstPoint() + static_cast<std::uint32_t>(i));
+      const double own = shareTo(u, m_lattice.place(v)), other = shareTo(v, m_lattice.place(u));
+      SplitPlace& at = m_splits[i];
+      if (own + other < 1) {
+        at = {own, own < 0.5 && other < 0.5 ? 0.5 : 0.5 * (own + 1 - other), 1 - other};
+        return;
+      }
+      at.point = own / (own + other);
+      at.first = at.point * (1 - 2 * kNearEnd);
+      at.second = 1 - (1 - at.point) * (1 - 2 * kNearEnd);
+    });
   }
 
-  // The place where the wall of the sheet at the inside end crosses the edge, by the false
-  // position.
-  void place(const Crossing& crossing, Eigen::Vector3d& position, std::uint32_t& node) const {
+  [[nodiscard]] Eigen::Vector3d between(std::uint32_t u, std::uint32_t v, double share) const {
+    const Eigen::Vector3d from = m_lattice.place(u);
+    return from + share * (m_lattice.place(v) - from);
+  }
+
+  // The place where the wall of the sheet at a vertex crosses an edge that leads from there, as a
+  // share of the edge, by the false position.
+  [[nodiscard]] double shareTo(std::uint32_t inside, const Eigen::Vector3d& out) const {
     constexpr int kSteps = 2;
-    const Eigen::Vector3d in = m_lattice.place(crossing.inside), out = farEnd(crossing);
-    node = m_lattice.node(crossing.inside);
-    double low = 0, high = 1, atLow = m_lattice.distance(crossing.inside);
+    const Eigen::Vector3d in = m_lattice.place(inside);
+    const std::uint32_t node = m_lattice.node(inside);
+    double low = 0, high = 1, atLow = m_lattice.distance(inside);
     double atHigh = m_field.at(out, node).distance, t = 0.5;
-    if (atHigh > 0) {
-      const auto straight = [&] { return low + (high - low) * atLow / (atLow - atHigh); };
-      for (int step = 0; step < kSteps; ++step) {
-        t = straight();
-        const double distance = m_field.at(in + t * (out - in), node).distance;
-        (distance < 0 ? low : high) = t;
-        (distance < 0 ? atLow : atHigh) = distance;
-      }
-      t = std::clamp(straight(), kNearEnd, 1 - kNearEnd);
+    if (!(atHigh > 0)) return t;
+    const auto straight = [&] { return low + (high - low) * atLow / (atLow - atHigh); };
+    for (int step = 0; step < kSteps; ++step) {
+      t = straight();
+      const double distance = m_field.at(in + t * (out - in), node).distance;
+      (distance < 0 ? low : high) = t;
+      (distance < 0 ? atLow : atHigh) = distance;
     }
-    position = in + t * (out - in);
-    node = m_field.at(position, node).node;
+    return std::clamp(straight(), kNearEnd, 1 - kNearEnd);
+  }
+
+  void place(const Crossing& crossing, Eigen::Vector3d& position, std::uint32_t& node) const {
+    const std::uint32_t inside = crossing.inside;
+    if (crossing.outside < m_lattice.size()) {
+      const Eigen::Vector3d out = m_lattice.place(crossing.outside);
+      position = m_lattice.place(inside) + shareTo(inside, out) * (out - m_lattice.place(inside));
+    } else {
+      const auto& [u, v] = m_lattice.split().edgeOf(crossing.outside);
+      const SplitPlace& at = m_splits[crossing.outside - m_lattice.split().firstPoint()];
+      if (inside == u) {
+        position = between(u, v, at.first);
+      } else if (inside == v) {
+        position = between(v, u, 1 - at.second);
+      } else {
+        const Eigen::Vector3d out = between(u, v, at.point);
+        position = m_lattice.place(inside) + shareTo(inside, out) * (out - m_lattice.place(inside));
+      }
+    }
+    node = m_field.at(position, m_lattice.node(inside)).node;
   }
 
   const SheetField& m_field;
@@ -133,6 +177,7 @@ private:
   std::vector<TreeLumen> m_trees;
   std::vector<CrossingTriangle> m_triangles;
   std::vector<Crossing> m_crossings;  // ascending
+  std::vector<SplitPlace> m_splits;   // by the points of split edges
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -36,6 +37,7 @@ public:
   }
   [[nodiscard]] std::uint32_t firstPoint() const { return m_first; }
   [[nodiscard]] bool empty() const { return m_edge.empty(); }
+  [[nodiscard]] std::size_t size() const { return m_edge.size(); }
 
 private:
   std::vector<std::pair<std::uint32_t, std::uint32_t>> m_edge;  // ascending

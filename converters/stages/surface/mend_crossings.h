@@ -3,9 +3,8 @@
 // them.
 #pragma once
 
-#include <cstddef>
-
 #include "converters/base/progress.h"
+#include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/sheet_field.h"
 
@@ -13,8 +12,8 @@ namespace lumen::convert {
 
 /// Moves the triangles that pass through others back into their own lumens, in steps of a quarter
 /// of the gap or of a fiftieth of the radius, whichever is more, until none does, or eight times.
-/// Vertices of flat ends stay where they are. Returns the pairs that still intersect. Throws
-/// Error(Cancelled).
-std::size_t mendCrossings(CaseSurface& surface, const SheetField& field, Progress& progress);
+/// Vertices of flat ends stay where they are. Returns the pairs that still intersect. After the first
+/// search only triangles near those that were moved are looked at. Throws Error(Cancelled).
+SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field, Progress& progress);
 
 }  // namespace lumen::convert

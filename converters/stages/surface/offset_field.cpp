@@ -40,12 +40,13 @@ std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh) {
 }  // namespace
 
 OffsetField::OffsetField(const formats::Case& source, const field::BlendedField& field, double gap,
-                         const CaseSurface& inner, const Length& thickness)
+                         const CaseSurface& inner, const Length& thickness, Touching touching)
     : SheetField(source, field,
                  {.gap = gap,
                   .offset = thickness.mm,
                   .offsetShare = thickness.radii,
-                  .leastPath = kLeastPathWidths}),
+                  .leastPath = kLeastPathWidths,
+                  .isUnion = touching == Touching::Share}),
       m_inner(inner),
       m_tree(inner.mesh),
       m_normal(vertexNormals(inner.mesh)) {

@@ -9,6 +9,7 @@
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/length.h"
 #include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/touching.h"
 
 namespace lumen::convert {
 
@@ -22,13 +23,15 @@ namespace lumen::convert {
 /// so walls of vessels that touch share the space between the lumens in proportion to their
 /// thicknesses. Nodes belong to different vessels if their distance along the tree is longer than
 /// six times the width of both with their walls. Nearer ones have one wall: it fills the corner of
-/// a fork.
+/// a fork. With Touching::Share all vessels have one wall, whose surface is the zero of the least
+/// d - t.
 class OffsetField : public SheetField {
 public:
   /// `inner` is a closed surface of the case, whose ends are cut; it must stay. Thicknesses in
   /// radii grow by no more than a quarter of the distance along the surface.
   OffsetField(const formats::Case& source, const field::BlendedField& field, double gap,
-              const CaseSurface& inner, const Length& thickness);
+              const CaseSurface& inner, const Length& thickness,
+              Touching touching = Touching::Apart);
 
   [[nodiscard]] SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const override;
   [[nodiscard]] SheetSample deepest(const Eigen::Vector3d& point,

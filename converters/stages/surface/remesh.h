@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/stages/surface/case_surface.h"
+#include "converters/stages/surface/remesh_piece.h"
 #include "converters/stages/surface/remesh_target.h"
 #include "converters/stages/surface/sheet_field.h"
 
@@ -24,5 +27,26 @@ struct RemeshReport {
 /// on any number of threads. Throws Error(Cancelled).
 RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
                     Progress& progress);
+
+/// Remeshes one surface several times, with parts of it kept.
+class RepeatedRemesh {
+public:
+  /// `surface`, `field` and `progress` must stay.
+  RepeatedRemesh(const CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+                 Progress& progress)
+      : m_surface(surface), m_field(field), m_edge(edge), m_progress(progress) {}
+
+  /// Makes `result` the remeshed surface. `isKept`, if it is not empty, marks vertices of the given
+  /// surface whose triangles stay as they are; they count as off the field. Pieces far from them
+  /// are made once. Throws as remesh().
+  RemeshReport run(const std::vector<std::uint8_t>& isKept, CaseSurface& result);
+
+private:
+  const CaseSurface& m_surface;
+  const SheetField& m_field;
+  EdgeLength m_edge;
+  Progress& m_progress;
+  std::vector<RemeshPiece> m_made;  ///< the pieces of the first run, with nothing kept
+};
 
 }  // namespace lumen::convert

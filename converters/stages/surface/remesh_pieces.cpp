@@ -94,6 +94,7 @@ void resize(RemeshState& state, std::size_t vertices) {
   state.isSeparated.resize(vertices);
   state.isOffField.resize(vertices);
   state.isBoundary.resize(vertices);
+  state.isKept.resize(vertices);
 }
 
 // Drops vertices that no triangle uses; the others keep their order.
@@ -106,7 +107,10 @@ void dropUnused(RemeshState& state) {
   for (std::uint32_t v = 0; v < index.size(); ++v) {
     if (index[v] == 0) continue;
     index[v] = count;
-    if (count != v) keep(state, count, makeVertex(state, v));
+    if (count != v) {
+      keep(state, count, makeVertex(state, v));
+      state.isKept[count] = state.isKept[v];
+    }
     ++count;
   }
   resize(state, count);

@@ -17,6 +17,7 @@ struct RemeshState {
   std::vector<double> target;  ///< as PieceVertex has it, and so on
   std::vector<Eigen::Vector3d> gradient;
   std::vector<std::uint8_t> isSeparated, isOffField, isBoundary;
+  std::vector<std::uint8_t> isKept = {};  ///< no triangle at such a vertex is changed
 };
 
 /// The rules of a surface: which of its groups are flat.

@@ -28,6 +28,10 @@ field::Vec toVec(const Eigen::Vector3d& p) {
 SheetField::SheetField(const formats::Case& source, const field::BlendedField& field,
                        const SheetOptions& options)
     : m_source(source), m_field(field), m_options(options), m_edges(source.tree) {
+  if (options.isUnion) {
+    m_touchingOffset.assign(source.tree.nodeCount() + 1, 0);
+    return;
+  }
   findTouchingNodes(source.tree, kTouchingReach + options.offsetShare,
                     options.gap + 2 * options.offset, options.leastPath, m_touchingOffset,
                     m_touching);

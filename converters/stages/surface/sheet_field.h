@@ -30,6 +30,8 @@ struct SheetOptions {
   /// Least length of the path along the tree between vessels that touch, as a multiple of the width
   /// of both.
   double leastPath = 0;
+  /// Whether vessels that touch are one: none keeps off another.
+  bool isUnion = false;
 };
 
 /// Values of a SheetField at a point.

@@ -19,6 +19,8 @@
 namespace lumen::convert {
 namespace {
 
+constexpr std::size_t kMostLiftedPairs = 100'000;
+
 using Rims = std::vector<std::vector<std::uint32_t>>;
 
 // One surface of both, without the faces of their flat ends.
@@ -42,6 +44,16 @@ CaseSurface bothWalls(const CaseSurface& inner, const CaseSurface& outer) {
   append(inner, 0);
   append(outer, 1);
   return both;
+}
+
+std::vector<bool> isOnFlatEnd(const CaseSurface& surface) {
+  std::vector<bool> result(surface.mesh.position.size(), false);
+  for (std::size_t t = 0; t < surface.mesh.triangle.size(); ++t) {
+    const FaceKind kind = surface.groups[surface.group[t]].kind;
+    if (kind != FaceKind::Inlet && kind != FaceKind::Outlet) continue;
+    for (const std::uint32_t v : surface.mesh.triangle[t]) result[v] = true;
+  }
+  return result;
 }
 
 bool haveSameEnds(const CaseSurface& inner, const CaseSurface& outer) {
@@ -81,20 +93,9 @@ void joinRims(SurfaceFans& fans, const SurfaceEnd& end, const std::vector<std::u
     fans.add({number[t[0]], number[t[1]], number[t[2]]}, end.group);
 }
 
-void requireApart(const CaseSurface& solid, const formats::Case& source) {
-  const SelfIntersections found = selfIntersections(solid.mesh);
-  if (found.pairs.empty()) return;
-  const std::uint32_t node = solid.node[solid.mesh.triangle[found.pairs[0][0]][0]];
-  const std::string& label = source.tree.branches[source.tree.branch[node]].label;
-  throw failed("the wall runs through itself at " + std::to_string(found.pairs.size()) +
-               " pairs of triangles, first in branch " + formats::printable(label) +
-               "; expected a thicker wall, or a shorter edge");
-}
-
 }  // namespace
 
-CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer,
-                      const formats::Case& source) {
+CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer) {
   if (!haveSameEnds(inner, outer))
     throw failed("the inner and the outer surface of the wall have not the same ends");
   const Rims innerRims = findRims(inner), outerRims = findRims(outer);
@@ -113,8 +114,33 @@ CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer,
     joinRims(fans, end, innerRims[e], outerRim, group.name);
   }
   fans.compact();
-  requireApart(solid, source);
   return solid;
+}
+
+void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SheetField& field,
+               const Progress& progress) {
+  constexpr int kMostLifts = 10;
+  constexpr double kLift = 0.1;  // thicknesses
+  const auto base = static_cast<std::uint32_t>(inner.mesh.position.size());
+  const std::vector<bool> isFixed = isOnFlatEnd(outer);
+  for (int lift = 0; lift < kMostLifts; ++lift) {
+    const CaseSurface both = bothWalls(inner, outer);
+    std::vector<std::uint32_t> moved;
+    for (const auto& [a, b] : selfIntersections(both.mesh, kMostLiftedPairs, &progress).pairs) {
+      if (both.group[a] == both.group[b]) continue;
+      for (const std::uint32_t v : both.mesh.triangle[both.group[a] == 1 ? a : b])
+        if (!isFixed[v - base]) moved.push_back(v - base);
+    }
+    if (moved.empty()) return;
+    std::sort(moved.begin(), moved.end());
+    moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+    const SheetOptions& wall = field.options();
+    for (const std::uint32_t v : moved) {
+      const SheetSample sample = field.at(outer.mesh.position[v], outer.node[v]);
+      const double thickness = wall.offset + wall.offsetShare * field.radius(sample.node);
+      outer.mesh.position[v] += kLift * thickness * sample.gradient;
+    }
+  }
 }
 
 }  // namespace lumen::convert

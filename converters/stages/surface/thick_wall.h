@@ -2,8 +2,9 @@
 // A wall with a thickness, as a solid.
 #pragma once
 
+#include "converters/base/progress.h"
 #include "converters/stages/surface/case_surface.h"
-#include "formats/case/case.h"
+#include "converters/stages/surface/sheet_field.h"
 
 namespace lumen::convert {
 
@@ -12,9 +13,13 @@ namespace lumen::convert {
 /// are joined by a flat ring. Groups: "wall" is the lumen's side, then "outer-wall", then the ends,
 /// whose rings keep the lumen's names; round ends belong to the walls, and have no group. Its Euler
 /// characteristic is the sum of both less two for each flat end. Throws Error(Failed) if the two do
-/// not have the same ends, if rims are not one within the other, or if both surfaces meet anywhere:
-/// the sentence states the place and the count.
-CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer,
-                      const formats::Case& source);
+/// not have the same ends, or if rims are not one within the other.
+CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer);
+
+/// Moves vertices of `outer`, which follows `field`, outwards where its triangles pass through the
+/// lumen's, in steps of a tenth of the thickness, ten times at most; the rims of flat ends stay.
+/// Throws Error(Cancelled).
+void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SheetField& field,
+               const Progress& progress);
 
 }  // namespace lumen::convert

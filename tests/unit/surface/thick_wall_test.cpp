@@ -51,7 +51,7 @@ double areaOf(const CaseSurface& surface, std::uint32_t group) {
 TEST(ThickWall, OfATubeIsAPipe) {
   const Walls walls(test::tubeCase(10), 0.3);
   EXPECT_EQ(walls.report.flat, 2U);
-  const CaseSurface pipe = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
+  const CaseSurface pipe = thickWall(walls.inner.surface, walls.outer);
   const test::MeshFacts facts = test::measureFacts(pipe.mesh);
   EXPECT_EQ(facts.euler, 0);  // a torus
   EXPECT_EQ(facts.boundaryEdges, 0U);
@@ -76,7 +76,7 @@ TEST(ThickWall, OfATubeIsAPipe) {
 TEST(ThickWall, OfAForkHasAHandleForEachEndButOne) {
   const Walls walls(test::forkCase(), 0.25);
   EXPECT_EQ(walls.report.flat, 3U);
-  const CaseSurface solid = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
+  const CaseSurface solid = thickWall(walls.inner.surface, walls.outer);
   const test::MeshFacts facts = test::measureFacts(solid.mesh);
   EXPECT_EQ(facts.euler, 2 + 2 - 2 * 3);
   EXPECT_EQ(facts.boundaryEdges, 0U);
@@ -88,23 +88,35 @@ TEST(ThickWall, ARoundEndIsClosedOnBothSides) {
   formats::Case source = test::sphereCase(1.0, 1.2);
   const Walls walls(source, 0.2);
   EXPECT_EQ(walls.report.flat, 0U);
-  const CaseSurface shell = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
+  const CaseSurface shell = thickWall(walls.inner.surface, walls.outer);
   const test::MeshFacts facts = test::measureFacts(shell.mesh);
   EXPECT_EQ(facts.euler, 4);  // two spheres
   EXPECT_GT(facts.volume, 0);
   EXPECT_EQ(shell.groups.size(), 2U);
 }
 
-TEST(ThickWall, RefusesSurfacesThatMeetOrHaveOtherEnds) {
+TEST(ThickWall, RefusesSurfacesWithOtherEnds) {
   const Walls walls(test::tubeCase(10), 0.3);
-  EXPECT_THROW(thickWall(walls.outer, walls.inner.surface, walls.inner.source), Error);
-  CaseSurface dented = walls.outer;
-  for (Eigen::Vector3d& p : dented.mesh.position)
-    if (std::abs(p.x() - 5) < 0.3) p.z() *= 0.5;
-  EXPECT_THROW(thickWall(walls.inner.surface, dented, walls.inner.source), Error);
+  EXPECT_THROW(thickWall(walls.outer, walls.inner.surface), Error);
   CaseSurface other = walls.outer;
   other.ends.pop_back();
-  EXPECT_THROW(thickWall(walls.inner.surface, other, walls.inner.source), Error);
+  EXPECT_THROW(thickWall(walls.inner.surface, other), Error);
+}
+
+TEST(ThickWall, AnOuterSurfaceThatMeetsTheLumenIsLiftedOutOfIt) {
+  const Walls walls(test::tubeCase(10), 0.3);
+  CaseSurface dented = walls.outer;
+  for (Eigen::Vector3d& p : dented.mesh.position)
+    if (std::abs(p.x() - 5) < 0.3) p.z() *= 0.7;
+  const auto crossings = [&] {
+    return selfIntersections(thickWall(walls.inner.surface, dented).mesh).pairs.size();
+  };
+  EXPECT_GT(crossings(), 0U);
+  const OffsetField around(walls.inner.source, walls.inner.blended, 0.02, walls.prolonged,
+                           {0.3, 0});
+  Progress silent;
+  liftOuter(walls.inner.surface, dented, around, silent);
+  EXPECT_EQ(crossings(), 0U);
 }
 
 TriangleMesh meshOf(const SurfaceMesh& surface) {
@@ -179,7 +191,7 @@ TEST(ThickWall, EachOfItsLongStagesReportsProgress) {
   const std::vector<std::string> lumen = {"lattice", "extracting", "remeshing", "crossings"};
   std::vector<std::string> both = lumen;
   both.insert(both.end(), lumen.begin(), lumen.end());
-  both.emplace_back("wall thickness");
+  both.emplace_back("measuring the wall");
   EXPECT_EQ(stages.names, both);
   EXPECT_TRUE(stages.areAllDone);
 }
@@ -219,14 +231,27 @@ TEST(ThickWall, GoesWithNeitherOpenEndsNorExtensions) {
   EXPECT_THROW(closedSurface(test::forkCase(), extended, silent), Error);
 }
 
-// Two tubes that run side by side without a common root: 2.3 mm apart, each of radius 1 mm.
-TEST(ThickWall, IsThinnerWhereVesselsTouchAndSaysSo) {
+formats::Case twoVessels(const Eigen::Vector3d& start, const Eigen::Vector3d& along) {
   formats::Case source;
   source.metadata.voxelSize = 0.2;
   test::addVessel(source, "left", test::straightPath({0, 0, 0}, {1, 0, 0}, 12), 1.0, 1.0);
-  test::addVessel(source, "right", test::straightPath({0, 2.3, 0}, {1, 0, 0}, 12), 1.0, 1.0);
+  test::addVessel(source, "right", test::straightPath(start, along, 12), 1.0, 1.0);
   test::addModels(source);
-  const ClosedSurface made = makeWall(source, {0.5, 0});
+  return source;
+}
+
+// Two tubes without a common root that pass each other at a right angle, each of radius 1 mm.
+formats::Case crossing(double distance) {
+  return twoVessels({5.5, -5.5, distance}, {0, 1, 0});
+}
+
+// Two tubes that run side by side: 2.3 mm apart.
+TEST(ThickWall, IsThinnerWhereVesselsKeepApartAndSaysSo) {
+  ClosedSurfaceOptions options;
+  options.thickness = Length{0.5, 0};
+  options.touching = Touching::Apart;
+  Progress silent;
+  const ClosedSurface made = closedSurface(twoVessels({0, 2.3, 0}, {1, 0, 0}), options, silent);
   expectSolid(made.levels[0], 0 + 0);
   const auto shares = thicknesses(made.levels[0], 0.5);
   EXPECT_NEAR(at(shares, 0.5), 1, 0.02);
@@ -234,6 +259,38 @@ TEST(ThickWall, IsThinnerWhereVesselsTouchAndSaysSo) {
   ASSERT_EQ(made.report.messages.size(), 1U);
   EXPECT_NE(made.report.messages[0].find("left"), std::string::npos);
   EXPECT_NE(made.report.messages[0].find("right"), std::string::npos);
+}
+
+// One outer surface, a sphere with four ends, and two lumens.
+TEST(ThickWall, IsOneWhereVesselsShareIt) {
+  const ClosedSurface made = makeWall(crossing(2.3), {0.5, 0});
+  expectSolid(made.levels[0], 2 + 2 + 2 - 2 * 4);
+  ASSERT_TRUE(made.report.wall.has_value());
+  EXPECT_EQ(made.report.crossings, 0U);
+  EXPECT_NEAR(made.report.wall->least, 0.3, 0.04);  // 2.3 less both radii
+  EXPECT_NEAR(made.report.wall->median, 0.5, 0.01);
+  const auto& histogram = made.report.wall->histogram;
+  std::size_t counted = 0;
+  for (const std::size_t bin : histogram) counted += bin;
+  EXPECT_EQ(counted, made.report.wall->measured);
+  EXPECT_GT(histogram[5] + histogram[6] + histogram[7], 0U);
+  EXPECT_EQ(histogram[0] + histogram[1] + histogram[2] + histogram[3] + histogram[4], 0U);
+  ASSERT_EQ(made.report.messages.size(), 1U);
+  EXPECT_NE(made.report.messages[0].find("left and right share"), std::string::npos);
+}
+
+// Lumens that overlap by a third of a radius are drawn apart, so that a wall is left between them.
+TEST(ThickWall, IsClosedAroundLumensThatOverlap) {
+  for (const Touching touching : {Touching::Share, Touching::Apart}) {
+    ClosedSurfaceOptions options;
+    options.thickness = Length{0.4, 0};
+    options.touching = touching;
+    Progress silent;
+    const ClosedSurface made = closedSurface(crossing(1.7), options, silent);
+    expectSolid(made.levels[0], touching == Touching::Share ? -2 : 0);
+    EXPECT_EQ(made.report.crossings, 0U);
+    EXPECT_GT(made.report.wall->least, touching == Touching::Share ? 0.15 : 0.05);
+  }
 }
 
 }  // namespace

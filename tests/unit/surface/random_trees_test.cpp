@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closed surfaces of random trees; tests/evaluation/reproduce/random_surfaces.cpp makes a thousand.
+#include "random_trees.h"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "closed_cases.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr std::uint64_t kCases = 6;
+
+TEST(RandomTrees, TouchCrossAndJump) {
+  std::size_t touching = 0;
+  double greatestJump = 1;
+  for (std::uint64_t number = 1; number <= kCases; ++number) {
+    const formats::Case source = test::randomTrees(number);
+    const field::BlendedField blended = formats::caseField(source);
+    const SheetField field(source, blended, {.gap = 0.02});
+    for (std::uint32_t n = 0; n < source.tree.nodeCount(); ++n) {
+      touching += field.mayTouch(n) ? 1 : 0;
+      if (const std::int32_t parent = source.tree.parent[n]; parent >= 0) {
+        const double ratio = double{source.tree.radius[n]} /
+                             double{source.tree.radius[static_cast<std::size_t>(parent)]};
+        greatestJump = std::max({greatestJump, ratio, 1 / ratio});
+      }
+    }
+  }
+  EXPECT_GT(touching, 100U);
+  EXPECT_GT(greatestJump, 4);
+}
+
+TEST(RandomTrees, HaveASurfaceBeforeRemeshingThatDoesNotPassThroughItself) {
+  Progress silent;
+  for (std::uint64_t number = 1; number <= kCases; ++number) {
+    const formats::Case source = test::randomTrees(number);
+    const field::BlendedField blended = formats::caseField(source);
+    const SheetField field(source, blended, {.gap = 0.02});
+    ExtractionReport report;
+    const CaseSurface surface = extractSurface(field, 1.0, report, silent);
+    EXPECT_EQ(selfIntersections(surface.mesh).pairs.size(), 0U) << number;
+  }
+}
+
+TEST(RandomTrees, HaveClosedSurfacesOfTheirTopology) {
+  for (std::uint64_t number = 1; number <= kCases; ++number)
+    EXPECT_EQ(test::faultOf(test::randomTrees(number)), "") << number;
+}
+
+TEST(RandomTrees, HaveClosedWalls) {
+  ClosedSurfaceOptions options;
+  options.thickness = Length{0, 0.2};
+  for (std::uint64_t number = 1; number <= 2; ++number)
+    EXPECT_EQ(test::faultOf(test::randomTrees(number), options), "") << number;
+}
+
+}  // namespace
+}  // namespace lumen::convert
