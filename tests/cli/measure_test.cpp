@@ -27,8 +27,7 @@ TEST_F(MeasureTest, AnswersWithNumbersThatHoldTheTruth) {
   const Outcome made = lumen({"measure", "tube.lumen", "--json"});
   ASSERT_EQ(made.code, 0) << made.err;
   const Json vessel = Json::parse(made.out)["cases"][0]["vessels"][0];
-  const Json truth =
-      Json::parse(lumen({"info", "truth.lumen", "--json"}).out)["branch_table"][0];
+  const Json truth = Json::parse(lumen({"info", "truth.lumen", "--json"}).out)["branch_table"][0];
   const auto radius = truth["radius_mm"]["mean"].get<double>();
   const Json& found = vessel["mean_radius_mm"];
   EXPECT_NEAR(found["value"].get<double>(), radius, found["plus_minus"].get<double>());
@@ -37,7 +36,8 @@ TEST_F(MeasureTest, AnswersWithNumbersThatHoldTheTruth) {
 }
 
 TEST_F(MeasureTest, WritesAFolderOfTablesOneTableOrJson) {
-  const Outcome folder = lumen({"measure", "tube.lumen", "truth.lumen", "--out", "tables", "--json"});
+  const Outcome folder =
+      lumen({"measure", "tube.lumen", "truth.lumen", "--out", "tables", "--json"});
   ASSERT_EQ(folder.code, 0) << folder.err;
   EXPECT_NE(folder.err.find("truth.lumen: has no models"), std::string::npos);
   EXPECT_EQ(Json::parse(folder.out)["files"],
@@ -58,8 +58,7 @@ TEST_F(MeasureTest, WritesAFolderOfTablesOneTableOrJson) {
   ASSERT_EQ(lumen({"measure", "tube.lumen", "--out", "all.json"}).code, 0);
   Json file = Json::parse(read("all.json"));
   EXPECT_EQ(file["files"], Json::array());
-  EXPECT_EQ(file["cases"],
-            Json::parse(lumen({"measure", "tube.lumen", "--json"}).out)["cases"]);
+  EXPECT_EQ(file["cases"], Json::parse(lumen({"measure", "tube.lumen", "--json"}).out)["cases"]);
 }
 
 TEST_F(MeasureTest, StationsFollowTheStep) {
@@ -83,8 +82,7 @@ TEST_F(MeasureTest, AgainstItselfNothingChanges) {
   EXPECT_EQ(answer["against"], "tube.lumen");
   const Json change = answer["changes"]["vessel_changes"][0];
   EXPECT_EQ(change["length_mm"]["value"], 0.0);
-  const double own =
-      answer["cases"][0]["vessels"][0]["length_mm"]["plus_minus"].get<double>();
+  const double own = answer["cases"][0]["vessels"][0]["length_mm"]["plus_minus"].get<double>();
   EXPECT_NEAR(change["length_mm"]["plus_minus"].get<double>(), std::sqrt(2.0) * own, 1e-4 * own);
 }
 
@@ -101,8 +99,7 @@ TEST_F(MeasureTest, RefusesWhatItCannotDo) {
   std::filesystem::create_directory(path("full"));
   write("full/file", "");
   EXPECT_EQ(lumen({"measure", "tube.lumen", "--out", "full"}).code, 1);
-  const Outcome two =
-      lumen({"measure", "tube.lumen", "truth.lumen", "--against", "tube.lumen"});
+  const Outcome two = lumen({"measure", "tube.lumen", "truth.lumen", "--against", "tube.lumen"});
   EXPECT_EQ(two.code, 2);
   EXPECT_NE(two.err.find("--against: found 2 cases beside it, expected one"), std::string::npos);
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/base/number_text.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
@@ -62,8 +63,8 @@ TEST_F(ReportTest, WithTheVolumeNothingIsMissing) {
   EXPECT_EQ(answer["source"], "same");
   EXPECT_EQ(answer["warnings"], 0);
   EXPECT_EQ(count(html, "src=\"data:image/png;base64,"), 8U);
-  for (const char* id : {"warnings", "sides", "branches", "profiles", "confidence", "agreement",
-                         "projection", "parameters", "provenance"})
+  for (const char* id : {"warnings", "sides", "branches", "profiles", "measures", "confidence",
+                         "agreement", "projection", "parameters", "provenance"})
     EXPECT_GT(sectionOf(html, id).size(), 100U) << id;
   EXPECT_EQ(html.find("No volume was given"), html.npos);
   EXPECT_NE(sectionOf(html, "provenance").find(answer["case_sha256"].get<std::string>()),
@@ -84,6 +85,23 @@ TEST_F(ReportTest, TellsWhatInfoAndCheckTell) {
     for (const auto& [key, value] : step["parameters"].items())
       EXPECT_NE(parameters.find("<bdi>" + key + "</bdi>"), parameters.npos) << key;
   EXPECT_NE(html.find(info["provenance"]["source"]["sha256"].get<std::string>()), html.npos);
+}
+
+TEST_F(ReportTest, HasTheMeasuresOfLumenMeasure) {
+  const std::string measures = sectionOf(page({"tube.lumen"}), "measures");
+  const Json vessel =
+      Json::parse(lumen({"measure", "tube.lumen", "--json"}).out)["cases"][0]["vessels"][0];
+  const auto shown = [](const Json& m, int decimals) {
+    return fixedText(m["value"].get<double>(), decimals) + " \u00b1 " +
+           fixedText(m["plus_minus"].get<double>(), decimals) + "</td>";
+  };
+  EXPECT_NE(measures.find(shown(vessel["length_mm"], 1)), measures.npos);
+  EXPECT_NE(measures.find(shown(vessel["smallest_radius_mm"], 2)), measures.npos);
+  EXPECT_NE(measures.find(shown(vessel["volume_mm3"], 1)), measures.npos);
+  EXPECT_NE(measures.find("This case has no forks."), measures.npos);
+  // a value that is not defined has its reason
+  const std::string tree = sectionOf(page({"truth.lumen"}), "measures");
+  EXPECT_NE(tree.find("title=\"the case has no models: fit it first\""), tree.npos);
 }
 
 TEST_F(ReportTest, WithoutTheVolumeThePartsThatNeedItSaySo) {

@@ -11,6 +11,7 @@
 #include "converters/judge/facts/case_info.h"
 #include "converters/judge/facts/check_facts.h"
 #include "converters/judge/facts/examination.h"
+#include "converters/judge/measure/measures.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -38,6 +39,7 @@ struct ReportFacts {
   std::string sha256;     ///< digest of the file
   formats::Case value;
   CaseInfo info;
+  CaseMeasures measures;
   FileReport examination;
   /// Warnings about the closed surface, reading the volume, how the case lies in it, and names of
   /// files.

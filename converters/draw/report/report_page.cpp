@@ -255,8 +255,9 @@ std::string reportPage(const ReportFacts& facts) {
       "The content of a case of vessels, how it was made, and how far it agrees with its volume.");
   body.html += "<p class=\"notice\">Not a medical device: not for clinical use.</p>\n";
   body += summary(facts);
-  for (const auto part : {warnings, sides, branchSection, profileSection, confidenceSection,
-                          agreementSection, projection, parameterSection, provenanceSection})
+  for (const auto part :
+       {warnings, sides, branchSection, profileSection, measureSection, confidenceSection,
+        agreementSection, projection, parameterSection, provenanceSection})
     body += part(facts);
   return htmlPage(head, body.html + signing());
 }

@@ -17,6 +17,7 @@ std::string reportPage(const ReportFacts& facts);
 // Sections of the page, each with its heading.
 Markup branchSection(const ReportFacts& facts);      ///< report_vessels.cpp
 Markup profileSection(const ReportFacts& facts);     ///< report_vessels.cpp
+Markup measureSection(const ReportFacts& facts);     ///< report_measures.cpp
 Markup confidenceSection(const ReportFacts& facts);  ///< report_vessels.cpp
 Markup agreementSection(const ReportFacts& facts);   ///< report_agreement.cpp
 /// Legend of the colours of agreement; `withMissing`: of missing vessels, too. report_agreement.cpp

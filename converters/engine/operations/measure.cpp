@@ -78,9 +78,10 @@ public:
 
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_cases, "Cases; tables of several name the case in each row").many();
-    table.file("out", m_output,
-               "Write the tables: a new FOLDER with a CSV for each kind, or one FILE.csv with a row "
-               "for each number, or FILE.json");
+    table.file(
+        "out", m_output,
+        "Write the tables: a new FOLDER with a CSV for each kind, or one FILE.csv with a row "
+        "for each number, or FILE.json");
     table
         .add("step", &m_step, "MM",
              "Distance of the stations along a vessel in mm [half of its median radius]")
@@ -93,8 +94,7 @@ public:
   Answer run(Surroundings& around) override {
     requireInScope(*around.table, {}, around.progress);
     if (!m_before.empty() && m_cases.size() != 1)
-      throw Error(ErrorKind::Usage, kAgainst.shown() + ": found " +
-                                        std::to_string(m_cases.size()) +
+      throw Error(ErrorKind::Usage, kAgainst.shown() + ": found " + std::to_string(m_cases.size()) +
                                         " cases beside it, expected one");
     auto folder = checkOutput(around);
     std::vector<MeasuredCase> measured;
@@ -179,7 +179,8 @@ private:
                              std::optional<formats::PendingFolder>& folder) const {
     Json files = Json::array();
     switch (outputOf(m_output)) {
-      case MeasureOutput::None: break;
+      case MeasureOutput::None:
+        break;
       case MeasureOutput::Json:
         writeText(json.dump(1) + "\n", m_output);
         files.push_back(m_output);

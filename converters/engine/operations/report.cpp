@@ -23,6 +23,7 @@
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/judge/check/check.h"
+#include "converters/judge/measure/measure_case.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "formats/container/printable.h"
 
@@ -145,6 +146,7 @@ private:
     facts.examination = convert::examineBytes(bytes, m_case, kRemarksListed, true, progress);
     facts.value = std::move(value);
     facts.info = convert::describeCase(facts.value, progress);
+    facts.measures = convert::measureCase(facts.value, {}, progress);
     addNames(facts);
     // a volume that is given states its own
     if (m_input.empty())

@@ -124,10 +124,10 @@ void measureBends(const std::vector<AxisPlace>& places, CourseMeasures& out) {
   const double mean = turning / bends.length;
   bias /= both;
   out.meanCurvature = measured(mean, sd, bias);
-  out.turning = measured(mean * kDegrees * kMmPerCm, sd * kDegrees * kMmPerCm,
-                         bias * kDegrees * kMmPerCm);
-  out.sumOfAngles = measured(angles / bends.length * kMmPerCm,
-                             std::hypot(sd, torsionSd) * kMmPerCm, bias * kMmPerCm);
+  out.turning =
+      measured(mean * kDegrees * kMmPerCm, sd * kDegrees * kMmPerCm, bias * kDegrees * kMmPerCm);
+  out.sumOfAngles = measured(angles / bends.length * kMmPerCm, std::hypot(sd, torsionSd) * kMmPerCm,
+                             bias * kMmPerCm);
   out.greatestCurvature =
       measured(greatest->curvature, greatest->curvatureSd, greatest->curvatureBias);
   out.greatestCurvaturePlace = greatest->position;
@@ -136,11 +136,10 @@ void measureBends(const std::vector<AxisPlace>& places, CourseMeasures& out) {
   out.turns = measured(static_cast<double>(countTurns(bends, inflection)), 0);
   out.turns.plusMinus = std::numeric_limits<double>::quiet_NaN();
   const double straightness = out.tortuosity.absent.empty() ? out.tortuosity.value + 1 : NAN;
-  out.inflectionCount = out.tortuosity.absent.empty()
-                            ? Measured{(count + 1) * straightness,
-                                       (count + 1) * out.tortuosity.plusMinus,
-                                       {}}
-                            : notDefined(out.tortuosity.absent);
+  out.inflectionCount =
+      out.tortuosity.absent.empty()
+          ? Measured{(count + 1) * straightness, (count + 1) * out.tortuosity.plusMinus, {}}
+          : notDefined(out.tortuosity.absent);
 }
 
 }  // namespace
@@ -173,8 +172,7 @@ void measureCurve(const std::vector<AxisPlace>& places, double gap, double endSd
     out.chord = out.tortuosity = notDefined("its ends are at one place");
   } else {
     const double slope = std::abs(first.tangent.dot(across)) / chord;
-    out.chord = measured(
-        chord, std::sqrt(2.0) * std::hypot(endSd * slope, first.positionSd));
+    out.chord = measured(chord, std::sqrt(2.0) * std::hypot(endSd * slope, first.positionSd));
     // ends that move along the axis change both
     const double both = std::abs(length / chord * slope - 1) / chord;
     out.tortuosity =
@@ -243,9 +241,9 @@ void CalibreSums::finish(double endSd, double shared, CourseMeasures& out) const
                      std::pow(endSd * last, 2));
   };
   out.volume = measured(m_volume, withEnds(m_wall, m_first->section->area, m_last->section->area));
-  out.wallArea = measured(m_wall, withEnds(2 * std::numbers::pi * m_length,
-                                           m_first->section->perimeter,
-                                           m_last->section->perimeter));
+  out.wallArea =
+      measured(m_wall, withEnds(2 * std::numbers::pi * m_length, m_first->section->perimeter,
+                                m_last->section->perimeter));
 }
 
 std::vector<VesselMeasures> measureVessels(const std::vector<VesselCourse>& courses,
@@ -255,10 +253,10 @@ std::vector<VesselMeasures> measureVessels(const std::vector<VesselCourse>& cour
     VesselMeasures& out = vessels.emplace_back();
     out.branch = course.branch;
     if (!course.absent.empty()) {
-      for (Measured* m : {&out.length, &out.chord, &out.tortuosity, &out.sumOfAngles,
-                          &out.inflectionCount, &out.meanCurvature, &out.greatestCurvature,
-                          &out.turns, &out.turning, &out.smallestRadius, &out.meanRadius,
-                          &out.volume, &out.wallArea, &out.taper})
+      for (Measured* m :
+           {&out.length, &out.chord, &out.tortuosity, &out.sumOfAngles, &out.inflectionCount,
+            &out.meanCurvature, &out.greatestCurvature, &out.turns, &out.turning,
+            &out.smallestRadius, &out.meanRadius, &out.volume, &out.wallArea, &out.taper})
         *m = notDefined(course.absent);
       continue;
     }

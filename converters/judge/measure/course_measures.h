@@ -31,7 +31,7 @@ public:
 private:
   double m_length = 0, m_radii = 0, m_volume = 0, m_wall = 0;
   double m_variance = 0, m_known = 0, m_count = 0;  // of the wall's random part
-  double m_missing = 0;                // mm without a section
+  double m_missing = 0;                             // mm without a section
   // samples of the courses that were added, which outlive the sums
   const CourseSample *m_smallest = nullptr, *m_first = nullptr, *m_last = nullptr;
 };

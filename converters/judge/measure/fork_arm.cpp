@@ -253,8 +253,8 @@ void measureArms(const CenterlineTree& tree, const std::vector<VesselCourse>& co
       continue;
     }
     const ArmScale scale(tree, course, lines[i], arm);
-    fitVector(pointsBeyond(lines[i], course, scale, begin), begin, radius,
-              course.axis->centreSd(), arm);
+    fitVector(pointsBeyond(lines[i], course, scale, begin), begin, radius, course.axis->centreSd(),
+              arm);
     findCalibre(course, scale, begin, radius, arm);
   }
 }

@@ -18,13 +18,13 @@ namespace lumen::convert {
 struct ForkArm {
   std::uint32_t branch = 0;
   bool isUpstream = false;
-  std::vector<std::uint32_t> nodes = {};  ///< outwards; the fork's own node is the first
-  std::string_view absent = {};      ///< why it has no vector
+  std::vector<std::uint32_t> nodes = {};             ///< outwards; the fork's own node is the first
+  std::string_view absent = {};                      ///< why it has no vector
   Eigen::Vector3d from = Eigen::Vector3d::Zero();    ///< where it leaves the others' lumen, mm
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();  ///< outwards, one sphere long, mm
-  double angleSd = 0;        ///< of the vector's direction, radians
-  double calibre = 0;        ///< mm: radius of the circle of its section's area
-  double calibreSd = 0;      ///< mm
+  double angleSd = 0;                                ///< of the vector's direction, radians
+  double calibre = 0;               ///< mm: radius of the circle of its section's area
+  double calibreSd = 0;             ///< mm
   std::string_view noCalibre = {};  ///< why it has no calibre
 };
 

@@ -69,8 +69,8 @@ void measureCalibres(const ForkArm& in, const ForkArm& large, const ForkArm& sma
   // by the derivatives of p^x + q^x = 1
   const double x = murray(p, q), px = std::pow(p, x), qx = std::pow(q, x);
   const double slope = std::abs(px * std::log(p) + qx * std::log(q));
-  out.murrayExponent = measured(
-      x, x / slope * std::hypot(px * relative(large), qx * relative(small), relative(in)));
+  out.murrayExponent =
+      measured(x, x / slope * std::hypot(px * relative(large), qx * relative(small), relative(in)));
 }
 
 /// Angles in the plane through the three places where the arms leave one another, and out of it.
@@ -125,10 +125,10 @@ void measureAngles(const ForkArm& in, const ForkArm& large, const ForkArm& small
 
 /// All measures empty for one reason.
 void leaveOut(std::string_view reason, ForkMeasures& out) {
-  for (Measured* m :
-       {&out.angle, &out.takeOffLarger, &out.takeOffSmaller, &out.inPlaneLarger,
-        &out.inPlaneSmaller, &out.outOfPlaneParent, &out.outOfPlaneLarger, &out.outOfPlaneSmaller,
-        &out.calibreLarger, &out.calibreSmaller, &out.areaRatio, &out.murrayExponent, &out.asymmetry})
+  for (Measured* m : {&out.angle, &out.takeOffLarger, &out.takeOffSmaller, &out.inPlaneLarger,
+                      &out.inPlaneSmaller, &out.outOfPlaneParent, &out.outOfPlaneLarger,
+                      &out.outOfPlaneSmaller, &out.calibreLarger, &out.calibreSmaller,
+                      &out.areaRatio, &out.murrayExponent, &out.asymmetry})
     *m = notDefined(reason);
 }
 

@@ -101,8 +101,7 @@ CaseMeasures measureCase(const formats::Case& source, const MeasureOptions& opti
   const double shared = spread ? spread->shared() : 0;
   CaseMeasures out;
   for (const VesselCourse& course : courses)
-    if (course.absent.empty())
-      addStations(source.tree, course, options, cut, spread, out.stations);
+    if (course.absent.empty()) addStations(source.tree, course, options, cut, spread, out.stations);
   out.vessels = measureVessels(courses, shared);
   out.forks = measureForks(source.tree, courses);
   out.paths = measurePaths(source.tree, courses, out.forks, shared, progress);

@@ -15,7 +15,7 @@ namespace {
 
 using Match = std::vector<std::optional<std::uint32_t>>;
 
-constexpr double kMatched = 0.5;  // share of a vessel's nodes that lie in the other vessel
+constexpr double kMatched = 0.5;       // share of a vessel's nodes that lie in the other vessel
 constexpr double kSamePlaceRadii = 3;  // of two narrowings of a vessel
 
 Measured differenceOf(const Measured& before, const Measured& after) {
@@ -121,8 +121,7 @@ std::vector<MeasureTable> measureChanges(const MeasuredCaseOf& before,
     for (std::size_t k = 0; k < before.measures.narrowings.size(); ++k) {
       const NarrowingMeasures& other = before.measures.narrowings[k];
       if (!isMatch(own.branch, other.branch) || own.isDilation != other.isDilation ||
-          (own.place - other.place).norm() >
-              0.5 * kSamePlaceRadii * own.healthyDiameter.value)
+          (own.place - other.place).norm() > 0.5 * kSamePlaceRadii * own.healthyDiameter.value)
         continue;
       addRow(tableOf(earlier, "narrowings").rows[k], tableOf(later, "narrowings").rows[i],
              nameOf(other.branch), narrowings);

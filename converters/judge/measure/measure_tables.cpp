@@ -112,16 +112,17 @@ template <class Row, class Column, std::size_t count>
 void addPlaces(const Row& row, const Column (&columns)[count], MeasureRow& out) {
   for (const Column& column : columns) {
     const Place place = row.*column.place;
-    out.places.push_back(place.isZero(0)
-                             ? Place::Constant(std::numeric_limits<double>::quiet_NaN())
-                             : place);
+    out.places.push_back(place.isZero(0) ? Place::Constant(std::numeric_limits<double>::quiet_NaN())
+                                         : place);
   }
 }
 
 class Labels {
 public:
   explicit Labels(const formats::CenterlineTree& tree) : m_tree(tree) {}
-  const std::string& operator[](std::uint32_t branch) const { return m_tree.branches[branch].label; }
+  const std::string& operator[](std::uint32_t branch) const {
+    return m_tree.branches[branch].label;
+  }
 
 private:
   const formats::CenterlineTree& m_tree;
@@ -163,7 +164,8 @@ MeasureTable pathTable(const Labels& labels, const CaseMeasures& measures) {
   for (const PathMeasures& m : measures.paths) {
     MeasureRow& row = table.rows.emplace_back();
     std::string way;
-    for (const std::uint32_t branch : m.branches) way += (way.empty() ? "" : " > ") + labels[branch];
+    for (const std::uint32_t branch : m.branches)
+      way += (way.empty() ? "" : " > ") + labels[branch];
     row.labels = {labels[m.inlet], labels[m.end], way};
     addPlaces(m, kCoursePlaces, row);
     addPlaces(m, kPathPlaces, row);
@@ -184,10 +186,11 @@ MeasureTable forkTable(const Labels& labels, const CaseMeasures& measures) {
     MeasureRow& row = table.rows.emplace_back();
     row.labels = {labels[m.parent], labels[m.larger], labels[m.smaller]};
     row.places = {m.place};
-    constexpr PlaceColumn<ForkMeasures> kVectors[] = {{"normal", &ForkMeasures::normal},
-                                                      {"parent_vector", &ForkMeasures::into},
-                                                      {"larger_vector", &ForkMeasures::outLarger},
-                                                      {"smaller_vector", &ForkMeasures::outSmaller}};
+    constexpr PlaceColumn<ForkMeasures> kVectors[] = {
+        {"normal", &ForkMeasures::normal},
+        {"parent_vector", &ForkMeasures::into},
+        {"larger_vector", &ForkMeasures::outLarger},
+        {"smaller_vector", &ForkMeasures::outSmaller}};
     addPlaces(m, kVectors, row);
     addValues(m, kForkValues, row);
   }

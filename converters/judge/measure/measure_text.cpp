@@ -63,7 +63,8 @@ void addHeader(const MeasureTable& table, std::string& text) {
   for (const auto& place : table.places) {
     const std::string key = placeKey(place);
     const bool isLength = key.ends_with("_mm");
-    const std::string stem = key == "place_mm" ? "" : key.substr(0, key.size() - (isLength ? 3 : 0)) + '_';
+    const std::string stem =
+        key == "place_mm" ? "" : key.substr(0, key.size() - (isLength ? 3 : 0)) + '_';
     for (const char axis : {'x', 'y', 'z'}) text += ',' + stem + axis + (isLength ? "_mm" : "");
   }
   for (const auto& value : table.values)
@@ -136,9 +137,9 @@ std::string measuresLongCsv(std::span<const MeasuredCase> cases) {
         for (std::size_t i = 0; i < row.values.size(); ++i) {
           const Measured& m = row.values[i];
           const bool isThere = m.absent.empty();
-          text += head + ',' + std::string(table.values[i]) + ',' +
-                  (isThere ? cell(m.value) : "") + ',' + (isThere ? cell(m.plusMinus) : "") + ',' +
-                  csvCell(std::string(m.absent)) + '\n';
+          text += head + ',' + std::string(table.values[i]) + ',' + (isThere ? cell(m.value) : "") +
+                  ',' + (isThere ? cell(m.plusMinus) : "") + ',' + csvCell(std::string(m.absent)) +
+                  '\n';
         }
       }
   return text;

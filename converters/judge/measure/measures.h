@@ -39,22 +39,23 @@ struct VesselMeasures : CourseMeasures {
 
 /// From an inlet to one end of its tree.
 struct PathMeasures : CourseMeasures {
-  std::uint32_t inlet = 0, end = 0;         ///< branches
-  std::vector<std::uint32_t> branches;      ///< from the inlet to the end
+  std::uint32_t inlet = 0, end = 0;     ///< branches
+  std::vector<std::uint32_t> branches;  ///< from the inlet to the end
   Measured forks, takeOff, calibreStep, catheter;
   Place takeOffPlace = Place::Zero(), calibreStepPlace = Place::Zero();
 };
 
 /// A fork with two of the vessels that leave it; `larger` has the larger calibre.
 struct ForkMeasures {
-  std::uint32_t node = 0;                          ///< where the vessels part
+  std::uint32_t node = 0;                             ///< where the vessels part
   std::uint32_t parent = 0, larger = 0, smaller = 0;  ///< branches
   Place place = Place::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the fork's plane; zero if it has none
   /// Vectors of the arms along the blood's way: into the fork, and out of it.
   Eigen::Vector3d into = Eigen::Vector3d::Zero(), outLarger = into, outSmaller = into;
   Measured angle, takeOffLarger, takeOffSmaller, inPlaneLarger, inPlaneSmaller, outOfPlaneParent,
-      outOfPlaneLarger, outOfPlaneSmaller, calibreLarger, calibreSmaller, areaRatio, murrayExponent, asymmetry;
+      outOfPlaneLarger, outOfPlaneSmaller, calibreLarger, calibreSmaller, areaRatio, murrayExponent,
+      asymmetry;
 };
 
 /// A stretch that is narrower or wider than the vessel's fitted healthy calibre.

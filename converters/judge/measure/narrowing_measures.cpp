@@ -12,12 +12,12 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kWindowRadii = 20;   // half-width of the trend: longer than a lesion
-constexpr double kClearRadii = 1.5;   // from a fork or an end: the wall flares there
-constexpr double kLeastRadii = 10;    // of a vessel with a trend
-constexpr std::size_t kFewestSections = 8;    // sections of a vessel with a trend
-constexpr double kListed = 0.2;       // share of the healthy calibre from which a stretch is listed
-constexpr double kEdge = 0.1;         // share of the healthy calibre at which a stretch ends
+constexpr double kWindowRadii = 20;         // half-width of the trend: longer than a lesion
+constexpr double kClearRadii = 1.5;         // from a fork or an end: the wall flares there
+constexpr double kLeastRadii = 10;          // of a vessel with a trend
+constexpr std::size_t kFewestSections = 8;  // sections of a vessel with a trend
+constexpr double kListed = 0.2;  // share of the healthy calibre from which a stretch is listed
+constexpr double kEdge = 0.1;    // share of the healthy calibre at which a stretch ends
 constexpr double kLeastSpread = 0.001;  // of residuals, as a share of the calibre
 constexpr int kRounds = 8;
 constexpr double kBisquare = 6;  // medians of the absolute residuals
@@ -82,7 +82,8 @@ public:
 
   void find() {
     const Calibres& c = m_calibres;
-    if (c.along.size() < kFewestSections || c.along.back() - c.along.front() < kLeastRadii * c.radius)
+    if (c.along.size() < kFewestSections ||
+        c.along.back() - c.along.front() < kLeastRadii * c.radius)
       return;
     m_circle = robustTrend(c.along, c.circle, kWindowRadii * c.radius);
     m_least = robustTrend(c.along, c.least, kWindowRadii * c.radius);
@@ -135,8 +136,7 @@ private:
       const double error = std::hypot(2 * sd / whole, ratio * healthySd / healthy);
       return std::pair{100 * (1 - ratio), 100 * error};
     };
-    const auto [nascet, nascetSd] =
-        degree(refinedLeast(c.least, at), least, sample.placeSd);
+    const auto [nascet, nascetSd] = degree(refinedLeast(c.least, at), least, sample.placeSd);
     out.diameterDegree = measured(nascet, nascetSd);
     const double ratio = circle / healthy;
     out.areaDegree = measured(100 * (1 - ratio * ratio),
@@ -158,8 +158,7 @@ std::vector<double> robustTrend(const std::vector<double>& x, const std::vector<
   std::vector<double> trend(count, median(y)), weight(count, 1), rest(count);
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < count; ++i) rest[i] = std::abs(y[i] - trend[i]);
-    const double scale =
-        kBisquare * std::max(median(rest), kLeastSpread * std::abs(median(trend)));
+    const double scale = kBisquare * std::max(median(rest), kLeastSpread * std::abs(median(trend)));
     for (std::size_t i = 0; i < count; ++i) {
       const double u = rest[i] / scale;
       weight[i] = u < 1 ? (1 - u * u) * (1 - u * u) : 0;

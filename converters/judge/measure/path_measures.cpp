@@ -108,8 +108,8 @@ private:
       const VesselCourse& course = m_courses[branch];
       if (!course.absent.empty()) continue;
       const auto at = std::lower_bound(course.nodes.begin(), course.nodes.end(), nodes[i]);
-      const auto index = std::min(static_cast<std::size_t>(at - course.nodes.begin()),
-                                  course.nodes.size() - 1);
+      const auto index =
+          std::min(static_cast<std::size_t>(at - course.nodes.begin()), course.nodes.size() - 1);
       const double until = course.gap + course.axis->alongOf(index) - course.begin;
       if (until > 0) portions.push_back({&course, until});
     }
@@ -156,11 +156,10 @@ private:
   }
 
   static void leaveOut(std::string_view reason, PathMeasures& out) {
-    for (Measured* m :
-         {&out.length, &out.chord, &out.tortuosity, &out.sumOfAngles, &out.inflectionCount,
-          &out.meanCurvature, &out.greatestCurvature, &out.turns, &out.turning,
-          &out.smallestRadius, &out.meanRadius, &out.volume, &out.wallArea, &out.forks,
-          &out.takeOff, &out.calibreStep, &out.catheter})
+    for (Measured* m : {&out.length, &out.chord, &out.tortuosity, &out.sumOfAngles,
+                        &out.inflectionCount, &out.meanCurvature, &out.greatestCurvature,
+                        &out.turns, &out.turning, &out.smallestRadius, &out.meanRadius, &out.volume,
+                        &out.wallArea, &out.forks, &out.takeOff, &out.calibreStep, &out.catheter})
       *m = notDefined(reason);
   }
 

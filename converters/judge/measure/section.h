@@ -13,7 +13,7 @@ struct Section {
   double perimeter = 0;  ///< mm
   /// Distance of two parallel lines that touch the section on either side, mm.
   double least = 0, greatest = 0;
-  double circularity = 0;  ///< 4 pi area / perimeter^2: 1 for a circle
+  double circularity = 0;                              ///< 4 pi area / perimeter^2: 1 for a circle
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< mm
   /// Volume and area of the wall for each mm along an axis of this curvature vector (normal times
   /// curvature, 1/mm), by Pappus.

@@ -15,11 +15,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMostTerms = 6;         // of a polynomial of fifth degree
-constexpr std::size_t kFewestNodes = 15;   // nodes of a window: 2.5 for each unknown
-constexpr double kGridRadii = 0.3;    // step of the table of arc lengths, in local radii
-constexpr double kWholeShare = 0.5;   // of a half-width that an end may cut off
-constexpr double kSignificant = 1.96;  // standard deviations: 95 %
+constexpr int kMostTerms = 6;             // of a polynomial of fifth degree
+constexpr std::size_t kFewestNodes = 15;  // nodes of a window: 2.5 for each unknown
+constexpr double kGridRadii = 0.3;        // step of the table of arc lengths, in local radii
+constexpr double kWholeShare = 0.5;       // of a half-width that an end may cut off
+constexpr double kSignificant = 1.96;     // standard deviations: 95 %
 // A helix that turns by w = sqrt(curvature^2 + torsion^2) per mm loses by the fit this share of
 // (half-width x w)^4 of its curvature: the next term of its series, projected on the fit's
 // polynomials with biweight weights. The curvature is corrected by it.

@@ -24,15 +24,15 @@ struct AxisNodes {
 
 /// A place on the curve. Variances are of errors of the nodes' centres.
 struct AxisPlace {
-  double along = 0;                      ///< arc length from the first node, mm
-  Eigen::Vector3d position, tangent;     ///< mm; unit
-  Eigen::Vector3d normal, binormal;      ///< unit; zero on a straight line
-  double curvature = 0;                  ///< 1/mm
-  double torsion = 0;                    ///< 1/mm; NaN where the curvature is not significant
-  double radius = 0;                     ///< of the nodes, interpolated, mm
-  double half = 0;                       ///< half-width of the window, mm
-  double positionSd = 0, tangentSd = 0;  ///< across the axis in one direction, mm and radians
-  double curvatureSd = 0, torsionSd = 0;  ///< 1/mm
+  double along = 0;                           ///< arc length from the first node, mm
+  Eigen::Vector3d position, tangent;          ///< mm; unit
+  Eigen::Vector3d normal, binormal;           ///< unit; zero on a straight line
+  double curvature = 0;                       ///< 1/mm
+  double torsion = 0;                         ///< 1/mm; NaN where the curvature is not significant
+  double radius = 0;                          ///< of the nodes, interpolated, mm
+  double half = 0;                            ///< half-width of the window, mm
+  double positionSd = 0, tangentSd = 0;       ///< across the axis in one direction, mm and radians
+  double curvatureSd = 0, torsionSd = 0;      ///< 1/mm
   double curvatureBias = 0, torsionBias = 0;  ///< 1/mm: bound of what the smoothing takes away
   /// The window is whole, or nearly: curvature and torsion are defined.
   bool isWhole = false;

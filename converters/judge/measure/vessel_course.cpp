@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using formats::CenterlineTree;
 
 constexpr double kStepRadii = 0.5;     // between samples, of the vessel's median radius
-constexpr double kLeavingRadii = 0.1;   // step of the search for the parent's wall
+constexpr double kLeavingRadii = 0.1;  // step of the search for the parent's wall
 constexpr std::size_t kBlock = 16;     // samples whose rays run together
 constexpr double kEndSteps = 0.5;      // steps of the nodes by which an end is uncertain
 constexpr double kShortest = 1;        // radii: a vessel that is shorter is a stub
@@ -81,8 +81,7 @@ VesselCourse courseOf(const formats::Case& source, std::uint32_t index) {
   const double radius = medianRadius(tree, course.nodes);
   if (branch.parentNode != formats::kNoParent) {
     const auto from = static_cast<std::size_t>(branch.parentNode);
-    course.begin =
-        leavingPlace(*course.axis, TubeTreeDistance(tree, tree.branch[from]), radius);
+    course.begin = leavingPlace(*course.axis, TubeTreeDistance(tree, tree.branch[from]), radius);
     if (course.begin == 0) course.gap = formats::edgeLength(tree, branch.firstNode);
   }
   if (course.axis->length() - course.begin < kShortest * radius)
@@ -172,8 +171,7 @@ std::vector<VesselCourse> vesselCourses(const formats::Case& source, const Wall*
     if (course.absent.empty()) {
       const double step = kStepRadii * medianRadius(source.tree, course.nodes);
       const double length = course.axis->length() - course.begin;
-      const auto pieces =
-          static_cast<std::size_t>(std::max(2.0, std::ceil(length / step - 1e-9)));
+      const auto pieces = static_cast<std::size_t>(std::max(2.0, std::ceil(length / step - 1e-9)));
       std::vector<double> along;
       for (std::size_t i = 0; i <= pieces; ++i)
         along.push_back(course.begin +

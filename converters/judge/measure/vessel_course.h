@@ -24,17 +24,17 @@ struct CourseSample {
   double along = 0;  ///< mm from where the vessel leaves its parent's lumen
   AxisPlace axis;    ///< its `along` counts from the vessel's first node
   std::uint32_t node = 0;
-  double radius = 0;                ///< of the inscribed sphere; of the tree without models, mm
-  std::optional<Section> section;   ///< none where there is a reason
-  std::string_view absent = {};     ///< why there is no section
-  double meanSd = 0, placeSd = 0;   ///< of the wall's mean radius and of one place, mm; or NaN
+  double radius = 0;               ///< of the inscribed sphere; of the tree without models, mm
+  std::optional<Section> section;  ///< none where there is a reason
+  std::string_view absent = {};    ///< why there is no section
+  double meanSd = 0, placeSd = 0;  ///< of the wall's mean radius and of one place, mm; or NaN
 };
 
 /// A vessel: a branch of the tree that is no aneurysm.
 struct VesselCourse {
   std::uint32_t branch = 0;
-  std::string_view absent = {};    ///< why there is no course
-  std::optional<SmoothAxis> axis;  ///< through the branch's nodes
+  std::string_view absent = {};      ///< why there is no course
+  std::optional<SmoothAxis> axis;    ///< through the branch's nodes
   std::vector<std::uint32_t> nodes;  ///< node of each of the axis' nodes
   double begin = 0;  ///< arc length of the axis where it leaves the parent's lumen, mm
   double gap = 0;    ///< mm from the parent's lumen to the first node, where that lies outside
@@ -52,9 +52,8 @@ std::optional<SmoothAxis> axisOfNodes(const formats::CenterlineTree& tree,
 
 /// Samples of an axis at these arc lengths, with sections if there is a wall.
 std::vector<CourseSample> sampleCourse(const formats::CenterlineTree& tree,
-                                       const VesselCourse& course,
-                                       const std::vector<double>& along, const Wall* wall,
-                                       const WallNoise* noise);
+                                       const VesselCourse& course, const std::vector<double>& along,
+                                       const Wall* wall, const WallNoise* noise);
 
 /// All branches of a valid case in their order, each sampled every half of its median radius.
 std::vector<VesselCourse> vesselCourses(const formats::Case& source, const Wall* wall,

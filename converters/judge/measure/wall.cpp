@@ -17,11 +17,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFarthest = 4;     // expected radii: a ray that comes so far runs along a vessel
-constexpr int kMostSteps = 40;      // of a ray
-constexpr double kOnWall = 2e-5;    // expected radii: a point as near is on the wall
-constexpr double kCaution = 0.9;    // share of the distance: it is right to first order only
-constexpr double kNearWall = 0.3;   // expected radii: Newton's steps from here
+constexpr double kFarthest = 4;    // expected radii: a ray that comes so far runs along a vessel
+constexpr int kMostSteps = 40;     // of a ray
+constexpr double kOnWall = 2e-5;   // expected radii: a point as near is on the wall
+constexpr double kCaution = 0.9;   // share of the distance: it is right to first order only
+constexpr double kNearWall = 0.3;  // expected radii: Newton's steps from here
 constexpr double kLeastRaySlope = 0.35;  // of a ray against the normal, for Newton's steps
 
 /// A ray from the axis to the wall. The wall lies between `inside` and `outside`.
@@ -105,8 +105,12 @@ Wall::Wall(const formats::Case& source) {
   def.parent = tree.parent;
   def.link_count = tree.linkCount;
   def.link = tree.link;
-  def.blobs = {static_cast<blob_kernel>(models.kernel), models.parameter, models.level,
-               models.offset, models.centre, models.width};
+  def.blobs = {static_cast<blob_kernel>(models.kernel),
+               models.parameter,
+               models.level,
+               models.offset,
+               models.centre,
+               models.width};
   blob_model* opened = nullptr;
   const blob_status status = blob_model_create(&def, &opened);
   if (status != BLOB_OK)

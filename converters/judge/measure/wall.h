@@ -31,7 +31,7 @@ struct WallRing {
   std::array<Eigen::Vector3d, kRays> point, normal;  ///< mm; unit, out of the lumen
   std::array<double, kRays> distance{};              ///< from the axis, mm
   std::array<std::uint32_t, kRays> node{};           ///< cursor there
-  bool isInside = false;  ///< the axis is in the lumen
+  bool isInside = false;                             ///< the axis is in the lumen
   bool isClosed = false;  ///< every ray meets the wall within four expected radii
 };
 

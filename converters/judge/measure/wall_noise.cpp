@@ -20,7 +20,7 @@ constexpr double kSharedVoxels = 0.04;
 constexpr double kSigmaOfMedian = 1.4826;  // of a normal distribution's median of absolute values
 constexpr double kLeastCount = 3;
 constexpr double kSupportRadii = 0.5;  // along the vessel, of the points that a section rests on
-constexpr double kOfPlace = 4;       // parts of a ring that bend on their own
+constexpr double kOfPlace = 4;         // parts of a ring that bend on their own
 
 double spacingAt(const formats::CenterlineTree& tree, std::uint32_t node) {
   const formats::Branch& branch = tree.branches[tree.branch[node]];
@@ -63,8 +63,8 @@ WallNoise::WallNoise(const formats::Case& source, const Wall& wall) {
   for (std::uint32_t n = 0; n < count; ++n) {
     const formats::Branch& branch = tree.branches[tree.branch[n]];
     const double reach = kSupportRadii * double{tree.radius[n]};
-    const auto side = static_cast<std::uint32_t>(
-        std::clamp(reach / std::max(spacing[n], 1e-6), 1.0, 50.0));
+    const auto side =
+        static_cast<std::uint32_t>(std::clamp(reach / std::max(spacing[n], 1e-6), 1.0, 50.0));
     const std::uint32_t first = n - std::min(side, n - branch.firstNode);
     const std::uint32_t last = std::min(n + side, branch.firstNode + branch.nodeCount - 1);
     double sum = 0;

@@ -83,8 +83,8 @@ TEST(ClosedForm, OfAConeAreItsTaperAndRadii) {
   const CaseMeasures m = measuresOf(caseOf({cone}, 0.1));
   expectShare(m.vessels[0].taper, 2 * kSlope, kIndex);
   const double to = kFrom - kSlope * kLengthOfCone;
-  expectShare(m.vessels[0].volume,
-              kPi * kLengthOfCone / 3 * (kFrom * kFrom + kFrom * to + to * to), kVolume);
+  expectShare(m.vessels[0].volume, kPi * kLengthOfCone / 3 * (kFrom * kFrom + kFrom * to + to * to),
+              kVolume);
   const StationMeasures& middle = m.stations[m.stations.size() / 2];
   const double radius = kFrom - kSlope * middle.along.value;
   // the nearest point of a cone is not in the plane of its axis' normal
@@ -152,8 +152,8 @@ TEST(ClosedForm, OfAForkAreItsAngles) {
   constexpr double kRadius = 1.5, kDaughter = 1.2;
   const double large = 25 * kPi / 180, small = 50 * kPi / 180;
   Tube trunk = straightTube(Vector3d(0, 0, -20), Vector3d::UnitZ(), 20, kRadius);
-  Tube a = straightTube(Vector3d::Zero(), Vector3d(std::sin(large), 0, std::cos(large)), 20,
-                        kDaughter);
+  Tube a =
+      straightTube(Vector3d::Zero(), Vector3d(std::sin(large), 0, std::cos(large)), 20, kDaughter);
   Tube b = straightTube(Vector3d::Zero(), Vector3d(-std::sin(small), 0, std::cos(small)), 20, 1);
   a.label = "a", b.label = "b";
   a.parent = b.parent = 0;

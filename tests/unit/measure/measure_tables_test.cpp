@@ -53,9 +53,9 @@ TEST(Absent, IsACutThatMeetsAnotherVessel) {
 
 TEST(Absent, AreAllMeasuresOfAStubAndOfAnAneurysm) {
   formats::Case value = forkCase();
-  formats::Case stub =
-      treeOf({straightTube({0, 0, 0}, {0, 0, 1}, 30, 1.5),
-              childOf(0, 15, {0, 0, 15}, {1.6, 0, 15}, "stub")}, 0.25);
+  formats::Case stub = treeOf({straightTube({0, 0, 0}, {0, 0, 1}, 30, 1.5),
+                               childOf(0, 15, {0, 0, 15}, {1.6, 0, 15}, "stub")},
+                              0.25);
   const CaseMeasures m = measuresOf(stub);
   EXPECT_EQ(m.vessels[1].length.absent,
             "a stub: it is shorter than its radius beyond its parent's lumen");
@@ -68,8 +68,7 @@ TEST(Absent, AreAllMeasuresOfAStubAndOfAnAneurysm) {
 }
 
 TEST(Absent, AreSectionsOfATreeWithoutModels) {
-  const CaseMeasures m =
-      measuresOf(treeOf({straightTube({0, 0, 0}, {0, 0, 1}, 30, 1.5)}, 0.25));
+  const CaseMeasures m = measuresOf(treeOf({straightTube({0, 0, 0}, {0, 0, 1}, 30, 1.5)}, 0.25));
   EXPECT_EQ(m.stations[5].area.absent, "the case has no models: fit it first");
   EXPECT_EQ(m.vessels[0].volume.absent, "the case has no models: fit it first");
   EXPECT_NEAR(m.stations[5].radius.value, 1.5, 1e-6);
@@ -146,8 +145,7 @@ TEST(Changes, AreThoseOfTheVesselsAtOnePlace) {
   EXPECT_FALSE(match[0]);
   EXPECT_EQ(match[1], 1U);
   EXPECT_EQ(match[2], 0U);
-  const auto changes =
-      measureChanges({before, measuresOf(before)}, {after, measuresOf(after)});
+  const auto changes = measureChanges({before, measuresOf(before)}, {after, measuresOf(after)});
   const MeasureTable& vessels = changes[0];
   ASSERT_EQ(vessels.rows.size(), 2U);
   EXPECT_EQ(vessels.rows[0].labels, std::vector<std::string>({"renamed", "a, \"b\""}));

@@ -68,10 +68,9 @@ formats::Case treeOf(const std::vector<Tube>& tubes, double spacing) {
     if (tube.parent >= 0) {
       const formats::Branch& from = tree.branches[static_cast<std::size_t>(tube.parent)];
       const Tube& parent = tubes[static_cast<std::size_t>(tube.parent)];
-      branch.parentNode =
-          static_cast<std::int32_t>(from.firstNode) +
-          static_cast<std::int32_t>(std::lround(tube.parentAlong / parent.length *
-                                                (from.nodeCount - 1)));
+      branch.parentNode = static_cast<std::int32_t>(from.firstNode) +
+                          static_cast<std::int32_t>(
+                              std::lround(tube.parentAlong / parent.length * (from.nodeCount - 1)));
     }
     for (int i = 0; i <= steps; ++i) {
       const double s = tube.length * i / steps;

@@ -18,7 +18,7 @@ struct Tube {
   std::function<Eigen::Vector3d(double)> position;  ///< parametrised by arc length
   std::function<double(double)> radius;             ///< mm at s
   double length = 0;
-  int parent = -1;        ///< index of another tube
+  int parent = -1;         ///< index of another tube
   double parentAlong = 0;  ///< mm along it
 };
 
