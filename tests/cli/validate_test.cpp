@@ -202,6 +202,20 @@ TEST_F(ValidateTest, BranchesThatAMeshLacksAreNamedWithACellThatKeepsThem) {
   EXPECT_FALSE(exists("b.stl"));
 }
 
+TEST_F(ValidateTest, SeedsThatCannotBeReadAreAWarningAndTheCaseIsLegalAllTheSame) {
+  formats::Case value = sample();
+  value.otherChunks = {{"SEED", 1, true, 0, 2, {std::byte{'{'}, std::byte{'}'}}}};
+  put("good.lumen", value);
+  const Outcome checked = lumen({"validate", "good.lumen"});
+  EXPECT_EQ(checked.code, 0);
+  EXPECT_TRUE(contains(checked.out, "warning SEEDS at file: the case: its seeds")) << checked.out;
+  EXPECT_FALSE(contains(checked.out, "CHUNK_IGNORED")) << checked.out;
+  EXPECT_EQ(lumen({"validate", "good.lumen", "--strict"}).code, 3);
+  const Outcome info = lumen({"info", "good.lumen", "--json"});
+  EXPECT_EQ(info.code, 0);
+  EXPECT_EQ(Json::parse(info.out)["seeds"], nullptr);
+}
+
 TEST_F(ValidateTest, ChunksOfOthersSurviveAConversion) {
   formats::Case value = sample();
   value.otherChunks = {{"acme", 1, false, 0, 2, {std::byte{1}, std::byte{2}}}};

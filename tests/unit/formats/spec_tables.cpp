@@ -178,7 +178,9 @@ constexpr const char* kFindings =
     "| 652 | `SURFACE` |  | with `--surface`: the closed surface that `lumen convert` makes leaves "
     "a "
     "part of the case out, was opened or cut, or passes through itself, and the message is that of "
-    "`lumen convert`; or, as information, the case has no models |\n";
+    "`lumen convert`; or, as information, the case has no models |\n"
+    "| 653 | `SEEDS` |  | the seeds that the case holds cannot be read: they break a rule of the "
+    "[seeds format](seeds.md) |\n";
 
 }  // namespace
 
