@@ -21,8 +21,7 @@ void addPlaces(const CaseSurface& surface, const SheetField& field, const SelfIn
   for (const auto& pair : found.pairs)
     for (const std::uint32_t t : pair)
       for (const std::uint32_t v : surface.mesh.triangle[t])
-        places.emplace_back().add(surface.mesh.position[v],
-                                  radii * field.radius(surface.node[v]));
+        places.emplace_back().add(surface.mesh.position[v], radii * field.radius(surface.node[v]));
 }
 
 std::vector<std::uint8_t> verticesIn(const CaseSurface& surface, const std::vector<Box3d>& places) {

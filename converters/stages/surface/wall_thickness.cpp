@@ -27,7 +27,8 @@ constexpr std::size_t kRayBlock = 1024;  // vertices between two looks at the pr
 
 struct Ray {
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();
-  bool isOfLumen = false, isOfOther = false;  // whether triangles of the side, and others, meet here
+  bool isOfLumen = false,
+       isOfOther = false;  // whether triangles of the side, and others, meet here
 };
 
 // The directions from the lumens into the wall: triangles of that side look into the lumen.
@@ -49,7 +50,7 @@ std::vector<Ray> raysOf(const CaseSurface& solid) {
 }
 
 struct Thickness {
-  double mm = -1;  // negative: not measured
+  double mm = -1;                    // negative: not measured
   std::uint32_t other = UINT32_MAX;  // the node of the lumen behind the wall, if it is shared
 };
 
@@ -63,9 +64,8 @@ struct SharedWall {
 std::vector<std::string> sentencesOf(const std::map<BranchPair, SharedWall>& found,
                                      const formats::CenterlineTree& tree) {
   std::vector<std::pair<BranchPair, SharedWall>> walls(found.begin(), found.end());
-  std::stable_sort(walls.begin(), walls.end(), [](const auto& a, const auto& b) {
-    return a.second.mm < b.second.mm;
-  });
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const auto& a, const auto& b) { return a.second.mm < b.second.mm; });
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < std::min(kMostShared, walls.size()); ++i) {
     const auto& [pair, wall] = walls[i];

@@ -19,10 +19,10 @@ namespace lumen::convert {
 /// Thicknesses at the vertices of the lumens' side, along the normal to the first surface that is
 /// met: the outer one, or that of another lumen, where vessels share a wall.
 struct WallThickness {
-  static constexpr double kStep = 0.1;          ///< of `histogram`, as a share of that asked for
-  std::array<std::size_t, 21> histogram{};      ///< vertices; the last: twice as thick, or more
-  std::size_t measured = 0;                     ///< vertices in all
-  double least = 0, median = 0;                 ///< mm
+  static constexpr double kStep = 0.1;      ///< of `histogram`, as a share of that asked for
+  std::array<std::size_t, 21> histogram{};  ///< vertices; the last: twice as thick, or more
+  std::size_t measured = 0;                 ///< vertices in all
+  double least = 0, median = 0;             ///< mm
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the least, mm, LPS
   /// A sentence for each pair of branches between whose lumens a shared wall is thinner than asked
   /// for; the thinnest first, at most five, then the number of further ones.

@@ -15,7 +15,8 @@ int main(int count, char** words) {
     std::fputs("lumen_random_surfaces FIRST COUNT [THICKNESS]\n", stderr);
     return 2;
   }
-  const std::uint64_t first = std::strtoull(words[1], nullptr, 10), cases = std::strtoull(words[2], nullptr, 10);
+  const std::uint64_t first = std::strtoull(words[1], nullptr, 10),
+                      cases = std::strtoull(words[2], nullptr, 10);
   lumen::convert::ClosedSurfaceOptions options;
   if (count > 3) options.thickness = lumen::convert::parseLength(words[3], "THICKNESS");
   std::size_t faults = 0;

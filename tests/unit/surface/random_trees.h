@@ -60,7 +60,8 @@ private:
 
   void jump() {
     const double factor = m_random.uniform(1, 5);
-    m_radius = std::clamp(m_random.uniform() < 0.5 ? m_radius * factor : m_radius / factor, 0.2, 3.0);
+    m_radius =
+        std::clamp(m_random.uniform() < 0.5 ? m_radius * factor : m_radius / factor, 0.2, 3.0);
   }
 
   Random& m_random;
@@ -105,7 +106,8 @@ inline formats::Case randomTrees(std::uint64_t number) {
 }
 
 /// What is wrong with the closed surface of a case without links; empty if nothing is.
-inline std::string faultOf(const formats::Case& source, const convert::ClosedSurfaceOptions& options = {}) {
+inline std::string faultOf(const formats::Case& source,
+                           const convert::ClosedSurfaceOptions& options = {}) {
   Progress silent;
   convert::ClosedSurface made;
   try {
@@ -118,9 +120,11 @@ inline std::string faultOf(const formats::Case& source, const convert::ClosedSur
   std::string fault;
   if (facts.boundaryEdges > 0) fault += std::to_string(facts.boundaryEdges) + " open edges; ";
   if (facts.badEdges > 0) fault += std::to_string(facts.badEdges) + " edges of no manifold; ";
-  const auto roots = std::count(source.tree.parent.begin(), source.tree.parent.end(), formats::kNoParent);
+  const auto roots =
+      std::count(source.tree.parent.begin(), source.tree.parent.end(), formats::kNoParent);
   if (!options.thickness && facts.euler != 2 * roots)
-    fault += "Euler characteristic " + std::to_string(facts.euler) + ", expected is " + std::to_string(2 * roots) + "; ";
+    fault += "Euler characteristic " + std::to_string(facts.euler) + ", expected is " +
+             std::to_string(2 * roots) + "; ";
   const std::size_t crossings = convert::selfIntersections(mesh).pairs.size();
   if (crossings > 0) fault += std::to_string(crossings) + " crossings; ";
   return fault;
