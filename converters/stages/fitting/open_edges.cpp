@@ -22,8 +22,9 @@ constexpr double kPassageRadii = 0.4;
 /// Excess of the field over the iso-level where it was too low, as a share of the level.
 constexpr double kExcess = 0.1;
 /// The most turns. An opening may be incomplete where other nodes answer than at its middle; the
-/// next turn adds these.
-constexpr int kMostTurns = 5;
+/// next turn adds these. Where a vessel begins along another one, whose nodes answer at first, each
+/// turn opens one edge, and the same nodes answer on the next.
+constexpr int kMostTurns = 256;
 
 struct NewBlob {
   formats::Vec3f centre;

@@ -2,6 +2,8 @@
 #include "converters/stages/fitting/open_edges.h"
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -99,6 +101,17 @@ TEST(OpenEdges, MakesNoBulgeOfAThinVessel) {
     EXPECT_LT(field.blended(wall, field.follow(wall, x < 1.21 ? 10 : 11)).value, field.level())
         << x;
   }
+}
+
+TEST(OpenEdges, OpensAVesselThatBeginsAlongAnotherOneHoweverLongTheStretchIs) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", alongX(0, 0.5F, 81), 1);
+  std::vector<formats::Vec3f> places = alongX(0.5F, 0.4F, 70, 0.4F);
+  for (std::size_t k = 0; k < places.size(); ++k) places[k].y += 0.025F * static_cast<float>(k);
+  addBeads(value, "b", places, 0.5F, 0);
+  ASSERT_GT(missing(value), 5);
+  openEdges(value);
+  EXPECT_EQ(missing(value), 0);
 }
 
 TEST(OpenEdges, OpensARootsOwnCentre) {
