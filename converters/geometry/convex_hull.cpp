@@ -59,8 +59,8 @@ private:
       if (m_points[i].x() > m_points[b].x()) b = i;
     }
     if (a == b) b = argMax([&](std::uint32_t i) { return (at(i) - at(a)).squaredNorm(); });
-    const std::uint32_t c = argMax(
-        [&](std::uint32_t i) { return (at(i) - at(a)).cross(at(b) - at(a)).squaredNorm(); });
+    const std::uint32_t c =
+        argMax([&](std::uint32_t i) { return (at(i) - at(a)).cross(at(b) - at(a)).squaredNorm(); });
     const Vector3d normal = (at(b) - at(a)).cross(at(c) - at(a));
     const std::uint32_t d =
         argMax([&](std::uint32_t i) { return std::abs(normal.dot(at(i) - at(a))); });

@@ -42,7 +42,7 @@ TEST_F(MeasureTest, WritesAFolderOfTablesOneTableOrJson) {
   EXPECT_NE(folder.err.find("truth.lumen: has no models"), std::string::npos);
   EXPECT_EQ(Json::parse(folder.out)["files"],
             Json({"tables/stations.csv", "tables/vessels.csv", "tables/paths.csv",
-                  "tables/forks.csv", "tables/narrowings.csv"}));
+                  "tables/forks.csv", "tables/narrowings.csv", "tables/sacs.csv"}));
   const auto vessels = convert::csvRows(read("tables/vessels.csv"), "vessels.csv");
   ASSERT_EQ(vessels.size(), 3U);
   EXPECT_EQ(vessels[1].cells[0], "tube.lumen");

@@ -68,7 +68,7 @@ class MeasureCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "measure"; }
   [[nodiscard]] std::string summary() const override {
-    return "Measure vessels, paths, forks and narrowings, with uncertainties, as tables";
+    return "Measure vessels, paths, forks, narrowings and aneurysms, with uncertainties, as tables";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen measure head.lumen --out head-measures\n"

@@ -106,6 +106,7 @@ CaseMeasures measureCase(const formats::Case& source, const MeasureOptions& opti
   out.forks = measureForks(source.tree, courses);
   out.paths = measurePaths(source.tree, courses, out.forks, shared, progress);
   out.narrowings = measureNarrowings(courses);
+  out.sacs = measureSacs(source, spread, progress);
   return out;
 }
 

@@ -95,6 +95,23 @@ constexpr ValueColumn<NarrowingMeasures> kNarrowingValues[] = {
     {"nascet_percent", &NarrowingMeasures::diameterDegree},
     {"area_percent", &NarrowingMeasures::areaDegree},
 };
+
+constexpr ValueColumn<SacMeasures> kSacValues[] = {
+    {"neck_diameter_mm", &SacMeasures::neckDiameter},
+    {"neck_area_mm2", &SacMeasures::neckArea},
+    {"height_mm", &SacMeasures::height},
+    {"reach_mm", &SacMeasures::reach},
+    {"width_mm", &SacMeasures::width},
+    {"dome_volume_mm3", &SacMeasures::volume},
+    {"dome_area_mm2", &SacMeasures::area},
+    {"aspect_ratio", &SacMeasures::aspectRatio},
+    {"size_ratio", &SacMeasures::sizeRatio},
+    {"bottleneck_factor", &SacMeasures::bottleneckFactor},
+    {"undulation_index", &SacMeasures::undulation},
+    {"ellipticity_index", &SacMeasures::ellipticity},
+    {"non_sphericity_index", &SacMeasures::nonSphericity},
+    {"inflow_angle_deg", &SacMeasures::inflowAngle},
+};
 // clang-format on
 
 template <class Column, std::size_t count>
@@ -209,6 +226,21 @@ MeasureTable narrowingTable(const Labels& labels, const CaseMeasures& measures) 
   return table;
 }
 
+MeasureTable sacTable(const Labels& labels, const CaseMeasures& measures) {
+  MeasureTable table{"sacs", {"aneurysm", "position"}, {"place", "normal", "tip"}, {}, {}};
+  addNames(kSacValues, table.values);
+  for (const SacMeasures& m : measures.sacs) {
+    MeasureRow& row = table.rows.emplace_back();
+    row.labels = {labels[m.branch], std::string(m.position)};
+    row.places = {m.place};
+    constexpr PlaceColumn<SacMeasures> kPlaces[] = {{"normal", &SacMeasures::neckNormal},
+                                                    {"tip", &SacMeasures::tip}};
+    addPlaces(m, kPlaces, row);
+    addValues(m, kSacValues, row);
+  }
+  return table;
+}
+
 }  // namespace
 
 std::vector<MeasureTable> measureTables(const formats::Case& source, const CaseMeasures& measures) {
@@ -219,6 +251,7 @@ std::vector<MeasureTable> measureTables(const formats::Case& source, const CaseM
   tables.push_back(pathTable(labels, measures));
   tables.push_back(forkTable(labels, measures));
   tables.push_back(narrowingTable(labels, measures));
+  tables.push_back(sacTable(labels, measures));
   return tables;
 }
 

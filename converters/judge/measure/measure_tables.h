@@ -31,7 +31,7 @@ struct MeasureTable {
 };
 
 /// Number of kinds.
-inline constexpr std::size_t kMeasureKinds = 5;
+inline constexpr std::size_t kMeasureKinds = 6;
 
 /// One table for each kind, in one order, also where it has no row. Measures are those of the case.
 std::vector<MeasureTable> measureTables(const formats::Case& source, const CaseMeasures& measures);

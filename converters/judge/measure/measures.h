@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "converters/judge/measure/measured.h"
+#include "converters/judge/measure/sac_measures.h"
 
 namespace lumen::convert {
 
@@ -72,6 +73,7 @@ struct CaseMeasures {
   std::vector<PathMeasures> paths;
   std::vector<ForkMeasures> forks;
   std::vector<NarrowingMeasures> narrowings;
+  std::vector<SacMeasures> sacs;
 };
 
 }  // namespace lumen::convert

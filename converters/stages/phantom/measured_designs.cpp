@@ -107,7 +107,7 @@ struct CutSac {
 // ratio as in S. Dhar et al., Morphology parameters for intracranial aneurysm rupture risk
 // assessment, 2008.
 void noteSac(Notes& notes, const CutSac& sac, double vessel, double inflow,
-             const std::string& place) {
+             const std::string& position) {
   const double neck = 2 * sac.neckRadius(), width = 2 * sac.across;
   notes.add("neck_diameter_mm", neck);
   notes.add("neck_area_mm2", kStraight * sac.neckRadius() * sac.neckRadius());
@@ -119,12 +119,11 @@ void noteSac(Notes& notes, const CutSac& sac, double vessel, double inflow,
   notes.add("size_ratio", sac.height() / vessel);
   notes.add("bottleneck_factor", width / neck);
   notes.add("undulation_index", 0);
-  const double index =
-      1 - std::cbrt(18 * kStraight) * std::pow(sac.volume(), 2.0 / 3) / sac.area();
+  const double index = 1 - std::cbrt(18 * kStraight) * std::pow(sac.volume(), 2.0 / 3) / sac.area();
   notes.add("ellipticity_index", index);
   notes.add("non_sphericity_index", index);
   notes.add("inflow_angle_deg", inflow);
-  notes.add("place", place);
+  notes.add("position", position);
 }
 
 // A sac above the tangent plane of a straight vessel, which is its neck: any plane nearer to the
@@ -137,8 +136,8 @@ Design sacOnTube(const Frame& frame, double along, double across, double neckRad
   sac.centre = r + sac.along * std::sqrt(1 - share * share);
   TreeBuilder builder(frame);
   const Vector3d from(0.28 * e, 0.46 * e, 0), to(0.36 * e, 0.54 * e, e);
-  const auto root =
-      static_cast<std::int32_t>(builder.add("root", formats::kNoParent, linePath(from, to, always(r))));
+  const auto root = static_cast<std::int32_t>(
+      builder.add("root", formats::kNoParent, linePath(from, to, always(r))));
   const Vector3d flow = (to - from).normalized();
   const Vector3d out = (Vector3d(1, 0.2, 0) - Vector3d(1, 0.2, 0).dot(flow) * flow).normalized();
   builder.add("sac", root, sac.path(0.5 * (from + to), out, 0.3 * r),
@@ -152,7 +151,8 @@ Design sacOnTube(const Frame& frame, double along, double across, double neckRad
 
 // A helix of high torsion: both ends are inside of the volume.
 Design designCoil(const Frame& frame) {
-  const double e = frame.extent, a = 0.16 * e, b = 0.065 * e, turns = 1.75, r = 0.8 * frame.radiusScale();
+  const double e = frame.extent, a = 0.16 * e, b = 0.065 * e, turns = 1.75,
+               r = 0.8 * frame.radiusScale();
   const double last = 2 * kStraight * turns;
   const Vector3d axis = Vector3d(0.08, 0.05, 1).normalized();
   const auto [u, v] = perpendiculars(axis);
@@ -173,7 +173,8 @@ Design designCoil(const Frame& frame) {
 
 // Three quarters of a torus in an oblique plane.
 Design designArc(const Frame& frame) {
-  const double e = frame.extent, bend = 0.3 * e, r = 1.2 * frame.radiusScale(), turn = 1.5 * kStraight;
+  const double e = frame.extent, bend = 0.3 * e, r = 1.2 * frame.radiusScale(),
+               turn = 1.5 * kStraight;
   const auto [u, v] = perpendiculars(Vector3d(0.3, 0.2, 1).normalized());
   const auto position = [&, u = u, v = v](double t) -> Vector3d {
     return Vector3d(0.5 * e, 0.5 * e, 0.5 * e) +
@@ -295,8 +296,7 @@ Design designSacFork(const Frame& frame) {
   const double ball = 2.8 * frame.radiusScale(), neck = 1.8 * frame.radiusScale();
   const Vector3d fork(0.5 * e, 0.49 * e, 0.45 * e), from(0.46 * e, 0.47 * e, 0);
   const Vector3d trunk = (fork - from).normalized();
-  const Vector3d side =
-      (Vector3d(1, 0.3, 0) - Vector3d(1, 0.3, 0).dot(trunk) * trunk).normalized();
+  const Vector3d side = (Vector3d(1, 0.3, 0) - Vector3d(1, 0.3, 0).dot(trunk) * trunk).normalized();
   const double length = 0.42 * e;
   const CutSac sac{ball, ball, r + std::sqrt(ball * ball - neck * neck), r};
   TreeBuilder builder(frame);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/geometry/convex_hull.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
-#include "converters/geometry/convex_hull.h"
 #include "converters/geometry/exact_predicates.h"
 #include "converters/geometry/mesh_measures.h"
 

@@ -29,8 +29,7 @@ double lengthOf(const Design& design, std::size_t branch) {
 }
 
 TEST(MeasuredPhantoms, AxesHaveTheLengthsThatTheTruthStates) {
-  for (const auto& make :
-       {designHelix, designCoil, designArc, designCone, designEllipseTube}) {
+  for (const auto& make : {designHelix, designCoil, designArc, designCone, designEllipseTube}) {
     const Design design = make(kFrame);
     EXPECT_NEAR(lengthOf(design, 0) / note(design, "root.length_mm"), 1, 2e-5);
   }
@@ -85,9 +84,8 @@ TEST(MeasuredPhantoms, SacsHaveTheVolumesThatTheTruthStatesBeyondTheirNecks) {
 }
 
 TEST(MeasuredPhantoms, AHemisphereWouldHaveNoEllipticity) {
-  const double index =
-      1 - std::cbrt(18 * std::numbers::pi) * std::pow(2 * std::numbers::pi / 3, 2.0 / 3) /
-              (2 * std::numbers::pi);
+  const double index = 1 - std::cbrt(18 * std::numbers::pi) *
+                               std::pow(2 * std::numbers::pi / 3, 2.0 / 3) / (2 * std::numbers::pi);
   EXPECT_NEAR(index, 0, 1e-12);
   // more of the ball than its half lies beyond the neck
   EXPECT_GT(note(designSacSphere(kFrame), "sac.ellipticity_index"), 0.05);
