@@ -75,6 +75,7 @@ const std::map<std::string, double>& millimetresByUnit() {
 convert::ReadVolumeOptions VolumeArguments::options() const {
   convert::ReadVolumeOptions options;
   options.series = series;
+  options.skipFaulty = skipFaulty;
   if (const std::vector<double> mm = spacingIn(spacing); !mm.empty())
     options.spacing = Eigen::Vector3d(mm.front(), mm[mm.size() / 2], mm.back());
   if (const auto mm = millimetresByUnit().find(unit); mm != millimetresByUnit().end())

@@ -17,6 +17,7 @@ lumen_test(volume_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_voxels_test.cpp)
 if(LUMEN_WITH_DICOM)
   target_sources(volume_test PRIVATE
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_series_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_dicom_test.cpp)
 else()

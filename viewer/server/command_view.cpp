@@ -51,8 +51,11 @@ public:
     OptionRow& files = table.argument(
         "FILE", &m_files,
         "Volumes, cases, seeds, centerlines and meshes, in any order; of two cases the second is "
-        "the truth. A case that is not there yet, beside a volume, is where the page saves. Or one "
-        "folder of cases, among which the page chooses");
+        "the truth. A case that is not there yet, beside a volume, is where the page saves. A "
+        "folder "
+        "of DICOM is a volume; of several series the page chooses one. Or one folder of cases, "
+        "among "
+        "which the page chooses");
     files.isRequired = false;
     files.many();
     table.flag("no-browser", m_noBrowser, "Print the address only, and open no browser")
@@ -131,9 +134,18 @@ private:
     for (const FileRole wanted :
          {FileRole::Volume, FileRole::Case, FileRole::Mesh, FileRole::Seeds})
       for (const std::string& file : m_files)
-        if (file != output && openingRole({file, file}) == wanted)
+        if (file != output && openingRole({file, file}) == wanted &&
+            !offerSeries(session, file, wanted, around))
           openOne(session, file, wanted, around);
     if (output) session.saveTo(*output);
+  }
+
+  /// A folder of several series of DICOM, among which the page chooses.
+  bool offerSeries(Session& session, const std::string& file, FileRole role,
+                   engine::Surroundings& around) const {
+    std::error_code ignored;
+    return role == FileRole::Volume && m_html.empty() && m_options.volume.series.empty() &&
+           fs::is_directory(file, ignored) && session.offerSeries(file, around.progress);
   }
 
   static void openOne(Session& session, const std::string& file, FileRole role,

@@ -81,6 +81,7 @@ public:
     addPage();
     addParts();
     addWork();
+    addFiles();
     bind(options.port);
     m_thread = std::thread([this] { m_http.listen_after_bind(); });
     // stop() does nothing before that
@@ -194,6 +195,10 @@ private:
     get("mesh", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.meshPack(numberOf(request, "id")));
     });
+    get("seriesPicture", [this](const Request& request, Response& response) {
+      answerPart(request, response,
+                 m_session.seriesPicture(static_cast<std::size_t>(numberOf(request, "series"))));
+    });
     get("volume",
         [this](const Request& request, Response& response) { answerVolume(request, response); });
     get("events", [this](const Request&, Response& response) { answerEvents(response); });
@@ -209,9 +214,16 @@ private:
       const Arguments arguments(request);
       return {{"cancelled", m_session.cancel(static_cast<int>(arguments.index("job", 1U << 30)))}};
     });
+  }
+
+  void addFiles() {
     m_http.Post(at("file"), [this](const Request& request, Response& response,
                                    const httplib::ContentReader& reader) {
       guarded(response, [&] { takeFile(request, response, reader); });
+    });
+    m_http.Post(at("seriesFile"), [this](const Request& request, Response& response,
+                                         const httplib::ContentReader& reader) {
+      guarded(response, [&] { takeSeriesFile(request, response, reader); });
     });
   }
 
@@ -275,22 +287,36 @@ private:
     answerText(response, std::move(bytes), kBytes);
   }
 
-  void takeFile(const Request& request, Response& response, const httplib::ContentReader& reader) {
-    const std::string name = request.get_param_value("name"), as = request.get_param_value("as");
+  [[nodiscard]] static std::string nameOf(const Request& request) {
+    std::string name = request.get_param_value("name");
     if (name.empty() || name.size() > 255) throw Error(ErrorKind::Usage, "a file needs a name");
+    return name;
+  }
+
+  void takeSeriesFile(const Request& request, Response& response,
+                      const httplib::ContentReader& reader) {
+    const std::uint64_t announced = request.get_header_value<std::uint64_t>("Content-Length");
+    const auto place =
+        m_session.seriesPlace(numberOf(request, "batch"), nameOf(request), announced, m_mostFile);
+    writeBody(place, request, reader, announced);
+    answerText(response, "{}");
+  }
+
+  void takeFile(const Request& request, Response& response, const httplib::ContentReader& reader) {
+    const std::string name = nameOf(request), as = request.get_param_value("as");
     if (!as.empty() && as != "auto" && as != "truth")
       throw Error(ErrorKind::Usage, "\"as\" must be auto or truth");
     if (request.get_header_value<std::uint64_t>("Content-Length") > m_mostFile)
       refuseSize(m_mostFile);
     auto file = m_session.placeFor(name);
-    writeBody(file->path(), request, reader);
+    writeBody(file->path(), request, reader, m_mostFile);
     answerText(response, jsonText(m_session.openDropped(std::move(file), name, as == "truth")));
   }
 
-  void writeBody(const std::filesystem::path& place, const Request& request,
-                 const httplib::ContentReader& reader) const {
+  static void writeBody(const std::filesystem::path& place, const Request& request,
+                        const httplib::ContentReader& reader, std::uint64_t most) {
     std::ofstream file(place, std::ios::binary);
-    readBody(request, reader, m_mostFile, [&file](const char* data, std::size_t length) {
+    readBody(request, reader, most, [&file](const char* data, std::size_t length) {
       file.write(data, static_cast<std::streamsize>(length));
     });
     if (!file.flush()) throw failed("there is no room for this file");

@@ -41,6 +41,7 @@ struct OpenFile {
   std::string label;           ///< for people; any text
   std::filesystem::path path;  ///< empty for a dropped file
   FileStamp stamp;
+  std::string series{};  ///< instance UID, of a folder of DICOM
 };
 
 struct OpenMesh {

@@ -17,16 +17,15 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 100;  // bytes
 
-/// The end of `name` in harmless letters, with its ending, which names the format.
-std::string harmless(const std::string& name) {
+}  // namespace
+
+std::string harmlessName(const std::string& name) {
   std::string text;
   for (const char c : name.substr(name.size() - std::min(name.size(), kLongestName)))
     text += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' ? c : '_';
   if (text.empty() || text.front() == '.') text.insert(0, "file");
   return text;
 }
-
-}  // namespace
 
 DroppedFile::~DroppedFile() {
   std::error_code ignored;
@@ -44,7 +43,7 @@ std::shared_ptr<const DroppedFile> DroppedFiles::placeFor(const std::string& nam
   }
   const fs::path own = m_folder->path() / std::to_string(++m_last);
   fs::create_directory(own);
-  return std::make_shared<const DroppedFile>(own / harmless(name));
+  return std::make_shared<const DroppedFile>(own / harmlessName(name));
 }
 
 std::string DroppedFiles::withoutFolder(std::string text) const {

@@ -11,6 +11,9 @@
 
 namespace lumen::viewer {
 
+/// The end of `name` in harmless letters, with its ending, which names the format.
+std::string harmlessName(const std::string& name);
+
 /// A place for one file, in a private folder that is removed with this object.
 class DroppedFile {
 public:

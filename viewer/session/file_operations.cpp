@@ -6,6 +6,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/io/volume/dicom_series.h"
 #include "formats/container/printable.h"
 #include "viewer/session/conflict.h"
 #include "viewer/session/document_seeds.h"
@@ -21,6 +22,22 @@ constexpr std::size_t kMostFiles = std::size_t{1} << 30;
 
 std::string nameOf(const fs::path& file) {
   return formats::printable(file.filename().string());
+}
+
+/// The last part of a path that may end in a slash.
+std::string folderName(const fs::path& folder) {
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+}
+
+/// Files of a folder of DICOM that belong to no series; empty if there are none.
+std::string leftOut(const convert::DicomListing& listing) {
+  std::string text;
+  if (!listing.faults.empty())
+    text = counted(listing.faults.size(), "file cannot be read", "files cannot be read");
+  if (listing.others > 0)
+    text += (text.empty() ? "" : ", ") +
+            counted(listing.others, "file is no image", "files are no images");
+  return text;
 }
 
 }  // namespace
@@ -49,6 +66,58 @@ Json FileOperations::openDropped(std::shared_ptr<const DroppedFile> file, const 
         open({read->path(), label, true, asTruth}, progress);
         return formats::printable(label) + " is open";
       });
+}
+
+bool FileOperations::offerSeries(const fs::path& folder, Progress& progress) {
+  convert::DicomListing listing =
+      convert::listDicomSeries(folder, m_workspace.options.volume.options(), progress);
+  if (listing.series.size() < 2) return false;
+  m_workspace.series.offer({folder, folderName(folder), nullptr}, std::move(listing));
+  return true;
+}
+
+Json FileOperations::listSeries(const Arguments& request) {
+  auto folder = std::make_shared<SeriesFolder>(m_workspace.series.take(request.whole("batch")));
+  return m_workspace.startJob("looking through files of DICOM", true,
+                              [this, folder = std::move(folder)](Progress& progress) mutable {
+                                const auto from = std::exchange(folder, nullptr);
+                                return openOnlySeries(std::move(*from), progress);
+                              });
+}
+
+std::string FileOperations::openOnlySeries(SeriesFolder folder, Progress& progress) {
+  convert::DicomListing listing =
+      convert::listDicomSeries(folder.path, m_workspace.options.volume.options(), progress);
+  const std::size_t count = listing.series.size();
+  const std::string left = leftOut(listing);
+  if (count == 0)
+    throw invalidInput("these files hold no DICOM images" + (left.empty() ? "" : "; " + left));
+  const bool isOnly = count == 1 && listing.series[0].fault.empty();
+  Opening opening{folder.path, seriesLabel(listing.series[0], 0), true};
+  opening.kept = folder.kept;
+  m_workspace.series.offer(std::move(folder), std::move(listing));
+  if (isOnly) open(opening, progress);
+  return (isOnly ? opening.label + " is open"
+                 : "choose one of " + std::to_string(count) + " series") +
+         (left.empty() ? "" : "; " + left);
+}
+
+Json FileOperations::openSeries(const Arguments& request) {
+  const Opening opening = m_workspace.series.opening(request, "series");
+  return m_workspace.startJob(
+      "opening " + opening.label, true, [this, opening](Progress& progress) {
+        const Moment before = m_workspace.history.now();
+        m_workspace.commit("open " + opening.label, before,
+                           withFile(before.document, opening, m_workspace.nextFile(),
+                                    m_workspace.options.volume, progress));
+        return opening.label + " is open";
+      });
+}
+
+Json FileOperations::closeSeries() {
+  m_workspace.series.clear();
+  m_workspace.announceState();
+  return m_workspace.revision();
 }
 
 Json FileOperations::openCase(const Arguments& request) {
@@ -99,7 +168,8 @@ Json FileOperations::reload(const Arguments& request, const Moment& from) {
 }
 
 void FileOperations::reloadFile(const OpenFile& file, const Moment& from, Progress& progress) {
-  const Opening opening{file.path, file.label, false, file.role == FileRole::Truth};
+  Opening opening{file.path, file.label, false, file.role == FileRole::Truth};
+  opening.series = file.series;
   if (const FileRole role = openingRole(opening); role != file.role)
     throw invalidInput(file.label + ": it was " + roleName(file.role) + ", and is " +
                        roleName(role) + " now; open it by itself");

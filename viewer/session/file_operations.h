@@ -20,6 +20,13 @@ public:
 
   /// Opens a file that the user has named, which cannot be undone, or a dropped one.
   void open(const Opening& opening, Progress& progress);
+  /// Lets pages choose among the series of a folder of DICOM that the user has named. False for a
+  /// folder of one series, or none.
+  bool offerSeries(const std::filesystem::path& folder, Progress& progress);
+  /// Looks through dropped files of DICOM: opens their only series, or lets pages choose.
+  Json listSeries(const Arguments& request);
+  Json openSeries(const Arguments& request);
+  Json closeSeries();
   Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, bool asTruth);
   /// Opens a case of the library in place of all that is open.
   Json openCase(const Arguments& request);
@@ -31,6 +38,7 @@ public:
   Json forget(const Arguments& request);
 
 private:
+  std::string openOnlySeries(SeriesFolder folder, Progress& progress);
   std::string openListed(std::size_t index, Progress& progress);
   void reloadFile(const OpenFile& file, const Moment& from, Progress& progress);
   [[nodiscard]] std::filesystem::path foundCopy(const Arguments& request) const;

@@ -58,6 +58,16 @@ convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& 
   return inMillimetres(std::move(mesh));
 }
 
+/// A volume. Files of a folder of DICOM that cannot be read are left out, and reported.
+std::shared_ptr<const convert::Volume> volumeOf(const Opening& opening,
+                                                engine::VolumeArguments arguments,
+                                                Progress& progress) {
+  if (!opening.series.empty()) arguments.series = opening.series;
+  arguments.skipFaulty = true;
+  return std::make_shared<const convert::Volume>(
+      engine::loadVolume(opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
+}
+
 void dropFiles(Document& document, FileRole role) {
   std::erase_if(document.files, [role](const OpenFile& file) { return file.role == role; });
 }
@@ -67,8 +77,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
   const FileStamp stamp = readFileStamp(opening.path);
   switch (role) {
     case FileRole::Volume:
-      document.volume = std::make_shared<const convert::Volume>(engine::loadVolume(
-          opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
+      document.volume = volumeOf(opening, arguments, progress);
       document.volumeSource =
           std::make_shared<const formats::SourceVolume>(convert::describeSource(*document.volume));
       document.proposals.reset();
@@ -98,8 +107,8 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
       break;
   }
   if (role != FileRole::Mesh) dropFiles(document, role);
-  document.files.push_back(
-      {id, role, opening.label, opening.dropped ? fs::path() : opening.path, stamp});
+  document.files.push_back({id, role, opening.label, opening.dropped ? fs::path() : opening.path,
+                            stamp, opening.series});
   return document;
 }
 

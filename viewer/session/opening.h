@@ -3,19 +3,23 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "converters/base/progress.h"
 #include "converters/engine/stage_options.h"
 #include "viewer/session/document.h"
+#include "viewer/session/dropped_files.h"
 
 namespace lumen::viewer {
 
 struct Opening {
   std::filesystem::path path;
-  std::string label;     ///< its name in messages
-  bool dropped = false;  ///< its bytes came from the page; `path` is temporary
-  bool asTruth = false;  ///< a case to compare with
+  std::string label;                          ///< its name in messages
+  bool dropped = false;                       ///< its bytes came from the page; `path` is temporary
+  bool asTruth = false;                       ///< a case to compare with
+  std::string series{};                       ///< instance UID, of a folder of DICOM
+  std::shared_ptr<const DroppedFile> kept{};  ///< keeps a dropped folder while it is read
 };
 
 /// The role of the file, by its content and the ending of its name. Throws Error(Unsupported) for a

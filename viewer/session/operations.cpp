@@ -36,6 +36,9 @@ Json Operations::openDropped(std::shared_ptr<const DroppedFile> file, const std:
 Json Operations::change(const std::string& op, const Arguments& request, const Moment& from) {
   if (op == "undo" || op == "redo") return step(op == "redo");
   if (op == "openCase") return m_files.openCase(request);
+  if (op == "listSeries") return m_files.listSeries(request);
+  if (op == "openSeries") return m_files.openSeries(request);
+  if (op == "closeSeries") return m_files.closeSeries();
   if (op == "reload") return m_files.reload(request, from);
   if (op == "recover") return m_files.recover(request, from);
   if (op == "closeFile") return m_files.close(request, from);

@@ -2,6 +2,8 @@
 // A session of the viewer: the document that pages look at and work on. See viewer/README.md.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -30,6 +32,16 @@ public:
   void openLibrary(CaseList list);
   /// `save` writes this file from now on.
   void saveTo(const std::filesystem::path& file) { m_workspace.saving.saveTo(file); }
+  /// Lets pages choose among the series of a folder of DICOM (FileOperations). Only before pages ask
+  /// for anything.
+  bool offerSeries(const std::filesystem::path& folder, Progress& progress) {
+    return m_files.offerSeries(folder, progress);
+  }
+  /// A place for a dropped file of DICOM (SeriesChoice::placeFor).
+  std::filesystem::path seriesPlace(std::int64_t batch, const std::string& name,
+                                    std::uint64_t bytes, std::uint64_t mostBytes) {
+    return m_workspace.series.placeFor(batch, name, bytes, mostBytes);
+  }
   /// A place for the bytes of a file that is dropped; `name` is a label.
   std::shared_ptr<const DroppedFile> placeFor(const std::string& name) {
     return m_workspace.dropped.placeFor(name);
@@ -64,6 +76,9 @@ public:
   Tagged surfacePack(int level, bool quick);
   /// The surface of that level, once it is made. Throws Error(Cancelled).
   Tagged finishedSurface(int level, const Progress& progress);
+  [[nodiscard]] Tagged seriesPicture(std::size_t index) const {
+    return m_workspace.series.picture(index);
+  }
   [[nodiscard]] Tagged meshPack(int id) const { return viewer::meshPack(now(), id); }
   Tagged distancePack(int level, bool quick, Progress& progress);
   std::shared_ptr<const VolumePack> volumePack(std::string& tag) {

@@ -84,6 +84,7 @@ Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
           {"truth", parts.truth},
           {"library", workspace.library.revision()},
           {"measures", workspace.findings.measuresRevision()},
+          {"series", workspace.series.revision()},
           // of a surface and a truth
           {"distance", surface + parts.truth}};
 }
@@ -132,6 +133,7 @@ Json stateJson(const Workspace& workspace) {
   const auto openCase = workspace.library.openCase();
   json["openCase"] = openCase ? Json(*openCase) : Json(nullptr);
   const auto target = workspace.saving.target(document);
+  json["series"] = workspace.series.json();
   json["unsavedBefore"] = unsavedJson(workspace.unsavedWork.found(), target);
   json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
   json["check"] = workspace.findings.check();

@@ -20,6 +20,7 @@
 #include "viewer/session/job_runner.h"
 #include "viewer/session/library.h"
 #include "viewer/session/saving.h"
+#include "viewer/session/series_choice.h"
 #include "viewer/session/session_options.h"
 #include "viewer/session/surfaces.h"
 #include "viewer/session/tracking_cache.h"
@@ -68,6 +69,7 @@ struct Workspace {
   EventHub events;
   History history;
   DroppedFiles dropped;
+  SeriesChoice series{dropped};
   Saving saving;
   UnsavedWork unsavedWork;
   ChangedFiles changedFiles;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <system_error>
 #include <utility>
 
@@ -18,35 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using formats::printable;
 
-struct Folder {
-  std::map<std::string, std::vector<DicomImage>> series;  ///< by instance UID
-  std::vector<DicomScan> faulty;
-};
-
-Folder scanFolder(const fs::path& path, const Progress& progress) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
-       entry.increment(error)) {
-    std::error_code ignored;
-    if (entry->is_regular_file(ignored)) files.push_back(entry->path());
-  }
-  if (error) throw invalidInput(path.string() + ": cannot be listed (" + error.message() + ")");
-  std::sort(files.begin(), files.end());
-  Folder folder;
-  for (const fs::path& file : files) {
-    progress.check();
-    DicomScan scan = scanDicom(file);
-    if (scan.fault)
-      folder.faulty.push_back(std::move(scan));
-    else if (scan.image)
-      folder.series[scan.series].push_back(std::move(*scan.image));
-  }
-  return folder;
-}
-
 /// One line per series: number, UID, files, description, size of an image.
-std::string listing(const Folder& folder) {
+std::string listing(const DicomFolder& folder) {
   std::string text;
   int number = 0;
   for (const auto& [uid, images] : folder.series) {
@@ -59,7 +31,8 @@ std::string listing(const Folder& folder) {
   return text;
 }
 
-std::string chooseSeries(const Folder& folder, const std::string& wanted, const fs::path& path) {
+std::string chooseSeries(const DicomFolder& folder, const std::string& wanted,
+                         const fs::path& path) {
   const auto& series = folder.series;
   if (series.empty() && !folder.faulty.empty()) throw *folder.faulty[0].fault;
   if (series.empty())
@@ -83,13 +56,45 @@ std::string chooseSeries(const Folder& folder, const std::string& wanted, const 
 
 }  // namespace
 
-std::vector<DicomImage> findDicomSeries(const fs::path& folder, const std::string& wanted,
-                                        const Progress& progress) {
-  Folder found = scanFolder(folder, progress);
-  const std::string uid = chooseSeries(found, wanted, folder);
-  for (const DicomScan& scan : found.faulty)
-    if (scan.series == uid || scan.series.empty()) throw *scan.fault;
-  return std::move(found.series[uid]);
+DicomFolder scanDicomFolder(const fs::path& folder, const Progress& progress) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored)) files.push_back(entry->path());
+  }
+  if (error) throw invalidInput(folder.string() + ": cannot be listed (" + error.message() + ")");
+  std::sort(files.begin(), files.end());
+  DicomFolder found;
+  for (const fs::path& file : files) {
+    progress.check();
+    DicomScan scan = scanDicom(file);
+    if (scan.fault)
+      found.faulty.push_back(std::move(scan));
+    else if (scan.image)
+      found.series[scan.series].push_back(std::move(*scan.image));
+    else
+      found.others.push_back(file);
+  }
+  return found;
+}
+
+DicomChoice findDicomSeries(const fs::path& folder, const ReadVolumeOptions& options,
+                            const Progress& progress) {
+  DicomFolder found = scanDicomFolder(folder, progress);
+  const std::string uid = chooseSeries(found, options.series, folder);
+  DicomChoice choice;
+  for (const DicomScan& scan : found.faulty) {
+    if (scan.series != uid && !scan.series.empty()) continue;
+    if (!options.skipFaulty) throw *scan.fault;
+    // the sentence begins with the path, which may be temporary
+    const std::string fault = scan.fault->what(), before = scan.file.string() + ": ";
+    choice.assumptions.push_back(printable(scan.file.filename().string()) + " is left out: " +
+                                 (fault.starts_with(before) ? fault.substr(before.size()) : fault));
+  }
+  choice.images = std::move(found.series[uid]);
+  return choice;
 }
 
 }  // namespace lumen::convert

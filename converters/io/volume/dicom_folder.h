@@ -2,21 +2,39 @@
 // The DICOM series of a folder.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/io/volume/dicom_image.h"
+#include "converters/io/volume/read_volume_options.h"
 
 namespace lumen::convert {
 
-/// The images of the series `wanted` (its instance UID, or its number in the listing, from 1;
-/// empty: the only one) among the files of `folder`, not of its subfolders, in the order of their
-/// names. Files that are no DICOM images are left out. Throws Error(InvalidInput) if there is no
-/// such series or several (the message lists them); the fault of a file that belongs to the series,
-/// or that names no series; Error(Cancelled).
-std::vector<DicomImage> findDicomSeries(const std::filesystem::path& folder,
-                                        const std::string& wanted, const Progress& progress);
+/// The files of a folder, not of its subfolders, in the order of their names.
+struct DicomFolder {
+  std::map<std::string, std::vector<DicomImage>> series;  ///< by instance UID
+  std::vector<DicomScan> faulty;
+  std::vector<std::filesystem::path> others;  ///< files that are no DICOM images
+};
+
+/// Throws Error(InvalidInput) for a folder that cannot be listed; Error(Cancelled).
+DicomFolder scanDicomFolder(const std::filesystem::path& folder, const Progress& progress);
+
+/// The images of one series.
+struct DicomChoice {
+  std::vector<DicomImage> images;
+  std::vector<std::string> assumptions;  ///< files that were left out (`skipFaulty`)
+};
+
+/// The series that the options name (its instance UID, or its number in the listing, from 1; empty:
+/// the only one). Throws Error(InvalidInput) if there is no such series or several (the message
+/// lists them); the fault of a file that belongs to the series, or that names no series, unless
+/// the options leave such files out; Error(Cancelled).
+DicomChoice findDicomSeries(const std::filesystem::path& folder, const ReadVolumeOptions& options,
+                            const Progress& progress);
 
 }  // namespace lumen::convert

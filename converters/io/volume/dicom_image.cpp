@@ -17,12 +17,12 @@ namespace {
 using formats::printable;
 
 constexpr DicomTag kTransferSyntax = 0x00020010, kStorageClass = 0x00020002, kSeries = 0x0020000e,
-                   kDescription = 0x0008103e, kPosition = 0x00200032, kOrientation = 0x00200037,
-                   kSamples = 0x00280002, kPhotometric = 0x00280004, kFrames = 0x00280008,
-                   kRows = 0x00280010, kColumns = 0x00280011, kPixelSpacing = 0x00280030,
-                   kBitsAllocated = 0x00280100, kBitsStored = 0x00280101, kHighBit = 0x00280102,
-                   kSigned = 0x00280103, kIntercept = 0x00281052, kSlope = 0x00281053,
-                   kDistance = 0x00180088;
+                   kModality = 0x00080060, kDescription = 0x0008103e, kPosition = 0x00200032,
+                   kOrientation = 0x00200037, kSamples = 0x00280002, kPhotometric = 0x00280004,
+                   kFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011,
+                   kPixelSpacing = 0x00280030, kBitsAllocated = 0x00280100,
+                   kBitsStored = 0x00280101, kHighBit = 0x00280102, kSigned = 0x00280103,
+                   kIntercept = 0x00281052, kSlope = 0x00281053, kDistance = 0x00180088;
 /// Functional groups that all frames share, and those of single frames.
 constexpr DicomTag kShared = 0x52009229, kPerFrame = 0x52009230;
 
@@ -93,11 +93,11 @@ struct Content {
 
   /// Destination of the value, or null if it is not needed.
   Values* place(DicomTag tag, std::span<const DicomTag> path, std::size_t item) {
-    static constexpr std::array kTop = {kSeries,  kDescription,    kPosition,      kOrientation,
-                                        kSamples, kPhotometric,    kFrames,        kRows,
-                                        kColumns, kPixelSpacing,   kBitsAllocated, kBitsStored,
-                                        kHighBit, kSigned,         kDistance,      kIntercept,
-                                        kSlope,   kTransferSyntax, kStorageClass};
+    static constexpr std::array kTop = {kSeries,      kModality, kDescription,    kPosition,
+                                        kOrientation, kSamples,  kPhotometric,    kFrames,
+                                        kRows,        kColumns,  kPixelSpacing,   kBitsAllocated,
+                                        kBitsStored,  kHighBit,  kSigned,         kDistance,
+                                        kIntercept,   kSlope,    kTransferSyntax, kStorageClass};
     static constexpr std::array kGroup = {kPosition, kOrientation, kPixelSpacing,
                                           kDistance, kIntercept,   kSlope};
     const auto has = [&](const auto& tags) {
@@ -327,6 +327,7 @@ void fillImage(DicomImage& image, const Content& content, const Syntax& syntax) 
   image.transferSyntax = syntax.uid;
   image.packing = syntax.packing;
   image.description = reader.text(kDescription);
+  image.modality = reader.text(kModality);
   image.pixels = content.pixels;
   readFormat(reader, image);
   checkGrey(image);
@@ -381,6 +382,7 @@ void scanInto(DicomScan& scan, DicomBytes& bytes, const Beginning& beginning) {
 
 DicomScan scanDicom(const std::filesystem::path& file) {
   DicomScan scan;
+  scan.file = file;
   Beginning beginning{.hasMark = true};
   try {
     DicomBytes bytes(file);

@@ -33,6 +33,7 @@ struct DicomPlane {
 struct DicomImage {
   std::filesystem::path file;
   std::string series, description;  ///< instance UID, text
+  std::string modality;             ///< such as CT
   std::string transferSyntax;       ///< UID
   DicomPacking packing = DicomPacking::Native;
   std::size_t columns = 0, rows = 0, frames = 1, samples = 1;
@@ -48,6 +49,7 @@ struct DicomImage {
 
 /// Result of reading one file of a folder as a DICOM image.
 struct DicomScan {
+  std::filesystem::path file;
   std::string series;  ///< series that the file names, even if it is damaged further on
   std::optional<DicomImage>
       image;                   ///< empty without a fault: no image, such as a text or a DICOMDIR

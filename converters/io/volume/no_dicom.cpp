@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replacement of the DICOM reader where lumen is built without it.
 #include "converters/base/error.h"
+#include "converters/io/volume/dicom_series.h"
 #include "converters/io/volume/read_dicom.h"
 
 namespace lumen::convert {
@@ -22,6 +23,11 @@ Volume readDicom(const std::filesystem::path& path, const ReadVolumeOptions& /*o
 VolumeHeader readDicomHeader(const std::filesystem::path& path,
                              const ReadVolumeOptions& /*options*/, const Progress& /*progress*/) {
   refuse(path);
+}
+
+DicomListing listDicomSeries(const std::filesystem::path& folder,
+                             const ReadVolumeOptions& /*options*/, Progress& /*progress*/) {
+  refuse(folder);
 }
 
 }  // namespace lumen::convert

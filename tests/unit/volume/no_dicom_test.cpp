@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen as it is built with LUMEN_WITH_DICOM=OFF.
+#include "converters/io/volume/dicom_series.h"
 #include "fixtures.h"
 
 namespace lumen::convert {
@@ -13,6 +14,9 @@ TEST_F(NoDicom, AFolderIsRefusedWithTheOptionThatWasOff) {
   expectRefused(
       refusal([&] { (void)readVolumeHeader(path("series"), VolumeFormat::Dicom, {}, Progress()); }),
       {"4: ", "LUMEN_WITH_DICOM"});
+  Progress silent;
+  expectRefused(refusal([&] { (void)listDicomSeries(path("series"), {}, silent); }),
+                {"4: ", "LUMEN_WITH_DICOM"});
 }
 
 }  // namespace

@@ -60,14 +60,18 @@ export const vessel = (page, label) =>
     .filter({ has: page.locator(".name", { hasText: new RegExp(`^${label}$`) }) });
 
 /** Drops a file onto the page. */
-export async function drop(page, name, bytes) {
+export const drop = (page, name, bytes) => dropFiles(page, [{ name, bytes }]);
+
+/** Drops several files at once. */
+export async function dropFiles(page, files) {
   const transfer = await page.evaluateHandle(
-    ([file, text]) => {
+    list => {
       const data = new DataTransfer();
-      data.items.add(new File([Uint8Array.from(atob(text), c => c.charCodeAt(0))], file));
+      for (const [file, text] of list)
+        data.items.add(new File([Uint8Array.from(atob(text), c => c.charCodeAt(0))], file));
       return data;
     },
-    [name, Buffer.from(bytes).toString("base64")],
+    files.map(({ name, bytes }) => [name, Buffer.from(bytes).toString("base64")]),
   );
   for (const type of ["dragenter", "dragover", "drop"])
     await page.dispatchEvent("#views", type, { dataTransfer: transfer });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Actions of buttons and keys. */
 import type { Flight } from "./flight";
+import { divide, type Dropped } from "./dicom_files";
 import type { App, Tool } from "./model";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
@@ -15,7 +16,12 @@ export function holdsSeeds(name: string, head: string): boolean {
   return /\.json$/i.test(name) && /"(markups|branches)"\s*:/.test(head) && !/"(tree|centre)"\s*:/.test(head);
 }
 
+const kMostBatch = 999_999_999, // greatest number of a batch of files
+  kBetween = 100; // files between two messages
+
 export class Actions {
+  private batch = -1;
+
   constructor(
     private readonly app: App,
     private readonly scene: SceneView,
@@ -98,7 +104,39 @@ export class Actions {
     input.addEventListener("change", () => void this.openFiles([...(input.files ?? [])], as));
     input.click();
   }
-  async openFiles(files: File[], as: "auto" | "truth" = "auto"): Promise<void> {
+  /** A folder, all files below which the browser hands over. */
+  openFolder(): void {
+    const input = h("input", { type: "file", webkitdirectory: true });
+    input.addEventListener(
+      "change",
+      () => void this.openDropped({ files: [], inFolders: [...(input.files ?? [])] }),
+    );
+    input.click();
+  }
+  /** Files and folders; those of DICOM go to the server together, which lists their series. */
+  async openDropped(dropped: Dropped, as: "auto" | "truth" = "auto"): Promise<void> {
+    const { dicom, others } = await divide(dropped);
+    if (dicom.length > 0) await this.sendDicom(dicom);
+    await this.openEach(others, as);
+  }
+  openFiles(files: File[], as: "auto" | "truth" = "auto"): Promise<void> {
+    return this.openDropped({ files, inFolders: [] }, as);
+  }
+  private async sendDicom(files: File[]): Promise<void> {
+    const batch = (this.batch = Math.floor(Math.random() * kMostBatch)),
+      { source, inform } = this.app;
+    try {
+      for (const [i, file] of files.entries()) {
+        if (i % kBetween === 0) inform(`Reading ${i} of ${files.length} files…`);
+        await source.sendSeriesFile(batch, file);
+        if (this.batch !== batch) return; // others were dropped meanwhile
+      }
+      await this.app.perform({ op: "listSeries", batch });
+    } catch (error) {
+      inform(error instanceof Error ? error.message : String(error), "error");
+    }
+  }
+  private async openEach(files: File[], as: "auto" | "truth"): Promise<void> {
     for (const file of files) {
       if (file.name.endsWith(kViewEnding)) {
         await this.openView(file);

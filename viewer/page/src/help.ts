@@ -11,7 +11,7 @@ const kGroups: Group[] = [
       ["?", "This page"],
       ["Ctrl+Z, Ctrl+Shift+Z", "Undo, redo"],
       ["Ctrl+S", "Save"],
-      ["Ctrl+O", "Open files, or drop them on the page"],
+      ["Ctrl+O", "Open files, or drop them on the page; files and folders of DICOM, too"],
       ["Ctrl+P", "Save a picture of the views"],
       ["1 to 6", "Layout: four, 3D and slices, 3D, axial, coronal, sagittal"],
       ["Shift+L", "Light or dark"],

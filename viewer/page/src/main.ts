@@ -22,6 +22,7 @@ import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
 import { oneSourcePanel } from "./one_source";
 import { SceneView } from "./scene_view";
+import { offerSeries } from "./series_dialog";
 import { makeShell, toast, type Shell } from "./shell";
 import { listenToSlice } from "./slice_input";
 import type { SliceName } from "./slice_frame";
@@ -81,6 +82,7 @@ async function start(): Promise<void> {
   const actions = new Actions(app, scene, slices, flight),
     work = new WorkList(app, actions);
   offerUnsaved(app);
+  offerSeries(app);
   keepView(app);
   const tools = new Tools(app, hand, flight, wire);
   for (const slice of slices) listenToSlice(slice, app, tools);

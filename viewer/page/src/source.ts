@@ -35,6 +35,8 @@ export interface Source {
   perform(operation: Operation, revision: number): Promise<Answer>;
   vesselAtClick(position: number[]): Promise<VesselAtClick>;
   open(name: string, as: "auto" | "truth", file: globalThis.Blob): Promise<void>;
+  /** Sends one file of a batch of DICOM. */
+  sendSeriesFile(batch: number, file: File): Promise<void>;
   cancel(job: number): Promise<void>;
   /** Address of a download. */
   download(format: string, options?: Record<string, string>): string;

@@ -77,6 +77,9 @@ export class EmbeddedSource implements Source {
   open(): Promise<void> {
     return Promise.reject(new Refused(404, "This page is one file: open others with lumen view."));
   }
+  sendSeriesFile(): Promise<void> {
+    return this.open();
+  }
   cancel(): Promise<void> {
     return Promise.resolve();
   }

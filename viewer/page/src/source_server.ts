@@ -3,6 +3,7 @@
 import { Refused, type Answer, type Received, type Source } from "./source";
 import type { Event, Operation, VesselAtClick, State } from "./types";
 
+const kMostName = 100; // letters of the name of a file of DICOM
 const kSilence = 2000; // ms without an answer after which the server counts as gone and is asked again
 
 function withQuery(path: string, query: Record<string, string>): string {
@@ -98,6 +99,10 @@ export class ServerSource implements Source {
   }
   async open(name: string, as: "auto" | "truth", file: globalThis.Blob): Promise<void> {
     await this.post(withQuery("file", { name, as }), file, "application/octet-stream");
+  }
+  async sendSeriesFile(batch: number, file: File): Promise<void> {
+    const query = { batch: String(batch), name: file.name.slice(-kMostName) || "file" };
+    await this.post(withQuery("seriesFile", query), file, "application/octet-stream");
   }
   async cancel(job: number): Promise<void> {
     await this.post("cancel", JSON.stringify({ job }));

@@ -99,6 +99,28 @@ export interface UnsavedFile {
   newer: boolean;
 }
 
+/** A series of a folder of DICOM. */
+export interface DicomSeries {
+  description: string;
+  modality: string;
+  files: number;
+  /** Columns, rows, slices. */
+  size: Vec3;
+  /** mm; null where `fault` says why it cannot be opened. */
+  spacing: Vec3 | null;
+  fault: string | null;
+}
+
+export interface SeriesList {
+  folder: string;
+  list: DicomSeries[];
+  /** Why files cannot be read, the first ones; `faulty` counts all. */
+  faults: string[];
+  faulty: number;
+  /** Files that are no images. */
+  others: number;
+}
+
 export interface FileEntry {
   id: number | string;
   kind: string;
@@ -119,6 +141,7 @@ export interface Revisions {
   distance?: number;
   library?: number;
   measures?: number;
+  series?: number;
 }
 
 export interface State {
@@ -142,6 +165,8 @@ export interface State {
   saveAs: string | null;
   /** Files that hold what an earlier program did not save. */
   unsavedBefore: UnsavedFile[];
+  /** Series that can be opened; null: no folder of DICOM was named or dropped. */
+  series: SeriesList | null;
   /** Index in the library. */
   openCase: number | null;
   job: { job: number; name: string } | null;
@@ -175,6 +200,7 @@ export const kEmptyState: State = {
   unsaved: false,
   saveAs: null,
   unsavedBefore: [],
+  series: null,
   openCase: null,
   job: null,
   check: null,

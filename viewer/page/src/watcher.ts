@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Listens to the server and to what is dropped; shows what goes on. */
 import type { Actions } from "./actions";
+import { droppedFiles } from "./dicom_files";
 import type { Loader } from "./loader";
 import type { App } from "./model";
 import type { Shell } from "./shell";
@@ -155,10 +156,19 @@ export class Watcher {
       h(
         "p",
         { class: "hint" },
-        "NRRD, NIfTI, MetaImage; .lumen; seeds of lumen or 3D Slicer; STL, OBJ, PLY, GLB, VTP",
+        "NRRD, NIfTI, MetaImage, files or a folder of DICOM; .lumen; seeds of lumen or 3D Slicer; STL, OBJ, PLY, GLB, VTP",
       ),
       button({ icon: "open", text: "Open files…", label: "Open files", class: "button primary" }, () =>
         this.actions.open(),
+      ),
+      button(
+        {
+          text: "Open a folder of DICOM…",
+          label: "Open a folder of DICOM",
+          id: "open-folder",
+          class: "button text",
+        },
+        () => this.actions.openFolder(),
       ),
     );
     app.store.watch(["state"], ({ state }) => {
@@ -199,7 +209,11 @@ export class Watcher {
       if (!files(e)) return;
       e.preventDefault();
       end();
-      void this.actions.openFiles([...e.dataTransfer!.files]);
+      droppedFiles(e.dataTransfer!)
+        .then(dropped => this.actions.openDropped(dropped))
+        .catch((error: unknown) =>
+          this.app.inform(error instanceof Error ? error.message : String(error), "error"),
+        );
     });
   }
 }

@@ -4,6 +4,7 @@ import type { Actions } from "./actions";
 import { editSection } from "./edit_panel";
 import type { Hand } from "./hand";
 import type { App } from "./model";
+import { openSeriesDialog } from "./series_dialog";
 import { goTo } from "./selection";
 import type { Seed } from "./types";
 import { askYes, brief, button, h, section, select } from "./ui";
@@ -167,6 +168,7 @@ function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
 function fileSection(app: App): HTMLElement {
   const list = h("ul", { class: "list", id: "file-list", "aria-label": "Open files" }),
     box = section("section-files", "Files", false, list);
+  let hadSeries = false;
   app.store.watch(["state"], ({ state }) => {
     list.replaceChildren(
       ...state.files.map(file =>
@@ -212,7 +214,30 @@ function fileSection(app: App): HTMLElement {
         ),
       ),
     );
+    if (state.series !== null && !hadSeries) box.open = true;
+    hadSeries = state.series !== null;
     if (state.unsavedBefore.length > 0 || state.files.some(file => file.changed)) box.open = true;
+    if (state.series !== null)
+      list.append(
+        h(
+          "li",
+          { class: "row item" },
+          h("span", { class: "filename" }, `Series of ${state.series.folder}`),
+          button(
+            {
+              text: "Choose…",
+              label: `Choose a series of ${state.series.folder}`,
+              id: "series-again",
+              class: "button text",
+            },
+            () => openSeriesDialog(app),
+          ),
+          button(
+            { icon: "close", label: "Forget these series", class: "button" },
+            () => void app.perform({ op: "closeSeries" }),
+          ),
+        ),
+      );
     if (state.files.length === 0) list.append(h("li", { class: "hint" }, "No file is open."));
   });
   return box;

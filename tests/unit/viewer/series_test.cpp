@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Series of DICOM: dropped file by file, or a folder that was named.
+#include "../volume/dicom_fixture.h"
+#include "served.h"
+
+namespace lumen::test {
+
+class SeriesTest : public ServedTest {
+protected:
+  /// Four slices 2 mm apart.
+  [[nodiscard]] static std::vector<std::string> slices(const std::string& uid,
+                                                       const std::string& description) {
+    std::vector<std::string> files;
+    convert::DicomSlice slice;
+    slice.series = uid;
+    slice.description = description;
+    for (int n = 0; n < 4; ++n) {
+      slice.number = n + 1;
+      slice.first = 100 * n;
+      slice.position = "0\\0\\" + std::to_string(2 * n);
+      files.push_back(slice.bytes());
+    }
+    return files;
+  }
+  [[nodiscard]] int send(int batch, const std::string& name, const std::string& bytes) const {
+    return post("seriesFile?batch=" + std::to_string(batch) + "&name=" + name, bytes).status;
+  }
+  void sendAll(int batch, const std::vector<std::string>& files) const {
+    for (std::size_t n = 0; n < files.size(); ++n)
+      ASSERT_EQ(send(batch, "IM" + std::to_string(n), files[n]), 200);
+  }
+};
+
+TEST_F(SeriesTest, DroppedFilesAreListedAndOneSeriesIsOpened) {
+  serve({});
+  sendAll(7, slices("1.2.1", "Angio"));
+  sendAll(7, slices("1.2.2", "Mask"));  // of equal names, as from another folder
+  EXPECT_EQ(send(7, "notes.txt", "a text"), 200);
+  const std::string image = slices("1.2.1", "Angio")[0];
+  EXPECT_EQ(send(7, "broken", image.substr(0, image.size() - 5)), 200);
+  performAll({{"op", "listSeries"}, {"batch", 7}});
+  Json series = state()["series"];
+  ASSERT_EQ(series["list"].size(), 2U);
+  EXPECT_EQ(series["list"][1]["description"], "Mask");
+  EXPECT_EQ(series["list"][1]["modality"], "CT");
+  EXPECT_EQ(series["list"][1]["files"], 4);
+  EXPECT_EQ(series["list"][1]["size"], (Json{4, 3, 4}));
+  EXPECT_EQ(series["list"][1]["spacing"], (Json{0.25, 0.5, 2.0}));
+  EXPECT_TRUE(series["list"][1]["fault"].is_null());
+  EXPECT_EQ(series["faulty"], 1);
+  EXPECT_EQ(series["others"], 1);
+  const std::string fault = series["faults"][0];
+  EXPECT_TRUE(fault.starts_with("broken: ")) << fault;  // without the temporary folder
+  EXPECT_FALSE(state()["hasVolume"]);
+  const ReadPack picture(get("seriesPicture?series=1").body);
+  EXPECT_EQ(picture.json["arrays"]["pixel"]["shape"], (Json{3, 4}));
+  EXPECT_EQ(picture.array<std::uint8_t>("pixel").back(), 255);
+  EXPECT_EQ(get("seriesPicture?series=2").status, 404);
+
+  EXPECT_EQ(perform({{"op", "openSeries"}, {"series", 2}}).status, 400);
+  performAll({{"op", "openSeries"}, {"series", 1}});
+  EXPECT_EQ(state()["title"], "Mask");
+  EXPECT_EQ(ReadPack(get("volume").body).json["size"], (Json{4, 3, 4}));
+  EXPECT_EQ(state()["assumptions"].dump().find("broken"), std::string::npos);
+  performAll({{"op", "openSeries"}, {"series", 0}});  // the files are still there
+  EXPECT_EQ(state()["title"], "Angio");
+  EXPECT_NE(state()["assumptions"].dump().find("broken"), std::string::npos);  // of this series
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(state()["title"], "Mask");
+  ASSERT_EQ(perform({{"op", "closeSeries"}}).status, 200);
+  EXPECT_TRUE(state()["series"].is_null());
+}
+
+TEST_F(SeriesTest, TheOnlySeriesIsOpenedAtOnce) {
+  serve({});
+  sendAll(1, slices("1.2.1", ""));
+  performAll({{"op", "listSeries"}, {"batch", 1}});
+  EXPECT_TRUE(state()["hasVolume"]);
+  EXPECT_EQ(state()["title"], "series 1");
+}
+
+TEST_F(SeriesTest, FilesWithoutSeriesChangeNothing) {
+  serve({});
+  EXPECT_EQ(send(3, "notes.txt", "a text"), 200);
+  performAll({{"op", "listSeries"}, {"batch", 3}});
+  EXPECT_FALSE(state()["hasVolume"]);
+  EXPECT_TRUE(state()["series"].is_null());
+  EXPECT_EQ(perform({{"op", "listSeries"}, {"batch", 3}}).status, 400);  // it has ended
+  EXPECT_EQ(perform({{"op", "listSeries"}, {"batch", 4}}).status, 400);
+}
+
+TEST_F(SeriesTest, ABatchIsBounded) {
+  session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
+  viewer::ServerOptions options;
+  options.mostFile = 1000;
+  serveSession(options);
+  EXPECT_EQ(send(1, "a", std::string(600, 'x')), 200);
+  EXPECT_EQ(send(1, "b", std::string(600, 'x')), 400);
+  EXPECT_EQ(send(1, "c", std::string(400, 'x')), 200);
+  EXPECT_EQ(send(2, "d", std::string(600, 'x')), 200);  // another batch
+  EXPECT_EQ(post("seriesFile?batch=x&name=a", "x").status, 400);
+  EXPECT_EQ(post("seriesFile?batch=1", "x").status, 400);
+}
+
+TEST_F(SeriesTest, AFolderOfSeveralSeriesIsOffered) {
+  std::filesystem::create_directory(path("head"));
+  for (const char* uid : {"1.2.1", "1.2.2"}) {
+    const auto files = slices(uid, uid);
+    for (std::size_t n = 0; n < files.size(); ++n)
+      write("head/" + std::string(uid) + "-" + std::to_string(n), files[n]);
+  }
+  session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
+  Progress silent;
+  ASSERT_TRUE(session->offerSeries(path("head"), silent));
+  serveSession();
+  EXPECT_EQ(state()["series"]["folder"], "head");
+  performAll({{"op", "openSeries"}, {"series", 1}});
+  EXPECT_EQ(state()["title"], "1.2.2");
+  EXPECT_TRUE(state()["files"][0]["named"]);
+  const int id = state()["files"][0]["id"];
+  performAll({{"op", "reload"}, {"id", id}});  // of two series, the one that is open
+  EXPECT_EQ(state()["title"], "1.2.2");
+}
+
+}  // namespace lumen::test

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The series of a folder of DICOM, in the middle of the page: one of them is opened as the volume. */
+import type { App } from "./model";
+import { Pack } from "./pack";
+import type { DicomSeries, SeriesList } from "./types";
+import { brief, button, h } from "./ui";
+
+const kEdge = 128; // pixels of a picture's canvas
+
+/** A line about a series: modality, slices, spacing, size. */
+export function aboutSeries({ modality, files, size, spacing }: DicomSeries): string {
+  return [
+    modality || "no modality",
+    size[2] === 1 ? "1 slice" : `${size[2]} slices`,
+    ...(files === size[2] ? [] : [files === 1 ? "1 file" : `${files} files`]),
+    ...(spacing === null ? [] : [`${spacing.map(brief).join(" × ")} mm`]),
+    `${size[0]} × ${size[1]} pixels`,
+  ].join(", ");
+}
+
+/** Sentences on the files that belong to no series. */
+export function aboutOthers({ faulty, others }: SeriesList): string {
+  const is = (n: number, one: string, many: string): string =>
+    n === 1 ? `1 file ${one}` : `${n} files ${many}`;
+  return [
+    ...(faulty > 0 ? [is(faulty, "cannot be read", "cannot be read")] : []),
+    ...(others > 0 ? [is(others, "is no image", "are no images")] : []),
+  ].join("; ");
+}
+
+function paint(canvas: HTMLCanvasElement, pixel: Uint8Array, width: number, height: number): void {
+  const image = new ImageData(width, height);
+  pixel.forEach((grey, i) => image.data.set([grey, grey, grey, 255], 4 * i));
+  canvas.width = width;
+  canvas.height = height;
+  canvas.getContext("2d")!.putImageData(image, 0, 0);
+}
+
+async function fetchPicture(app: App, index: number, canvas: HTMLCanvasElement): Promise<void> {
+  const revision = app.store.get().state.revisions.series ?? 0,
+    bytes = await app.source.bytes("seriesPicture", { series: String(index), of: String(revision) });
+  if (bytes === null) return;
+  const pack = new Pack(bytes),
+    [height, width] = pack.shape("pixel");
+  paint(canvas, pack.get("pixel", "u8"), width, height);
+}
+
+function row(app: App, series: DicomSeries, index: number, choose: () => void): HTMLElement {
+  const picture = h("canvas", { width: kEdge, height: kEdge, "aria-hidden": "true" }),
+    name = series.description || `Series ${index + 1}`,
+    action = h(
+      "button",
+      { type: "button", class: "series", disabled: series.fault !== null, onclick: choose },
+      picture,
+      h(
+        "span",
+        {},
+        h("strong", {}, name),
+        h("span", {}, aboutSeries(series)),
+        series.fault === null ? null : h("span", { class: "note changed" }, series.fault),
+      ),
+    );
+  void fetchPicture(app, index, picture).catch(() => undefined); // a series without a picture can be chosen
+  return h("li", {}, action);
+}
+
+export function openSeriesDialog(app: App): void {
+  const { series } = app.store.get().state;
+  document.getElementById("series-dialog")?.remove();
+  if (series === null) return;
+  const others = aboutOthers(series);
+  const dialog = h(
+    "dialog",
+    { class: "dialog", id: "series-dialog", "aria-labelledby": "series-title" },
+    h("h2", { id: "series-title" }, `Choose a series of ${series.folder}`),
+    h(
+      "ul",
+      { class: "list serieslist" },
+      ...series.list.map((each, index) =>
+        row(app, each, index, () => {
+          dialog.close();
+          void app.perform({ op: "openSeries", series: index });
+        }),
+      ),
+    ),
+    others === ""
+      ? null
+      : h(
+          "details",
+          { id: "series-others" },
+          h("summary", {}, `${others}.`),
+          h("ul", { class: "list" }, ...series.faults.map(text => h("li", { class: "hint" }, text))),
+        ),
+    h(
+      "div",
+      { class: "row end" },
+      button({ text: "Not now", label: "Not now", class: "button text" }, () => dialog.close()),
+    ),
+  );
+  dialog.addEventListener("close", () => dialog.remove());
+  document.body.append(dialog);
+  dialog.showModal();
+}
+
+/** Shows the list whenever the server has another one of several series, or of one that cannot be opened. */
+export function offerSeries(app: App): void {
+  let seen = 0;
+  app.store.watch(["state"], ({ state }) => {
+    const now = state.revisions.series ?? 0;
+    if (now === seen) return;
+    seen = now;
+    const list = state.series?.list ?? [];
+    if (list.length > 1 || (list.length === 1 && list[0].fault !== null)) openSeriesDialog(app);
+  });
+}
