@@ -106,6 +106,15 @@ void toDistancesBack(std::vector<std::uint32_t>& triangle) {
   }
 }
 
+void addTriangles(PackWriter& pack, const std::string& name, std::vector<std::uint32_t> triangle) {
+  toDistancesBack(triangle);
+  pack.addStored(name, planes(triangle, 3),
+                 {{"type", "u32"},
+                  {"shape", {triangle.size() / 3, 3}},
+                  {"stored", "u32"},
+                  {"coding", "back"}});
+}
+
 /// Numbers in steps of each column's range.
 void addSteps(PackWriter& pack, const std::string& name, const std::vector<float>& values,
               const std::vector<std::uint32_t>& old, std::size_t columns, std::uint32_t steps) {
@@ -158,12 +167,14 @@ std::string compactPack(std::string_view bytes) {
         "node", planes(node, 1),
         {{"type", "u32"}, {"shape", {node.size()}}, {"stored", "u32"}, {"coding", "differences"}});
   }
-  toDistancesBack(triangle);
-  pack.addStored("triangle", planes(triangle, 3),
-                 {{"type", "u32"},
-                  {"shape", {triangle.size() / 3, 3}},
-                  {"stored", "u32"},
-                  {"coding", "back"}});
+  addTriangles(pack, "triangle", std::move(triangle));
+  if (read.has("moving")) {
+    auto moving = read.get<std::uint32_t>("moving");
+    std::vector<std::uint32_t> number(position.size() / 3);
+    for (std::size_t i = 0; i < old.size(); ++i) number[old[i]] = static_cast<std::uint32_t>(i);
+    for (std::uint32_t& vertex : moving) vertex = number[vertex];
+    addTriangles(pack, "moving", std::move(moving));
+  }
   return pack.bytes();
 }
 

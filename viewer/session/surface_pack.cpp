@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/container/printable.h"
+#include "viewer/session/moving_surface.h"
 #include "viewer/session/pack.h"
 
 namespace lumen::viewer {
@@ -15,6 +16,8 @@ namespace lumen::viewer {
 namespace {
 
 using convert::Triangle;
+
+constexpr std::size_t kMostMoving = 12000;  // triangles that software draws 15 times a second
 
 /// Key by which triangles are sorted and divided.
 struct PartKey {
@@ -37,26 +40,47 @@ std::uint32_t branchOf(const convert::SurfaceMesh& surface, const Triangle& t) {
   return b == c ? b : a;
 }
 
-/// Adds the triangles in the keys' order, and the parts.
+/// Triangles in the order of their parts.
+struct Parts {
+  std::vector<Triangle> triangle;
+  std::vector<TriangleRun> run;
+  Json list = Json::array();  ///< one object for each run
+};
+
 template <class Part>
-void addParts(PackWriter& pack, const std::vector<Triangle>& triangles,
-              const std::vector<PartKey>& keys, Part&& part) {
+Parts partsOf(const std::vector<Triangle>& triangles, const std::vector<PartKey>& keys,
+              Part&& part) {
   const std::vector<std::uint32_t> order = sorted(keys);
-  std::vector<Triangle> ordered;
-  ordered.reserve(order.size());
-  Json parts = Json::array();
+  Parts parts;
+  parts.triangle.reserve(order.size());
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin;
     while (end < order.size() && keys[order[end]] == keys[order[begin]])
-      ordered.push_back(triangles[order[end++]]);
+      parts.triangle.push_back(triangles[order[end++]]);
     Json entry = part(keys[order[begin]]);
     entry["first"] = begin;
     entry["count"] = end - begin;
-    parts.push_back(std::move(entry));
+    parts.list.push_back(std::move(entry));
+    parts.run.push_back({begin, end - begin});
     begin = end;
   }
-  pack.add("triangle", std::span(std::as_const(ordered)));
-  pack.set("parts", std::move(parts));
+  return parts;
+}
+
+void addParts(PackWriter& pack, Parts parts) {
+  pack.add("triangle", std::span(std::as_const(parts.triangle)));
+  pack.set("parts", std::move(parts.list));
+}
+
+/// The triangles of pictures while the scene moves.
+void addMoving(PackWriter& pack, Parts& parts, const convert::SurfaceMesh& surface) {
+  const MovingSurface moving =
+      movingSurface(surface.position, surface.radius, parts.triangle, parts.run, kMostMoving);
+  for (std::size_t i = 0; i < moving.run.size(); ++i) {
+    parts.list[i]["movingFirst"] = moving.run[i].first;
+    parts.list[i]["movingCount"] = moving.run[i].count;
+  }
+  pack.add("moving", std::span(std::as_const(moving.triangle)));
 }
 
 Json overlapsJson(const convert::SurfaceReport& report) {
@@ -81,9 +105,11 @@ std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel&
   keys.reserve(surface.triangle.size());
   for (std::size_t i = 0; i < surface.triangle.size(); ++i)
     keys.push_back({surface.group[i], branchOf(surface, surface.triangle[i])});
-  addParts(pack, surface.triangle, keys, [&](const PartKey& key) -> Json {
+  Parts parts = partsOf(surface.triangle, keys, [&](const PartKey& key) -> Json {
     return {{"name", surface.groups[key.group].name}, {"branch", key.branch}};
   });
+  addMoving(pack, parts, surface);
+  addParts(pack, std::move(parts));
   pack.set("kind", level.kind);
   pack.set("level", level.level);
   pack.set("levels", level.levels);
@@ -101,10 +127,10 @@ std::string meshPack(const convert::MeshFile& mesh) {
   pack.add("position", std::span(std::as_const(position)));
   std::vector<PartKey> keys(mesh.mesh.triangle.size());
   for (std::size_t i = 0; i < mesh.group.size(); ++i) keys[i].group = mesh.group[i];
-  addParts(pack, mesh.mesh.triangle, keys, [&](const PartKey& key) -> Json {
-    return {{"name", mesh.group.empty() ? "" : formats::printable(mesh.groups[key.group])},
-            {"branch", -1}};
-  });
+  addParts(pack, partsOf(mesh.mesh.triangle, keys, [&](const PartKey& key) -> Json {
+             return {{"name", mesh.group.empty() ? "" : formats::printable(mesh.groups[key.group])},
+                     {"branch", -1}};
+           }));
   pack.set("kind", "mesh");
   return pack.bytes();
 }

@@ -3,6 +3,11 @@
 #include "served.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "viewer/session/moving_surface.h"
 
 namespace lumen::test {
 
@@ -57,6 +62,53 @@ TEST_F(LookTest, ASurfaceComesAtOnceAndAFinerOneLater) {
   for (const Json& part : full.json["parts"])
     hasInlet = hasInlet || part["name"].get<std::string>().starts_with("inlet");
   EXPECT_TRUE(hasInlet);
+}
+
+TEST_F(LookTest, ASurfaceHasFewerTrianglesForMoving) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  const ReadPack quick(get("surface?quick=1").body);
+  const auto moving = quick.array<std::uint32_t>("moving");
+  const auto position = quick.array<float>("position");
+  ASSERT_FALSE(moving.empty());
+  EXPECT_LE(moving.size(), quick.array<std::uint32_t>("triangle").size());
+  std::size_t next = 0;
+  for (const Json& part : quick.json["parts"]) {
+    EXPECT_EQ(part["movingFirst"], next);
+    EXPECT_GT(part["movingCount"], 0);
+    next += part["movingCount"].get<std::size_t>();
+  }
+  EXPECT_EQ(3 * next, moving.size());
+  for (const std::uint32_t v : moving) ASSERT_LT(3 * v, position.size());
+}
+
+TEST(MovingSurface, ATubeKeepsItsWallWithFewTriangles) {
+  constexpr std::uint32_t kRings = 60, kSides = 48;
+  std::vector<convert::Float3> position;
+  std::vector<convert::Triangle> triangle;
+  for (std::uint32_t i = 0; i < kRings; ++i)
+    for (std::uint32_t j = 0; j < kSides; ++j) {
+      const double a = 2 * 3.141592653589793 * j / kSides;
+      position.push_back({static_cast<float>(2 * std::cos(a)), static_cast<float>(2 * std::sin(a)),
+                          static_cast<float>(i)});
+      const std::uint32_t next = i * kSides + (j + 1) % kSides, here = i * kSides + j;
+      if (i + 1 == kRings) continue;
+      triangle.push_back({here, next, here + kSides});
+      triangle.push_back({next, next + kSides, here + kSides});
+    }
+  const std::vector<float> radius(position.size(), 2);
+  const std::vector<viewer::TriangleRun> runs = {{0, triangle.size() / 2},
+                                                 {triangle.size() / 2, triangle.size() / 2}};
+  const auto moving = viewer::movingSurface(position, radius, triangle, runs, 600);
+  ASSERT_EQ(moving.run.size(), 2U);
+  EXPECT_LT(moving.triangle.size(), 1200U);
+  EXPECT_GT(moving.triangle.size(), 32U);
+  for (const convert::Triangle& t : moving.triangle) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const std::uint32_t v : t)
+      middle += Eigen::Vector3d(position[v][0], position[v][1], 0) / 3;
+    EXPECT_GT(middle.norm(), 1) << "a wall moves by less than half a radius";
+  }
 }
 
 TEST_F(LookTest, AnUnchangedPartIsNotSentAgain) {

@@ -164,7 +164,7 @@ export class Caster {
     this.copyScene.add(quad);
   }
 
-  /** Draws over the whole viewport, as the ground for what follows. `share`: of the resolution. */
+  /** Draws over the whole of the renderer's target, as the ground for what follows. `share`: of the resolution. */
   draw(
     renderer: WebGLRenderer,
     camera: Camera,
@@ -189,15 +189,12 @@ export class Caster {
     else (u.forward.value as Vector3).set(0, 0, 0);
     // a plane transforms with the inverse transposed, which for a row of four is the product with the way back
     (u.clip.value as Vector4).copy(clip).applyMatrix4(this.fromTexture.clone().transpose());
-    const viewport = renderer.getViewport(new Vector4()),
-      scissor = renderer.getScissor(new Vector4());
+    const ground = renderer.getRenderTarget();
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0x000000, 0);
     renderer.clear();
     renderer.render(this.scene, camera);
-    renderer.setRenderTarget(null);
-    renderer.setViewport(viewport);
-    renderer.setScissor(scissor);
+    renderer.setRenderTarget(ground);
     renderer.render(this.copyScene, this.copyCamera);
   }
 

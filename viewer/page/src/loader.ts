@@ -182,6 +182,7 @@ export class Loader {
       return;
     this.shown = { case: ofCase, kind, level };
     this.app.store.set({ surface: new Surface(pack), distance: null });
+    document.body.dataset.surface = kind;
     const { surface } = this.app.store.get(),
       build = (): void => {
         if (!live() || surface === null || this.app.store.get().surface !== surface) return;

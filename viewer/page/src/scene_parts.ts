@@ -7,7 +7,6 @@ import {
   CylinderGeometry,
   GLSL3,
   InstancedMesh,
-  LineBasicMaterial,
   LineSegments,
   Matrix4,
   Mesh,
@@ -32,7 +31,10 @@ export function centerlines(view: View): LineSegments {
   for (const branch of tree.branches) {
     if (!isShown(view, branch.index)) continue;
     const nodes = tree.nodesOf(branch);
-    one.setRGB(...colourOf(view, branch.index)).lerp(new Color(1, 1, 1), 0.25);
+    one
+      .setRGB(...colourOf(view, branch.index))
+      .lerp(new Color(1, 1, 1), 0.25)
+      .convertLinearToSRGB();
     for (let i = 1; i < nodes.length; ++i) {
       position.push(...tree.position(nodes[i - 1]), ...tree.position(nodes[i]));
       colour.push(one.r, one.g, one.b, one.r, one.g, one.b);
@@ -45,16 +47,7 @@ export function centerlines(view: View): LineSegments {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(position), 3));
   geometry.setAttribute("color", new BufferAttribute(new Float32Array(colour), 3));
-  const lines = new LineSegments(
-    geometry,
-    new LineBasicMaterial({
-      vertexColors: true,
-      transparent: true,
-      opacity: 0.95,
-      depthTest: inside,
-      toneMapped: false,
-    }),
-  );
+  const lines = new LineSegments(geometry, lineMaterial(inside));
   lines.renderOrder = 10;
   lines.frustumCulled = false;
   return lines;
@@ -129,6 +122,20 @@ function pointMaterial(): ShaderMaterial {
       "out vec3 tint; out vec3 here; void main() { tint = color; here = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); gl_PointSize = 1.6; }",
     fragmentShader:
       "precision highp float; in vec3 tint; in vec3 here; out vec4 result; uniform vec4 clip; void main() { if (dot(clip.xyz, here) + clip.w > 0.0) discard; result = vec4(tint, 1.0); }",
+  });
+}
+
+/** The same colours on the screen and in a picture that is drawn beside it. */
+function lineMaterial(depthTest: boolean): ShaderMaterial {
+  return new ShaderMaterial({
+    glslVersion: GLSL3,
+    vertexColors: true,
+    transparent: true,
+    depthTest,
+    vertexShader:
+      "out vec3 tint; void main() { tint = color; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+    fragmentShader:
+      "precision highp float; in vec3 tint; out vec4 result; void main() { result = vec4(tint, 0.95); }",
   });
 }
 

@@ -10,6 +10,7 @@ import { kFade, PartMaterial } from "./part_material";
 import { drawSceneOverlay } from "./scene_overlay";
 import { ball, centerlines, cylinders, wallPoints } from "./scene_parts";
 import { SlicePlanes } from "./slice_planes";
+import { ScenePicture } from "./scene_picture";
 import type { StageView } from "./stage";
 import type { Surface } from "./surface";
 import type { Vec3 } from "./types";
@@ -24,6 +25,7 @@ export class SceneView implements StageView {
   readonly scene = new Scene();
   readonly over: HTMLCanvasElement;
   caster: Caster | null = null;
+  private readonly picture = new ScenePicture();
   private readonly planes = new SlicePlanes();
   private walls: Mesh<Surface["parts"][number]["geometry"], PartMaterial>[] = [];
   private tubes: InstancedMesh[] = [];
@@ -104,10 +106,11 @@ export class SceneView implements StageView {
     }
     this.surface?.dispose();
     this.surface = view.surface;
-    this.walls = (view.surface?.parts ?? []).map(part => {
+    this.walls = (view.surface?.parts ?? []).map((part, index) => {
       const wall = new Mesh(part.geometry, new PartMaterial(true));
       wall.frustumCulled = false;
       wall.userData.branch = part.branch;
+      wall.userData.part = index;
       this.scene.add(wall);
       return wall;
     });
@@ -230,36 +233,64 @@ export class SceneView implements StageView {
   moved(): void {
     this.touched = true;
     window.clearTimeout(this.moving);
-    this.moving = window.setTimeout(() => {
+    this.moving = window.setTimeout(() => this.rest(), kStill);
+    this.app.stage.invalidate(this);
+  }
+
+  /** Draws in full, unless another movement comes before the next frame: those wait for a slow picture. */
+  private rest(): void {
+    const before = this.moving;
+    requestAnimationFrame(() => {
+      if (this.moving !== before) return;
       this.moving = 0;
       this.app.stage.invalidate(this);
-    }, kStill);
-    this.app.stage.invalidate(this);
+    });
+  }
+
+  /** Fewer triangles while pictures are coarse. */
+  private chooseDetail(coarse: boolean): void {
+    for (const wall of this.walls) {
+      const { geometry, moving } = this.surface!.parts[wall.userData.part as number];
+      wall.geometry = coarse && moving !== null ? moving : geometry;
+    }
   }
 
   draw(renderer: WebGLRenderer, width: number, height: number): void {
     const view = this.app.store.get(),
-      software = this.app.stage.software,
       resized = width !== this.camera.width || height !== this.camera.height;
     this.camera.update(width, height);
     if (!this.fitted || (resized && !this.touched)) this.fit();
-    const camera = this.camera.update(width, height);
-    if (view.cast !== "off" && this.caster !== null) {
-      const share = this.moving !== 0 ? (software ? 0.22 : 0.6) : software ? 0.5 : 1;
-      this.caster.draw(
-        renderer,
-        camera,
-        this.camera.isParallel && this.camera.flight === null,
-        [width, height],
-        share,
-        view.window,
-        view.cast === "volume",
-        this.clip(view),
-        this.moving !== 0 || software ? 1 : 0.6,
-      );
-    }
+    const camera = this.camera.update(width, height),
+      coarse = this.isCoarse();
+    this.chooseDetail(coarse);
     kFade.value = this.camera.flight === null ? 0 : this.camera.flight.fade;
-    renderer.render(this.scene, camera);
+    this.picture.draw(renderer, [width, height], coarse, () => {
+      if (view.cast !== "off" && this.caster !== null) this.cast(this.caster, renderer, [width, height]);
+      renderer.render(this.scene, camera);
+    });
+  }
+
+  /** The volume, as the ground of what follows. */
+  private cast(caster: Caster, renderer: WebGLRenderer, size: [number, number]): void {
+    const view = this.app.store.get(),
+      { software } = this.app.stage,
+      moving = this.moving !== 0;
+    caster.draw(
+      renderer,
+      this.camera.camera,
+      this.camera.isParallel && this.camera.flight === null,
+      size,
+      moving ? (software ? 0.22 : 0.6) : software ? 0.5 : 1,
+      view.window,
+      view.cast === "volume",
+      this.clip(view),
+      moving || software ? 1 : 0.6,
+    );
+  }
+
+  /** Whether pictures are coarse: the scene moves, and no graphics processor draws it. */
+  private isCoarse(): boolean {
+    return this.moving !== 0 && this.app.stage.software;
   }
 
   drawOver(width: number, height: number): void {

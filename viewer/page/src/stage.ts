@@ -32,7 +32,7 @@ export class Stage {
   /** Throws if there is no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
     const context = canvas.getContext("webgl2", {
-      antialias: true,
+      antialias: false, // the 3D view smooths its own edges, and slices have none
       alpha: false,
       preserveDrawingBuffer: true,
       powerPreference: "high-performance",

@@ -12,8 +12,20 @@ export interface Part {
   first: number;
   count: number;
   geometry: BufferGeometry;
+  /** With fewer triangles, for pictures while the scene moves; null: there are none. */
+  moving: BufferGeometry | null;
   box: Box3;
   bvh: MeshBVH | null;
+}
+
+/** A part as a pack lists it. */
+interface PartRecord {
+  name: string;
+  branch: number;
+  first: number;
+  count: number;
+  movingFirst?: number;
+  movingCount?: number;
 }
 
 export interface Hit {
@@ -89,17 +101,31 @@ export class Surface {
     const position = new BufferAttribute(this.position, 3);
     const normal = new BufferAttribute(packed(vertexNormals(this.position, this.triangle)), 4, true);
     this.value = new BufferAttribute(new Float32Array(vertices), 1);
-    this.parts = (pack.meta.parts as Omit<Part, "geometry" | "box" | "bvh">[])
+    const moving = pack.optional("moving", "u32");
+    if (moving?.some(v => v >= vertices) === true)
+      throw new Error("A triangle of the moving surface names a vertex that does not exist.");
+    const geometryOf = (triangle: Uint32Array, first: number, count: number): BufferGeometry => {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", position);
+      geometry.setAttribute("normal", normal);
+      geometry.setAttribute("value", this.value);
+      geometry.setIndex(new BufferAttribute(triangle.subarray(3 * first, 3 * (first + count)), 1));
+      return geometry;
+    };
+    this.parts = (pack.meta.parts as PartRecord[])
       .filter(part => part.count > 0)
       .map(part => {
-        const geometry = new BufferGeometry();
-        geometry.setAttribute("position", position);
-        geometry.setAttribute("normal", normal);
-        geometry.setAttribute("value", this.value);
-        geometry.setIndex(
-          new BufferAttribute(this.triangle.subarray(3 * part.first, 3 * (part.first + part.count)), 1),
-        );
-        return { ...part, geometry, box: this.boxOf(part), bvh: null };
+        const { name, branch, first, count, movingFirst = 0, movingCount = 0 } = part;
+        return {
+          name,
+          branch,
+          first,
+          count,
+          geometry: geometryOf(this.triangle, first, count),
+          moving: moving === null || movingCount === 0 ? null : geometryOf(moving, movingFirst, movingCount),
+          box: this.boxOf(part),
+          bvh: null,
+        };
       });
   }
 
@@ -194,6 +220,9 @@ export class Surface {
   }
 
   dispose(): void {
-    for (const part of this.parts) part.geometry.dispose();
+    for (const part of this.parts) {
+      part.geometry.dispose();
+      part.moving?.dispose();
+    }
   }
 }

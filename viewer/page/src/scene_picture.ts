@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The picture of the 3D view, made beside the canvas: smooth edges where it rests, and fewer pixels while it moves on a
+ * machine without a graphics processor. Only this view pays for smooth edges, not the whole canvas. */
+import {
+  GLSL3,
+  LinearFilter,
+  Mesh,
+  NoBlending,
+  OrthographicCamera,
+  PlaneGeometry,
+  RGBAFormat,
+  Scene,
+  ShaderMaterial,
+  WebGLRenderTarget,
+  type Texture,
+  type WebGLRenderer,
+} from "three";
+
+const kCoarse = 0.5, // share of the pixels along an edge, while the scene moves
+  kSamples = 4; // of a pixel, where it rests
+
+function makeTarget(samples: number): WebGLRenderTarget {
+  return new WebGLRenderTarget(1, 1, {
+    format: RGBAFormat,
+    minFilter: LinearFilter,
+    magFilter: LinearFilter,
+    samples,
+  });
+}
+
+export class ScenePicture {
+  private readonly fine = makeTarget(kSamples);
+  private readonly coarse = makeTarget(0);
+  private readonly copyScene = new Scene();
+  private readonly copyCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
+  private readonly shown: { value: Texture | null } = { value: null };
+
+  constructor() {
+    const quad = new Mesh(
+      new PlaneGeometry(2, 2),
+      new ShaderMaterial({
+        glslVersion: GLSL3,
+        depthTest: false,
+        depthWrite: false,
+        blending: NoBlending,
+        vertexShader:
+          "out vec2 at; void main() { at = 0.5 + 0.5 * position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }",
+        fragmentShader:
+          "precision highp float; in vec2 at; out vec4 result; uniform sampler2D picture; void main() { result = vec4(texture(picture, at).rgb, 1.0); }",
+        uniforms: { picture: this.shown },
+      }),
+    );
+    quad.frustumCulled = false;
+    this.copyScene.add(quad);
+  }
+
+  /** Makes a picture of that size in CSS pixels, on the ground that the renderer clears with, and copies it onto the
+   * viewport of the canvas. */
+  draw(renderer: WebGLRenderer, size: [number, number], coarse: boolean, draw: () => void): void {
+    const target = coarse ? this.coarse : this.fine,
+      [width, height] = size.map(n =>
+        Math.max(1, Math.round(n * renderer.getPixelRatio() * (coarse ? kCoarse : 1))),
+      );
+    target.setSize(width, height);
+    renderer.setRenderTarget(target);
+    renderer.clear();
+    draw();
+    renderer.setRenderTarget(null);
+    this.shown.value = target.texture;
+    renderer.render(this.copyScene, this.copyCamera);
+  }
+}
