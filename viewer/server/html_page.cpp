@@ -106,7 +106,7 @@ private:
 Json lookOnly(Json state) {
   state["revision"] = 1;
   for (Json& revision : state["revisions"]) revision = 1;
-  state["revisions"]["library"] = state["revisions"]["measures"] = 0;
+  for (const char* const name : {"library", "measures", "series"}) state["revisions"][name] = 0;
   for (const char* const name : {"undo", "redo", "job", "saveAs"}) state[name] = nullptr;
   state["formats"] = state["proposals"] = Json::array();
   state["unsaved"] = state["measuresAreOld"] = false;
