@@ -12,7 +12,7 @@ import {
   Vector3,
   type WebGLRenderer,
 } from "three";
-import { kMostSamples, samplesOf, throughOf, type Slab } from "./slab";
+import { kMostSamples, throughOf, type Slab } from "./slab";
 import type { Vec3 } from "./types";
 import type { Frame } from "./vec";
 import type { Volume } from "./volume";
@@ -100,6 +100,7 @@ export class SliceMaterial {
     window: [number, number],
     ready: number,
     slab: Slab,
+    samples: number,
   ): void {
     const u = this.material.uniforms,
       volume: Volume = texture.volume;
@@ -112,7 +113,7 @@ export class SliceMaterial {
     (u.channels.value as Vector2).set(255, volume.bytesPerVoxel === 1 ? 0 : 65280);
     u.ready.value = ready;
     (u.through.value as Vector3).set(...throughOf(slab, plane.frame));
-    u.samples.value = samplesOf(slab, volume.spacing);
+    u.samples.value = samples;
     u.kind.value = ["off", "max", "min", "mean"].indexOf(slab.kind);
     renderer.render(this.scene, this.camera);
   }

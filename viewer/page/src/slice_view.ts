@@ -2,18 +2,20 @@
 /** One of three linked slices: the plane through the crosshair, seen along an axis of the shared frame. */
 import { clearedContext } from "./overlay_canvas";
 import type { WebGLRenderer } from "three";
-import type { App } from "./model";
+import type { App, View } from "./model";
 import { drawProposalsInSlice } from "./proposal_lines";
 import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
 import { drawSliceOverlay } from "./slice_overlay";
 import { drawNamesInSlice } from "./vessel_names";
-import { pickInSlab, slabControl } from "./slab";
+import { pickInSlab, samplesOf, slabControl } from "./slab";
 import { SliceMaterial } from "./slice_material";
 import type { StageView } from "./stage";
 import type { Vec3 } from "./types";
 import { add, along, dot, scale, sub, type Frame } from "./vec";
 import type { VolumeTexture } from "./volume_texture";
 
+const kQuickSamples = 33,
+  kRefineAfter = 150; // ms
 const kAcross = 7; // radii of the vessel that half a section shows
 
 export class SliceView implements StageView, SliceProjection {
@@ -25,6 +27,9 @@ export class SliceView implements StageView, SliceProjection {
   private width = 1;
   private height = 1;
   texture: VolumeTexture | null = null;
+  /** The next picture of a slab takes all of its places; the first after a change only some. */
+  private isFine = false;
+  private refining = 0;
 
   constructor(
     readonly name: SliceName,
@@ -123,7 +128,23 @@ export class SliceView implements StageView, SliceProjection {
       view.window,
       view.volumeReady / view.volume.size[2],
       view.slabs[this.name],
+      this.samples(view),
     );
+  }
+
+  /** Places through the slab for the next picture: few while something moves, and all of them a moment later. */
+  private samples({ slabs, volume }: View): number {
+    const all = samplesOf(slabs[this.name], volume!.spacing);
+    window.clearTimeout(this.refining);
+    if (all <= kQuickSamples || this.isFine) {
+      this.isFine = false;
+      return all;
+    }
+    this.refining = window.setTimeout(() => {
+      this.isFine = true;
+      this.app.stage.invalidate(this);
+    }, kRefineAfter);
+    return kQuickSamples;
   }
 
   drawOver(width: number, height: number): void {
