@@ -2,6 +2,8 @@
 #include "converters/stages/surface/closed_surface.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 
@@ -89,12 +91,44 @@ public:
 private:
   // The lumen's surface with ends, before the requested changes.
   CaseSurface lumen() {
-    CaseSurface surface = extract(m_field, m_result.report);
-    noteEnds(cutEnds(surface, m_field, m_progress));
-    m_result.report.crossings = remeshed(surface, m_field);
+    const CaseSurface whole = extract(m_field, m_result.report);
+    std::vector<EndPlane> planes = endPlanes(m_source);
+    CaseSurface surface = whole;
+    EndsReport ends = cut(surface, planes);
+    const CaseSurface rough = surface;
+    RefineReport found = refine(surface, m_field, edgeOf(m_options), m_progress);
+    if (found.crossings > 0 && keepCrossingEndsRound(rough, planes)) {
+      surface = whole;
+      ends = cut(surface, planes);
+      found = refine(surface, m_field, edgeOf(m_options), m_progress);
+    }
+    noteEnds(std::move(ends));
+    noteFaults(found);
+    m_result.report.crossings = found.crossings;
     m_result.report.overlaps = findOverlaps(surface, m_field);
     note(bareStretches(surface, m_source.tree));
     return surface;
+  }
+
+  EndsReport cut(CaseSurface& surface, const std::vector<EndPlane>& planes) {
+    const std::array<FieldSurface, 1> one{{{&surface, &m_field}}};
+    return cutEnds(one, planes, m_progress);
+  }
+
+  // Marks the ends whose flat faces pass through a wall, as behind a tight bend; true if there are
+  // any.
+  bool keepCrossingEndsRound(const CaseSurface& cut, std::vector<EndPlane>& planes) const {
+    std::vector<bool> crosses(cut.groups.size(), false);
+    for (const auto& pair : selfIntersections(cut.mesh, kMostCrossings, &m_progress).pairs)
+      for (const std::uint32_t t : pair) crosses[cut.group[t]] = true;
+    bool isAny = false;
+    for (const SurfaceEnd& end : cut.ends)
+      for (EndPlane& plane : planes) {
+        if (!crosses[end.group] || plane.branch != end.branch || plane.node != end.node) continue;
+        isAny = isAny || !plane.staysRound;
+        plane.staysRound = true;
+      }
+    return isAny;
   }
 
   // Outer walls that keep apart have a third of the gap between them, so a wall is left between
@@ -162,9 +196,13 @@ private:
   // Returns the crossings that are left.
   std::size_t remeshed(CaseSurface& surface, const SheetField& field) {
     const RefineReport found = refine(surface, field, edgeOf(m_options), m_progress);
+    noteFaults(found);
+    return found.crossings;
+  }
+
+  void noteFaults(const RefineReport& found) {
     m_result.report.offField += found.offField;
     m_result.report.sharpTriangles += found.sharp;
-    return found.crossings;
   }
 
   // The surface with as few triangles as --max-error allows, and in the requested number of levels.
@@ -178,6 +216,12 @@ private:
         throw failed("with fewer triangles the surface would lie " +
                      formats::shortText(static_cast<float>(levels[0].error)) +
                      " mm off, which is more than max-error");
+    }
+    const std::size_t triangles = m_options.maxTriangles.value_or(SIZE_MAX);
+    if (levels[0].surface.mesh.triangle.size() > triangles) {
+      if (!whole) whole = levels[0].surface;
+      decimate(levels[0].surface, m_field, {0, triangles}, m_progress);
+      levels[0].error = distanceBetween(levels[0].surface, *whole);
     }
     addCoarserLevels(levels, m_options.levels, m_field, m_progress);
     for (std::size_t i = 1; i < levels.size(); ++i)

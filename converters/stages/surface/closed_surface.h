@@ -31,7 +31,10 @@ struct ClosedSurfaceOptions {
   std::optional<Length> thickness;  ///< thickness of a wall around the lumen: the solid is the wall
   Touching touching = Touching::Share;  ///< walls of vessels that touch
   std::optional<double> maxError;       ///< mm: above 0, triangles are dropped within this distance
-  int levels = 1;                       ///< number of levels of detail
+  /// Greatest number of triangles: as many are dropped as it takes, wherever the surface may then
+  /// lie, unless its topology and its rims need more.
+  std::optional<std::size_t> maxTriangles;
+  int levels = 1;  ///< number of levels of detail
 };
 
 /// Results besides the surface, and its differences from the field. Places are in mm, LPS.

@@ -69,7 +69,8 @@ public:
     for (const EndPlane& plane : m_planes) {
       m_progress.check();
       m_nodes = nodesNearEnd(m_source, plane, kReachRadii * radiusOf(plane));
-      const auto cuts = findCuts(plane);
+      m_reason = NoCut::Other;
+      const auto cuts = plane.staysRound ? std::nullopt : findCuts(plane);
       if (cuts)
         closeFlat(plane, *cuts);
       else

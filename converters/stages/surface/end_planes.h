@@ -20,6 +20,7 @@ struct EndPlane {
   bool isInlet = false;      ///< before the first node of a root; else behind the last of a branch
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< in the plane, on the axis, mm
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the vessel
+  bool staysRound = false;                           ///< it is not to be cut
 };
 
 /// The distance of the plane behind the centre of a branch's last node, mm: half of the cylinder's

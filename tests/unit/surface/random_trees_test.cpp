@@ -12,6 +12,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::uint64_t kCases = 6;
+constexpr std::uint64_t kEndBehindABend = 66;  // whose flat face would pass through the bend
 
 TEST(RandomTrees, TouchCrossAndJump) {
   std::size_t touching = 0;
@@ -48,6 +49,10 @@ TEST(RandomTrees, HaveASurfaceBeforeRemeshingThatDoesNotPassThroughItself) {
 TEST(RandomTrees, HaveClosedSurfacesOfTheirTopology) {
   for (std::uint64_t number = 1; number <= kCases; ++number)
     EXPECT_EQ(test::faultOf(test::randomTrees(number)), "") << number;
+}
+
+TEST(RandomTrees, HaveAnEndThatStaysRoundWhereItsFaceWouldPassThroughAWall) {
+  EXPECT_EQ(test::faultOf(test::randomTrees(kEndBehindABend)), "");
 }
 
 TEST(RandomTrees, HaveClosedWalls) {
