@@ -63,6 +63,7 @@ struct OptionNames {
   OptionName half{"half"};
   OptionName perBranch{"per-branch"};
   OptionName exact{"exact"};
+  OptionName maxPieces{"max-pieces"};
   OptionName instrument{"instrument"};
   OptionName wall{"wall"};
   OptionName dialect{"dialect"};

@@ -163,6 +163,11 @@ void addExportRows(OptionTable& table, convert::ExportOptions& options) {
                     "Axis that looks up (superior), where the target leaves a choice");
   table.group("Surface");
   addSurfaceRows(table, options.surface);
+  table
+      .add(kOption.maxPieces.name, &options.maxPieces, "N",
+           "Greatest number of pieces of the wall, which is simplified until it has no more; 0: "
+           "20000 for cathsim, as many as 64 cells a side need for mujoco")
+      .in(WholeRange{0, 1'000'000});
   addGridRows(table, options);
   addSofaRows(table, options);
   addFlowRows(table, options);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "blob.h"
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/mujoco_text.h"
@@ -22,27 +24,34 @@ namespace lumen::convert {
 
 namespace {
 
+constexpr std::size_t kUsualPieces = 20000;  // each is a file and a geom: more no one loads
+
 constexpr const char* kFolder = "phantom_assets/meshes/vessel/";
 
 /// The surface with so few triangles that each can be a geom: off by a twentieth of the middle one
-/// of the radii.
-ExportedSurface coarseSurface(const ExportInput& input) {
+/// of the radii, or as far as it takes to have no more than there may be pieces. Adds a sentence
+/// where that is farther.
+ExportedSurface coarseSurface(const ExportInput& input, std::vector<std::string>& losses) {
   constexpr double kShare = 0.05;
+  const std::uint64_t most = input.options.maxPieces == 0 ? kUsualPieces : input.options.maxPieces;
   std::vector<float> radii = input.source.tree.radius;
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
                    radii.end());
   CommonOptions options = input.options;
   if (!options.surface.maxError) options.surface.maxError = kShare * radii[radii.size() / 2];
-  return lumenSurface({input.source, options, input.frame, input.progress});
-}
-
-/// Each triangle becomes a file and a geom: more than this no one loads.
-void requireFew(const SurfaceMesh& coarse) {
-  constexpr std::size_t kMostHulls = 20000;
-  if (coarse.triangle.size() > kMostHulls)
-    throw invalidInput("the wall would be " + std::to_string(coarse.triangle.size()) +
-                       " convex pieces, expected are at most " + std::to_string(kMostHulls) +
-                       "; a greater " + kOption.maxError.shown() + " makes fewer");
+  options.surface.maxTriangles = most;
+  ExportedSurface coarse = lumenSurface({input.source, options, input.frame, input.progress});
+  if (coarse.mesh.triangle.size() > most)
+    throw invalidInput("the wall has " + std::to_string(coarse.mesh.triangle.size()) +
+                       " triangles at least, each of which is a convex piece; expected is " +
+                       kOption.maxPieces.shown() + " of as many");
+  const double error = coarse.report.errors.front();
+  if (error > *options.surface.maxError)
+    losses.push_back("the wall is simplified to at most " + std::to_string(most) +
+                     " convex pieces, up to " + fixedText(error, 3) +
+                     " mm off the surface; a greater " + kOption.maxPieces.shown() +
+                     " is nearer to it");
+  return coarse;
 }
 
 struct CloseModel {
@@ -86,11 +95,10 @@ std::string phantomText(const ExportFrame& frame, std::size_t hulls,
 }  // namespace
 
 ExportResult exportCathsim(const ExportInput& input) {
-  ExportedSurface coarse = coarseSurface(input);
-  requireFew(coarse.mesh);
+  ExportResult result;
+  ExportedSurface coarse = coarseSurface(input, result.losses);
   const ExportedSurface fine = lumenSurface(input);
   const std::vector<SurfaceMesh> hulls = makeHulls(input, coarse.mesh);
-  ExportResult result;
   result.ends = plainlyNamed(std::move(coarse.ends));
   result.files = {{"phantom_assets/vessel.xml", phantomText(input.frame, hulls.size(), result.ends),
                    "the phantom: one body, the geom `visual` without contacts, hulls, sites", ""},
@@ -102,7 +110,7 @@ ExportResult exportCathsim(const ExportInput& input) {
         {kFolder + ("hull_" + std::to_string(k)) + ".stl", stlInMetres(hulls[k]), "", ""});
   result.others.push_back({std::string(kFolder) + "hull_*.stl", "the wall's convex pieces"});
   result.start = exportText("cathsim/README.md", {{"hulls", std::to_string(hulls.size())}});
-  result.losses = treeLosses(input.source.tree);
+  for (std::string& loss : treeLosses(input.source.tree)) result.losses.push_back(std::move(loss));
   result.surface = std::move(coarse.report);
   return result;
 }
@@ -117,7 +125,7 @@ TargetRow cathsimRow() {
           .axes = {Axes::Lps},
           .holds = "the surface; the wall as convex pieces; the ends as targets",
           .lacks = "the tree and its radii",
-          .options = {kOption.edge, kOption.maxError}};
+          .options = {kOption.edge, kOption.maxError, kOption.maxPieces}};
 }
 
 }  // namespace lumen::convert

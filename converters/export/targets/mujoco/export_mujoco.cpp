@@ -37,6 +37,26 @@ constexpr double kCellRadii = 0.4;
 // solver (eulerdamp), where it does not make contacts soft.
 constexpr double kContactSteps = 20;
 
+/// Pieces of a wall, with cells that are as wide as it takes to have no more than `most` pieces, 0
+/// for any number; adds a sentence where that is wider than usual.
+std::vector<SurfaceMesh> cutIntoFew(const SurfaceMesh& wall, std::size_t most,
+                                    std::vector<std::string>& losses) {
+  constexpr double kWider = 1.25;
+  double cell = kCellRadii;
+  std::vector<SurfaceMesh> pieces = cutIntoPieces(wall, kCells, cell);
+  while (most > 0 && pieces.size() > most) {
+    cell *= kWider;
+    pieces = cutIntoPieces(wall, kCells, cell);
+  }
+  if (cell > kCellRadii)
+    losses.push_back("the wall is in no more than " + std::to_string(most) +
+                     " pieces, so MuJoCo samples its distance every " + fixedText(cell, 2) +
+                     " radii, and is up to " + fixedText(cell * cell / 8, 2) +
+                     " radii off between samples; a greater " + kOption.maxPieces.shown() +
+                     " is nearer");
+  return pieces;
+}
+
 struct Solid {
   ExportedSurface surface;
   bool isShell = false;  ///< a wall of some thickness; else all but the lumen
@@ -159,11 +179,12 @@ ExportResult exportMujoco(const ExportInput& input) {
   // walls out of the wire's reach cost memory and time, and are most of a large tree
   solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree,
                                     insertion.node, wire.length() * 1e3);
-  const std::vector<SurfaceMesh> pieces = cutIntoPieces(solid.surface.mesh, kCells, kCellRadii);
+  ExportResult result;
+  const std::vector<SurfaceMesh> pieces =
+      cutIntoFew(solid.surface.mesh, input.options.maxPieces, result.losses);
   shorten(wire, pieces, input, insertion);
   const MujocoScene scene{input, solid, pieces.size(), insertion, wire};
 
-  ExportResult result;
   result.files = {
       {"scene.xml", sceneText(scene, WireSprings::Plugin),
        "vessels, guidewire, actuator `advance`, keyframe `insertion`, a site at each end", ""},
@@ -173,7 +194,7 @@ ExportResult exportMujoco(const ExportInput& input) {
         {"meshes/wall_" + std::to_string(k) + ".stl", stlInMetres(pieces[k]), "", ""});
   result.others.push_back({"meshes/wall_*.stl", "the wall, in metres"});
   result.start = startPose(scene);
-  result.losses = treeLosses(input.source.tree);
+  for (std::string& loss : treeLosses(input.source.tree)) result.losses.push_back(std::move(loss));
   result.ends = std::move(solid.surface.ends);
   result.surface = std::move(solid.surface.report);
   return result;
@@ -187,7 +208,8 @@ TargetRow mujocoRow() {
           .axes = {Axes::Lps},
           .holds = "the wall as a solid; a guidewire at the root, pushed by an actuator; the ends",
           .lacks = "the tree and its radii",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness, kOption.insert}};
+          .options = {kOption.edge, kOption.maxError, kOption.thickness, kOption.maxPieces,
+                      kOption.insert}};
 }
 
 }  // namespace lumen::convert
