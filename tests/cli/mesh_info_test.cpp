@@ -54,7 +54,8 @@ TEST_F(MeshInfoTest, TheUnitIsGuessedAndAnnounced) {
       "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
   const Outcome guessed = lumen({"info", "box.obj"});
   EXPECT_EQ(guessed.code, 0);
-  EXPECT_NE(guessed.err.find("its size is that of vessels in m"), std::string::npos) << guessed.err;
+  EXPECT_NE(guessed.err.find("taken to be in m: vessels of 4.76 mm radius"), std::string::npos)
+      << guessed.err;
   EXPECT_NEAR(info({"box.obj"})["volume_mm3"].get<double>(), 1e4, 1e-6);
   const Outcome stated = lumen({"info", "box.obj", "--unit", "cm"});
   EXPECT_EQ(stated.err.find("warning"), std::string::npos) << stated.err;

@@ -24,7 +24,7 @@ def actor(mesh, array, title, most):
     bar.SetTitle(title)
     bar.SetNumberOfLabels(4)
     bar.SetMaximumWidthInPixels(70)
-    bar.SetPosition(0.87, 0.1)
+    bar.SetPosition(0.88, 0.1)
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         text.SetColor(0, 0, 0)
         text.ShadowOff()
@@ -46,9 +46,9 @@ def main(source, out):
     mesh = reader.GetOutput()
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
-    window.SetSize(1200, 600)
+    window.SetSize(1400, 620)
     camera = None
-    for k, (array, title, share) in enumerate((("pressure_Pa", "pressure, Pa", 1), ("wall_shear_stress_Pa", "wall shear stress, Pa", 0.98))):
+    for k, (array, title, share) in enumerate((("pressure_Pa", "pressure, Pa", 1), ("wall_shear_stress_Pa", "stress, Pa", 0.98))):
         renderer = vtk.vtkRenderer()
         renderer.SetBackground(1, 1, 1)
         renderer.SetViewport(0.5 * k, 0, 0.5 * k + 0.5, 1)
@@ -60,7 +60,7 @@ def main(source, out):
             camera.SetFocalPoint(0, 0, 0)
             camera.SetViewUp(0, 0, 1)
             renderer.ResetCamera()
-            camera.Zoom(1.2)
+            camera.Zoom(1.05)
         window.AddRenderer(renderer)
     window.Render()
     picture = vtk.vtkWindowToImageFilter()

@@ -63,7 +63,8 @@ public:
     requireInput(m_input, "case file");
     requireInScope(*around.table, {}, around.progress);
     if (!m_minRadius && !m_minLength)
-      throw Error(ErrorKind::Usage, "nothing to trim by; expected --min-radius, --min-length or both");
+      throw Error(ErrorKind::Usage,
+                  "nothing to trim by; expected --min-radius, --min-length or both");
     requireWritable(m_output, convert::ContentKind::Case);
     around.willWrite(m_output);
 

@@ -22,7 +22,8 @@ std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words);
 /// A case of which blood reaches all parts.
 struct FlowCase {
   formats::Case value;
-  std::vector<std::string> losses;  ///< a sentence for each part that was left out; labels as they are
+  std::vector<std::string>
+      losses;  ///< a sentence for each part that was left out; labels as they are
 };
 
 /// Leaves out the connected parts of a case that no inlet leads to; links connect. Inlets are the

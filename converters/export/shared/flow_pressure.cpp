@@ -75,7 +75,8 @@ std::string warningAt(const FlowNetwork& network, const std::vector<double>& pre
   return network.joints[inlet].name + ": a solver will find a mean pressure of " +
          fixedText(pressures[inlet] / kMmHg, 0) + " mmHg here, and arteries have 70 to 105; " +
          steepest->name + ", which thins to a radius of " + numberText(thinnest, 3) +
-         " mm, takes " + fixedText(greatest / kMmHg, 0) + " of it";
+         " mm, takes " + fixedText(greatest / kMmHg, 0) +
+         " of it; lumen trim removes ends that are too thin";
 }
 
 }  // namespace

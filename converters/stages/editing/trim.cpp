@@ -58,8 +58,7 @@ private:
     const std::uint32_t left = lengthOfEnd(branch, held, withoutThin(branch, held, m_left[b]));
     if (left == m_left[b]) return false;
     m_left[b] = left;
-    if (left == 0 && branch.parentNode >= 0)
-      --m_holds[static_cast<std::size_t>(branch.parentNode)];
+    if (left == 0 && branch.parentNode >= 0) --m_holds[static_cast<std::size_t>(branch.parentNode)];
     return true;
   }
 
@@ -108,7 +107,8 @@ std::string limitsText(const TrimLimits& limits) {
   std::string text;
   if (limits.minRadius > 0) text = "thinner than " + shownNumber(limits.minRadius) + " mm";
   if (limits.minLength > 0)
-    text += (text.empty() ? "" : " or ") + ("shorter than " + shownNumber(limits.minLength)) + " mm";
+    text +=
+        (text.empty() ? "" : " or ") + ("shorter than " + shownNumber(limits.minLength)) + " mm";
   return text;
 }
 

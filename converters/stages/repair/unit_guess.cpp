@@ -29,9 +29,9 @@ struct KnownVessels {
 /// Diameters by Caro et al., The mechanics of the circulation, 2012, and wider ones for aneurysms;
 /// lengths from a single fork to the whole of the region.
 constexpr std::array<KnownVessels, 3> kKnown = {{
-    {0.3, 3, 5, 250},    // arteries of the brain, the heart and the organs
-    {1.5, 6, 20, 700},   // arteries of the neck and the limbs
-    {4, 30, 50, 700},    // the aorta with its branches
+    {0.3, 3, 5, 250},   // arteries of the brain, the heart and the organs
+    {1.5, 6, 20, 700},  // arteries of the neck and the limbs
+    {4, 30, 50, 700},   // the aorta with its branches
 }};
 constexpr double kLeastRadius = 0.2, kMostRadius = 30;      // mm, of any vessel
 constexpr double kLeastDiagonal = 3, kMostDiagonal = 2000;  // mm
@@ -86,8 +86,8 @@ double volumeWithFans(const TriangleMesh& mesh) {
 
 /// "vessels of 9.1 mm radius in a box of 250 mm".
 std::string sizeText(const VesselSize& size, double mm) {
-  return "vessels of " + shownFigure(size.radius * mm) + " mm radius in a box of " +
-         shownFigure(size.diagonal * mm) + " mm";
+  return "vessels of " + shownNumber(size.radius * mm, 3) + " mm radius in a box of " +
+         shownNumber(size.diagonal * mm, 3) + " mm";
 }
 
 }  // namespace

@@ -110,8 +110,7 @@ TEST(Trim, RecordsAnEditUnlessNothingGoes) {
   EXPECT_TRUE(trimEnds(value, {0.1, 0}).ends.empty());
   EXPECT_EQ(lastStep(value.metadata, kEditStep), nullptr);
   const TrimResult trimmed = trimEnds(value, {0.3, 1.9});
-  EXPECT_EQ(trimmed.change.sentence,
-            "trimmed 3 ends thinner than 0.3 mm or shorter than 1.9 mm");
+  EXPECT_EQ(trimmed.change.sentence, "trimmed 3 ends thinner than 0.3 mm or shorter than 1.9 mm");
   EXPECT_NE(lastStep(value.metadata, kEditStep), nullptr);
 }
 

@@ -47,8 +47,7 @@ TEST(FlowInlets, FragmentsAreLeftOutAndReported) {
   const FlowCase made = flowCase(makeParts(), {});
   EXPECT_EQ(labels(made.value), (Labels{"long", "short"}));
   ASSERT_EQ(made.losses.size(), 1U);
-  EXPECT_EQ(made.losses[0].find("crumb: this part, of 1 branch and 3.00 mm"), 0U)
-      << made.losses[0];
+  EXPECT_EQ(made.losses[0].find("crumb: this part, of 1 branch and 3.00 mm"), 0U) << made.losses[0];
 }
 
 TEST(FlowInlets, APartThatBeginsWithinTheVolumeHasNoInlet) {

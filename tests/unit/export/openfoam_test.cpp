@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells, patches and waveform of the target OpenFOAM.
-#include "converters/export/targets/openfoam/foam_patches.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +11,7 @@
 
 #include "converters/base/error.h"
 #include "converters/export/shared/blood.h"
+#include "converters/export/targets/openfoam/foam_patches.h"
 #include "converters/export/targets/openfoam/openfoam_cells.h"
 #include "converters/export/targets/openfoam/waveform.h"
 #include "tests/unit/export/made_tree.h"
@@ -26,8 +25,8 @@ formats::Case withTwigs(int twigs) {
   formats::Case value;
   addBranch(value.tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 101, 4);
   for (int k = 0; k < twigs; ++k)
-    addBranch(value.tree, "twig" + std::to_string(k), 10 + k,
-              {5, 0, static_cast<float>(10 + k)}, {1, 0, 0}, 100, 0.1F);
+    addBranch(value.tree, "twig" + std::to_string(k), 10 + k, {5, 0, static_cast<float>(10 + k)},
+              {1, 0, 0}, 100, 0.1F);
   return value;
 }
 
@@ -64,10 +63,9 @@ TEST(FoamPatches, OutletsShareTheFlowByMurray) {
   formats::CenterlineTree tree;
   addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 21, 2);
   addBranch(tree, "side", 10, {3, 0, 10}, {1, 0, 0}, 10, 1);
-  std::vector<FoamPatch> patches = {patch("wall", FaceKind::Wall, 0),
-                                    patch("inlet", FaceKind::Inlet, 2),
-                                    patch("outlet-trunk", FaceKind::Outlet, 2),
-                                    patch("outlet-side", FaceKind::Outlet, 1)};
+  std::vector<FoamPatch> patches = {
+      patch("wall", FaceKind::Wall, 0), patch("inlet", FaceKind::Inlet, 2),
+      patch("outlet-trunk", FaceKind::Outlet, 2), patch("outlet-side", FaceKind::Outlet, 1)};
   const FlowNetwork network = flowNetwork(tree);
   EXPECT_TRUE(assignFlows(patches, network).empty());
   const double flow = 0.2 * std::numbers::pi * 4e-6;

@@ -17,8 +17,8 @@ namespace {
 
 /// Most significant digits of a number in a dictionary of OpenFOAM.
 constexpr int kFoamDigits = 12;
-constexpr int kMostSteps = 1000;   // of a steady flow
-constexpr int kHeartbeats = 2;         // of the heart: the first one fades away
+constexpr int kMostSteps = 1000;    // of a steady flow
+constexpr int kHeartbeats = 2;      // of the heart: the first one fades away
 constexpr int kTimesInCycle = 100;  // of the table of a waveform
 
 std::string foamNumber(double value) {
@@ -56,14 +56,14 @@ std::string snappyHexMeshDict(const FoamCase& foam) {
                "; } }\n";
   }
   for (const Eigen::Vector3d& p : foam.inside) places += " (" + foamVector(p) + " none)";
-  return exportText("openfoam/snappyHexMeshDict",
-                    {{"regions", regions},
-                     {"least", std::to_string(least)},
-                     {"layers", std::to_string(foam.layers)},
-                     {"refinements", refined},
-                     {"places", foam.inside.size() == 1
-                                    ? "locationInMesh " + foamVector(foam.inside.front())
-                                    : "locationsInMesh (" + places + " )"}});
+  return exportText(
+      "openfoam/snappyHexMeshDict",
+      {{"regions", regions},
+       {"least", std::to_string(least)},
+       {"layers", std::to_string(foam.layers)},
+       {"refinements", refined},
+       {"places", foam.inside.size() == 1 ? "locationInMesh " + foamVector(foam.inside.front())
+                                          : "locationsInMesh (" + places + " )"}});
 }
 
 std::string controlDict(const FoamCase& foam) {
@@ -83,7 +83,7 @@ std::string controlDict(const FoamCase& foam) {
             ";";
   else
     times = "endTime " + numberText(kHeartbeats * kCycle) +
-            ";\ndeltaT 1e-4;\nadjustTimeStep yes;\nmaxCo 5;\nmaxDeltaT " +
+            ";\ndeltaT 1e-4;\nadjustTimeStep yes;\nmaxCo 20;\nmaxDeltaT " +
             numberText(kCycle / kTimesInCycle) + ";\nwriteControl adjustableRunTime;\n" +
             "writeInterval " + numberText(kCycle / 10) + ";";
   return exportText("openfoam/controlDict",
@@ -94,11 +94,11 @@ std::string controlDict(const FoamCase& foam) {
 std::string flowText(double flow, FoamFlow kind) {
   if (kind == FoamFlow::Steady) return "constant " + foamNumber(flow);
   std::string values;
-  for (int k = 0; k <= kTimesInCycle; ++k) {
+  for (int k = 0; k <= kHeartbeats * kTimesInCycle; ++k) {
     const double time = kCycle * k / kTimesInCycle;
     values += " (" + numberText(time) + " " + numberText(flow * carotidFlow(time)) + ")";
   }
-  return "table; volumetricFlowRateCoeffs { outOfBounds repeat; values (" + values + " ); }";
+  return "table (" + values + " )";
 }
 
 std::string velocity(const FoamCase& foam) {
@@ -128,13 +128,13 @@ std::string pressure(const std::vector<FoamPatch>& patches) {
 }
 
 ExportFile allrun(FoamFlow flow) {
-  ExportFile file{"Allrun",
-                  exportText("openfoam/Allrun",
-                             {{"solver", solverOf(flow)},
-                              {"verdict", exportText(flow == FoamFlow::Steady
-                                                         ? "openfoam/verdict-steady"
-                                                         : "openfoam/verdict-pulsatile")}}),
-                  "makes the mesh, runs the flow, writes `wall-TIME.vtp`", ""};
+  ExportFile file{
+      "Allrun",
+      exportText("openfoam/Allrun", {{"solver", solverOf(flow)},
+                                     {"verdict", exportText(flow == FoamFlow::Steady
+                                                                ? "openfoam/verdict-steady"
+                                                                : "openfoam/verdict-pulsatile")}}),
+      "makes the mesh, runs the flow, writes `wall-TIME.vtp`", ""};
   file.isProgram = true;
   return file;
 }

@@ -124,7 +124,8 @@ std::vector<FoamPatch> foamPatches(const SurfaceMesh& mesh, const std::vector<in
 std::vector<std::string> assignFlows(std::vector<FoamPatch>& patches, const FlowNetwork& network) {
   for (const FlowTree& tree : network.trees) {
     FlowPart part = partOf(patches, network, tree);
-    if (!part.inlets.empty() && !part.outlets.empty()) share(part);
+    if (!part.inlets.empty() && !part.outlets.empty())
+      share(part);
     else
       for (FoamPatch* inlet : part.inlets) inlet->flow = 0;
   }

@@ -15,14 +15,14 @@ namespace lumen::convert {
 
 /// A group of faces as a patch of the mesh.
 struct FoamPatch {
-  std::string end;                  ///< name of the group
-  std::string name;                 ///< as OpenFOAM takes it
-  FaceKind kind = FaceKind::Wall;   ///< an end that is not flat is a wall
-  double radius = 0;                ///< mm, of an end
-  int level = 0;                    ///< halvings of cells there
-  double flow = 0;                  ///< m^3/s, in or out
-  bool holdsPressure = false;       ///< an outlet of pressure 0, through which the rest flows
-  double drop = 0;                  ///< Pa, by Poiseuille: above the outlet that holds pressure
+  std::string end;                 ///< name of the group
+  std::string name;                ///< as OpenFOAM takes it
+  FaceKind kind = FaceKind::Wall;  ///< an end that is not flat is a wall
+  double radius = 0;               ///< mm, of an end
+  int level = 0;                   ///< halvings of cells there
+  double flow = 0;                 ///< m^3/s, in or out
+  bool holdsPressure = false;      ///< an outlet of pressure 0, through which the rest flows
+  double drop = 0;                 ///< Pa, by Poiseuille: above the outlet that holds pressure
 };
 
 /// Divides the wall of a surface into groups by the levels that `cells` has for its radii: the first
