@@ -83,7 +83,8 @@ def check_case(name, program, folder, parts):
     expect(abs(float(re.search(r"balance (\S+) %", printed).group(1))) < 0.5, f"{name}: the balance of flows: {printed}")
     solids = stl(case / "constant" / "triSurface" / "vessel.stl")
     meshed = float(re.search(r"Total volume = ([0-9]+\.[0-9]+(?:e[+-][0-9]+)?)", logs["checkMesh"]).group(1))
-    near(meshed, volume([t for s in solids.values() for t in s]), 0.02, f"{name}: the mesh holds what the surface encloses, m^3")
+    # six cells across a vessel cut the corners of its section: 3 % of the area, 1.5 % of the radius
+    near(meshed, volume([t for s in solids.values() for t in s]), 0.03, f"{name}: the mesh holds what the surface encloses, m^3")
     post = lambda kind, end: last_flow(next((case / "postProcessing" / f"{kind}_{end}").rglob("surfaceFieldValue.dat")))
     expected = {row["end"]: {"flow": float(row["flow_m3_s"]), "drop": float(row["pressure_Pa"])} for row in csv.DictReader((case / "expected.csv").open())}
     speed = 0.2
@@ -93,10 +94,11 @@ def check_case(name, program, folder, parts):
         points = [p for t in solids[end["name"]] for p in t]
         middle = [sum(p[a] for p in points) / len(points) for a in range(3)]
         expect(math.dist(middle, end["position"]) < 0.3 * end["radius"], f"{name}: {end['name']} lies where it is said to")
-        # an entrance takes up to 1.3 times the pressure of the speed there, a fork and bends about as much
+        # an entrance takes up to 1.3 times the pressure of the speed there, a fork about as much; a radius that is 1.5 % less adds 6 %,
+        # and bends some 10 %
         drop, by_law = DENSITY * post("pressure", end["name"]), expected[end["name"]]["drop"]
         if end["kind"] == "inlet":
-            expect(0.9 * by_law < drop < 1.1 * by_law + 3 * DENSITY * speed ** 2 / 2, f"{name}: {drop} Pa at {end['name']}, by Poiseuille {by_law}")
+            expect(0.95 * by_law < drop < 1.2 * by_law + 2 * DENSITY * speed ** 2 / 2, f"{name}: {drop} Pa at {end['name']}, by Poiseuille {by_law}")
             print(f"{name}: {drop:.1f} Pa at {end['name']}, by Poiseuille {by_law:.1f}")
     check_wall(name, case, expected, manifest["ends"])
     print(name, printed.splitlines()[-2:], re.search(r"cells: +(\d+)", logs["checkMesh"]).group(0))

@@ -26,12 +26,12 @@ namespace {
 struct KnownVessels {
   double leastRadius, mostRadius, leastDiagonal, mostDiagonal;
 };
-/// Diameters by Caro et al., The mechanics of the circulation, 2012, and wider ones for aneurysms;
+/// Diameters by Caro et al., The mechanics of the circulation, 2012; of an aneurysm the mean counts;
 /// lengths from a single fork to the whole of the region.
 constexpr std::array<KnownVessels, 3> kKnown = {{
     {0.3, 3, 5, 250},   // arteries of the brain, the heart and the organs
     {1.5, 6, 20, 700},  // arteries of the neck and the limbs
-    {4, 30, 50, 700},   // the aorta with its branches
+    {4, 16, 50, 700},   // the aorta with its branches
 }};
 constexpr double kLeastRadius = 0.2, kMostRadius = 30;      // mm, of any vessel
 constexpr double kLeastDiagonal = 3, kMostDiagonal = 2000;  // mm

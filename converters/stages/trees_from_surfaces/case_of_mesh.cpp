@@ -120,16 +120,19 @@ MeshCase caseOfLumen(const ClosedMesh& surface, double resolution, const std::st
                        "it encloses no vessel");
   const VolumeGeometry grid = insideGrid(surface, std::max(width, resolution));
   progress.begin("tree", 0);
+  // labels are open where they touch a face of their volume, with a vessel or without
+  const bool isMesh = resolution == 0;
   const VesselLines lines = centerline ? clipLines(centerline->file, centerline->name, lumen)
-                                       : findLines(lumen, grid, progress);
+                                       : findLines(lumen, grid, isMesh, progress);
   progress.end();
   if (lines.lines.empty())
     throw invalidInput(name + ": no vessel was found inside of this surface");
   out.notes.insert(out.notes.end(), lines.notes.begin(), lines.notes.end());
   std::copy_if(surface.ends.begin(), surface.ends.end(), std::back_inserter(out.openings),
                [](const MeshEnd& end) { return end.wasOpen; });
-  for (const std::string& note : missedOpenings(lines.lines, out.openings))
-    out.notes.push_back(name + ": " + note);
+  if (isMesh)
+    for (const std::string& note : missedOpenings(lines.lines, out.openings))
+      out.notes.push_back(name + ": " + note);
   out.result = nodesOnLines(lines.lines, lumen, kLeastRadius * grid.voxelSize(), progress);
   if (const std::string note = loopsNote(surface, out.result.tree); !note.empty())
     out.notes.push_back(name + ": " + note);

@@ -25,8 +25,10 @@ constexpr double kEndDepths = 4;        // depths from where a path is trimmed t
 /// From the inside as voxels to lines.
 class LineFinder {
 public:
-  LineFinder(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress)
+  LineFinder(const LumenGeometry& lumen, const VolumeGeometry& grid, bool allOpenings,
+             Progress& progress)
       : m_lumen(lumen),
+        m_allOpenings(allOpenings),
         m_set(grid, insideVoxels(lumen.surface().mesh, grid, progress)),
         m_depths(depths(progress)),
         m_isOpen(
@@ -130,7 +132,7 @@ private:
                const std::vector<std::uint32_t>& part) {
     std::vector<VesselPath> paths = m_paths.find(root, m_progress);
     const std::size_t found = paths.size();
-    reachOpenings(paths, atEnd, part);
+    if (m_allOpenings) reachOpenings(paths, atEnd, part);
     const std::size_t first = m_out.lines.size();
     for (std::size_t w = 0; w < paths.size(); ++w) {
       m_progress.check();
@@ -195,6 +197,7 @@ private:
   }
 
   const LumenGeometry& m_lumen;
+  bool m_allOpenings;
   VoxelSet m_set;
   std::vector<float> m_depths;
   VesselPaths::IsOpen m_isOpen;
@@ -205,8 +208,9 @@ private:
 
 }  // namespace
 
-VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress) {
-  return LineFinder(lumen, grid, progress).find();
+VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, bool allOpenings,
+                      Progress& progress) {
+  return LineFinder(lumen, grid, allOpenings, progress).find();
 }
 
 }  // namespace lumen::convert

@@ -18,8 +18,10 @@ struct VesselLines {
 };
 
 /// The vessels of each connected part of the inside (docs/method.md, section 10): from its widest
-/// flat end, or else from its widest tip. `grid` is that of insideGrid(). Throws Error(Cancelled).
-VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress);
+/// flat end, or else from its widest tip. `grid` is that of insideGrid(). `allOpenings`: a line leads to
+/// each opening, however short it is. Throws Error(Cancelled).
+VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, bool allOpenings,
+                      Progress& progress);
 
 /// The chains of a centerline (mm, LPS), without their parts outside. Throws Error(InvalidInput),
 /// `name` (of its file, printable) first, if less than half of its points lie inside; the message
