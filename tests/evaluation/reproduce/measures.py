@@ -37,7 +37,7 @@ class Case:
 
     def __init__(self, folder, lumen, name, seed, voxel=VOXEL, step=None):
         size = round(EXTENT / voxel) + 1
-        stem = folder / f"{name}-{seed}-{voxel:g}"
+        stem = folder / f"{name}-{seed}-{round(1000 * voxel)}"
         case = stem.with_suffix(".lumen")
         if not case.exists():
             volume, seeds = stem.with_suffix(".nrrd"), stem.with_suffix(".json")
