@@ -14,8 +14,7 @@ namespace {
 
 /// "12.3 ± 0.4", or "-" with the reason as a title.
 Markup measureCell(const Measured& m, int decimals) {
-  if (!m.absent.empty())
-    return element("span", text("-"), "title=\"" + htmlText(m.absent) + "\"");
+  if (!m.absent.empty()) return element("span", text("-"), "title=\"" + htmlText(m.absent) + "\"");
   std::string shown = fixedText(m.value, decimals);
   if (std::isfinite(m.plusMinus)) shown += " \u00b1 " + fixedText(m.plusMinus, decimals);
   return text(shown);
@@ -49,10 +48,9 @@ Markup pathMeasures(const ReportFacts& facts) {
                                 {"catheter Fr"}});
   const auto& branches = facts.value.tree.branches;
   for (const PathMeasures& m : facts.measures.paths)
-    table.row({name(branches[m.inlet].label), name(branches[m.end].label),
-               measureCell(m.length, 1), measureCell(m.turning, 0), measureCell(m.forks, 0),
-               measureCell(m.takeOff, 0), measureCell(m.calibreStep, 2),
-               measureCell(m.catheter, 1)});
+    table.row({name(branches[m.inlet].label), name(branches[m.end].label), measureCell(m.length, 1),
+               measureCell(m.turning, 0), measureCell(m.forks, 0), measureCell(m.takeOff, 0),
+               measureCell(m.calibreStep, 2), measureCell(m.catheter, 1)});
   return table.markup();
 }
 

@@ -148,7 +148,7 @@ private:
         break;
       }
     }
-    out.forks = {static_cast<double>(met), 0, {}};
+    out.forks.value = static_cast<double>(met);
     if (!out.takeOff.absent.empty() && !takeOffReason.empty())
       out.takeOff = notDefined(takeOffReason);
     if (!out.calibreStep.absent.empty() && !stepReason.empty())
