@@ -14,6 +14,12 @@ const needed = [
   [join(page, "dist/page.js"), "npm run build in viewer/page"],
   [join(page, "dist/blob.wasm"), "the target viewer_page, which needs what libblob/wasm/README.md names"],
 ];
+if (process.argv.includes("firefox"))
+  needed.push(
+    [process.env.FIREFOX ?? "/usr/bin/firefox-esr", "apt install firefox-esr"],
+    ["/usr/bin/Xvfb", "apt install xvfb"],
+    [join(page, "node_modules/puppeteer-core"), "npm ci in viewer/page"],
+  );
 for (const [path, remedy] of needed)
   if (!existsSync(path)) {
     console.log(`skipped: ${path} is missing (${remedy})`);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page in Firefox: opening, probing, a cut with views that follow, dropped DICOM, folding panels.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { count, keep, openInFirefox, settle, text, untilText } from "./firefox.mjs";
+import { firstVessel } from "./hand.mjs";
+import { lumen, makeFolder, view } from "./lumen.mjs";
+import { dicomSlices, readNrrd } from "./make_dicom.mjs";
+
+const rows = "#tree-list [role=treeitem]";
+
+/** Presses keys that are held with Shift. */
+async function shift(page, key) {
+  await page.keyboard.down("Shift");
+  await page.keyboard.press(key);
+  await page.keyboard.up("Shift");
+}
+
+test("a case is opened, probed and cut where the views show it, and its panels fold", async t => {
+  const file = makeFolder(t);
+  firstVessel(file, "bifurcation");
+  const { address } = await view(t, file("volume.nrrd"), file("vessels.lumen")),
+    page = await openInFirefox(t, address);
+  await page.waitForSelector(rows);
+  await settle(page);
+  await keep(page, "firefox-open");
+  const light = await page.evaluate(() => {
+    const gl = document.querySelector("canvas.stage").getContext("webgl2"),
+      { width, height } = gl.canvas,
+      bytes = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return bytes.filter((value, i) => i % 4 === 0 && value > 120).length;
+  });
+  assert.ok(light > 500, `${light} light pixels of slices and scene`);
+
+  // the list leads every view to the vessel; the pointer in the middle of a slice is then in the lumen
+  await page.click(`${rows} .name`);
+  await settle(page);
+  const box = await (await page.$("#view-axial")).boundingBox();
+  const there = (await page.$eval("#probe-position", e => e.dataset.mm)).split(" ").map(Number);
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await settle(page);
+  const pointed = (await page.$eval("#probe-position", e => e.dataset.mm)).split(" ").map(Number);
+  assert.ok(pointed.every(Number.isFinite) && there.every(Number.isFinite));
+  assert.ok(Math.abs(pointed[2] - there[2]) < 0.01, "the axial slice is at the height of the cursor");
+  await keep(page, "firefox-probe");
+
+  const before = await count(page, rows);
+  await shift(page, "X");
+  await page.waitForFunction((where, n) => document.querySelectorAll(where).length > n, {}, rows, before);
+  await settle(page);
+  await keep(page, "firefox-cut");
+  await page.keyboard.down("Control");
+  await page.keyboard.press("z");
+  await page.keyboard.up("Control");
+  await page.waitForFunction((where, n) => document.querySelectorAll(where).length === n, {}, rows, before);
+
+  const wide = (await (await page.$("#views")).boundingBox()).width;
+  await page.click("#fold-left");
+  await page.click("#fold-right");
+  await settle(page);
+  const folded = (await (await page.$("#views")).boundingBox()).width;
+  assert.ok(folded > wide + 300, `${wide} pixels of views before, ${folded} with folded panels`);
+  await keep(page, "firefox-folded");
+});
+
+test("DICOM is dropped and one of two series chosen", async t => {
+  const file = makeFolder(t);
+  lumen("phantom", "bifurcation", file("volume.nrrd"), "--size", "64");
+  const volume = readNrrd(file("volume.nrrd")),
+    files = [
+      ...dicomSlices(volume, { uid: "1.2.3.1", description: "Angiogram" }),
+      ...dicomSlices(volume, { uid: "1.2.3.2", description: "Overview", every: 4 }),
+    ];
+  const { address } = await view(t),
+    page = await openInFirefox(t, address);
+  await page.evaluate(
+    list => {
+      const data = new DataTransfer();
+      for (const [name, base64] of list)
+        data.items.add(new File([Uint8Array.from(atob(base64), c => c.charCodeAt(0))], name));
+      for (const type of ["dragenter", "dragover", "drop"])
+        document
+          .querySelector("#views")
+          .dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+    },
+    files.map(({ name, bytes }, i) => [`${i}-${name}`, bytes.toString("base64")]),
+  );
+  await page.waitForSelector("#series-dialog .series");
+  await keep(page, "firefox-series");
+  assert.equal(await count(page, "#series-dialog .series"), 2);
+  await page.click("#series-dialog .series");
+  await untilText(page, "#volume-about", /Angiogram: 64 × 64 × 64 voxels/);
+  await settle(page);
+  assert.equal(await text(page, "#title"), "Angiogram");
+  await keep(page, "firefox-dicom");
+});
