@@ -8,6 +8,7 @@ import { followVessel } from "./selection";
 import { resetPlanes, turnPlanes } from "./slice_input";
 import { brief, button, checkbox, h, section, select, slider } from "./ui";
 import type { Volume } from "./volume";
+import { kPresets, presetOf, windowOf } from "./window_presets";
 
 const kLayerTitles: [keyof Layers, string, string][] = [
   ["surface", "Surface", "The wall as triangles"],
@@ -64,6 +65,16 @@ function volumeSection(app: App): HTMLElement {
     true,
     on => store.set({ interpolate: on }),
   );
+  const preset = select<string>(
+    "window-preset",
+    "Window for CT, in Hounsfield units",
+    [["", "Window…"], ...kPresets.map(({ name, title }): [string, string] => [name, title])],
+    "",
+    name => {
+      const window = windowOf(name);
+      if (window !== null) store.set({ window });
+    },
+  );
   const about = h("p", { class: "hint", id: "volume-about" });
   const box = section(
     "section-volume",
@@ -90,6 +101,7 @@ function volumeSection(app: App): HTMLElement {
     ),
     plot,
     h("div", { class: "row" }, cast, smooth),
+    h("label", { class: "line" }, "CT", preset),
     about,
   );
   let drawn: Volume | null = null,
@@ -98,6 +110,7 @@ function volumeSection(app: App): HTMLElement {
     low.value = brief(view.window[0]);
     high.value = brief(view.window[1]);
     cast.value = view.cast;
+    preset.value = presetOf(view.window);
     if (view.volume !== null && view.volumeReady >= view.volume.size[2] && drawn !== view.volume) {
       drawn = view.volume;
       counts = view.volume.histogram(128);
