@@ -24,12 +24,12 @@ namespace lumen::engine {
 /// The user's statements about a volume's file.
 struct VolumeArguments {
   std::string series;
-  bool skipFaulty = false;                  ///< leave out files of DICOM that cannot be read
   std::vector<int> crop;                    ///< empty, or i0, i1, j0, j1, k0, k1
   std::optional<std::int64_t> volumeIndex;  ///< from 0
   std::string spacing;  ///< empty, or mm of one or three axes, with commas between them
   std::string unit;     ///< empty, or mm, cm, m or um
   std::vector<std::string> allowDetached;
+  bool skipFaulty = false;  ///< leave out files of DICOM that cannot be read
   [[nodiscard]] convert::ReadVolumeOptions options() const;
 };
 

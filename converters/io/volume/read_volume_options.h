@@ -20,9 +20,6 @@ enum class VolumeFormat { Nrrd, Nifti, MetaImage, Dicom };
 struct ReadVolumeOptions {
   /// DICOM: instance UID of a series, or its number in the listing, from 1; empty: the only one.
   std::string series{};
-  /// DICOM: files that cannot be read are left out, and an assumption names each, instead of a
-  /// refusal of the series.
-  bool skipFaulty = false;
   std::optional<CellBox> crop{};  ///< keep only this box; the origin moves with it
   /// Index of the volume in a file that holds several, from 0, as 4-D files of NIfTI, NRRD and
   /// MetaImage do.
@@ -34,6 +31,9 @@ struct ReadVolumeOptions {
   /// --allow-detached: files, and folders with everything below them, that may hold voxels besides
   /// the header's own folder.
   std::vector<std::filesystem::path> allowedDetached{};
+  /// DICOM: files that cannot be read are left out, and an assumption names each, instead of a
+  /// refusal of the series.
+  bool skipFaulty = false;
 };
 
 }  // namespace lumen::convert
