@@ -61,12 +61,12 @@ std::vector<Triangle> simplified(const RunMesh& mesh, double share) {
 
 }  // namespace
 
-MovingSurface movingSurface(std::span<const convert::Float3> position, std::span<const float> radius,
-                            std::span<const Triangle> triangle, std::span<const TriangleRun> run,
-                            std::size_t most) {
+MovingSurface movingSurface(std::span<const convert::Float3> position,
+                            std::span<const float> radius, std::span<const Triangle> triangle,
+                            std::span<const TriangleRun> run, std::size_t most) {
   const double share =
-      std::min(1.0, static_cast<double>(most) / static_cast<double>(std::max<std::size_t>(
-                                                    triangle.size(), 1)));
+      std::min(1.0, static_cast<double>(most) /
+                        static_cast<double>(std::max<std::size_t>(triangle.size(), 1)));
   std::vector<std::vector<Triangle>> parts(run.size());
   tbb::parallel_for(std::size_t{0}, run.size(), [&](std::size_t i) {
     const auto [first, count] = run[i];

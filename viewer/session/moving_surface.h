@@ -24,7 +24,8 @@ struct MovingSurface {
 /// Each run of `triangle` with a share of its triangles, so that all have about `most`, but no wall
 /// moved by more than a third of its radius. `radius` is that of each vertex, mm. A run is never
 /// empty if it was not.
-MovingSurface movingSurface(std::span<const convert::Float3> position, std::span<const float> radius,
+MovingSurface movingSurface(std::span<const convert::Float3> position,
+                            std::span<const float> radius,
                             std::span<const convert::Triangle> triangle,
                             std::span<const TriangleRun> run, std::size_t most);
 

@@ -22,13 +22,14 @@ constexpr std::size_t kMostFaults = 50;  // of files, in the state
 
 Json seriesJson(const convert::DicomSeries& series, const DroppedFiles& dropped) {
   const bool isSound = series.fault.empty();
-  return {{"description", printable(series.description)},
-          {"modality", printable(series.modality)},
-          {"files", series.files},
-          {"size", series.size},
-          {"spacing", isSound ? Json({series.spacing.x(), series.spacing.y(), series.spacing.z()})
-                              : Json(nullptr)},
-          {"fault", isSound ? Json(nullptr) : Json(dropped.withoutFolder(printable(series.fault)))}};
+  return {
+      {"description", printable(series.description)},
+      {"modality", printable(series.modality)},
+      {"files", series.files},
+      {"size", series.size},
+      {"spacing", isSound ? Json({series.spacing.x(), series.spacing.y(), series.spacing.z()})
+                          : Json(nullptr)},
+      {"fault", isSound ? Json(nullptr) : Json(dropped.withoutFolder(printable(series.fault)))}};
 }
 
 }  // namespace

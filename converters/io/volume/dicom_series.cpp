@@ -28,8 +28,9 @@ GreyPicture reduced(const Voxels& voxels, int columns, int rows) {
       [&](const auto& all) {
         for (int j = 0; j < rows; j += step)
           for (int i = 0; i < columns; i += step)
-            value.push_back(static_cast<double>(all[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-                                                    static_cast<std::size_t>(i)]));
+            value.push_back(static_cast<double>(
+                all[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>(i)]));
       },
       voxels);
   std::vector<double> sorted = value;

@@ -27,7 +27,7 @@ struct DicomSeries {
   std::string uid;                    ///< chooses it (`ReadVolumeOptions::series`)
   std::string description, modality;  ///< as the files have them; any text
   std::size_t files = 0;
-  std::array<int, 3> size{};                         ///< columns, rows, slices
+  std::array<int, 3> size{};                          ///< columns, rows, slices
   Eigen::Vector3d spacing = Eigen::Vector3d::Zero();  ///< mm; 0 where `fault` is not empty
   std::string fault;    ///< why it cannot be opened as a volume; empty: it can
   GreyPicture picture;  ///< its middle slice; empty if its pixels cannot be read

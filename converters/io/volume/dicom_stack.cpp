@@ -115,8 +115,9 @@ VolumeGeometry stackPlaced(std::vector<DicomFrame>& slices, const ReadVolumeOpti
     checkSameGrid(slice, slices[0], path);
     slice.position = geometry.direction.col(2).dot(*slice.plane.position);
   }
-  std::stable_sort(slices.begin(), slices.end(),
-                   [](const DicomFrame& a, const DicomFrame& b) { return a.position < b.position; });
+  std::stable_sort(slices.begin(), slices.end(), [](const DicomFrame& a, const DicomFrame& b) {
+    return a.position < b.position;
+  });
   geometry.spacing = pixelSpacing(slices[0], options);
   geometry.spacing[2] = sliceSpacing(slices, path);
   checkUpright(slices, geometry.direction, options.spacing.value_or(geometry.spacing), path);

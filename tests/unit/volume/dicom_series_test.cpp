@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The listing of a folder of DICOM, and folders with files that cannot be read.
+#include "converters/io/volume/dicom_series.h"
+
 #include <algorithm>
 
-#include "converters/io/volume/dicom_series.h"
 #include "dicom_fixture.h"
 #include "fixtures.h"
 
@@ -100,7 +101,9 @@ TEST_F(DicomListingTest, FaultyFilesAreLeftOutOnDemandAndNamed) {
   writeMixture();
   ReadVolumeOptions options;
   options.series = "1.2.3.2";
-  const auto read = [&] { return readVolume(directory(), VolumeFormat::Dicom, options, Progress()); };
+  const auto read = [&] {
+    return readVolume(directory(), VolumeFormat::Dicom, options, Progress());
+  };
   EXPECT_NE(refusal([&] { (void)read(); }).find("broken.dcm"), std::string::npos);
   options.skipFaulty = true;
   const Volume volume = read();
