@@ -14,27 +14,18 @@ namespace {
 using convert::ExportTarget;
 
 /// A value of each option that differs from its default for the case below.
-const std::map<std::string, std::string> kValues = {{"unit", "m"},
-                                                    {"up", "y"},
-                                                    {"edge", "0.9r"},
-                                                    {"max-error", "0.3"},
-                                                    {"extend", "2r"},
-                                                    {"thickness", "0.4r"},
-                                                     {"max-pieces", "90"},
-                                                    {"grid", "0.9"},
-                                                    {"format", "nifti"},
-                                                    {"band", "0.5"},
-                                                    {"half", "true"},
-                                                    {"per-branch", "true"},
-                                                    {"exact", "true"},
-                                                    {"wall", "grid"},
-                                                    {"dialect", "v23.06"},
-                                                    {"instrument", "catheter"},
-                                                    {"step", "0.2"},
-                                                    {"inlets", "vessel1=3"},
-                                                    {"cells", "coarse"},
-                                                    {"flow", "pulsatile"},
-                                                    {"insert", "vessel2"}};
+const std::map<std::string, std::string> kValues = {
+    {"unit", "m"},         {"up", "y"},
+    {"edge", "0.9r"},      {"max-error", "0.3"},
+    {"extend", "2r"},      {"thickness", "0.4r"},
+    {"max-pieces", "90"},  {"grid", "0.9"},
+    {"format", "nifti"},   {"band", "0.5"},
+    {"half", "true"},      {"per-branch", "true"},
+    {"exact", "true"},     {"wall", "grid"},
+    {"dialect", "v23.06"}, {"instrument", "catheter"},
+    {"step", "0.2"},       {"inlets", "vessel1=3"},
+    {"cells", "coarse"},   {"flow", "pulsatile"},
+    {"insert", "vessel2"}};
 
 /// Options of a target that another must accompany.
 Given companionsOf(const std::string& target, const std::string& option) {

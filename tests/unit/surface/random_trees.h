@@ -95,7 +95,10 @@ inline formats::Case randomTrees(std::uint64_t number) {
     RandomVessel vessel(random, start, radius);
     if (nodes > 0 && random.uniform() < 0.5) vessel.aimAt(nodePlace(random.below(nodes)));
     vessel.grow(5 + static_cast<int>(random.below(14)));
-    addVessel(result, "b" + std::to_string(b), vessel.path, radius, 0.5 * radius, parent);
+    // not in one sum, in which gcc 12 sees copies that overlap
+    std::string label = std::to_string(b);
+    label.insert(label.begin(), 'b');
+    addVessel(result, label, vessel.path, radius, 0.5 * radius, parent);
     for (std::size_t i = 0; i < vessel.radii.size(); ++i) {
       tree.radius[nodes + i] = static_cast<float>(vessel.radii[i]);
       tree.height[nodes + i] = static_cast<float>(0.5 * vessel.radii[i]);
