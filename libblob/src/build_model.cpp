@@ -150,6 +150,7 @@ void addNeighbours(const blob_model_def& def, const Neighbourhood& around,
   NeighbourBlock empty{};
   std::fill_n(empty.c, kLanes, kNeverLess);
   std::fill_n(empty.inverseTau, kLanes, 1.0f);
+  std::fill_n(empty.node, kLanes, BLOB_NOWHERE);
   model.neighbours.resize(first + count, empty);
   for (std::size_t e = 0; e < sorted.size(); ++e)
     setLane(sorted[e], e % kLanes, model.neighbours[first + e / kLanes]);

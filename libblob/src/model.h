@@ -39,7 +39,7 @@ struct alignas(32) BlobBlock {
 };
 
 /// Eight neighbours k of a node i and the radical planes between: p_k - p_i = n . (X - O_i) + c,
-/// in square millimetres. Padding has n = 0 and a c that no point undercuts. A node has one block at
+/// in square millimetres. Padding has n = 0, a c that no point undercuts, and no node. A node has one block at
 /// least; its neighbours ascend by the distance from the node at which they begin to blend with it.
 struct alignas(32) NeighbourBlock {
   float nx[kLanes], ny[kLanes], nz[kLanes], c[kLanes];

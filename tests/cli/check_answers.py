@@ -121,6 +121,7 @@ def make_cases(lumen, folder):
     hold_or_silent("convert.schema.json", run(lumen, folder, "convert", "a.nrrd", "strict.lumen", "--seeds", "astray.json", "--strict"),
                    "convert --strict")
     go("convert.schema.json", "convert", "fitted.lumen", "mesh.ply")
+    go("convert.schema.json", "convert", "fitted.lumen", "wall.ply", "--thickness", "0.2r")
     go("convert.schema.json", "convert", "fitted.lumen", "rounded.lumen", "--point-bits", "12", "--compress")
     go("compare.schema.json", "compare", "fitted.lumen", "truth.lumen")
     go("compare.schema.json", "compare", "truth.lumen", "tracked.lumen")

@@ -61,7 +61,7 @@ def survive_kill(where):
     killed.end(signal.SIGKILL)
     expect("valid after a kill", run("validate", kept.name, cwd=where).returncode, 0)
     again = Viewer("tube.lumen", cwd=where)
-    expect("offered", [file["name"] for file in again.state()["unsavedBefore"]], ["tube.unsaved.2.lumen", "tube.unsaved.lumen", "tube.unsaved.seeds.json"])
+    expect("offered", [file["name"] for file in again.state()["unsavedBefore"]], ["tube.unsaved.2.lumen", "tube.unsaved.lumen"])
     again.do(op="recover", index=0)
     again.wait()
     again.do(op="save")

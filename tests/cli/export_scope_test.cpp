@@ -18,7 +18,7 @@ const std::map<std::string, std::string> kValues = {
     {"unit", "m"},         {"up", "y"},
     {"edge", "0.9r"},      {"max-error", "0.3"},
     {"extend", "2r"},      {"thickness", "0.4r"},
-    {"max-pieces", "90"},  {"grid", "0.9"},
+    {"max-pieces", "1"},   {"grid", "0.9"},
     {"format", "nifti"},   {"band", "0.5"},
     {"half", "true"},      {"per-branch", "true"},
     {"exact", "true"},     {"wall", "grid"},
@@ -58,6 +58,8 @@ protected:
     write("fork.swc",
           "1 0 0 0 0 2 -1\n2 0 10 0 0 2 1\n3 0 20 0 0 2 2\n4 0 28 6 0 1.5 2\n5 0 34 12 0 1.5 4\n");
     make({"convert", "fork.swc", "fork.lumen"});
+    write("long.swc", "1 0 0 0 0 .6 -1\n2 0 30 0 0 .6 1\n3 0 60 0 0 .6 2\n");
+    make({"convert", "long.swc", "long.lumen"});
   }
 
   [[nodiscard]] std::vector<std::string> options() const {
@@ -67,9 +69,15 @@ protected:
     return names;
   }
 
-  [[nodiscard]] Effect exported(const ExportTarget& target, const Given& given) const {
-    Effect effect = effectOf(
-        operationOf("export", {std::string(target.name), "fork.lumen", "out/folder"}, given));
+  /// A bound on pieces counts for a vessel that is longer than one piece.
+  [[nodiscard]] static std::string caseFor(const std::string& option) {
+    return option == "max-pieces" ? "long.lumen" : "fork.lumen";
+  }
+
+  [[nodiscard]] Effect exported(const ExportTarget& target, const Given& given,
+                                const std::string& file = "fork.lumen") const {
+    Effect effect =
+        effectOf(operationOf("export", {std::string(target.name), file, "out/folder"}, given));
     effect.answer.clear();
     return effect;
   }
@@ -93,18 +101,20 @@ TEST_F(ExportScopeTest, AnOptionThatATargetDoesNotTakeIsRefusedByName) {
 TEST_F(ExportScopeTest, AnOptionThatATargetTakesChangesItsFolder) {
   for (const ExportTarget& target : convert::exportTargets()) {
     const std::string name(target.name);
-    std::map<Given, Effect> usual;
+    std::map<std::pair<std::string, Given>, Effect> usual;
     for (const std::string& option : options()) {
       if (!takes(target, option)) continue;
       Given given = companionsOf(name, option);
-      if (!usual.contains(given)) usual[given] = exported(target, given);
-      const Effect& before = usual[given];
+      const std::string file = caseFor(option);
+      if (!usual.contains({file, given})) usual[{file, given}] = exported(target, given, file);
+      const Effect& before = usual[{file, given}];
       EXPECT_EQ(before.error, "") << name;
       std::string value = kValues.at(option);
       if (option == "unit") value = convert::unitName(target.units.back());
       if (option == "up") value = target.axes.back() == convert::Axes::Lsa ? "y" : "z";
       given.emplace_back(option, value);
-      EXPECT_FALSE(exported(target, given) == before) << name << " --" << option << " " << value;
+      EXPECT_FALSE(exported(target, given, file) == before)
+          << name << " --" << option << " " << value;
     }
   }
 }

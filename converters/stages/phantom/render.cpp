@@ -122,6 +122,27 @@ void drawClosedForm(const std::function<double(const Vector3d&)>& wall, const Vo
   });
 }
 
+// Multiplies occupancies by the contrast of the nearest node.
+void applyContrast(const Design& design, const VolumeGeometry& grid, Image& image,
+                   Progress& progress) {
+  tbb::parallel_for(0, grid.size[2], [&](int z) {
+    progress.check();
+    for (int y = 0; y < grid.size[1]; ++y) {
+      float* row = image.row(y, z);
+      for (int x = 0; x < grid.size[0]; ++x) {
+        if (row[x] == 0) continue;
+        const Vector3d centre = centreOf(grid, x, y, z);
+        std::uint32_t nearest = 0;
+        for (std::uint32_t n = 1; n < design.tree.nodeCount(); ++n)
+          if ((nodeCentre(design.tree, n) - centre).squaredNorm() <
+              (nodeCentre(design.tree, nearest) - centre).squaredNorm())
+            nearest = n;
+        row[x] *= design.contrast[nearest];
+      }
+    }
+  });
+}
+
 std::vector<float> gaussianWeights(double sigma) {
   const int reach = std::max(1, static_cast<int>(std::ceil(4 * sigma)));
   std::vector<double> weights;
@@ -208,15 +229,16 @@ void addBias(float* row, int n, int y, double z, const std::array<Wave, 4>& wave
 Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress) {
   const auto [nx, ny, nz] = grid.size;
   Image image{grid.cells().size, std::vector<float>(grid.voxelCount(), kUndrawn)};
+  const bool uniform = std::all_of(design.contrast.begin(), design.contrast.end(),
+                                   [](float c) { return c == 1.0F; });
   if (design.wall) {
     drawClosedForm(design.wall, grid, image, progress);
+    if (!uniform) applyContrast(design, grid, image, progress);
     return image;
   }
   const double rim = kHalfDiagonal * grid.spacing.x();
   const std::vector<Segment> segments = makeSegments(design.tree, rim);
   const TubeTreeDistance wall(design.tree);
-  const bool uniform = std::all_of(design.contrast.begin(), design.contrast.end(),
-                                   [](float c) { return c == 1.0F; });
   constexpr int kSlab = 4;
   tbb::parallel_for(0, (nz + kSlab - 1) / kSlab, [&, nx = nx, ny = ny, nz = nz](int slab) {
     const int zFirst = slab * kSlab, zLast = std::min(nz, zFirst + kSlab) - 1;

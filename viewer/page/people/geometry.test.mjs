@@ -17,7 +17,7 @@ story(
       browser = await startBrowser(t);
     bothVessels(file, "bifurcation");
     const page = await openVessels(t, browser, file);
-    const [measured] = JSON.parse(lumen("measure", file("vessels.lumen"), "--json")).cases;
+    const [measured] = lumen("measure", file("vessels.lumen")).cases;
 
     await page.locator("#section-geometry > summary").click();
     await page.locator("#geometry-run").click();
