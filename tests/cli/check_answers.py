@@ -136,6 +136,7 @@ def make_cases(lumen, folder):
     go("trim.schema.json", "trim", "proposed.lumen", "trimmed.lumen", "--min-radius", "0.1")
     for case in ("fitted.lumen", "vessel.lumen"): go("check.schema.json", "check", "a.nrrd", case)
     go("convert.schema.json", "convert", "fork.nrrd", "both.lumen", "--seeds", "both.json")
+    go("trim.schema.json", "trim", "both.lumen", "trunk-alone.lumen", "--min-length", "10")
     go("measure.schema.json", "measure", "both.lumen", "--against", "both.lumen", "--out", "both-measures")
     go("phantom.schema.json", "phantom", "stenosis", "s.nrrd", "--size", "128", "--seeds", "s.json")
     go("convert.schema.json", "convert", "s.nrrd", "s.lumen", "--seeds", "s.json")
