@@ -17,6 +17,7 @@ describe("columns of measures", () => {
     expect(splitColumn("greatest_curvature_per_mm")).toEqual({ name: "greatest curvature", unit: "/mm" });
     expect(splitColumn("taper_mm_per_mm")).toEqual({ name: "taper", unit: "mm/mm" });
     expect(splitColumn("volume_mm3")).toEqual({ name: "volume", unit: "mm³" });
+    expect(splitColumn("turns_over_90_deg")).toEqual({ name: "turns over 90°", unit: "" });
     expect(splitColumn("tortuosity")).toEqual({ name: "tortuosity", unit: "" });
   });
 });

@@ -50,6 +50,7 @@ const kUnits: [ending: string, unit: string][] = [
 
 /** The name of a column for people, and its unit. */
 export function splitColumn(column: string): { name: string; unit: string } {
+  if (column === "turns_over_90_deg") return { name: "turns over 90°", unit: "" }; // a count
   const found = kUnits.find(([ending]) => column.endsWith(ending)),
     bare = found === undefined ? column : column.slice(0, -found[0].length);
   return { name: bare.replaceAll("_", " "), unit: found === undefined ? "" : found[1] };
