@@ -192,6 +192,9 @@ private:
     getSlowly("distance", [this](const Request& request, Progress& progress) {
       return m_session.distancePack(levelOf(request), request.has_param("quick"), progress);
     });
+    getSlowly("deviation", [this](const Request& request, Progress& progress) {
+      return m_session.deviationPack(numberOf(request, "id"), progress);
+    });
     get("mesh", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.meshPack(numberOf(request, "id")));
     });

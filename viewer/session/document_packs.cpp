@@ -9,6 +9,7 @@
 #include "converters/geometry/tube_tree_distance.h"
 #include "formats/case/binary_encode.h"
 #include "viewer/session/case_pack.h"
+#include "viewer/session/mesh_deviation.h"
 #include "viewer/session/pack.h"
 #include "viewer/session/surface_pack.h"
 
@@ -60,6 +61,26 @@ Tagged caseFile(const Moment& now) {
 Tagged meshPack(const Moment& now, int id) {
   for (const OpenMesh& mesh : now.document.meshes)
     if (mesh.id == id) return tagged(std::to_string(id), meshPack(*mesh.mesh));
+  return {};
+}
+
+Tagged deviationPack(const Moment& now, int id, Progress& progress) {
+  if (!now.document.hasModels()) return {};
+  for (const OpenMesh& mesh : now.document.meshes) {
+    if (mesh.id != id) continue;
+    const MeshDeviation made =
+        meshDeviation(*now.document.value, mesh.mesh->mesh.position, progress);
+    PackWriter pack;
+    pack.add("distance", made.distance);
+    pack.set("figures", {{"vertices", made.distance.size()},
+                         {"median", made.median},
+                         {"percentile90", made.percentile90},
+                         {"greatest", made.greatest}});
+    // the same meshes and the same case have the same distances
+    return tagged(std::to_string(id) + "-" + std::to_string(now.parts.meshes) + "-" +
+                      std::to_string(now.parts.value),
+                  pack.bytes());
+  }
   return {};
 }
 

@@ -39,6 +39,9 @@ Tagged caseFile(const Moment& now);
 /// The mesh of that number.
 Tagged meshPack(const Moment& now, int id);
 
+/// The signed distances of that mesh's vertices to the wall of the case, and their figures.
+Tagged deviationPack(const Moment& now, int id, Progress& progress);
+
 /// The distances of a surface's vertices to the truth, and the figures of a comparison with it.
 Tagged distancePack(const Moment& now, const std::shared_ptr<const ReadySurface>& surface,
                     const Json& figures, Progress& progress);

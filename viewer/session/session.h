@@ -80,6 +80,9 @@ public:
     return m_workspace.series.picture(index);
   }
   [[nodiscard]] Tagged meshPack(int id) const { return viewer::meshPack(now(), id); }
+  Tagged deviationPack(int id, Progress& progress) {
+    return viewer::deviationPack(now(), id, progress);
+  }
   Tagged distancePack(int level, bool quick, Progress& progress);
   std::shared_ptr<const VolumePack> volumePack(std::string& tag) {
     return m_workspace.packs.volumePack(now(), tag);

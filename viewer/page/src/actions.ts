@@ -218,7 +218,8 @@ export class Actions {
 
   picture(): void {
     const over = [...document.querySelectorAll<HTMLCanvasElement>("canvas.over")];
-    this.app.stage.picture(over, document.getElementById("legend"), "#07090c").toBlob(blob => {
+    const legends = [...document.querySelectorAll<HTMLElement>(".legend")];
+    this.app.stage.picture(over, legends, "#07090c").toBlob(blob => {
       if (blob === null) return;
       saveBlob(`${this.app.store.get().state.title || "lumen"}.png`, blob);
     });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Display settings: the volume's window, parts of the 3D view, colours and their legend. */
-import { mapColour, toCss } from "./colour";
-import { colouring, kColourTitles, numbersOf } from "./colouring";
+/** Display settings: the volume's window, parts of the 3D view, colours. */
+import { kColourTitles, numbersOf } from "./colouring";
 import type { Actions } from "./actions";
 import type { App, Cast, ColourBy, Layers, Planes, View } from "./model";
 import { followVessel } from "./selection";
@@ -309,32 +308,4 @@ function planesSection(app: App): HTMLElement {
     h("label", { class: "line" }, "Planes", planes),
     ...turns.map((field, i) => h("label", { class: "line" }, ["Turn L–R", "Turn A–P", "Turn S–I"][i], field)),
   );
-}
-
-/** The legend of the colours, in the corner of the 3D view. */
-export function legend(element: HTMLElement, app: App): void {
-  const bar = h("canvas", { width: 120, height: 8, "aria-hidden": "true" }),
-    high = h("span", {}),
-    low = h("span", {}),
-    middle = h("span", {}),
-    title = h("strong", {});
-  element.append(title, h("div", { class: "scale" }, bar, h("div", { class: "ends" }, low, middle, high)));
-  app.store.watch(["colourBy", "surface", "distance", "tree"], view => {
-    const c = colouring(view);
-    element.hidden = !c.mapped;
-    if (!c.mapped) return;
-    title.textContent = c.unit === "" ? c.title : `${c.title}, ${c.unit}`;
-    high.textContent = brief(c.range[1]);
-    middle.textContent = brief((c.range[0] + c.range[1]) / 2);
-    low.textContent = brief(c.range[0]);
-    element.setAttribute(
-      "aria-label",
-      `${title.textContent}: from ${low.textContent} to ${high.textContent}`,
-    );
-    const context = bar.getContext("2d")!;
-    for (let x = 0; x < bar.width; ++x) {
-      context.fillStyle = toCss(mapColour(c.map, x / (bar.width - 1)));
-      context.fillRect(x, 0, 1, bar.height);
-    }
-  });
 }

@@ -4,11 +4,12 @@ import { Actions } from "./actions";
 import { assumptionsPanel } from "./assumptions_panel";
 import { makeBar } from "./bar";
 import { caseMeasuresPanel } from "./case_measures_panel";
-import { displayPanel, legend } from "./display_panel";
+import { displayPanel } from "./display_panel";
 import { findPanel } from "./find_panel";
 import { Flight } from "./flight";
 import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
+import { deviationLegend, surfaceLegend } from "./legend";
 import { libraryPanel } from "./library_panel";
 import { Loader } from "./loader";
 import { keepView } from "./kept_view";
@@ -103,7 +104,8 @@ async function start(): Promise<void> {
   new Strip(shell.strip, app, actions, flight);
   new ProbeLine(shell.probe, app, tools);
   new LocalModel(app, scene);
-  legend(shell.legend, app);
+  surfaceLegend(shell.legend, app);
+  deviationLegend(shell.deviations, app);
   listenToKeys(app, actions, hand, work);
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene),

@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Meshes that were opened beside the case: shown in grey, each with an opacity of its own. */
-import { BufferAttribute, BufferGeometry, Mesh } from "three";
-import type { App } from "./model";
+/** Meshes that were opened beside the case: each with an opacity of its own, in grey or coloured by its distance from the
+ * wall of the case. */
+import type { App, View } from "./model";
+import { deviationOf, deviationText, sharedRange, type Deviation } from "./deviation";
+import { MeshView } from "./mesh_view";
 import { Pack } from "./pack";
-import { kNoClip, PartMaterial } from "./part_material";
 import type { SceneView } from "./scene_view";
-import { vertexNormals } from "./surface";
 import type { Vec3 } from "./types";
-import { h, section, slider } from "./ui";
+import { checkbox, h, section, slider } from "./ui";
 
 const kAlpha = 0.55,
-  kGrey: [number, number, number] = [0.78, 0.76, 0.72];
+  kFaint = 0.15; // opacity of all vessels where a mesh has colours, as the wall would hide half of it
 
-type Shown = Mesh<BufferGeometry, PartMaterial>;
+interface Row {
+  view: MeshView;
+  opacity: HTMLInputElement;
+  box: HTMLInputElement;
+  figures: HTMLElement;
+  /** The case and meshes that the asked-for distances belong to; empty: none are wanted. */
+  asked: string;
+  waiting: AbortController | null;
+}
 
 export class MeshLayer {
   readonly panel: HTMLDetailsElement;
   private readonly list = h("div", { id: "mesh-list" });
-  private readonly shown = new Map<string, Shown | null>(); // null: being fetched
+  private readonly rows = new Map<string, Row | null>(); // null: being fetched
 
   constructor(
     private readonly app: App,
@@ -27,22 +35,24 @@ export class MeshLayer {
     app.store.watch(["state"], ({ state }) => {
       this.panel.hidden = state.meshes.length === 0;
       const wanted = new Map(state.meshes.map(m => [String(m.id), m.name]));
-      for (const [id, mesh] of this.shown) if (!wanted.has(id)) this.drop(id, mesh);
+      for (const [id, row] of this.rows) if (!wanted.has(id)) this.drop(id, row);
       for (const [id, name] of wanted)
-        if (!this.shown.has(id)) {
-          this.shown.set(id, null);
+        if (!this.rows.has(id)) {
+          this.rows.set(id, null);
           void this.take(id, name);
         }
     });
+    app.store.watch(["tree", "state"], view => this.follow(view));
+    app.store.watch(["deviations"], ({ deviations }) => this.colour(deviations));
   }
 
-  private drop(id: string, mesh: Shown | null): void {
-    if (mesh !== null) {
-      this.scene.extra.remove(mesh);
-      mesh.geometry.dispose();
-      mesh.material.dispose();
+  private drop(id: string, row: Row | null): void {
+    if (row !== null) {
+      this.scene.extra.remove(row.view.mesh);
+      row.view.dispose();
     }
-    this.shown.delete(id);
+    this.clear(id, row);
+    this.rows.delete(id);
     this.list.querySelector(`[data-mesh="${CSS.escape(id)}"]`)?.remove();
     this.app.stage.invalidate(this.scene);
   }
@@ -51,50 +61,126 @@ export class MeshLayer {
     const { app, scene } = this;
     try {
       const bytes = await app.source.bytes("mesh", { id });
-      if (bytes === null || !this.shown.has(id)) return;
-      const pack = new Pack(bytes),
-        position = pack.get("position", "f32"),
-        triangle = pack.get("triangle", "u32"),
-        geometry = new BufferGeometry();
-      for (const v of triangle)
-        if (3 * v >= position.length)
-          throw new Error(`${name}: a triangle names a vertex that does not exist.`);
-      geometry.setAttribute("position", new BufferAttribute(position, 3));
-      geometry.setAttribute("normal", new BufferAttribute(vertexNormals(position, triangle), 3));
-      geometry.setIndex(new BufferAttribute(triangle, 1));
-      const mesh: Shown = new Mesh(geometry, new PartMaterial(false));
-      mesh.frustumCulled = false;
-      mesh.renderOrder = 3;
-      const look = (alpha: number): void => {
-        mesh.visible = alpha > 0;
-        mesh.material.look({
-          own: kGrey,
-          alpha,
-          mapped: false,
-          range: [0, 1],
-          map: "sequential",
-          lit: false,
-          clip: kNoClip,
-        });
-        app.stage.invalidate(scene);
-      };
-      const alpha = app.store.get().tree === null ? 1 : kAlpha;
-      look(alpha);
-      this.shown.set(id, mesh);
-      scene.extra.add(mesh);
-      const field = slider(`mesh-opacity-${id}`, `Opacity of ${name}`, [0, 1, 0.05], alpha, look);
-      this.list.append(
-        h(
-          "label",
-          { class: "line", "data-mesh": id },
-          h("span", { class: "filename", title: name }, name),
-          field,
-        ),
-      );
-      this.fit(position);
+      if (bytes === null || !this.rows.has(id)) return;
+      const alpha = app.store.get().tree === null ? 1 : kAlpha,
+        view = new MeshView(new Pack(bytes), name, alpha);
+      const row = this.makeRow(id, view);
+      this.rows.set(id, row);
+      scene.extra.add(view.mesh);
+      this.follow(app.store.get());
+      this.fit(view.position);
+      app.stage.invalidate(scene);
     } catch (error) {
       app.inform(error instanceof Error ? error.message : String(error), "error");
     }
+  }
+
+  private makeRow(id: string, view: MeshView): Row {
+    const { name } = view,
+      opacity = slider(`mesh-opacity-${id}`, `Opacity of ${name}`, [0, 1, 0.05], view.alpha, alpha => {
+        view.look({ alpha });
+        this.app.stage.invalidate(this.scene);
+      }),
+      check = checkbox(
+        `mesh-deviation-${id}`,
+        "Colour by deviation",
+        `Colours of ${name}: the distance of each vertex from the wall of the case, blue in the lumen, red outside`,
+        false,
+        on => this.choose(id, on),
+      ),
+      figures = h("output", { class: "hint deviation", id: `mesh-figures-${id}` });
+    check.hidden = !this.app.source.live; // a page without a server has no distances
+    this.list.append(
+      h(
+        "div",
+        { class: "mesh", "data-mesh": id },
+        h("label", { class: "line" }, h("span", { class: "filename", title: name }, name), opacity),
+        check,
+        figures,
+      ),
+    );
+    return { view, opacity, box: check.querySelector("input")!, figures, asked: "", waiting: null };
+  }
+
+  /** A person switches the colours of a mesh: it is drawn in full, and the vessels faint. */
+  private choose(id: string, on: boolean): void {
+    const row = this.rows.get(id),
+      { store } = this.app;
+    if (row === null || row === undefined) return;
+    const alpha = on ? 1 : kAlpha;
+    row.opacity.value = String(alpha);
+    row.view.look({ alpha });
+    if (on) {
+      if (store.get().allOpacity === 1) store.set({ allOpacity: kFaint });
+      this.follow(store.get());
+      return;
+    }
+    this.clear(id, row);
+    const others = [...this.rows.values()].some(each => each?.box.checked === true);
+    if (!others && store.get().allOpacity === kFaint) store.set({ allOpacity: 1 });
+  }
+
+  /** Distances belong to one wall: another asks for others. */
+  private follow({ tree, state }: View): void {
+    const canAsk = tree?.hasModels === true;
+    for (const [id, row] of this.rows) {
+      if (row === null) continue;
+      row.box.disabled = !canAsk;
+      const key = `${state.revisions.case} ${state.revisions.meshes ?? 0}`;
+      if (!row.box.checked || row.asked === key) continue;
+      if (canAsk) void this.ask(id, row, key);
+      else this.clear(id, row);
+    }
+  }
+
+  private async ask(id: string, row: Row, key: string): Promise<void> {
+    const { app } = this,
+      waiting = new AbortController();
+    row.waiting?.abort();
+    row.waiting = waiting;
+    row.asked = key;
+    row.figures.textContent = "distances are being computed";
+    row.figures.setAttribute("aria-busy", "true");
+    try {
+      const bytes = await app.source.bytes("deviation", { id }, undefined, waiting.signal);
+      if (row.waiting !== waiting) return;
+      if (bytes === null) throw new Error(`${row.view.name}: there is no wall to measure it from.`);
+      this.show(id, row, deviationOf(new Pack(bytes), row.view.name, row.view.position.length / 3));
+    } catch (error) {
+      if (row.waiting !== waiting) return;
+      this.clear(id, row);
+      row.box.checked = false;
+      app.inform(error instanceof Error ? error.message : String(error), "error");
+    }
+  }
+
+  private show(id: string, row: Row, deviation: Deviation): void {
+    const { store } = this.app;
+    row.waiting = null;
+    row.view.setValues(deviation.distance);
+    row.figures.textContent = deviationText(deviation);
+    row.figures.removeAttribute("aria-busy");
+    store.set({ deviations: new Map(store.get().deviations).set(id, deviation) });
+  }
+
+  private clear(id: string, row: Row | null): void {
+    if (row !== null) {
+      row.waiting?.abort();
+      row.waiting = null;
+      row.asked = "";
+      row.figures.textContent = "";
+      row.figures.removeAttribute("aria-busy");
+    }
+    const { store } = this.app,
+      deviations = new Map(store.get().deviations);
+    if (deviations.delete(id)) store.set({ deviations });
+    this.app.stage.invalidate(this.scene);
+  }
+
+  private colour(deviations: View["deviations"]): void {
+    const range = deviations.size === 0 ? null : sharedRange([...deviations.values()]);
+    for (const [id, row] of this.rows) row?.view.look({ range: deviations.has(id) ? range : null });
+    this.app.stage.invalidate(this.scene);
   }
 
   /** The view shows the mesh as a whole if nothing else is open. */

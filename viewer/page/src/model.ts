@@ -2,6 +2,7 @@
 /** The page's model: one value that panels and views watch. */
 import type { Model } from "../../../libblob/wasm/blob.mjs";
 import { branchColour, type Rgb } from "./colour";
+import type { Deviation } from "./deviation";
 import { kNoSlabs, type Slabs } from "./slab";
 import type { Source } from "./source";
 import type { Stage } from "./stage";
@@ -115,6 +116,8 @@ export interface View {
   lost: boolean;
   distance: Float32Array | null;
   figures: Record<string, unknown> | null;
+  /** By the number of a mesh: those that are coloured by their distance from the wall. */
+  deviations: ReadonlyMap<string, Deviation>;
 }
 
 /** Axial as it is read: from the feet, the patient's left on the right. */
@@ -177,6 +180,7 @@ export const kInitial: View = {
   lost: false,
   distance: null,
   figures: null,
+  deviations: new Map(),
 };
 
 export interface App {

@@ -14,6 +14,7 @@ export interface Shell {
   sagittal: HTMLElement;
   scene: HTMLElement;
   legend: HTMLElement;
+  deviations: HTMLElement;
   status: HTMLElement;
   probe: HTMLElement;
   progress: HTMLElement;
@@ -55,6 +56,7 @@ export function makeShell(): Shell {
     sagittal: viewElement("sagittal", "Sagittal slice", kSliceHelp),
     scene: viewElement("scene", "3D view", "Arrow keys turn, with shift they move, plus and minus zoom."),
     legend: h("div", { class: "legend", id: "legend", role: "img" }),
+    deviations: h("div", { class: "legend", id: "deviation-legend", role: "img" }),
     status: h("span", { class: "status", id: "status", role: "status" }),
     probe: h("output", { class: "probe", id: "probe", "aria-live": "off" }),
     progress: h("div", { class: "progress", id: "progress", role: "progressbar", hidden: true }),
@@ -62,7 +64,7 @@ export function makeShell(): Shell {
     empty: h("div", { class: "empty", id: "empty" }),
     drop: h("div", { class: "drop", id: "drop", hidden: true }, h("p", {}, "Drop to open")),
   };
-  shell.scene.append(shell.legend);
+  shell.scene.append(h("div", { class: "legends" }, shell.legend, shell.deviations));
   shell.views.append(shell.canvas, shell.axial, shell.scene, shell.coronal, shell.sagittal, shell.empty);
   document.body.append(
     h("a", { class: "skip", href: "#tree-list" }, "To the list of vessels"),

@@ -143,7 +143,7 @@ export class Stage {
   }
 
   /** The picture of all views with their overlays. */
-  picture(over: HTMLCanvasElement[], legend: HTMLElement | null, background: string): HTMLCanvasElement {
+  picture(over: HTMLCanvasElement[], legends: HTMLElement[], background: string): HTMLCanvasElement {
     const out = document.createElement("canvas"),
       all = this.canvas.getBoundingClientRect(),
       ratio = this.canvas.width / all.width;
@@ -154,7 +154,7 @@ export class Stage {
     c.fillRect(0, 0, out.width, out.height);
     c.drawImage(this.canvas, 0, 0);
     for (const layer of over) drawWhereItIs(c, layer, all, ratio);
-    if (legend !== null && !legend.hidden) drawLegend(c, legend, all, ratio);
+    for (const legend of legends) if (!legend.hidden) drawLegend(c, legend, all, ratio);
     return out;
   }
 }
