@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far meshes lie from the wall of the open case.
+#include "viewer/session/mesh_deviation.h"
+
 #include <cmath>
 #include <sstream>
 
 #include "converters/geometry/icosphere.h"
 #include "served.h"
-#include "viewer/session/mesh_deviation.h"
 
 namespace lumen::test {
 
