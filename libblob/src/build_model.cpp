@@ -143,8 +143,9 @@ void addNeighbours(const blob_model_def& def, const Neighbourhood& around,
   for (std::uint32_t e = around.offset[i]; e < around.offset[i + 1]; ++e)
     sorted.push_back(makeNeighbour(def, i, around.node[e], around.isEdge[e],
                                    0.5 * (spacing[i] + spacing[around.node[e]])));
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Neighbour& a, const Neighbour& b) { return a.begin < b.begin; });
+  std::sort(sorted.begin(), sorted.end(), [](const Neighbour& a, const Neighbour& b) {
+    return a.begin != b.begin ? a.begin < b.begin : a.node < b.node;
+  });
   const std::size_t first = model.neighbours.size(),
                     count = std::max<std::size_t>(1, (sorted.size() + kLanes - 1) / kLanes);
   NeighbourBlock empty{};
