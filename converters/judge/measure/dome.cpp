@@ -100,7 +100,7 @@ struct SectionShape {
   double area = 0, meanDiameter = 0;
 };
 
-// Of segments that together make closed loops. Their orders do not matter, their senses do.
+// Takes segments that together make closed loops, in any order; each must run its loop's way round.
 SectionShape shapeOfSegments(const std::vector<std::pair<Vector3d, Vector3d>>& segments,
                              const Vector3d& normal) {
   SectionShape shape;

@@ -108,7 +108,7 @@ inline formats::Case randomTrees(std::uint64_t number) {
   return result;
 }
 
-/// What is wrong with the closed surface of a case without links; empty if nothing is.
+/// Faults of the closed surface of a case without links, as a sentence; empty if there are none.
 inline std::string faultOf(const formats::Case& source,
                            const convert::ClosedSurfaceOptions& options = {}) {
   Progress silent;

@@ -17,7 +17,7 @@ export interface Deviation {
 /** Blue in the lumen, red outside of it, white on the wall. */
 export const kDeviationMap: MapName = "diverging";
 
-/** The server's answer for a mesh of so many vertices. Throws where it is that of another mesh. */
+/** Reads the distances of a mesh with the stated number of vertices. Throws if the answer is that of another mesh. */
 export function deviationOf(pack: Pack, name: string, vertices: number): Deviation {
   const distance = pack.get("distance", "f32"),
     { median, percentile90 } = pack.meta.figures as Record<string, unknown>;

@@ -11,7 +11,7 @@
 
 namespace lumen::convert {
 
-/// What the texts state. Lengths are in m.
+/// Values that the dictionaries state. Lengths are in m.
 struct FoamCase {
   std::vector<FoamPatch> patches;
   FoamBlock block;
