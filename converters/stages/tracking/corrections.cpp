@@ -12,6 +12,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/stages/tracking/wall_ellipse.h"
 
 namespace lumen::convert {
 namespace {
@@ -58,26 +59,45 @@ double besselTerm(double w) {
   return tail;
 }
 
+/// A node's wall points about its axis, each with the distance of the wall there: of the ellipse
+/// through them, and of the cylinder where they show no ellipse.
+std::vector<std::pair<WallPlace, double>> wallsAround(const TrackedNode& node) {
+  std::vector<WallPlace> places;
+  for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p)});
+  measureAbout(node.centre, node.direction, places);
+  const WallEllipse ellipse = fitEllipse(places, node.radius);
+  const bool isEllipse = ellipse.isValid() && sectorsWith(places) >= kLeastSectors;
+  std::vector<std::pair<WallPlace, double>> walls;
+  for (const WallPlace& place : places) {
+    const double wall = isEllipse ? ellipse.wallAt(place) : node.radius;
+    if (std::isfinite(wall)) walls.emplace_back(place, wall);
+  }
+  return walls;
+}
+
 /// The mean over a node's wall points of the intensity on the line from its axis through the point,
-/// at distances radius - kReachVoxels .. radius + kReachVoxels voxels. Lined up by the cylinder,
-/// not by the points: those follow the noise, and their mean would be steeper than the wall.
+/// at distances wall - kReachVoxels .. wall + kReachVoxels voxels. Lined up by a smooth wall, not
+/// by the points: those follow the noise, and their mean would be steeper than the wall. Lined up
+/// by a circle, walls that are not round would seem blurred. Empty without a point.
 std::vector<double> meanProfile(const BsplineVolume& volume, const TrackedNode& node) {
   const VolumeGeometry& geometry = volume.geometry();
   const double voxel = geometry.voxelSize();
   std::vector<double> sum(kSamples, 0.0);
   std::vector<float> values(kSamples);
-  for (const formats::Vec3f& p : node.points) {
-    const Vector3d offset = toEigen(p) - node.centre;
+  const auto walls = wallsAround(node);
+  for (const auto& [place, wall] : walls) {
+    const Vector3d offset = place.position - node.centre;
     const double along = offset.dot(node.direction);
     const Vector3d outward = (offset - along * node.direction).normalized();
     const Vector3d start =
-        node.centre + along * node.direction + (node.radius - kReachVoxels * voxel) * outward;
+        node.centre + along * node.direction + (wall - kReachVoxels * voxel) * outward;
     const Vector3d step = (geometry.direction.transpose() * outward * (kSpacingVoxels * voxel))
                               .cwiseQuotient(geometry.spacing);
     volume.sampleLine(geometry.indexFromWorld(start), step, values);
     for (std::size_t i = 0; i < values.size(); ++i) sum[i] += static_cast<double>(values[i]);
   }
-  for (double& value : sum) value /= static_cast<double>(node.points.size());
+  if (walls.empty()) return {};
+  for (double& value : sum) value /= static_cast<double>(walls.size());
   return sum;
 }
 
@@ -244,7 +264,9 @@ std::optional<WallShape> measureWalls(const BsplineVolume& volume,
   const double voxel = volume.geometry().voxelSize();
   std::vector<double> spreads, halfLevels;
   for (const TrackedNode* node : widestNodes(vessels, voxel)) {
-    const Fall fall = findFall(meanProfile(volume, *node), dark ? -1.0 : 1.0);
+    const std::vector<double> profile = meanProfile(volume, *node);
+    if (profile.empty()) continue;
+    const Fall fall = findFall(profile, dark ? -1.0 : 1.0);
     if (fall.width == 0) continue;
     const double spread = blurSpread(node->radius, fall.width * kSpacingVoxels * voxel);
     if (!(spread > 0)) continue;

@@ -2,87 +2,29 @@
 #include "converters/stages/tracking/wall_section.h"
 
 #include <algorithm>
-#include <bitset>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
-#include <Eigen/Dense>
-
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/stages/tracking/wall_ellipse.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Unknowns of a section's wall: see Section.
-constexpr int kUnknowns = 7;
-using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
-
 /// Least strength of a wall, as a share of the strength of the node's wall.
 constexpr double kLeastStrengthShare = 0.3;
 /// Shares of the distance to a wall at which a ray must be in the lumen.
 constexpr double kLumenShares[] = {0.4, 0.6, 0.8};
-/// The most rounds of reweighting, and the relative change of the unknowns below which they end.
-constexpr int kReweightings = 12;
-constexpr double kSectionConverged = 1e-3;
-/// Standard deviations beyond which a point has no weight (J. Tukey's biweight), and the ratio of a
-/// standard deviation to the median of absolute residuals.
-constexpr double kBiweightDeviations = 4.685, kDeviationOfMedian = 1.4826;
-/// The largest ratio of a section's axes: a longer one is two vessels. Rays of kRayRadii show it in
-/// full around a circle that fits between its sides.
-constexpr double kLargestAxisRatio = 2.5;
 /// Number of times that the section is moved to its own middle, and the largest distance of all
 /// these moves, in radii.
 constexpr int kMoves = 3;
 constexpr double kSectionAsideRadii = 0.75;
-/// Sectors around the axis, and the number of them that must have wall points.
-constexpr std::size_t kSectors = 12, kLeastSectors = 8;
 /// Least number of points that a section must explain, relative to the cylinder.
 constexpr double kMorePoints = 1.25;
-
-/// A wall point about an axis.
-struct WallPlace {
-  Vector3d position;
-  double angle = 0, distance = 0;
-  Unknowns row = Unknowns::Zero();  ///< factors of the section's unknowns; see Section
-};
-
-/// An ellipse about an axis, which widens or narrows along it: the inverse square of the distance
-/// of its wall is linear in the sine and cosine of twice the angle; those of the angle itself move
-/// it, to first order; the place along the axis and its square are a taper and a throat.
-struct Section {
-  Unknowns curve = Unknowns::Zero();
-
-  static Unknowns rowAt(double angle, double along) {
-    Unknowns row;
-    row << 1.0, std::cos(angle), std::sin(angle), std::cos(2 * angle), std::sin(2 * angle), along,
-        along * along;
-    return row;
-  }
-  [[nodiscard]] double wallAt(const WallPlace& p) const {
-    const double inverse = p.row.dot(curve);
-    return inverse > 0 ? 1.0 / std::sqrt(inverse) : std::numeric_limits<double>::infinity();
-  }
-  [[nodiscard]] double oblong() const { return std::hypot(curve[3], curve[4]); }
-  [[nodiscard]] bool isValid() const {
-    constexpr double kSquare = kLargestAxisRatio * kLargestAxisRatio;
-    return curve.allFinite() && curve[0] > 0 &&
-           oblong() <= (kSquare - 1) / (kSquare + 1) * curve[0];
-  }
-  /// The radius of a disc of the same area.
-  [[nodiscard]] double radius() const {
-    return std::pow(curve[0] * curve[0] - oblong() * oblong(), -0.25);
-  }
-  /// The step to its middle, along the two axes of the plane.
-  [[nodiscard]] Eigen::Vector2d middle() const {
-    return -0.5 * std::pow(curve[0], -1.5) * Eigen::Vector2d(curve[1], curve[2]);
-  }
-};
 
 /// Points that rays from a node's centre meet: in its height, at a wall, with lumen before them.
 std::vector<WallPlace> placesAround(TrackRun& run, const TrackedNode& node, const Vector3d& axis) {
@@ -109,61 +51,6 @@ std::vector<WallPlace> placesAround(TrackRun& run, const TrackedNode& node, cons
     places.push_back({node.centre + offset});
   }
   return places;
-}
-
-/// Sets the angles and distances of places about an axis.
-void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<WallPlace>& places) {
-  const auto [u, v] = planeBasis(axis);
-  for (WallPlace& p : places) {
-    const Vector3d offset = p.position - centre;
-    const double a = offset.dot(u), b = offset.dot(v);
-    p.angle = std::atan2(b, a);
-    p.distance = std::hypot(a, b);
-    p.row = Section::rowAt(p.angle, offset.dot(axis));
-  }
-}
-
-/// The section through most of the places, by least squares of the distance to its wall with
-/// Tukey's weights, from a circle of that radius on.
-Section fitWall(const std::vector<WallPlace>& places, double radius) {
-  Section section;
-  section.curve[0] = 1.0 / (radius * radius);
-  for (int round = 0; round < kReweightings && section.isValid(); ++round) {
-    std::vector<double> walls, residuals;
-    for (const WallPlace& p : places) {
-      walls.push_back(section.wallAt(p));
-      residuals.push_back(std::abs(p.distance - walls.back()));
-    }
-    const double scale = std::max(kDeviationOfMedian * median(residuals), 1e-3 * radius);
-    Eigen::Matrix<double, kUnknowns, kUnknowns> normal;
-    normal.setZero();
-    Unknowns right = Unknowns::Zero();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const double t = residuals[i] / (kBiweightDeviations * scale);
-      if (t >= 1) continue;
-      // move of the wall for a change of the inverse square
-      const double slope = 0.5 * walls[i] * walls[i] * walls[i];
-      const double weight = (1 - t * t) * (1 - t * t) * slope * slope;
-      const double distance = std::max(places[i].distance, 1e-3 * radius);
-      normal += weight * places[i].row * places[i].row.transpose();
-      right += weight / (distance * distance) * places[i].row;
-    }
-    normal.diagonal().array() += 1e-9 * normal.trace();
-    const Unknowns next = normal.ldlt().solve(right);
-    const bool isDone = (next - section.curve).norm() < kSectionConverged * section.curve.norm();
-    section.curve = next;
-    if (isDone) break;
-  }
-  return section;
-}
-
-std::size_t sectorsWith(const std::vector<WallPlace>& places) {
-  std::bitset<kSectors> seen;
-  for (const WallPlace& p : places) {
-    const double turn = p.angle / (2 * std::numbers::pi) + 0.5;
-    seen.set(std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1));
-  }
-  return seen.count();
 }
 
 /// The chord from the nearest node before a node to the nearest behind it that are a radius away,
@@ -193,10 +80,10 @@ std::optional<TrackedNode> fitSection(TrackRun& run, const TrackedNode& node,
   if (places.size() < kFewestCandidates) return std::nullopt;
   const auto [u, v] = planeBasis(axis);
   Vector3d centre = node.centre;
-  Section section;
+  WallEllipse section;
   for (int move = 0; move < kMoves; ++move) {
     measureAbout(centre, axis, places);
-    section = fitWall(places, node.radius);
+    section = fitEllipse(places, node.radius);
     if (!section.isValid()) return std::nullopt;
     centre += section.middle()[0] * u + section.middle()[1] * v;
     if ((centre - node.centre).norm() > kSectionAsideRadii * node.radius) return std::nullopt;

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
 #include "converters/stages/tracking/track_case.h"
 #include "tube_volume.h"
 
@@ -112,6 +114,35 @@ TEST(PointSpread, IsCorrectedForTheBendOfTheWall) {
   constexpr double kSigma = 0.3, kShortSteps = 0.2;
   const TrackResult tracked = trackTube(blurredTube(1.0, kSigma), {}, kShortSteps);
   EXPECT_NEAR(storedSpread(tracked), kSigma, 0.005 * kSigma);
+}
+
+/// Signed distance to the wall of a tube with elliptic sections, positive outside.
+double distanceToEllipse(const Vector3d& point, double a, double b) {
+  const Vector3d u = kAxis.unitOrthogonal(), v = kAxis.cross(u);
+  const double x = (point - kCentre).dot(u), y = (point - kCentre).dot(v);
+  double nearest = 1e9;
+  constexpr int kParts = 720;
+  for (int i = 0; i < kParts; ++i) {
+    const double turn = 2 * std::numbers::pi * i / kParts;
+    nearest = std::min(nearest, std::hypot(x - a * std::cos(turn), y - b * std::sin(turn)));
+  }
+  return std::hypot(x / a, y / b) < 1 ? -nearest : nearest;
+}
+
+// Lined up by a circle, the wall of an ellipse would seem blurred by its own axes' difference, and
+// all walls of the volume would be moved outward.
+TEST(PointSpread, OfVesselsThatAreNotRoundIsThatOfRoundOnes) {
+  constexpr double kLong = 1.5, kShort = 1.0;
+  const Volume oblong =
+      drawVolume(48, 0.2, [](const Vector3d& p) { return distanceToEllipse(p, kLong, kShort); });
+  const Volume round = drawVolume(
+      48, 0.2, [](const Vector3d& p) { return distanceToAxis(p) - std::sqrt(kLong * kShort); });
+  const TrackResult tracked = trackTube(oblong, {});
+  EXPECT_NEAR(storedSpread(tracked), storedSpread(trackTube(round, {})), 0.02);
+  std::vector<double> distances;
+  for (const formats::Vec3f& p : tracked.result.points->position)
+    distances.push_back(distanceToEllipse(toEigen(p), kLong, kShort));
+  EXPECT_NEAR(median(std::move(distances)), 0, 0.01);
 }
 
 TEST(PointSpread, RadiiAndWallPointsOfANarrowBlurredTubeAreThoseOfTheTube) {
