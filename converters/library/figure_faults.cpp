@@ -23,6 +23,12 @@ bool isSame(double a, double b) {
   return std::abs(a - b) <= std::max(kSame, kSameRelative * std::max(std::abs(a), std::abs(b)));
 }
 
+/// Measures of geometry are extremes over places, which rounding may exchange.
+bool isAlike(double a, double b) {
+  constexpr double kAlike = 0.01;
+  return std::abs(a - b) <= kAlike * std::max({1.0, std::abs(a), std::abs(b)});
+}
+
 bool isSame(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return isSame(a.x(), b.x()) && isSame(a.y(), b.y()) && isSame(a.z(), b.z());
 }
@@ -38,6 +44,11 @@ public:
     if (found.has_value() != expected.has_value() || (found && !isSame(*found, *expected)))
       report(what + " " + (found ? shownNumber(*found) : "null"),
              expected ? shownNumber(*expected) : "null");
+  }
+  void compareAlike(const std::string& what, const std::optional<double>& found,
+                    const std::optional<double>& expected) {
+    if (found && expected && isAlike(*found, *expected)) return;
+    compare(what, found, expected);
   }
   void compare(const std::string& what, std::size_t found, std::size_t expected) {
     if (found != expected) report(what + " " + std::to_string(found), std::to_string(expected));
@@ -99,6 +110,10 @@ void checkFigures(const formats::Case& value, const CaseRecord& record, const st
   figures.compare("figures/fit_error_mm/median", found.errorMedian, expected.errorMedian);
   figures.compare("figures/fit_error_mm/p90", found.errorP90, expected.errorP90);
   figures.compare("figures/reachable_mm", found.reachable, expected.reachable);
+  if (found.geometry)
+    for (const GeometryKey& figure : kGeometryKeys)
+      figures.compareAlike(std::string("figures/geometry/") + figure.key,
+                           (*found.geometry).*figure.value, (*expected.geometry).*figure.value);
   figures.compare("insertions", record.insertions, made.insertions);
   figures.compare("ends", record.ends, made.ends);
 }

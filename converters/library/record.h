@@ -36,6 +36,31 @@ struct CaseAbout {
   std::string attribution, doi, origin, consent, deidentification;
 };
 
+/// The extremes of what `lumen measure` finds in a case, by which people search; empty where no place
+/// of the case has the measure. Definitions: docs/measures.md.
+struct GeometryFigures {
+  std::optional<double> tortuosity;     ///< greatest of a path from an inlet to an end
+  std::optional<double> turning;        ///< greatest of a path, degrees per cm
+  std::optional<double> takeOff;        ///< greatest of a path, degrees
+  std::optional<double> stenosis;       ///< greatest NASCET degree of a narrowing, percent
+  std::optional<double> aneurysmReach;  ///< of the aneurysm that reaches farthest from its neck, mm
+  std::optional<double> aneurysmNeck;   ///< neck diameter of that aneurysm, mm
+};
+
+/// A figure with its key in a record.
+struct GeometryKey {
+  const char* key;
+  std::optional<double> GeometryFigures::*value;
+};
+inline constexpr GeometryKey kGeometryKeys[] = {
+    {"path_tortuosity", &GeometryFigures::tortuosity},
+    {"path_turning_deg_per_cm", &GeometryFigures::turning},
+    {"take_off_deg", &GeometryFigures::takeOff},
+    {"nascet_percent", &GeometryFigures::stenosis},
+    {"aneurysm_reach_mm", &GeometryFigures::aneurysmReach},
+    {"aneurysm_neck_mm", &GeometryFigures::aneurysmNeck},
+};
+
 /// Facts of a case that lumen computes. Lengths: mm.
 struct CaseFigures {
   std::size_t branches = 0, aneurysms = 0, nodes = 0;
@@ -43,6 +68,7 @@ struct CaseFigures {
   double radiusMin = 0, radiusMean = 0, radiusMax = 0;
   std::optional<double> errorMedian, errorP90;  ///< without models or points: none
   std::optional<double> reachable;              ///< without models: none
+  std::optional<GeometryFigures> geometry;      ///< none in records of lumen before 0.2
 };
 
 /// A place where an instrument enters, or a vessel ends. mm, LPS.

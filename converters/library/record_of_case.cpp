@@ -11,6 +11,7 @@
 #include "converters/base/tree_figures.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/export/shared/named_end.h"
+#include "converters/judge/measure/measure_case.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
@@ -47,6 +48,33 @@ void setBounds(const CenterlineTree& tree, CaseRecord& record) {
   record.boundsMax = asFloats(high);
 }
 
+/// Puts a measure in place of a smaller one, or of none; true if it did.
+bool takeGreater(const Measured& found, std::optional<double>& greatest) {
+  if (!found.absent.empty()) return false;
+  const double value = asFloat(std::max(found.value, 0.0));
+  if (greatest && value <= *greatest) return false;
+  greatest = value;
+  return true;
+}
+
+GeometryFigures measureGeometry(const formats::Case& source, Progress& progress) {
+  const CaseMeasures measures = measureCase(source, {}, progress);
+  GeometryFigures figures;
+  for (const PathMeasures& path : measures.paths) {
+    takeGreater(path.tortuosity, figures.tortuosity);
+    takeGreater(path.turning, figures.turning);
+    takeGreater(path.takeOff, figures.takeOff);
+  }
+  for (const NarrowingMeasures& narrowing : measures.narrowings)
+    if (!narrowing.isDilation) takeGreater(narrowing.diameterDegree, figures.stenosis);
+  for (const SacMeasures& sac : measures.sacs) {
+    if (!takeGreater(sac.reach, figures.aneurysmReach)) continue;
+    figures.aneurysmNeck.reset();
+    takeGreater(sac.neckDiameter, figures.aneurysmNeck);
+  }
+  return figures;
+}
+
 CaseFigures measureFigures(const formats::Case& source, Progress& progress) {
   const CenterlineTree& tree = source.tree;
   CaseFigures figures;
@@ -70,6 +98,7 @@ CaseFigures measureFigures(const formats::Case& source, Progress& progress) {
         asFloat(formats::measureReachability(tree, formats::caseField(source), [&progress] {
                   progress.check();
                 }).reachable);
+  figures.geometry = measureGeometry(source, progress);
   return figures;
 }
 

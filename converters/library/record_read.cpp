@@ -94,9 +94,20 @@ CasePlace readPlace(const JsonPlace& place, bool isEnd) {
   return result;
 }
 
+GeometryFigures readGeometry(const JsonPlace& place) {
+  place.onlyKeys({"path_tortuosity", "path_turning_deg_per_cm", "take_off_deg", "nascet_percent",
+                  "aneurysm_reach_mm", "aneurysm_neck_mm"});
+  GeometryFigures geometry;
+  for (const GeometryKey& figure : kGeometryKeys) {
+    const JsonPlace value = place.at(figure.key);
+    if (!value.value().isNull()) geometry.*figure.value = notNegative(value);
+  }
+  return geometry;
+}
+
 CaseFigures readFigures(const JsonPlace& place) {
-  place.onlyKeys(
-      {"branches", "aneurysms", "nodes", "length_mm", "radius_mm", "fit_error_mm", "reachable_mm"});
+  place.onlyKeys({"branches", "aneurysms", "nodes", "length_mm", "radius_mm", "fit_error_mm",
+                  "reachable_mm", "geometry"});
   CaseFigures figures;
   figures.branches = wholeNumber(place.at("branches"));
   figures.aneurysms = wholeNumber(place.at("aneurysms"));
@@ -114,6 +125,7 @@ CaseFigures readFigures(const JsonPlace& place) {
     figures.errorP90 = notNegative(error.at("p90"));
   }
   if (!reachable.value().isNull()) figures.reachable = notNegative(reachable);
+  if (place.has("geometry")) figures.geometry = readGeometry(place.at("geometry"));
   return figures;
 }
 

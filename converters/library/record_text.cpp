@@ -19,18 +19,27 @@ Json anatomyJson(const CaseAbout& about) {
   return {{"text", about.anatomy}, {"codes", std::move(codes)}};
 }
 
+Json numberOrNull(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
 Json figuresJson(const CaseFigures& figures) {
   Json error;
   if (figures.errorMedian && figures.errorP90)
     error = {{"median", *figures.errorMedian}, {"p90", *figures.errorP90}};
-  return {{"branches", figures.branches},
-          {"aneurysms", figures.aneurysms},
-          {"nodes", figures.nodes},
-          {"length_mm", figures.length},
-          {"radius_mm",
-           {{"min", figures.radiusMin}, {"mean", figures.radiusMean}, {"max", figures.radiusMax}}},
-          {"fit_error_mm", std::move(error)},
-          {"reachable_mm", figures.reachable ? Json(*figures.reachable) : Json()}};
+  Json json = {
+      {"branches", figures.branches},
+      {"aneurysms", figures.aneurysms},
+      {"nodes", figures.nodes},
+      {"length_mm", figures.length},
+      {"radius_mm",
+       {{"min", figures.radiusMin}, {"mean", figures.radiusMean}, {"max", figures.radiusMax}}},
+      {"fit_error_mm", std::move(error)},
+      {"reachable_mm", numberOrNull(figures.reachable)}};
+  if (figures.geometry)
+    for (const GeometryKey& figure : kGeometryKeys)
+      json["geometry"][figure.key] = numberOrNull((*figures.geometry).*figure.value);
+  return json;
 }
 
 Json placesJson(const std::vector<CasePlace>& places, bool areEnds) {

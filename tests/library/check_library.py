@@ -85,6 +85,12 @@ def adding(place):
                       (figures["fit_error_mm"]["p90"], info["error_of_fit_mm"]["p90"]),
                       (figures["radius_mm"]["max"], info["radius_mm"]["max"]), (figures["reachable_mm"], info["reachable"]["length_mm"])):
         expect(abs(mine - its) <= 1e-6 * abs(its), f"a figure is {mine}, and lumen info says {its}")
+    measured = json.loads(place.run("measure", "tube.lumen", "--json").stdout)["cases"][0]
+    for key, column in (("path_tortuosity", "tortuosity"), ("path_turning_deg_per_cm", "turning_deg_per_cm"), ("take_off_deg", "greatest_take_off_deg")):
+        values = [path[column]["value"] for path in measured["paths"] if path[column]["absent"] is None]
+        mine = figures["geometry"][key]
+        expect(mine is None if not values else abs(mine - max(values)) <= 1e-4 * max(1, max(values)), f"{key} is {mine}, and lumen measure says {values}")
+    expect(figures["geometry"]["aneurysm_reach_mm"] is None, "a tube has an aneurysm")
     (place.folder / "about.json").write_text(json.dumps({"title": "From a file", "anatomy": {"text": "tube", "codes": []}, "doi": "10.1234/x"}))
     (place.folder / "note.txt").write_text("a note")
     place.run("library", "add", "lib", "tube.lumen", "--id", "full", "--about", "about.json", "--title", "Of the line", "--synthetic",

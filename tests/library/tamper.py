@@ -471,6 +471,18 @@ def figures(t):
     def change(record): record["figures"]["radius_mm"]["max"] *= 2
     change_record(t.library, "a", change)
 
+@row([732, 751], [763])
+def geometry(t):
+    "a record that states a more tortuous path than its case has"
+    def change(record): record["figures"]["geometry"]["path_tortuosity"] = 3
+    change_record(t.library, "a", change)
+
+@row([751], [763])
+def no_geometry(t):
+    "a record without measures, as older versions wrote it"
+    def change(record): del record["figures"]["geometry"]
+    change_record(t.library, "a", change)
+
 @row([751])
 def manifest_outside(t):
     "a manifest that lists a file outside"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures in a report: vessels, paths, forks, narrowings.
+// Measures in a report: vessels, paths, forks, narrowings, aneurysms.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -94,6 +94,25 @@ Markup narrowingMeasures(const ReportFacts& facts) {
   return table.markup();
 }
 
+Markup sacMeasures(const ReportFacts& facts) {
+  Table table("sac-measures", {{"aneurysm", false},
+                               {"kind", false},
+                               {"neck mm"},
+                               {"height mm"},
+                               {"width mm"},
+                               {"volume mm\u00b3"},
+                               {"aspect ratio"},
+                               {"size ratio"},
+                               {"non-sphericity"}});
+  for (const SacMeasures& m : facts.measures.sacs)
+    table.row({name(facts.value.tree.branches[m.branch].label),
+               text(m.position.empty() ? "-" : std::string(m.position)),
+               measureCell(m.neckDiameter, 2), measureCell(m.height, 2), measureCell(m.width, 2),
+               measureCell(m.volume, 1), measureCell(m.aspectRatio, 2), measureCell(m.sizeRatio, 2),
+               measureCell(m.nonSphericity, 3)});
+  return table.markup();
+}
+
 }  // namespace
 
 Markup measureSection(const ReportFacts& facts) {
@@ -112,6 +131,13 @@ Markup measureSection(const ReportFacts& facts) {
   content += forkMeasures(facts);
   content += paragraph("Narrowings and dilations.");
   content += narrowingMeasures(facts);
+  if (!facts.measures.sacs.empty()) {
+    content += paragraph(
+        "Aneurysms. Neck: mean diameter of the section that separates the sac from its vessel. "
+        "Aspect ratio: height / neck; size ratio: reach / mean diameter of the vessels at the "
+        "neck.");
+    content += sacMeasures(facts);
+  }
   return section("measures", "Measures", content);
 }
 

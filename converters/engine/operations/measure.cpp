@@ -56,6 +56,18 @@ std::string vesselText(const formats::Case& source, const CaseMeasures& measures
   return alignColumns(rows);
 }
 
+/// Empty without an aneurysm.
+std::string sacText(const formats::Case& source, const CaseMeasures& measures) {
+  if (measures.sacs.empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"aneurysm", "neck", "height", "width", "volume", "aspect ratio", "size ratio"});
+  for (const convert::SacMeasures& m : measures.sacs)
+    rows.push_back({source.tree.branches[m.branch].label, measuredText(m.neckDiameter, 2),
+                    measuredText(m.height, 2), measuredText(m.width, 2), measuredText(m.volume, 1),
+                    measuredText(m.aspectRatio, 2), measuredText(m.sizeRatio, 2)});
+  return "\n" + alignColumns(rows);
+}
+
 std::string countText(const std::vector<MeasureTable>& tables) {
   std::string text;
   for (const MeasureTable& table : tables)
@@ -104,7 +116,7 @@ public:
       const CaseMeasures measures = measure(file, source, around.progress);
       measured.push_back({file, convert::measureTables(source, measures)});
       text += formats::printable(file) + ": " + countText(measured.back().tables) + "\n\n" +
-              vesselText(source, measures) + "\n";
+              vesselText(source, measures) + sacText(source, measures) + "\n";
       if (!m_before.empty()) addChanges(source, measures, measured.back(), text, around.progress);
     }
     Json json = answer(measured);

@@ -43,11 +43,35 @@ MeasureTable emptyLike(const MeasureTable& table, std::string_view kind) {
   return out;
 }
 
-void addRow(const MeasureRow& before, const MeasureRow& after, const std::string& name,
-            MeasureTable& out) {
-  MeasureRow row = differenceOf(before, after);
-  row.labels.push_back(name);
-  out.rows.push_back(std::move(row));
+/// Two cases with their tables and with the branches that match.
+struct Compared {
+  const formats::CenterlineTree& earlierTree;
+  std::vector<MeasureTable> earlier, later;
+  Match match;
+
+  /// True if branch `own` of the later case is branch `other` of the earlier one.
+  [[nodiscard]] bool isSame(std::uint32_t own, std::uint32_t other) const {
+    return match[own] == other;
+  }
+};
+
+/// The differences of the rows of one kind. For each row of the later case the first of the earlier
+/// one counts of which `isPair` holds; `branchOf` gives the branch that names a row.
+template <class Row, class IsPair, class BranchOf>
+MeasureTable changesOf(const Compared& cases, std::string_view kind, std::string_view name,
+                       const std::vector<Row>& before, const std::vector<Row>& after,
+                       IsPair&& isPair, BranchOf&& branchOf) {
+  const MeasureTable &earlier = tableOf(cases.earlier, kind), &later = tableOf(cases.later, kind);
+  MeasureTable out = emptyLike(later, name);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (!isPair(after[i], before[k])) continue;
+      MeasureRow row = differenceOf(earlier.rows[k], later.rows[i]);
+      row.labels.push_back(cases.earlierTree.branches[branchOf(before[k])].label);
+      out.rows.push_back(std::move(row));
+      break;
+    }
+  return out;
 }
 
 }  // namespace
@@ -87,48 +111,44 @@ Match matchBranches(const formats::Case& before, const formats::Case& after) {
 
 std::vector<MeasureTable> measureChanges(const MeasuredCaseOf& before,
                                          const MeasuredCaseOf& after) {
-  const Match match = matchBranches(before.source, after.source);
-  const auto earlier = measureTables(before.source, before.measures);
-  const auto later = measureTables(after.source, after.measures);
-  const auto nameOf = [&](std::uint32_t b) { return before.source.tree.branches[b].label; };
+  const Compared cases{before.source.tree, measureTables(before.source, before.measures),
+                       measureTables(after.source, after.measures),
+                       matchBranches(before.source, after.source)};
+  const CaseMeasures &earlier = before.measures, &later = after.measures;
   std::vector<MeasureTable> out;
-
-  MeasureTable& vessels = out.emplace_back(emptyLike(tableOf(later, "vessels"), "vessel_changes"));
-  for (std::uint32_t b = 0; b < match.size(); ++b)
-    if (match[b])
-      addRow(tableOf(earlier, "vessels").rows[*match[b]], tableOf(later, "vessels").rows[b],
-             nameOf(*match[b]), vessels);
-
-  MeasureTable forks = emptyLike(tableOf(later, "forks"), "fork_changes");
-  const auto isMatch = [&](std::uint32_t own, std::uint32_t other) { return match[own] == other; };
-  for (std::size_t i = 0; i < after.measures.forks.size(); ++i) {
-    const ForkMeasures& own = after.measures.forks[i];
-    for (std::size_t k = 0; k < before.measures.forks.size(); ++k) {
-      const ForkMeasures& other = before.measures.forks[k];
-      if (!isMatch(own.parent, other.parent) || !isMatch(own.larger, other.larger) ||
-          !isMatch(own.smaller, other.smaller))
-        continue;
-      addRow(tableOf(earlier, "forks").rows[k], tableOf(later, "forks").rows[i],
-             nameOf(other.parent), forks);
-      break;
-    }
-  }
-  out.push_back(std::move(forks));
-
-  MeasureTable narrowings = emptyLike(tableOf(later, "narrowings"), "narrowing_changes");
-  for (std::size_t i = 0; i < after.measures.narrowings.size(); ++i) {
-    const NarrowingMeasures& own = after.measures.narrowings[i];
-    for (std::size_t k = 0; k < before.measures.narrowings.size(); ++k) {
-      const NarrowingMeasures& other = before.measures.narrowings[k];
-      if (!isMatch(own.branch, other.branch) || own.isDilation != other.isDilation ||
-          (own.place - other.place).norm() > 0.5 * kSamePlaceRadii * own.healthyDiameter.value)
-        continue;
-      addRow(tableOf(earlier, "narrowings").rows[k], tableOf(later, "narrowings").rows[i],
-             nameOf(other.branch), narrowings);
-      break;
-    }
-  }
-  out.push_back(std::move(narrowings));
+  out.push_back(changesOf(
+      cases, "vessels", "vessel_changes", earlier.vessels, later.vessels,
+      [&](const VesselMeasures& own, const VesselMeasures& other) {
+        return cases.isSame(own.branch, other.branch);
+      },
+      [](const VesselMeasures& m) { return m.branch; }));
+  out.push_back(changesOf(
+      cases, "paths", "path_changes", earlier.paths, later.paths,
+      [&](const PathMeasures& own, const PathMeasures& other) {
+        return cases.isSame(own.inlet, other.inlet) && cases.isSame(own.end, other.end);
+      },
+      [](const PathMeasures& m) { return m.end; }));
+  out.push_back(changesOf(
+      cases, "forks", "fork_changes", earlier.forks, later.forks,
+      [&](const ForkMeasures& own, const ForkMeasures& other) {
+        return cases.isSame(own.parent, other.parent) && cases.isSame(own.larger, other.larger) &&
+               cases.isSame(own.smaller, other.smaller);
+      },
+      [](const ForkMeasures& m) { return m.parent; }));
+  out.push_back(changesOf(
+      cases, "narrowings", "narrowing_changes", earlier.narrowings, later.narrowings,
+      [&](const NarrowingMeasures& own, const NarrowingMeasures& other) {
+        return cases.isSame(own.branch, other.branch) && own.isDilation == other.isDilation &&
+               (own.place - other.place).norm() <=
+                   0.5 * kSamePlaceRadii * own.healthyDiameter.value;
+      },
+      [](const NarrowingMeasures& m) { return m.branch; }));
+  out.push_back(changesOf(
+      cases, "sacs", "sac_changes", earlier.sacs, later.sacs,
+      [&](const SacMeasures& own, const SacMeasures& other) {
+        return cases.isSame(own.branch, other.branch);
+      },
+      [](const SacMeasures& m) { return m.branch; }));
   return out;
 }
 

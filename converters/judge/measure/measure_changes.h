@@ -23,9 +23,10 @@ struct MeasuredCaseOf {
   const CaseMeasures& measures;
 };
 
-/// Later less earlier values of the vessels that match, and of their forks and narrowings, each with
-/// its interval: the tables "vessel_changes", "fork_changes" and "narrowing_changes", whose last
-/// text is the vessel's name before.
+/// Later less earlier values of the vessels that match, and of their paths, forks, narrowings and
+/// aneurysms, each with its interval: the tables "vessel_changes", "path_changes", "fork_changes",
+/// "narrowing_changes" and "sac_changes", whose last text is the vessel's name before; of a path
+/// that of its end.
 std::vector<MeasureTable> measureChanges(const MeasuredCaseOf& before, const MeasuredCaseOf& after);
 
 }  // namespace lumen::convert

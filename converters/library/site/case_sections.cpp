@@ -119,6 +119,25 @@ std::string pictureSection(const CaseRecord& record) {
   return section + "</div>\n";
 }
 
+/// The extremes of the measures that the case has.
+std::string geometryTerms(const GeometryFigures& geometry) {
+  struct Shown {
+    const char* title;
+    const std::optional<double>& value;
+    const char* unit;
+  };
+  const Shown all[] = {{"Greatest tortuosity of a path", geometry.tortuosity, ""},
+                       {"Greatest turning of a path", geometry.turning, "°/cm"},
+                       {"Greatest take-off angle", geometry.takeOff, "°"},
+                       {"Greatest stenosis (NASCET)", geometry.stenosis, " %"},
+                       {"Aneurysm, from neck to tip", geometry.aneurysmReach, " mm"},
+                       {"Aneurysm, neck", geometry.aneurysmNeck, " mm"}};
+  std::string text;
+  for (const Shown& shown : all)
+    if (shown.value) text += term(shown.title, shownFigure(*shown.value) + shown.unit);
+  return text;
+}
+
 std::string factsSection(const CaseRecord& record) {
   const CaseFigures& figures = record.figures;
   const Eigen::Vector3d size = record.boundsMax - record.boundsMin;
@@ -134,6 +153,7 @@ std::string factsSection(const CaseRecord& record) {
     text += term("Error of fit, by nodes", "median " + shownFigure(*figures.errorMedian) +
                                                " mm, 90 % within " +
                                                shownFigure(*figures.errorP90) + " mm");
+  text += geometryTerms(figures.geometry.value_or(GeometryFigures{}));
   text += term("Size", shownFigure(size.x()) + " × " + shownFigure(size.y()) + " × " +
                            shownFigure(size.z()) + " mm");
   text += term("Centerline", counted(figures.nodes, "node", "nodes"));

@@ -11,10 +11,10 @@ globalThis.lumenFacets = (() => {
 
   /** The rows of cases.js, in its order (gallery_page.cpp, searchRow). */
   const cases = (globalThis.lumenCases ?? []).map((row, place) => {
-    const [id, title, anatomy, side, modality, synthetic, licence, vessels, aneurysms, length, narrowest, widest, picture, words] = row;
+    const [id, title, anatomy, side, modality, synthetic, licence, vessels, aneurysms, length, narrowest, widest, picture, words, tortuosity, turning, takeOff, stenosis, reach, neck] = row;
     return {
       place, id, title, anatomy, side: kSides[side] ?? side, modality: kModalities[modality] ?? modality, synthetic: synthetic === 1, licence, vessels, aneurysms,
-      length, narrowest, widest, picture, text: folded([title, anatomy, id, words].join("\n")),
+      length, narrowest, widest, tortuosity, turning, takeOff, stenosis, reach, neck, picture, text: folded([title, anatomy, id, words].join("\n")),
     };
   });
 
@@ -27,13 +27,19 @@ globalThis.lumenFacets = (() => {
     { key: "aneurysm", title: "Aneurysm", of: c => (c.aneurysms > 0 ? "with" : "without") },
     { key: "licence", title: "Licence", of: c => c.licence },
   ];
-  /** Ranges, ends included, in mm. */
+  /** Ranges, ends included, with their units. A case without the measure (null) is in no range of it. */
   const kRanges = [
-    { key: "length", title: "Length of all vessels", of: c => c.length },
-    { key: "narrowest", title: "Smallest radius", of: c => c.narrowest },
-    { key: "widest", title: "Greatest radius", of: c => c.widest },
+    { key: "length", title: "Length of all vessels", unit: "mm", of: c => c.length },
+    { key: "narrowest", title: "Smallest radius", unit: "mm", of: c => c.narrowest },
+    { key: "widest", title: "Greatest radius", unit: "mm", of: c => c.widest },
+    { key: "tortuosity", title: "Greatest tortuosity of a path", unit: "", of: c => c.tortuosity },
+    { key: "turning", title: "Greatest turning of a path", unit: "°/cm", of: c => c.turning },
+    { key: "take-off", title: "Greatest take-off angle", unit: "°", of: c => c.takeOff },
+    { key: "stenosis", title: "Greatest stenosis (NASCET)", unit: "%", of: c => c.stenosis },
+    { key: "aneurysm-reach", title: "Aneurysm, from neck to tip", unit: "mm", of: c => c.reach },
+    { key: "aneurysm-neck", title: "Aneurysm, neck", unit: "mm", of: c => c.neck },
   ];
-  const byNumber = of => (a, b) => of(b) - of(a) || a.place - b.place;
+  const byNumber = of => (a, b) => (of(b) ?? -Infinity) - (of(a) ?? -Infinity) || a.place - b.place;
   const kOrders = [
     { key: "title", title: "Title", compare: (a, b) => a.place - b.place },
     { key: "longest", title: "Longest first", compare: byNumber(c => c.length) },
@@ -41,6 +47,9 @@ globalThis.lumenFacets = (() => {
     { key: "vessels", title: "Most vessels first", compare: byNumber(c => c.vessels) },
     { key: "widest", title: "Widest first", compare: byNumber(c => c.widest) },
     { key: "narrowest", title: "Narrowest first", compare: byNumber(c => -c.narrowest) },
+    { key: "tortuous", title: "Most tortuous first", compare: byNumber(c => c.tortuosity) },
+    { key: "stenosed", title: "Greatest stenosis first", compare: byNumber(c => c.stenosis) },
+    { key: "aneurysm", title: "Largest aneurysm first", compare: byNumber(c => c.reach) },
   ];
 
   const emptyState = page => ({
@@ -48,13 +57,16 @@ globalThis.lumenFacets = (() => {
   });
   const numberOr = text => (text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : null);
 
+  /** The word of a range in addresses. */
+  const wordOf = key => (key === "widest" || key === "narrowest" ? `${key}-radius` : key);
+
   /** The state that an address means; what it does not know of, it leaves out. */
   function parse(fragment, firstPage) {
     const state = emptyState(firstPage), given = new URLSearchParams(fragment.replace(/^#/, ""));
     state.words = given.get("q") ?? "";
     for (const { key } of kFacets) for (const value of given.getAll(key)) state.chosen.get(key).add(value);
     for (const { key } of kRanges) {
-      const [low, high] = (given.get(key === "widest" || key === "narrowest" ? `${key}-radius` : key) ?? "").split("..");
+      const [low, high] = (given.get(wordOf(key)) ?? "").split("..");
       state.ranges.set(key, [numberOr(low ?? ""), numberOr(high ?? "")]);
     }
     if (kOrders.some(o => o.key === given.get("sort"))) state.order = given.get("sort");
@@ -71,7 +83,7 @@ globalThis.lumenFacets = (() => {
     for (const { key } of kFacets) for (const value of state.chosen.get(key)) words.append(key, value);
     for (const { key } of kRanges) {
       const [low, high] = state.ranges.get(key);
-      if (low !== null || high !== null) words.set(key === "length" ? key : `${key}-radius`, `${low ?? ""}..${high ?? ""}`);
+      if (low !== null || high !== null) words.set(wordOf(key), `${low ?? ""}..${high ?? ""}`);
     }
     if (state.order !== "title") words.set("sort", state.order);
     if (state.page !== (words.size > 0 ? 1 : firstPage)) words.set("page", String(state.page));
@@ -86,7 +98,7 @@ globalThis.lumenFacets = (() => {
     const counts = new Map(kFacets.map(f => [f.key, new Map()])), found = [];
     for (const c of cases) {
       if (!words.every(word => c.text.includes(word))) continue;
-      if (!ranges.every(({ of, ends: [low, high] }) => (low === null || of(c) >= low) && (high === null || of(c) <= high))) continue;
+      if (!ranges.every(({ of, ends: [low, high] }) => of(c) !== null && (low === null || of(c) >= low) && (high === null || of(c) <= high))) continue;
       const missed = chosen.filter(({ of, values }) => values.size > 0 && !values.has(of(c)));
       if (missed.length === 0) found.push(c);
       for (const [i, { key, of }] of kFacets.entries())

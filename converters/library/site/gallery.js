@@ -124,15 +124,16 @@
   }
 
   function drawRange(range) {
-    const all = cases.map(range.of), ends = [Math.min(...all), Math.max(...all)];
+    const all = cases.map(range.of).filter(value => value !== null), ends = [Math.min(...all), Math.max(...all)];
+    const unit = range.unit === "" ? "" : `, ${range.unit}`;
     const inputs = ["least", "most"].map((end, i) => {
-      const input = make("input", { type: "number", min: "0", step: "any", inputmode: "decimal", placeholder: cases.length === 0 ? "" : figure(ends[i]), "aria-label": `${range.title}: ${end}, in mm` });
+      const input = make("input", { type: "number", min: "0", step: "any", inputmode: "decimal", placeholder: all.length === 0 ? "" : figure(ends[i]), "aria-label": `${range.title}: ${end}${unit}` });
       const value = state.ranges.get(range.key)[i];
       if (value !== null) input.value = String(value);
       input.addEventListener("input", () => { state.ranges.get(range.key)[i] = numberOr(input.value); changed(); });
       return input;
     });
-    return make("fieldset", { class: "range", "data-range": range.key }, make("legend", {}, `${range.title}, mm`), inputs[0], make("span", {}, "to"), inputs[1]);
+    return make("fieldset", { class: "range", "data-range": range.key }, make("legend", {}, `${range.title}${unit}`), inputs[0], make("span", {}, "to"), inputs[1]);
   }
 
   function drawSearch() {
@@ -141,7 +142,7 @@
     search.addEventListener("input", () => { state.words = search.value; changed(); });
     const clear = make("button", { type: "button", id: "clear", class: "button" }, "Clear all");
     clear.addEventListener("click", () => { const { order } = state; state = { ...emptyState(1), order }; build(); changed(); document.getElementById("words").focus(); });
-    const filters = make("details", { id: "filters" }, make("summary", {}, "Filter"), ...facets.map(drawFacet), ...ranges.map(drawRange));
+    const filters = make("details", { id: "filters" }, make("summary", {}, "Filter"), ...facets.map(drawFacet), ...ranges.filter(range => cases.length === 0 || cases.some(c => range.of(c) !== null)).map(drawRange));
     filters.open = matchMedia("(min-width: 52rem)").matches;
     const place = document.getElementById("find");
     place.replaceChildren(make("label", { for: "words" }, "Search"), search, clear, filters);

@@ -168,12 +168,17 @@ std::string searchRow(const CaseRecord& record) {
   for (const std::vector<CasePlace>* const places : {&record.insertions, &record.ends})
     for (const CasePlace& place : *places) words += printable(place.name) + " ";
   using Json = nlohmann::ordered_json;
-  const Json row = Json::array(
+  Json row = Json::array(
       {record.id, printable(about.title), printable(about.anatomy), printable(about.laterality),
        printable(about.modality), about.synthetic ? 1 : 0, printable(about.licence),
        record.figures.branches, record.figures.aneurysms, rounded(record.figures.length),
        rounded(record.figures.radiusMin), rounded(record.figures.radiusMax),
        casePictures(record).thumbnail, trimmed(words)});
+  const GeometryFigures geometry = record.figures.geometry.value_or(GeometryFigures{});
+  for (const GeometryKey& figure : kGeometryKeys) {
+    const std::optional<double>& value = geometry.*figure.value;
+    row.push_back(value ? Json(rounded(*value)) : Json());
+  }
   return jsonInScript(row.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

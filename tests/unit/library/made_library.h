@@ -33,7 +33,17 @@ inline CaseRecord madeRecord(const std::string& id = "siphon-01") {
                   "faces and names were removed"};
   record.boundsMin = {-1, 2.5, 3};
   record.boundsMax = {10, 20, 30.25};
-  record.figures = {3, 1, 120, 88.5, 0.5, 1.25, 2.5, 0.01, 0.04, 80.5};
+  record.figures = {3,
+                    1,
+                    120,
+                    88.5,
+                    0.5,
+                    1.25,
+                    2.5,
+                    0.01,
+                    0.04,
+                    80.5,
+                    GeometryFigures{0.125, 40, 75, 62.5, 7, 3.5}};
   record.insertions = {{"ica", "", {1, 2, 3}, {0, 0, 1}, 2.5}};
   record.ends = {{"inlet", "inlet", {1, 2, 3}, {0, 0, -1}, 2.5},
                  {"outlet-mca", "outlet", {4, 5, 6}, {1, 0, 0}, 1.5}};

@@ -61,6 +61,7 @@ TEST(Record, WithoutWhatMayBeMissingToo) {
   record.figures.errorMedian.reset();
   record.figures.errorP90.reset();
   record.figures.reachable.reset();
+  record.figures.geometry = GeometryFigures{};
   record.insertions.clear();
   record.ends.clear();
   record.about.codes.clear();
@@ -102,6 +103,10 @@ TEST(Record, RefusesWhatTheSchemaRefusesAndSaysWhere) {
       {"/figures/length_mm", nullptr, "a number"},
       {"/figures/fit_error_mm", 3, "an object"},
       {"/figures/reachable_mm", "far", "a number"},
+      {"/figures/geometry", nullptr, "an object"},
+      {"/figures/geometry", Json::object(), "path_tortuosity"},
+      {"/figures/geometry/nascet_percent", -1, "at least 0"},
+      {"/figures/geometry/more", 1, "unknown key"},
       {"/insertions/0/direction", {0, 0, 2}, "length 1"},
       {"/insertions/0/radius", 0, "above 0"},
       {"/insertions/0/label", "", "1 to 255"},

@@ -156,5 +156,33 @@ TEST(Changes, AreThoseOfTheVesselsAtOnePlace) {
   EXPECT_NEAR(vessels.rows[1].values[radius].value, 0, 2e-3);
 }
 
+/// The value of a column in the only row of a table.
+Measured onlyValue(const std::vector<MeasureTable>& tables, std::string_view kind,
+                   std::string_view column) {
+  for (const MeasureTable& table : tables) {
+    if (table.kind != kind || table.rows.size() != 1) continue;
+    for (std::size_t i = 0; i < table.values.size(); ++i)
+      if (table.values[i] == column) return table.rows[0].values[i];
+  }
+  return {};
+}
+
+TEST(Changes, IncludePathsAndAneurysms) {
+  formats::Case source = caseOf({straightTube({0, 0, 0}, {0, 0, 1}, 30, 1.5)}, 0.25);
+  source.tree.branches[0].kind = formats::BranchKind::Aneurysm;
+  CaseMeasures before, after;
+  before.sacs.emplace_back().width = {5, 0.3, {}};
+  after.sacs.emplace_back().width = {5.5, 0.4, {}};
+  after.sacs[0].neckDiameter = {3, 0.1, {}};
+  before.sacs[0].neckDiameter.absent = "no neck";
+  before.paths.emplace_back().length = {30, 1, {}};
+  after.paths.emplace_back().length = {29, 0, {}};
+  const auto changes = measureChanges({source, before}, {source, after});
+  EXPECT_NEAR(onlyValue(changes, "sac_changes", "width_mm").value, 0.5, 1e-12);
+  EXPECT_NEAR(onlyValue(changes, "sac_changes", "width_mm").plusMinus, 0.5, 1e-12);
+  EXPECT_EQ(onlyValue(changes, "sac_changes", "neck_diameter_mm").absent, "no neck");
+  EXPECT_NEAR(onlyValue(changes, "path_changes", "length_mm").value, -1, 1e-12);
+}
+
 }  // namespace
 }  // namespace lumen::convert::test

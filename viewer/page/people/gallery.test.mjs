@@ -108,6 +108,28 @@ story(
   },
 );
 
+story("measures are ranges, and a case without the measure is in none of them", async t => {
+  const { address, within: inside } = library(t),
+    browser = await startBrowser(t),
+    page = await openSite(t, browser, address, { within: inside });
+  await picture(page, "gallery_measures");
+  await page.getByLabel("Greatest stenosis (NASCET): least").fill("0");
+  const has = cases.filter(c => typeof c.figures.geometry?.nascet_percent === "number");
+  assert.ok(has.length > 20 && has.length < cases.length);
+  assert.deepEqual((await foundIds(page)).sort(), idsOf(has));
+  await page.getByLabel("Greatest stenosis (NASCET): least").fill("50");
+  await page.getByLabel("Greatest stenosis (NASCET): most").fill("70");
+  await page.locator("#order").selectOption("stenosed");
+  const expected = has.filter(c => c.figures.geometry.nascet_percent >= 50 && c.figures.geometry.nascet_percent <= 70);
+  assert.deepEqual(await shownIds(page), expected.map(c => c.id).reverse());
+  assert.match(await fragment(page), /stenosis=50..70/);
+  assert.equal(await page.getByLabel("Greatest take-off angle: least").count(), 0, "no case has it");
+  await page.locator("#cards h2 a").first().click();
+  await page.locator("body.one[data-ready]").waitFor();
+  await page.getByText("Greatest stenosis (NASCET)").waitFor();
+  await picture(page, "case_measures");
+});
+
 story("all that the gallery does can be done by keys, and is named", async t => {
   const { address, within: inside } = library(t),
     browser = await startBrowser(t),

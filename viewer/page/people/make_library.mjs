@@ -175,6 +175,19 @@ export function manyCases(n) {
       radius_mm: { min: 0.5 + (i % 4) / 10, mean: 1.5, max: 2 + (i % 10) },
       fit_error_mm: null,
       reachable_mm: 100 + i,
+      // every third case comes from a version that did not measure
+      ...(i % 3 === 1
+        ? {}
+        : {
+            geometry: {
+              path_tortuosity: i / 100,
+              path_turning_deg_per_cm: 30,
+              take_off_deg: null,
+              nascet_percent: i % 2 === 0 ? i : null,
+              aneurysm_reach_mm: i % 6 === 0 ? 3 + i / 10 : null,
+              aneurysm_neck_mm: i % 6 === 0 ? 3 : null,
+            },
+          }),
     },
     files: { "picture.png": { role: "picture", bytes: png([200 - (i % 7) * 20, 60, 60]) } },
   }));
