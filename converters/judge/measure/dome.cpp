@@ -184,18 +184,17 @@ void addHull(const DomeSurface& dome, const NeckPlane& plane, DomeShape& shape) 
 
 }  // namespace
 
-std::optional<DomeSurface> cutDome(const LocalSurface& surface, const NeckPlace& place,
-                                   const NeckPlane& plane) {
-  PlaneCutter cutter(surface, place);
+std::optional<DomeSurface> cutDome(PlaneCutter& cutter, const NeckPlane& plane) {
   if (!cutter.cut(plane)) return std::nullopt;
-  const std::vector<Vector3d>& position = surface.mesh.position;
+  const TriangleMesh& mesh = cutter.surface().mesh;
+  const std::vector<Vector3d>& position = mesh.position;
   std::vector<std::uint8_t> keep(position.size());
   std::vector<double> height(position.size());
   for (std::uint32_t v = 0; v < position.size(); ++v) {
     keep[v] = cutter.isBeyond(v) ? 1 : 0;
     height[v] = plane.normal.dot(position[v]) - plane.offset;
   }
-  Clipper clipper(surface.mesh, keep, height);
+  Clipper clipper(mesh, keep, height);
   clipper.run();
   DomeSurface dome;
   const std::vector<std::uint32_t> loop = clipper.loop();

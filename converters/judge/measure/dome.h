@@ -19,8 +19,7 @@ struct DomeSurface {
 };
 
 /// Nothing if the plane does not separate the sac, or its rim is not one loop.
-std::optional<DomeSurface> cutDome(const LocalSurface& surface, const NeckPlace& place,
-                                   const NeckPlane& plane);
+std::optional<DomeSurface> cutDome(PlaneCutter& cutter, const NeckPlane& plane);
 
 /// The mean diameter of a section is twice the mean distance of its rim from its centroid (S. Dhar
 /// et al., 2008).

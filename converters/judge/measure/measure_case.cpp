@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include <tbb/parallel_invoke.h>
+
 #include "converters/judge/measure/course_measures.h"
 #include "converters/judge/measure/fork_measures.h"
 #include "converters/judge/measure/narrowing_measures.h"
@@ -87,6 +89,19 @@ void addStations(const formats::CenterlineTree& tree, const VesselCourse& course
     out.push_back(stationOf(course.branch, samples, i, course.endSd));
 }
 
+/// All measures but those of aneurysms.
+void measureVesselsOf(const formats::Case& source, const MeasureOptions& options, const Wall* wall,
+                      const WallNoise* noise, Progress& progress, CaseMeasures& out) {
+  const std::vector<VesselCourse> courses = vesselCourses(source, wall, noise, progress);
+  const double shared = noise ? noise->shared() : 0;
+  for (const VesselCourse& course : courses)
+    if (course.absent.empty()) addStations(source.tree, course, options, wall, noise, out.stations);
+  out.vessels = measureVessels(courses, shared);
+  out.forks = measureForks(source.tree, courses);
+  out.paths = measurePaths(source.tree, courses, out.forks, shared, progress);
+  out.narrowings = measureNarrowings(courses);
+}
+
 }  // namespace
 
 CaseMeasures measureCase(const formats::Case& source, const MeasureOptions& options,
@@ -97,16 +112,10 @@ CaseMeasures measureCase(const formats::Case& source, const MeasureOptions& opti
       wall ? std::optional<WallNoise>(std::in_place, source, *wall) : std::nullopt;
   const Wall* cut = wall ? &*wall : nullptr;
   const WallNoise* spread = noise ? &*noise : nullptr;
-  const std::vector<VesselCourse> courses = vesselCourses(source, cut, spread, progress);
-  const double shared = spread ? spread->shared() : 0;
   CaseMeasures out;
-  for (const VesselCourse& course : courses)
-    if (course.absent.empty()) addStations(source.tree, course, options, cut, spread, out.stations);
-  out.vessels = measureVessels(courses, shared);
-  out.forks = measureForks(source.tree, courses);
-  out.paths = measurePaths(source.tree, courses, out.forks, shared, progress);
-  out.narrowings = measureNarrowings(courses);
-  out.sacs = measureSacs(source, spread, progress);
+  // a sac is the work of one thread, which is as long as that of all vessels
+  tbb::parallel_invoke([&] { out.sacs = measureSacs(source, spread, progress); },
+                       [&] { measureVesselsOf(source, options, cut, spread, progress, out); });
   return out;
 }
 

@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 
 constexpr int kTriedPlanes = 32;            // planes of one direction that are tried first
 constexpr int kRefinements = 10;            // halvings of an interval between two of them
+constexpr int kGoldenSteps = 14;            // 1e-4 of the way between the first planes, at last
 constexpr double kTilt = 1;                 // tangent of the greatest tilt that is searched
 constexpr int kTiltsAcross = 5;             // of the first grid of tilts, in either direction
 constexpr double kLastTilt = 0.004;         // tangent: the search ends
@@ -46,6 +47,15 @@ public:
   OffsetSearch(PlaneCutter& cutter, const Vector3d& normal, double low, double high)
       : m_cutter(cutter), m_normal(normal), m_low(low), m_step((high - low) / kTriedPlanes) {}
 
+  /// Near a plane that was the best of a normal near by.
+  Found runNear(double offset) {
+    const double i = (offset - m_low) / m_step;
+    const double below = scoreAt(at(i - 1)), here = scoreAt(at(i)), above = scoreAt(at(i + 1));
+    if (std::isinf(here) || !(here <= above)) return run();
+    if (std::isinf(below)) return refineLowest(i);
+    return here <= below ? golden(at(i - 1), at(i + 1)) : run();
+  }
+
   Found run() {
     std::array<std::optional<PlaneCutter::Cut>, kTriedPlanes> cuts;
     int widest = -1;
@@ -74,7 +84,7 @@ private:
   }
 
   // The section may be smallest at the last plane that separates, or between it and the next.
-  Found refineLowest(int lowest) {
+  Found refineLowest(double lowest) {
     double good = at(lowest), bad = at(lowest - 1);
     for (int i = 0; i < kRefinements; ++i) {
       const double middle = 0.5 * (good + bad);
@@ -92,7 +102,7 @@ private:
     const auto keep = [&](double offset, double value) {
       if (value < found.score) found = {{m_normal, offset}, value};
     };
-    for (int i = 0; i < 2 * kRefinements; ++i) {
+    for (int i = 0; i < kGoldenSteps; ++i) {
       keep(a, fa);
       keep(b, fb);
       if (fa < fb) {
@@ -228,20 +238,20 @@ namespace {
 /// sac.
 class TiltSearch {
 public:
-  TiltSearch(const LocalSurface& surface, const NeckPlace& place, const Progress& progress)
-      : m_cutter(surface, place),
-        m_place(place),
+  TiltSearch(PlaneCutter& cutter, const Progress& progress)
+      : m_cutter(cutter),
+        m_place(cutter.place()),
         m_progress(progress),
-        m_along((place.sac - place.vessel).normalized()),
+        m_along((m_place.sac - m_place.vessel).normalized()),
         m_across(planeBasis(m_along)) {}
 
   bool keep(double a, double b) {
     m_progress.check();
     if (std::max(std::abs(a), std::abs(b)) > kTilt) return false;
     const Vector3d normal = (m_along + a * m_across.first + b * m_across.second).normalized();
-    const Found found =
-        OffsetSearch(m_cutter, normal, normal.dot(m_place.vessel), normal.dot(m_cutter.farSide()))
-            .run();
+    OffsetSearch search(m_cutter, normal, normal.dot(m_place.vessel),
+                        normal.dot(m_cutter.farSide()));
+    const Found found = std::isinf(m_best.score) ? search.run() : search.runNear(normal.dot(hub()));
     if (!(found.score < m_best.score)) return false;
     m_best = found;
     m_a = a;
@@ -271,7 +281,15 @@ public:
   }
 
 private:
-  PlaneCutter m_cutter;
+  /// The point of the best plane on the way from the vessel to the sac.
+  [[nodiscard]] Vector3d hub() const {
+    const NeckPlane& plane = m_best.plane;
+    const double way =
+        (plane.offset - plane.normal.dot(m_place.vessel)) / plane.normal.dot(m_along);
+    return m_place.vessel + way * m_along;
+  }
+
+  PlaneCutter& m_cutter;
   const NeckPlace& m_place;
   const Progress& m_progress;
   Vector3d m_along;
@@ -282,10 +300,10 @@ private:
 
 }  // namespace
 
-std::optional<NeckPlane> findNeck(const LocalSurface& surface, const NeckPlace& place,
-                                  const Progress& progress) {
-  if (surface.mesh.triangle.empty() || place.sac == place.vessel) return std::nullopt;
-  TiltSearch search(surface, place, progress);
+std::optional<NeckPlane> findNeck(PlaneCutter& surface, const Progress& progress) {
+  const NeckPlace& place = surface.place();
+  if (surface.surface().mesh.triangle.empty() || place.sac == place.vessel) return std::nullopt;
+  TiltSearch search(surface, progress);
   search.keep(0, 0);
   constexpr double kStep = 2 * kTilt / (kTiltsAcross - 1);
   for (int i = 0; i < kTiltsAcross; ++i)
@@ -294,9 +312,9 @@ std::optional<NeckPlane> findNeck(const LocalSurface& surface, const NeckPlace& 
   return search.best();
 }
 
-std::optional<NeckPlane> refineNeck(const NeckPlane& found, const LocalSurface& fine,
-                                    const NeckPlace& place, const Progress& progress) {
-  TiltSearch search(fine, place, progress);
+std::optional<NeckPlane> refineNeck(const NeckPlane& found, PlaneCutter& fine,
+                                    const Progress& progress) {
+  TiltSearch search(fine, progress);
   search.keep(found.normal);
   search.descend(kFirstRefinedTilt);
   return search.best();

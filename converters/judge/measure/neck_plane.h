@@ -38,6 +38,8 @@ public:
   /// The part beyond a plane in which the sac's point lies. Nothing if that part runs out of the
   /// box, or has the axis of a vessel in it.
   std::optional<Cut> cut(const NeckPlane& plane);
+  [[nodiscard]] const LocalSurface& surface() const { return m_surface; }
+  [[nodiscard]] const NeckPlace& place() const { return m_place; }
   /// The place of the wall behind the sac's point, seen from its vessel, mm.
   [[nodiscard]] const Eigen::Vector3d& farSide() const { return m_surface.mesh.position[m_seed]; }
   /// The vertices of the part that the last cut() found.
@@ -62,11 +64,10 @@ private:
 /// hourglass that is its narrowest place, but for a shift of 1 % of the neck's width; on a neck of
 /// even width, its end at the vessel; on a sac that sits on the wall of a vessel, the plane that
 /// touches the vessel. Nothing if no plane within 45 degrees of the sac's direction separates it.
-std::optional<NeckPlane> findNeck(const LocalSurface& surface, const NeckPlace& place,
-                                  const Progress& progress);
+std::optional<NeckPlane> findNeck(PlaneCutter& surface, const Progress& progress);
 
 /// The neck on a finer surface, near one that was found on a coarser one.
-std::optional<NeckPlane> refineNeck(const NeckPlane& found, const LocalSurface& fine,
-                                    const NeckPlace& place, const Progress& progress);
+std::optional<NeckPlane> refineNeck(const NeckPlane& found, PlaneCutter& fine,
+                                    const Progress& progress);
 
 }  // namespace lumen::convert

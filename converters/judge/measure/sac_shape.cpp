@@ -32,13 +32,12 @@ struct Domes {
 
 // The domes of both surfaces beyond one plane: the least farther out than the neck where both have
 // one rim. A crease of a coarse surface ends farther out.
-std::optional<Domes> domesAt(const LocalSurface& coarse, const LocalSurface& fine,
-                             const NeckPlace& place, const NeckPlane& neck) {
-  const double way = PlaneCutter(fine, place).farSide().dot(neck.normal) - neck.offset;
+std::optional<Domes> domesAt(PlaneCutter& coarse, PlaneCutter& fine, const NeckPlane& neck) {
+  const double way = fine.farSide().dot(neck.normal) - neck.offset;
   for (int i = 0; i < kNudges; ++i) {
     const NeckPlane plane{neck.normal, neck.offset + kMostNudge * way * i / kNudges};
-    std::optional<DomeSurface> one = cutDome(coarse, place, plane);
-    std::optional<DomeSurface> two = one ? cutDome(fine, place, plane) : std::nullopt;
+    std::optional<DomeSurface> one = cutDome(coarse, plane);
+    std::optional<DomeSurface> two = one ? cutDome(fine, plane) : std::nullopt;
     if (two) return Domes{plane, std::move(*one), std::move(*two)};
   }
   return std::nullopt;
@@ -99,9 +98,11 @@ std::optional<SacShape> findSacShape(const BoxedField& field, const NeckPlace& p
   const SampledField rough(field, cell, nullptr, progress);
   const SampledField smooth(field, 0.5 * cell, &rough, progress);
   const LocalSurface coarse = rough.surface(seed), fine = smooth.surface(seed);
-  std::optional<NeckPlane> neck = findNeck(coarse, place, progress);
-  if (neck) neck = refineNeck(*neck, fine, place, progress);
-  std::optional<Domes> domes = neck ? domesAt(coarse, fine, place, *neck) : std::nullopt;
+  if (coarse.mesh.triangle.empty() || fine.mesh.triangle.empty()) return std::nullopt;
+  PlaneCutter coarseCutter(coarse, place), fineCutter(fine, place);
+  std::optional<NeckPlane> neck = findNeck(coarseCutter, progress);
+  if (neck) neck = refineNeck(*neck, fineCutter, progress);
+  std::optional<Domes> domes = neck ? domesAt(coarseCutter, fineCutter, *neck) : std::nullopt;
   if (!domes) return std::nullopt;
   SacShape out;
   out.neck = domes->plane;
@@ -110,7 +111,7 @@ std::optional<SacShape> findSacShape(const BoxedField& field, const NeckPlace& p
   out.shape = extrapolated(shapeOf(domes->coarse, out.neck), finer);
   out.moved = out.shape;
   const NeckPlane beyond{out.neck.normal, out.neck.offset + shift};
-  if (auto dome = shift > 0 ? cutDome(fine, place, beyond) : std::nullopt) {
+  if (auto dome = shift > 0 ? cutDome(fineCutter, beyond) : std::nullopt) {
     putOnWall(field, beyond, *dome, cell);
     out.moved = corrected(shapeOf(*dome, beyond), finer, out.shape);
   }

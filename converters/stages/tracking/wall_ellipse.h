@@ -18,8 +18,8 @@ inline constexpr std::size_t kSectors = 12, kLeastSectors = 8;
 
 /// A wall point about an axis.
 struct WallPlace {
-  Eigen::Vector3d position;  ///< mm, LPS
-  double angle = 0, distance = 0;  ///< around the axis, radians; from it, mm
+  Eigen::Vector3d position;                       ///< mm, LPS
+  double angle = 0, distance = 0;                 ///< around the axis, radians; from it, mm
   EllipseUnknowns row = EllipseUnknowns::Zero();  ///< factors of the ellipse's unknowns
 };
 

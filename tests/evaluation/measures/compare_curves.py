@@ -2,12 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """lumen's measures of curves beside the sums over points that TubeTK's tortuosity filter takes.
 
-compare_curves.py LUMEN SWC... [--least MM]
+compare_curves.py LUMEN SWC... [--least MM] [--filter PROGRAM]
 
 Reads each SWC file with lumen, measures it, and takes from the nodes of each vessel and from lumen's own stations:
 the distance metric (length / chord), the inflection count metric and the sum of angles metric, by the sums of
 Bullitt and others (2003) as TubeTK has them, written anew from the definitions. Needs numpy. Prints a table of the
-vessels that are longer than MM (default 20), and medians of the ratios."""
+vessels that are longer than MM (default 20), and medians of the ratios.
+
+PROGRAM is TubeTK's filter itself, built beside: it takes its smoothing scale as argument, tubes on standard input, each
+as a number of points and their coordinates, and prints for each its path length, distance metric, inflection count
+metric, and sums of angles and of torsion for each mm. TubeTK's sum of angles leaves torsion out, so it stands beside
+lumen's turning. It runs on the nodes with its own scale (5 points), and on lumen's stations without smoothing."""
 import argparse, json, pathlib, subprocess, tempfile
 import numpy as np
 
@@ -45,7 +50,14 @@ def measured(lumen, *arguments):
     return json.loads(subprocess.run([lumen, *arguments, "--json", "--quiet"], check=True, capture_output=True).stdout)
 
 
-def rows_of(lumen, swc, folder):
+def filtered(program, scale, points):
+    """Distance metric, inflection count metric, and angles in the plane in radians for each cm, of the program."""
+    text = f"{len(points)}\n" + "\n".join(" ".join(f"{c:.9g}" for c in p) for p in points)
+    line = subprocess.run([program, str(scale)], input=text, check=True, capture_output=True, text=True).stdout.split()
+    return float(line[1]), float(line[2]), 10 * float(line[3])
+
+
+def rows_of(lumen, swc, folder, program):
     case = folder / "case.lumen.json"
     subprocess.run([lumen, "convert", swc, case, "--quiet"], check=True, capture_output=True)
     tree = json.loads(case.read_text())["tree"]
@@ -60,7 +72,10 @@ def rows_of(lumen, swc, folder):
         if len(nodes) < 4: continue
         places, bends = zip(*stations[branch["label"]])
         places, bends = np.array(places), np.array(bends)
-        yield branch["label"], ours, sums(places, bends), sums(places), sums(nodes)
+        if program:
+            yield branch["label"], ours, filtered(program, 0, places), filtered(program, 5, nodes), filtered(program, 0, nodes)
+        else:
+            yield branch["label"], ours, sums(places, bends), sums(places), sums(nodes)
 
 
 def main():
@@ -68,16 +83,20 @@ def main():
     parser.add_argument("lumen")
     parser.add_argument("swc", nargs="+")
     parser.add_argument("--least", type=float, default=20)
+    parser.add_argument("--filter")
     options = parser.parse_args()
+    kinds = ("the filter on its stations | on the nodes, smoothed | on the nodes as they are" if options.filter else
+             "sums over its stations where it has a torsion | over all of them | over the nodes")
     for swc in options.swc:
-        print(f"\n{pathlib.Path(swc).name}: lumen | sums over its stations where it has a torsion | over all of them | over the nodes")
+        print(f"\n{pathlib.Path(swc).name}: lumen | {kinds}")
         print(f"{'vessel':>10} {'mm':>6} | " + " | ".join(4 * [f"{'L/C':>6} {'ICM':>6} {'SOAM':>6}"]))
         ratios = []
         with tempfile.TemporaryDirectory() as folder:
-            for label, ours, *others in rows_of(options.lumen, swc, pathlib.Path(folder)):
+            for label, ours, *others in rows_of(options.lumen, swc, pathlib.Path(folder), options.filter):
                 length = ours["length_mm"]["value"]
                 if length < options.least: continue
-                own = (ours["tortuosity"]["value"] + 1, ours["inflection_count_metric"]["value"], ours["sum_of_angles_rad_per_cm"]["value"])
+                own = (ours["tortuosity"]["value"] + 1, ours["inflection_count_metric"]["value"],
+                       np.radians(ours["turning_deg_per_cm"]["value"]) if options.filter else ours["sum_of_angles_rad_per_cm"]["value"])
                 ratios.append(np.divide(others, own))
                 print(f"{label[:10]:>10} {length:6.1f} | " + " | ".join(f"{a:6.3f} {b:6.2f} {c:6.2f}" for a, b, c in (own, *others)))
         middle = np.median(ratios, axis=0)

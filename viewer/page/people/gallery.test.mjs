@@ -120,7 +120,9 @@ story("measures are ranges, and a case without the measure is in none of them", 
   await page.getByLabel("Greatest stenosis (NASCET): least").fill("50");
   await page.getByLabel("Greatest stenosis (NASCET): most").fill("70");
   await page.locator("#order").selectOption("stenosed");
-  const expected = has.filter(c => c.figures.geometry.nascet_percent >= 50 && c.figures.geometry.nascet_percent <= 70);
+  const expected = has.filter(
+    c => c.figures.geometry.nascet_percent >= 50 && c.figures.geometry.nascet_percent <= 70,
+  );
   assert.deepEqual(await shownIds(page), expected.map(c => c.id).reverse());
   assert.match(await fragment(page), /stenosis=50..70/);
   assert.equal(await page.getByLabel("Greatest take-off angle: least").count(), 0, "no case has it");
