@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "converters/base/vectors.h"
 #include "converters/judge/measure/course_measures.h"
@@ -25,6 +26,10 @@ constexpr double kTipShare = 0.95;    // of the reach: places that make the dome
 // Voxels: standard deviation of the neck plane along its normal. A crease that is as sharp as the
 // point-spread function leaves it is a good half of a voxel wide.
 constexpr double kNeckVoxels = 0.5;
+// Standard deviation of the rim's place, in standard deviations of the volume's blur: that of an even
+// distribution between 0 and 1.8. The half level of a blurred wedge lies 0.55 of them from its edge
+// along one side at a right angle, and 1.8 at 40 degrees, the crease of a ball of 1.5 necks.
+constexpr double kRimBlurs = 0.5;
 constexpr double kSdOfRadius = 0.03;  // of a vessel's radius in the tree, as a share
 constexpr double kPerRadian = 180 / std::numbers::pi;
 
@@ -103,6 +108,23 @@ DomeShape grown(const DomeShape& dome, double by) {
   out.height += by;
   out.reach += by;
   return out;
+}
+
+// The dome with its rim farther out.
+DomeShape widened(const DomeShape& dome, double by) {
+  DomeShape out = dome;
+  out.neckArea += std::numbers::pi * dome.neckDiameter * by;
+  out.neckDiameter += 2 * by;
+  return out;
+}
+
+// Blur of the volume from which a case was tracked, mm, a standard deviation; 0 if none is recorded.
+double recordedBlur(const formats::Case& source) {
+  double blur = 0;
+  for (const formats::Step& step : source.metadata.steps)
+    if (const auto found = step.parameters.find("point-spread"); found != step.parameters.end())
+      if (const auto* mm = std::get_if<double>(&found->second)) blur = *mm;
+  return blur;
 }
 
 /// Measures one sac.
@@ -191,6 +213,7 @@ private:
     uneven.hullVolume += shape.hullArea * single;
     spread.add(valuesOf(uneven, vessel));
     spread.add(valuesOf(sac.moved, vessel));
+    spread.add(valuesOf(widened(shape, kRimBlurs * recordedBlur(m_source)), vessel));
     spread.add(valuesOf(
         shape, vessel * (1 + kSdOfRadius / std::sqrt(std::max<std::size_t>(1, vessels.size())))));
     const std::array<Measured*, kValues> outs = {
