@@ -20,6 +20,9 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kTaperRadii = 3;  // to either side: the stretch of a station's taper
+// Standard deviations by which the least of four independent normal errors lies below none: the
+// wall's noise brings the nearest of its places nearer.
+constexpr double kLeastOfFour = 1.029;
 constexpr std::string_view kNearEnd = "too near to an end of the vessel for the curve's window";
 constexpr std::string_view kNoTorsion = "the curvature is not significant: a line has no torsion";
 constexpr std::string_view kAxisOutside = "the axis lies outside of the lumen";
@@ -60,8 +63,9 @@ StationMeasures stationOf(std::uint32_t branch, const std::vector<CourseSample>&
                       ? measured(axis.torsion, axis.torsionSd, axis.torsionBias)
                       : notDefined(kNoTorsion);
   }
-  out.radius = std::isfinite(sample.radius) ? measured(sample.radius, sample.placeSd)
-                                            : notDefined(kAxisOutside);
+  out.radius = std::isfinite(sample.radius)
+                   ? measured(sample.radius, sample.placeSd, kLeastOfFour * sample.placeSd)
+                   : notDefined(kAxisOutside);
   addSection(sample, out);
   std::size_t first = i, last = i + 1;
   const double reach = kTaperRadii * sample.axis.radius;
