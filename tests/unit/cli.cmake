@@ -2,6 +2,9 @@
 find_package(PNG REQUIRED)
 lumen_test(cli_test
   LABELS slow
+  SLOW OptionScopeTest.AnOptionThatIsTakenChangesEveryOutputThatItIsFor
+    ExportScopeTest.AnOptionThatATargetTakesChangesItsFolder ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfARealAngiogram
+    CommandScopeTest.AnOptionOfACommandThatReadsVolumesChangesItsAnswer
   LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_base lumen_csv lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
@@ -38,6 +41,8 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/validate_test.cpp)
 target_compile_definitions(cli_test PRIVATE LUMEN_EXECUTABLE="$<TARGET_FILE:lumen>")
 add_dependencies(cli_test lumen)
+# the longest by far: begun first, it does not run alone at the end
+set_tests_properties(cli_test PROPERTIES COST 1000)
 
 # The closed surfaces that it writes, measured with CGAL and filled by TetGen.
 lumen_test(closed_surface_test
