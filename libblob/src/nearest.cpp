@@ -13,16 +13,15 @@ namespace {
 
 using field::Vec;
 
-// A unit vector across the vessel at a node, for points where grad f is zero.
-Vec acrossVessel(const blob_model& model, std::uint32_t node) {
+// A unit vector along the vessel at a node; any for a node alone.
+Vec alongVessel(const blob_model& model, std::uint32_t node) {
   const NodeRecord& record = model.nodes[node];
-  Vec along{1, 0, 0};
   if (record.neighbourBlocks > 0) {
     const NeighbourBlock& block = model.neighbours[record.firstNeighbours];
     const Vec towards{block.nx[0], block.ny[0], block.nz[0]};
-    if (dot(towards, towards) > 0) along = towards;
+    if (dot(towards, towards) > 0) return (1.0 / norm(towards)) * towards;
   }
-  return field::perpendicular(along);
+  return {1, 0, 0};
 }
 
 // Newton's method to the wall, then along it.
@@ -44,6 +43,7 @@ public:
     Foot foot{m_query, m_best.node, 0};
     blob_sample first = sample(foot);
     const bool inside = (first.state & BLOB_INSIDE) != 0;
+    if (inside && leadsAstray(foot, first)) first = leaveAcross(foot);
     if (project(foot, first)) {
       m_best = foot;
       while (m_steps < m_maxSteps && !m_converged && improve()) {
@@ -63,6 +63,9 @@ private:
   static constexpr double kLongestStep = 0.5;   // share of the node's radius
   static constexpr double kFlat = 0.02;         // least eigenvalue that a step is divided by
   static constexpr double kLeaveMaximum = 0.1;  // share of the radius: step off a farthest point
+  static constexpr double kDeep = 0.5;          // share of the radius: depth about an axis
+  static constexpr double kAcross = 0.7;        // share of the radius: step off an axis
+  static constexpr std::uint32_t kSides = 4;    // steps that are tried
 
   struct Foot {
     Vec at;
@@ -78,12 +81,39 @@ private:
     return here;
   }
 
+  // Whether the normal at a point in the lumen leads along the vessel instead of to the wall. About
+  // an axis grad f is no more than the ripple of the blobs, which lie along it.
+  bool leadsAstray(const Foot& foot, const blob_sample& here) {
+    if (here.distance > -kDeep * m_radius || m_steps + kSides + 1 >= m_maxSteps) return false;
+    const Vec normal{here.normal[0], here.normal[1], here.normal[2]};
+    Foot there{foot.at - here.distance * normal, foot.node, 0};
+    return sample(there).distance < 0.5 * here.distance;
+  }
+
+  // Moves a point off the axis to one of kSides, where the wall is nearest, and evaluates f there.
+  blob_sample leaveAcross(Foot& foot) {
+    const Vec along = alongVessel(m_model, foot.node), first = field::perpendicular(along),
+              second = cross(along, first);
+    const Foot from = foot;
+    blob_sample best{};
+    int tried = 0;
+    for (const Vec& side : {first, -1.0 * first, second, -1.0 * second}) {
+      Foot there{from.at + kAcross * m_radius * side, from.node, 0};
+      const blob_sample here = sample(there);
+      if (tried++ > 0 && here.distance <= best.distance) continue;
+      best = here;
+      foot = there;
+    }
+    return best;
+  }
+
   // Projects a point to the wall by Newton's method along the normals.
   bool project(Foot& foot, blob_sample here) {
     for (;;) {
       if (!(here.value > kVanished) && !(std::abs(here.distance) > 0)) return false;
       Vec normal{here.normal[0], here.normal[1], here.normal[2]};
-      if (!(dot(normal, normal) > 0)) normal = acrossVessel(m_model, foot.node);
+      if (!(dot(normal, normal) > 0))
+        normal = field::perpendicular(alongVessel(m_model, foot.node));
       foot.at = foot.at - here.distance * normal;
       foot.length = norm(m_query - foot.at);
       if (std::abs(here.distance) <= 0.5 * m_tolerance) return true;

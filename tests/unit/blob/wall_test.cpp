@@ -62,6 +62,33 @@ TEST(BlobNearest, NoOtherPointOfTheWallIsNearer) {
   }
 }
 
+// Between two blobs grad f points along the axis, which leads to no wall. The tube's wall is wavy by
+// 0.7 % of its radius.
+TEST(BlobNearest, APointOnAnAxisIsTheRadiusFromTheWall) {
+  constexpr double kRadius = 4;
+  constexpr int kNodes = 30;
+  for (const Point& along : {Point{1, 0, 0}, Point{0, 0, -1}, Point{0.6, 0.64, 0.48}}) {
+    const auto at = [&along](double mm) {
+      return Point{mm * along[0] - 3, mm * along[1] + 5, mm * along[2] + 1};
+    };
+    Tree tree;
+    addVessel(tree, straight(at(0), at(0.6 * kRadius * (kNodes - 1)), kNodes), kRadius, -1, 0);
+    const Model model = tree.build();
+    for (double mm = 3 * kRadius; mm < 14 * kRadius; mm += 0.0513) {
+      const blob_nearest_point found = nearest(model, at(mm));
+      ASSERT_EQ(found.converged, 1) << mm;
+      ASSERT_NEAR(found.distance, -kRadius, 0.007 * kRadius) << mm;
+      std::uint32_t cursor = BLOB_NOWHERE;
+      blob_sample exact;
+      blob_query(model.get(), BLOB_DISTANCE_EXACT, at(mm).data(), &cursor, &exact);
+      ASSERT_EQ(exact.distance, found.distance) << mm;
+      double turned = 0;  // of the normal into the axis
+      for (int i = 0; i < 3; ++i) turned += exact.normal[i] * along[i];
+      ASSERT_LT(std::abs(turned), 0.1) << mm;
+    }
+  }
+}
+
 TEST(BlobNearest, TheBoundOnStepsIsKeptAndFlagged) {
   const Model model = tube(20).build();
   std::uint32_t cursor = BLOB_NOWHERE;
