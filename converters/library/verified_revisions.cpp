@@ -2,7 +2,6 @@
 #include "converters/library/verified_revisions.h"
 
 #include <cerrno>
-#include <cstdlib>
 #include <span>
 #include <system_error>
 
@@ -12,6 +11,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/state_folder.h"
 #include "converters/library/json_values.h"
 #include "formats/case/atomic_file.h"
 #include "formats/case/case_file.h"
@@ -60,21 +60,12 @@ Json readState(const fs::path& file) {
 }  // namespace
 
 fs::path defaultStateFile() {
-  const auto folder = [](const char* name) {
-    const char* const value = std::getenv(name);
-    return fs::path(value == nullptr ? "" : value);
-  };
-  // a relative path is to be ignored (XDG Base Directory Specification)
-  fs::path state = folder("XDG_STATE_HOME");
-  if (!state.is_absolute()) {
-    const fs::path home = folder("HOME");
-    if (!home.is_absolute())
-      throw failed(
-          "neither XDG_STATE_HOME nor HOME names a folder to remember verified revisions in; " +
-          kOption.state.shown() + " FILE does");
-    state = home / ".local/state";
-  }
-  return state / "lumen/libraries.json";
+  const auto folder = stateFolder();
+  if (!folder)
+    throw failed(
+        "neither XDG_STATE_HOME nor HOME names a folder to remember verified revisions in; " +
+        kOption.state.shown() + " FILE does");
+  return *folder / "libraries.json";
 }
 
 VerifiedRevisions::VerifiedRevisions(const fs::path& file) : m_file(file) {

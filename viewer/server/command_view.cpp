@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/state_folder.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
@@ -84,6 +85,7 @@ public:
     Session session(m_options);
     if (!openFolder(session)) openFiles(session, around);
     warnOfUnsaved(session, around);
+    if (const auto folder = stateFolder()) m_options.unnamed = *folder / "lumen";
     if (!m_html.empty()) return writeHtml(session, around);
     return serve(session, around);
   }

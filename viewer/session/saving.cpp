@@ -62,7 +62,7 @@ fs::path Saving::place(const Document& document) const {
     if (!m_keepAt.empty()) return m_keepAt;
   }
   const OpenFile* volume = document.fileOf(FileRole::Volume);
-  return volume != nullptr && !volume->path.empty() ? volume->path : fs::path("lumen");
+  return volume != nullptr && !volume->path.empty() ? volume->path : m_unnamed;
 }
 
 UnsavedParts Saving::unsaved(const Document& document) const {

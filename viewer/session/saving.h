@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "viewer/session/document.h"
 
@@ -23,6 +24,8 @@ struct UnsavedParts {
 /// it, so a target with another stamp was changed by another program.
 class Saving {
 public:
+  /// `unnamed`: unsaved work of a document without any named file is kept beside it.
+  explicit Saving(std::filesystem::path unnamed) : m_unnamed(std::move(unnamed)) {}
   /// The document is saved into this file from now on.
   void saveTo(const std::filesystem::path& file);
   /// The document has no file, so pages download it; its unsaved work is kept beside `place`.
@@ -55,6 +58,7 @@ private:
   void saveSeeds(const Document& document);
   [[nodiscard]] std::filesystem::path checkedTarget(const Document& document, bool force) const;
 
+  const std::filesystem::path m_unnamed;
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::filesystem::path m_target;
   FileStamp m_stamp;               ///< stamp of the target

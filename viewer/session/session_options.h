@@ -2,6 +2,8 @@
 // Settings of a session.
 #pragma once
 
+#include <filesystem>
+
 #include "converters/engine/stage_options.h"
 
 namespace lumen::viewer {
@@ -12,6 +14,9 @@ struct SessionOptions {
   engine::VolumeArguments volume;
   engine::TrackArguments track;
   convert::FitOptions fit;
+  /// Unsaved work of a document without any named file is kept beside this one, which need not
+  /// exist.
+  std::filesystem::path unnamed = "lumen";
 };
 
 }  // namespace lumen::viewer

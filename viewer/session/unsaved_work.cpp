@@ -47,6 +47,13 @@ fs::path freeName(const fs::path& place, const std::string& ending) {
   return file;
 }
 
+/// Makes a folder of the user's own where there is none; a failure shows when a file is written.
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  if (folder.empty() || !fs::create_directories(folder, error)) return;
+  fs::permissions(folder, fs::perms::owner_all, error);
+}
+
 void removeFile(fs::path& file) {
   std::error_code ignored;
   if (!file.empty()) fs::remove(file, ignored);
@@ -80,7 +87,10 @@ void UnsavedWork::keepPart(fs::path& file, std::shared_ptr<const Part>& kept,
                            const Write& write) {
   if (!part) removeFile(file);
   if (part && part != kept) {
-    if (file.empty()) file = freeName(m_place, ending);
+    if (file.empty()) {
+      makeFolder(m_place.parent_path());
+      file = freeName(m_place, ending);
+    }
     write(part, file);
   }
   kept = part;

@@ -70,7 +70,7 @@ struct Workspace {
   History history;
   DroppedFiles dropped;
   SeriesChoice series{dropped};
-  Saving saving;
+  Saving saving{options.unnamed};
   UnsavedWork unsavedWork;
   ChangedFiles changedFiles;
   Findings findings;

@@ -224,6 +224,29 @@ TEST_F(UnsavedTest, OfAnEarlierProgramIsOfferedAndNeverOverwritten) {
   EXPECT_EQ(perform({{"op", "forget"}, {"index", 0}}).status, 400);
 }
 
+TEST_F(UnsavedTest, OfADocumentWithoutAFileIsKeptAtThePlaceForIt) {
+  viewer::SessionOptions options;
+  options.unnamed = path("state/lumen/lumen");
+  session = std::make_unique<viewer::Session>(options);
+  serveSession();
+  EXPECT_TRUE(session->findUnsaved().empty());
+  writeCase("two.lumen", twoVessels());
+  Progress silent;
+  session->open({path("two.lumen"), "two.lumen", true}, silent);
+  const fs::path kept = path("state/lumen/lumen.unsaved.lumen");
+  EXPECT_TRUE(session->keepUnsaved().empty());
+  EXPECT_FALSE(fs::exists(path("state"))) << "what is saved leaves no folder";
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  ASSERT_EQ(session->keepUnsaved(), std::vector{kept.string()});
+  EXPECT_EQ(fs::status(kept.parent_path()).permissions(), fs::perms::owner_all);
+  server.reset();
+  session = std::make_unique<viewer::Session>(options);
+  serveSession();
+  ASSERT_EQ(session->findUnsaved(), std::vector{kept.string()});
+  performAll({{"op", "recover"}, {"index", 0}});
+  EXPECT_EQ(ReadPack(get("case").body).json["branches"][1]["label"], "mine");
+}
+
 TEST_F(UnsavedTest, HasANameOfItsOwnForEachVersionOfACase) {
   writeCase("head.v1.lumen", twoVessels());
   writeCase("head.v2.lumen", twoVessels());

@@ -29,7 +29,7 @@ export function lumen(...words) {
 export async function view(test, ...files) {
   const child = spawn(kLumen, ["view", "--no-browser", "--json", ...files], {
     stdio: ["ignore", "pipe", "pipe"],
-    cwd: makeFolder(test)("."), // unsaved work of a document without a file lies there
+    env: { ...process.env, XDG_STATE_HOME: makeFolder(test)(".") }, // of a document without a file, unsaved work
   });
   const ended = new Promise(resolve => child.once("exit", resolve));
   let out = "",
