@@ -34,7 +34,7 @@ export class Brush {
     this.app.store.set({ brushLines: [circle(p, this.radius(this.nodeAt(p)), right, up)] });
   }
   hide(): void {
-    this.app.store.set({ brushLines: [] });
+    this.app.store.set({ brushLines: [], stroke: null });
   }
   /** Wider (1) or narrower (-1). */
   grow(p: Vec3, way: number): void {
@@ -68,6 +68,7 @@ export class Brush {
     held.by = sub(p, held.at);
     this.app.store.set({
       brushLines: [circle(held.at, radius, right, up), [held.at, p], circle(p, radius, right, up)],
+      stroke: { node: held.node, at: held.at, by: held.by, radius },
     });
     return true;
   }

@@ -144,6 +144,7 @@ async function start(): Promise<void> {
 }
 
 start().catch((error: unknown) => {
+      "stroke",
   const text = error instanceof Error ? error.message : String(error);
   document.body.append(
     h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)),

@@ -8,6 +8,7 @@ import type { Source } from "./source";
 import type { Stage } from "./stage";
 import { Store } from "./store";
 import type { Surface } from "./surface";
+import type { Stroke } from "./stroke";
 import type { Tree } from "./tree";
 import { kEmptyState, type Seed, type State, type Vec3 } from "./types";
 import type { Frame } from "./vec";
@@ -115,6 +116,8 @@ export interface View {
   job: { job: number; name: string; stage: string; done: number; total: number } | null;
   lost: boolean;
   distance: Float32Array | null;
+  /** The stroke that is being drawn. */
+  stroke: Stroke | null;
   figures: Record<string, unknown> | null;
   /** By the number of a mesh: those that are coloured by their distance from the wall. */
   deviations: ReadonlyMap<string, Deviation>;
@@ -187,6 +190,7 @@ export interface App {
   store: Store<View>;
   source: Source;
   stage: Stage;
+  stroke: null,
   /** Shows the user a line that goes away, and to assistive technology. */
   inform: (text: string, severity?: "note" | "warning" | "error") => void;
   /** Changes the document and reports a refusal. True if it was done. */

@@ -4,6 +4,7 @@ import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
 import type { Pixel, SliceProjection } from "./slice_frame";
 import { reachOf } from "./slab";
+import { drawStroke } from "./stroke";
 import type { Surface } from "./surface";
 import type { MissingVessel, Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
@@ -189,6 +190,8 @@ export function drawMeasurements(
 }
 
 function drawBrush(c: Context, slice: SliceProjection, view: View): void {
+  if (view.stroke !== null && view.surface !== null)
+    drawStroke(c, slice, view, outlines(slice, view.surface));
   c.strokeStyle = "#ffd166";
   c.lineWidth = 1.5;
   for (const line of view.brushLines) {

@@ -45,7 +45,7 @@ export class Tools {
     return this.app.store.get().tool;
   }
   choose(tool: Tool): void {
-    this.app.store.set({ tool, pending: [], brushLines: [] });
+    this.app.store.set({ tool, pending: [], brushLines: [], stroke: null });
   }
   onProbe(call: (answer: Answer | null) => void): void {
     this.listeners.push(call);
