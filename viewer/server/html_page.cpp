@@ -149,8 +149,12 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
   }
   if (document.volume && (options.volume || !document.value))
     embedded.add("volume", encodeVolume(document));
-  for (const OpenMesh& mesh : document.meshes)
-    embedded.addSurface("mesh?id=" + std::to_string(mesh.id), session.meshPack(mesh.id));
+  for (const OpenMesh& mesh : document.meshes) {
+    const std::string which = "?id=" + std::to_string(mesh.id);
+    embedded.addSurface("mesh" + which, session.meshPack(mesh.id));
+    if (const Tagged part = session.deviationPack(mesh.id, progress); part.bytes)
+      embedded.add("deviation" + which, *part.bytes);
+  }
   if (!fileOf(page, "blob.wasm").empty()) embedded.add("blob.wasm", fileOf(page, "blob.wasm"));
   Json state = lookOnly(session.state());
   state["hasVolume"] = document.volume && (options.volume || !document.value);

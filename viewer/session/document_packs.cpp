@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/document_packs.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace lumen::viewer {
 
 namespace {
 
-constexpr std::size_t kAtOnce = 1024;  // vertices between two looks whether to go on
+constexpr std::size_t kAtOnce = 1024;    // vertices between two looks whether to go on
+constexpr float kDeviationSteps = 1024;  // of a mm
 
 }  // namespace
 
@@ -68,8 +70,9 @@ Tagged deviationPack(const Moment& now, int id, Progress& progress) {
   if (!now.document.hasModels()) return {};
   for (const OpenMesh& mesh : now.document.meshes) {
     if (mesh.id != id) continue;
-    const MeshDeviation made =
-        meshDeviation(*now.document.value, mesh.mesh->mesh.position, progress);
+    MeshDeviation made = meshDeviation(*now.document.value, mesh.mesh->mesh.position, progress);
+    // colours show no more, and a page as one file is smaller
+    for (float& mm : made.distance) mm = std::round(mm * kDeviationSteps) / kDeviationSteps;
     PackWriter pack;
     pack.add("distance", made.distance);
     pack.set("figures", {{"vertices", made.distance.size()},

@@ -173,10 +173,12 @@ void FileOperations::reloadFile(const OpenFile& file, const Moment& from, Progre
   if (const FileRole role = openingRole(opening); role != file.role)
     throw invalidInput(file.label + ": it was " + roleName(file.role) + ", and is " +
                        roleName(role) + " now; open it by itself");
-  // a mesh is added to the others, other parts replace the one before
+  // a mesh is added to the others, and pages know it by its number; other parts replace the one
+  // before
+  const int id = file.role == FileRole::Mesh ? m_workspace.nextFile() : file.id;
   const Document before =
       file.role == FileRole::Mesh ? withoutFile(from.document, file.id) : from.document;
-  Document document = withFile(before, opening, file.id, m_workspace.options.volume, progress);
+  Document document = withFile(before, opening, id, m_workspace.options.volume, progress);
   if (file.role == FileRole::Case) m_workspace.saving.holdCase(document);
   if (file.role == FileRole::Seeds) m_workspace.saving.holdSeeds(document.seeds);
   m_workspace.saving.acceptTarget(file.path);

@@ -19,9 +19,8 @@ struct MeshDeviation {
 };
 
 /// Signed distances of points, in mm, to the nearest point of the wall of all vessels together. The
-/// models answer, so ends are round. The search for the nearest point may not converge at a vessel's
-/// axis (BLOB_NOT_CONVERGED in blob.h): only the sign is certain there. Takes a case with models.
-/// Throws Error(InvalidInput) for models that libblob refuses, and Error(Cancelled).
+/// models answer, so ends are round. Takes a case with models. Throws Error(InvalidInput) for models
+/// that libblob refuses, and Error(Cancelled).
 MeshDeviation meshDeviation(const formats::Case& value, std::span<const Eigen::Vector3d> points,
                             Progress& progress);
 

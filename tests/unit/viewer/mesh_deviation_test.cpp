@@ -114,6 +114,40 @@ TEST_F(MeshDeviationTest, ThePackBelongsToTheVerticesOfItsMesh) {
   }
 }
 
+TEST_F(MeshDeviationTest, AMeshThatIsReadAgainHasANumberOfItsOwn) {
+  writeCase("ball.lumen", ball());
+  write("mesh.obj", sphereObj(2));
+  serve({"ball.lumen", "mesh.obj"});
+  const Json before = state()["meshes"];
+  write("mesh.obj", sphereObj(2.5));
+  performAll({{"op", "reload"}, {"id", before[0]["id"]}});
+  const Json after = state()["meshes"];
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(after[0]["name"], "mesh.obj");
+  EXPECT_NE(after[0]["id"], before[0]["id"]) << "a page would keep the old one";
+  EXPECT_EQ(state()["files"][1]["id"], after[0]["id"]);
+  EXPECT_NEAR(deviation(after[0]["id"].get<int>()).json["figures"]["median"].get<double>(), 0.5,
+              1e-3);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(state()["meshes"], before);
+}
+
+TEST_F(MeshDeviationTest, APageAsOneFileHasTheDistancesOfItsMeshes) {
+  formats::Case bare = ball();
+  bare.models.reset();
+  writeCase("ball.lumen", ball());
+  writeCase("bare.lumen", bare);
+  write("mesh.obj", sphereObj(2.5));
+  Progress silent;
+  serve({"ball.lumen", "mesh.obj"});
+  EXPECT_NE(viewer::htmlPage(*session, smallPage(), {}, silent).find("\"deviation?id="),
+            std::string::npos);
+  serve({"bare.lumen", "mesh.obj"});
+  const std::string without = viewer::htmlPage(*session, smallPage(), {}, silent);
+  EXPECT_NE(without.find("\"mesh?id="), std::string::npos);
+  EXPECT_EQ(without.find("\"deviation?id="), std::string::npos);
+}
+
 TEST_F(MeshDeviationTest, ThereIsNoneWithoutModelsOrWithoutThatMesh) {
   formats::Case bare = ball();
   bare.models.reset();

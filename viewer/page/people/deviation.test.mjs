@@ -2,6 +2,7 @@
 // A mesh beside a case has the colours of its distance from the wall, with a legend and figures.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
 import { find, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
 import { vessels } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
@@ -100,4 +101,25 @@ story("the colours follow the wall that the case has", async t => {
   await picture(page, "13-deviation-of-a-vessel-that-was-deleted");
   await page.keyboard.press("Control+z");
   await output.filter({ hasText: text }).waitFor();
+
+  writeFileSync(file("same.obj"), moved(readFileSync(file("same.obj"), "utf8")));
+  await page.locator("#section-files .changed").waitFor();
+  await page.getByRole("button", { name: "Read same.obj again" }).click();
+  await output
+    .filter({ hasNotText: text })
+    .filter({ hasText: /^median / })
+    .waitFor();
+  const again = await figures(page, "same.obj");
+  assert.ok(
+    again[0] > before[0] + 0.05,
+    `the mesh as it is on disk is ${again[0]} mm away, before ${before[0]}`,
+  );
+  assert.ok(await page.getByLabel("Colour by deviation").isChecked(), "it looks as it was made to look");
+
+  lumen("view", file("fork.lumen"), file("same.obj"), "--html", file("page.html"));
+  const alone = await openPage(t, browser, pathToFileURL(file("page.html")).href, { offline: true });
+  await settled(alone);
+  await alone.getByLabel("Colour by deviation").check();
+  assert.deepEqual(await figures(alone, "same.obj"), again, "the page as one file has the same figures");
+  await picture(alone, "13-deviation-from-disk");
 });

@@ -22,6 +22,12 @@ interface Row {
   waiting: AbortController | null;
 }
 
+/** How a person has chosen to see a mesh. */
+interface Look {
+  alpha: number;
+  coloured: boolean;
+}
+
 export class MeshLayer {
   readonly panel: HTMLDetailsElement;
   private readonly list = h("div", { id: "mesh-list" });
@@ -35,11 +41,16 @@ export class MeshLayer {
     app.store.watch(["state"], ({ state }) => {
       this.panel.hidden = state.meshes.length === 0;
       const wanted = new Map(state.meshes.map(m => [String(m.id), m.name]));
-      for (const [id, row] of this.rows) if (!wanted.has(id)) this.drop(id, row);
+      const looks = new Map<string, Look>(); // by name: a mesh that was read again has another number
+      for (const [id, row] of this.rows)
+        if (!wanted.has(id)) {
+          if (row !== null) looks.set(row.view.name, { alpha: row.view.alpha, coloured: row.box.checked });
+          this.drop(id, row);
+        }
       for (const [id, name] of wanted)
         if (!this.rows.has(id)) {
           this.rows.set(id, null);
-          void this.take(id, name);
+          void this.take(id, name, looks.get(name));
         }
     });
     app.store.watch(["tree", "state"], view => this.follow(view));
@@ -57,14 +68,15 @@ export class MeshLayer {
     this.app.stage.invalidate(this.scene);
   }
 
-  private async take(id: string, name: string): Promise<void> {
+  private async take(id: string, name: string, look?: Look): Promise<void> {
     const { app, scene } = this;
     try {
       const bytes = await app.source.bytes("mesh", { id });
       if (bytes === null || !this.rows.has(id)) return;
-      const alpha = app.store.get().tree === null ? 1 : kAlpha,
+      const alpha = look?.alpha ?? (app.store.get().tree === null ? 1 : kAlpha),
         view = new MeshView(new Pack(bytes), name, alpha);
       const row = this.makeRow(id, view);
+      row.box.checked = look?.coloured === true;
       this.rows.set(id, row);
       scene.extra.add(view.mesh);
       this.follow(app.store.get());
@@ -89,7 +101,6 @@ export class MeshLayer {
         on => this.choose(id, on),
       ),
       figures = h("output", { class: "hint deviation", id: `mesh-figures-${id}` });
-    check.hidden = !this.app.source.live; // a page without a server has no distances
     this.list.append(
       h(
         "div",
