@@ -23,6 +23,7 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
     element.focus({ preventScroll: true });
     element.setPointerCapture(e.pointerId);
     ++pointers;
+    scene.hold(true);
     const { x, y } = place(e);
     const grabbed = e.button === 0 && !e.shiftKey && tools.grabInScene(scene, x, y);
     drag = {
@@ -58,6 +59,7 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
   });
   const end = (e: PointerEvent): void => {
     pointers = Math.max(0, pointers - 1);
+    scene.hold(pointers > 0);
     if (drag?.kind === "tool") tools.releaseInScene();
     else if (drag !== null && drag.kind !== "window" && drag.far <= kClick && e.type === "pointerup")
       tools.clickInScene(scene, drag.x, drag.y, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The picture of the 3D view, made beside the canvas: smooth edges where it rests, and fewer pixels while it moves on a
- * machine without a graphics processor. Only this view pays for smooth edges, not the whole canvas. */
+/** The picture of a view, made beside the canvas: smooth edges where it rests, and fewer pixels while it moves on a
+ * machine without a graphics processor. The 3D view alone pays for smooth edges, not the whole canvas. */
 import {
   GLSL3,
   LinearFilter,

@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
 import { clearedContext } from "./overlay_canvas";
-import { Group, InstancedMesh, Mesh, Scene, Vector4, type Object3D, type WebGLRenderer } from "three";
+import {
+  DoubleSide,
+  FrontSide,
+  Group,
+  InstancedMesh,
+  Mesh,
+  Scene,
+  Vector4,
+  type Object3D,
+  type WebGLRenderer,
+} from "three";
 import { OrbitCamera } from "./camera";
 import { Caster } from "./cast";
 import { colouring } from "./colouring";
@@ -18,7 +28,8 @@ import { dot, scale } from "./vec";
 import type { VolumeTexture } from "./volume_texture";
 import { missingPlaces } from "./work_items";
 
-const kStill = 250; // ms after the last movement at which what is slow is drawn again in full
+const kStill = 250, // ms after the last movement at which what is slow is drawn again in full
+  kHeld = 1500; // ms, while a button of the pointer is down: a hand that turns stops for moments
 
 export class SceneView implements StageView {
   readonly camera = new OrbitCamera();
@@ -35,6 +46,7 @@ export class SceneView implements StageView {
   /** The model of one node alone, a wire: what other modules show. */
   readonly extra = new Group();
   private moving = 0;
+  private isHeld = false;
   private marking = 0;
   private surface: Surface | null = null;
   private fitted = false;
@@ -233,8 +245,16 @@ export class SceneView implements StageView {
   moved(): void {
     this.touched = true;
     window.clearTimeout(this.moving);
-    this.moving = window.setTimeout(() => this.rest(), kStill);
+    this.moving = window.setTimeout(() => this.rest(), this.isHeld ? kHeld : kStill);
     this.app.stage.invalidate(this);
+  }
+
+  /** A button of the pointer is down on the view, or no longer. */
+  hold(isDown: boolean): void {
+    this.isHeld = isDown;
+    if (isDown || this.moving === 0) return;
+    window.clearTimeout(this.moving);
+    this.moving = window.setTimeout(() => this.rest(), kStill);
   }
 
   /** Draws in full, unless another movement comes before the next frame: those wait for a slow picture. */
@@ -247,9 +267,17 @@ export class SceneView implements StageView {
     });
   }
 
-  /** Fewer triangles while pictures are coarse. */
-  private chooseDetail(coarse: boolean): void {
+  /** Fewer triangles while pictures are coarse, and nothing of what walls hide: their far sides and the centerlines. */
+  private chooseDetail(coarse: boolean, view: View): void {
+    const isSeenFromOutside =
+      coarse &&
+      !view.clip.on &&
+      this.camera.flight === null &&
+      this.walls.some(wall => wall.visible) &&
+      this.walls.every(wall => !wall.visible || !wall.material.transparent);
+    this.lines.visible = !isSeenFromOutside;
     for (const wall of this.walls) {
+      wall.material.side = isSeenFromOutside || wall.material.transparent ? FrontSide : DoubleSide;
       const { geometry, moving } = this.surface!.parts[wall.userData.part as number];
       wall.geometry = coarse && moving !== null ? moving : geometry;
     }
@@ -262,7 +290,7 @@ export class SceneView implements StageView {
     if (!this.fitted || (resized && !this.touched)) this.fit();
     const camera = this.camera.update(width, height),
       coarse = this.isCoarse();
-    this.chooseDetail(coarse);
+    this.chooseDetail(coarse, view);
     kFade.value = this.camera.flight === null ? 0 : this.camera.flight.fade;
     this.picture.draw(renderer, [width, height], coarse, () => {
       if (view.cast !== "off" && this.caster !== null) this.cast(this.caster, renderer, [width, height]);
