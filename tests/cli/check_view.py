@@ -23,10 +23,10 @@ def run(*words, cwd):
 
 class Viewer:
     """A running `lumen view`, whose temporary files lie in a folder of their own."""
-    def __init__(self, *words, cwd):
+    def __init__(self, *words, cwd, **variables):
         self.temporary = tempfile.TemporaryDirectory()
         self.process = subprocess.Popen([LUMEN, "view", *words, "--no-browser"], cwd=cwd, text=True, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, env={**os.environ, "TMPDIR": self.temporary.name})
+                                        stderr=subprocess.PIPE, env={**os.environ, "TMPDIR": self.temporary.name, **variables})
         self.address = self.process.stdout.readline().strip()
 
     def get(self, name):
@@ -81,6 +81,38 @@ def survive_hangup(where):
     (where / "other.unsaved.lumen").unlink()
 
 
+def keep_without_a_file(where):
+    """Unsaved work of a document without a named file is in the user's state folder, and offered from any folder."""
+    state, empty = where / "state", where / "empty"
+    empty.mkdir()
+    viewer = Viewer(cwd=empty, XDG_STATE_HOME=str(state))
+    viewer.post("file?name=tube.lumen", (where / "tube.lumen").read_bytes())
+    viewer.wait()
+    viewer.do(op="rename", branch=0, label="homeless")
+    code, err, _ = viewer.end()
+    kept = state / "lumen" / "lumen.unsaved.lumen"
+    expect("kept without a file", (code, kept.exists(), str(kept) in err), (0, True, True))
+    expect("nothing in the current folder", os.listdir(empty), [])
+    again = Viewer(cwd=where, XDG_STATE_HOME=str(state))
+    expect("offered without a file", [file["name"] for file in again.state()["unsavedBefore"]], ["lumen.unsaved.lumen"])
+    again.do(op="forget", index=0)
+    again.end()
+    expect("forgotten", kept.exists(), False)
+
+
+def see_two_volumes(where):
+    run("phantom", "tube", "second.nrrd", "--size", "40", cwd=where)
+    viewer = Viewer("tube.nrrd", "second.nrrd", cwd=where)
+    state = viewer.state()
+    expect("two volumes", (state["title"], state["second"]["name"]), ("tube.nrrd", "second.nrrd"))
+    viewer.end()
+    for words, message in ((("tube.nrrd", "second.nrrd", "tube.nrrd"), "two volumes can be seen together"),
+                           (("tube.nrrd", "second.nrrd", "--html", "page.html"), "--html shows one volume")):
+        answer = run("view", "--no-browser" if len(words) == 3 else "--json", *words, cwd=where)
+        expect(message, (answer.returncode, message in answer.stderr), (2, True))
+    (where / "second.nrrd").unlink()
+
+
 def look_at_folder(where):
     folder = Viewer(".", cwd=where)
     library = json.loads(folder.get("library"))
@@ -133,6 +165,8 @@ def main():
         survive_kill(where)
         survive_hangup(where)
         look_at_folder(where)
+        keep_without_a_file(where)
+        see_two_volumes(where)
         if (pathlib.Path(LUMEN).parent / "../../viewer/page/page.js").exists():
             answer = run("view", "tube.lumen", "--html", "page.html", "--json", "--quiet", cwd=folder)
             expect("one file", answer.returncode, 0)

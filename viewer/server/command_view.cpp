@@ -20,6 +20,7 @@
 #include "viewer/server/html_page.h"
 #include "viewer/server/idle.h"
 #include "viewer/server/server.h"
+#include "viewer/session/second_volume.h"
 
 namespace lumen::viewer {
 
@@ -41,6 +42,7 @@ public:
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen view head.nrrd head.lumen\n"
+           "  lumen view ct.nrrd head.lumen mr.nii.gz\n"
            "  lumen view cases/\n"
            "  lumen view head.lumen --html head.html\n"
            "It ends with Ctrl-C, or when the last page has been gone for a minute; both are a "
@@ -52,7 +54,8 @@ public:
     OptionRow& files = table.argument(
         "FILE", &m_files,
         "Volumes, cases, seeds, centerlines and meshes, in any order; of two cases the second is "
-        "the truth. A case that is not there yet, beside a volume, is where the page saves. A "
+        "the truth. A second volume is seen over or beside the first, for which options of volumes "
+        "count. A case that is not there yet, beside a volume, is where the page saves. A "
         "folder "
         "of DICOM is a volume; of several series the page chooses one. Or one folder of cases, "
         "among "
@@ -82,10 +85,10 @@ public:
     engine::requireInScope(*around.table, {contentOfFiles(), kAnyContent, filesText(), {}},
                            around.progress);
     if (!m_html.empty()) engine::requireWritable(m_html, convert::ContentKind::Other);
+    if (const auto folder = stateFolder()) m_options.unnamed = *folder / "lumen";
     Session session(m_options);
     if (!openFolder(session)) openFiles(session, around);
     warnOfUnsaved(session, around);
-    if (const auto folder = stateFolder()) m_options.unnamed = *folder / "lumen";
     if (!m_html.empty()) return writeHtml(session, around);
     return serve(session, around);
   }
@@ -140,6 +143,7 @@ private:
             !offerSeries(session, file, wanted, around))
           openOne(session, file, wanted, around);
     if (output) session.saveTo(*output);
+    if (const auto doubt = secondDoubt(session.now().document)) around.progress.warn(*doubt);
   }
 
   /// A folder of several series of DICOM, among which the page chooses.
@@ -150,13 +154,27 @@ private:
            fs::is_directory(file, ignored) && session.offerSeries(file, around.progress);
   }
 
-  static void openOne(Session& session, const std::string& file, FileRole role,
-                      engine::Surroundings& around) {
-    const bool isTruth = role == FileRole::Case && session.now().document.value != nullptr;
-    session.open({file, fs::path(file).filename().string(), false, isTruth}, around.progress);
+  void openOne(Session& session, const std::string& file, FileRole role,
+               engine::Surroundings& around) const {
+    const OpenAs as = roleOfFurther(session.now().document, file, role);
+    session.open({file, fs::path(file).filename().string(), false, as}, around.progress);
     const engine::FileFormat* format =
         role == FileRole::Case ? &engine::inputFormat(file, "") : nullptr;
-    if (format != nullptr && engine::canWriteCase(*format) && !isTruth) session.saveTo(file);
+    if (format != nullptr && engine::canWriteCase(*format) && as == OpenAs::Auto)
+      session.saveTo(file);
+  }
+
+  /// A second case is the truth, a second volume is seen with the first.
+  [[nodiscard]] OpenAs roleOfFurther(const Document& document, const std::string& file,
+                                     FileRole role) const {
+    if (role == FileRole::Case && document.value) return OpenAs::Truth;
+    if (role != FileRole::Volume || !document.volume) return OpenAs::Auto;
+    if (!m_html.empty())
+      throw Error(ErrorKind::Usage, file + ": --html shows one volume, not a second beside it");
+    if (document.second)
+      throw Error(ErrorKind::Usage,
+                  file + ": two volumes can be seen together, and this is one more");
+    return OpenAs::Second;
   }
 
   /// The file that is not there yet, if it can be made: a case of a volume.

@@ -106,8 +106,9 @@ private:
 Json lookOnly(Json state) {
   state["revision"] = 1;
   for (Json& revision : state["revisions"]) revision = 1;
-  for (const char* const name : {"library", "measures", "series"}) state["revisions"][name] = 0;
-  for (const char* const name : {"undo", "redo", "job", "saveAs"}) state[name] = nullptr;
+  for (const char* const name : {"library", "measures", "series", "second"})
+    state["revisions"][name] = 0;
+  for (const char* const name : {"undo", "redo", "job", "saveAs", "second"}) state[name] = nullptr;
   state["formats"] = state["proposals"] = Json::array();
   state["unsaved"] = state["measuresAreOld"] = false;
   return state;

@@ -47,6 +47,13 @@ int numberOf(const Request& request, const char* name) {
   return std::stoi(text);
 }
 
+OpenAs openAs(const std::string& word) {
+  if (word.empty() || word == "auto") return OpenAs::Auto;
+  if (word == "truth") return OpenAs::Truth;
+  if (word == "second") return OpenAs::Second;
+  throw Error(ErrorKind::Usage, "\"as\" must be auto, truth or second");
+}
+
 /// A name for a download that every system takes.
 std::string downloadName(const std::string& title, const std::string& ending) {
   std::string name;
@@ -202,8 +209,11 @@ private:
       answerPart(request, response,
                  m_session.seriesPicture(static_cast<std::size_t>(numberOf(request, "series"))));
     });
-    get("volume",
-        [this](const Request& request, Response& response) { answerVolume(request, response); });
+    for (const auto& [name, role] :
+         {std::pair{"volume", FileRole::Volume}, std::pair{"second", FileRole::Second}})
+      get(name, [this, role = role](const Request& request, Response& response) {
+        answerVolume(request, response, role);
+      });
     get("events", [this](const Request&, Response& response) { answerEvents(response); });
     get("save",
         [this](const Request& request, Response& response) { answerSave(request, response); });
@@ -230,9 +240,9 @@ private:
     });
   }
 
-  void answerVolume(const Request& request, Response& response) {
+  void answerVolume(const Request& request, Response& response, FileRole role) {
     Tagged none;
-    const auto pack = m_session.volumePack(none.tag);
+    const auto pack = m_session.volumePack(role, none.tag);
     if (!pack || request.get_header_value("If-None-Match") == '"' + none.tag + '"') {
       if (pack) none.bytes = std::make_shared<const std::string>();
       return answerPart(request, response, none);
@@ -307,13 +317,12 @@ private:
 
   void takeFile(const Request& request, Response& response, const httplib::ContentReader& reader) {
     const std::string name = nameOf(request), as = request.get_param_value("as");
-    if (!as.empty() && as != "auto" && as != "truth")
-      throw Error(ErrorKind::Usage, "\"as\" must be auto or truth");
     if (request.get_header_value<std::uint64_t>("Content-Length") > m_mostFile)
       refuseSize(m_mostFile);
+    const OpenAs role = openAs(as);
     auto file = m_session.placeFor(name);
     writeBody(file->path(), request, reader, m_mostFile);
-    answerText(response, jsonText(m_session.openDropped(std::move(file), name, as == "truth")));
+    answerText(response, jsonText(m_session.openDropped(std::move(file), name, role)));
   }
 
   static void writeBody(const std::filesystem::path& place, const Request& request,

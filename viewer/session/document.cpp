@@ -51,6 +51,8 @@ std::string roleName(FileRole role) {
   switch (role) {
     case FileRole::Volume:
       return "volume";
+    case FileRole::Second:
+      return "second";
     case FileRole::Case:
       return "case";
     case FileRole::Truth:
@@ -96,6 +98,7 @@ std::size_t countBytes(const std::vector<const Document*>& documents) {
   };
   for (const Document* document : documents) {
     add(document->volume);
+    add(document->second);
     add(document->value);
     add(document->truth);
     add(document->seeds);

@@ -19,7 +19,7 @@
 
 namespace lumen::viewer {
 
-enum class FileRole : std::uint8_t { Volume, Case, Truth, Seeds, Mesh };
+enum class FileRole : std::uint8_t { Volume, Second, Case, Truth, Seeds, Mesh };
 
 /// The word for a role, as the state has it.
 std::string roleName(FileRole role);
@@ -56,6 +56,10 @@ using Seeds = std::vector<convert::SeedBranch>;
 struct Document {
   std::shared_ptr<const convert::Volume> volume;
   std::shared_ptr<const formats::SourceVolume> volumeSource;  ///< of `volume`
+  /// A volume to look at beside the first; nothing is tracked in it, and no case takes anything of
+  /// it.
+  std::shared_ptr<const convert::Volume> second;
+  std::shared_ptr<const formats::SourceVolume> secondSource;  ///< of `second`
   std::shared_ptr<const formats::Case> value;
   std::shared_ptr<const formats::Case> truth;
   std::shared_ptr<const Seeds> seeds = std::make_shared<const Seeds>();

@@ -35,16 +35,17 @@ Tagged DocumentPacks::casePack(const Moment& now, Progress& progress) {
   return m_case = std::move(made);
 }
 
-std::shared_ptr<const VolumePack> DocumentPacks::volumePack(const Moment& now, std::string& tag) {
-  if (!now.document.volume) return nullptr;
-  tag = std::to_string(now.parts.volume);
+std::shared_ptr<const VolumePack> DocumentPacks::volumePack(const Moment& now, FileRole role,
+                                                            std::string& tag) {
+  const bool isSecond = role == FileRole::Second;
+  const auto& volume = isSecond ? now.document.second : now.document.volume;
+  if (!volume) return nullptr;
+  tag = std::to_string(isSecond ? now.parts.second : now.parts.volume);
   const std::lock_guard lock(m_mutex);
-  if (m_packed != now.document.volume) {
-    m_volume = std::make_shared<const VolumePack>(now.document.volume,
-                                                  now.document.labelOf(FileRole::Volume));
-    m_packed = now.document.volume;
-  }
-  return m_volume;
+  Packed& packed = isSecond ? m_second : m_volume;
+  if (packed.volume != volume)
+    packed = {volume, std::make_shared<const VolumePack>(volume, now.document.labelOf(role))};
+  return packed.pack;
 }
 
 Tagged proposalsPack(const Moment& now, Progress& progress) {

@@ -15,19 +15,22 @@
 
 namespace lumen::viewer {
 
-/// Keeps the packs of the case and of the volume until a later moment has other ones. All calls are
+/// Keeps the packs of the case and of the volumes until a later moment has other ones. All calls are
 /// thread-safe.
 class DocumentPacks {
 public:
   Tagged casePack(const Moment& now, Progress& progress);
-  /// Null without a volume; `tag` names the volume.
-  std::shared_ptr<const VolumePack> volumePack(const Moment& now, std::string& tag);
+  /// The volume, or with `role` Second the other one; null without it. `tag` names it.
+  std::shared_ptr<const VolumePack> volumePack(const Moment& now, FileRole role, std::string& tag);
 
 private:
+  struct Packed {
+    std::shared_ptr<const convert::Volume> volume;
+    std::shared_ptr<const VolumePack> pack;
+  };
   std::mutex m_mutex;  ///< guards all that follow
   Tagged m_case;
-  std::shared_ptr<const convert::Volume> m_packed;
-  std::shared_ptr<const VolumePack> m_volume;
+  Packed m_volume, m_second;
 };
 
 /// The proposals as a case's pack, without wall points.

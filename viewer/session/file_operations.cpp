@@ -29,6 +29,17 @@ std::string folderName(const fs::path& folder) {
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
+/// How a file of that role was opened.
+OpenAs openAs(FileRole role) {
+  if (role == FileRole::Truth) return OpenAs::Truth;
+  return role == FileRole::Second ? OpenAs::Second : OpenAs::Auto;
+}
+
+/// The part that a page wants a series of DICOM to be.
+OpenAs seriesAs(const Arguments& request) {
+  return request.flag("second") ? OpenAs::Second : OpenAs::Auto;
+}
+
 /// Files of a folder of DICOM that belong to no series; empty if there are none.
 std::string leftOut(const convert::DicomListing& listing) {
   std::string text;
@@ -58,12 +69,12 @@ void FileOperations::open(const Opening& opening, Progress& progress) {
 }
 
 Json FileOperations::openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label,
-                                 bool asTruth) {
+                                 OpenAs as) {
   return m_workspace.startJob(
       "opening " + formats::printable(label), true,
-      [this, file = std::move(file), label, asTruth](Progress& progress) mutable {
+      [this, file = std::move(file), label, as](Progress& progress) mutable {
         const auto read = std::exchange(file, nullptr);  // removed before the job reports its end
-        open({read->path(), label, true, asTruth}, progress);
+        open({read->path(), label, true, as}, progress);
         return formats::printable(label) + " is open";
       });
 }
@@ -78,14 +89,15 @@ bool FileOperations::offerSeries(const fs::path& folder, Progress& progress) {
 
 Json FileOperations::listSeries(const Arguments& request) {
   auto folder = std::make_shared<SeriesFolder>(m_workspace.series.take(request.whole("batch")));
-  return m_workspace.startJob("looking through files of DICOM", true,
-                              [this, folder = std::move(folder)](Progress& progress) mutable {
-                                const auto from = std::exchange(folder, nullptr);
-                                return openOnlySeries(std::move(*from), progress);
-                              });
+  return m_workspace.startJob(
+      "looking through files of DICOM", true,
+      [this, folder = std::move(folder), as = seriesAs(request)](Progress& progress) mutable {
+        const auto from = std::exchange(folder, nullptr);
+        return openOnlySeries(std::move(*from), as, progress);
+      });
 }
 
-std::string FileOperations::openOnlySeries(SeriesFolder folder, Progress& progress) {
+std::string FileOperations::openOnlySeries(SeriesFolder folder, OpenAs as, Progress& progress) {
   convert::DicomListing listing =
       convert::listDicomSeries(folder.path, m_workspace.options.volume.options(), progress);
   const std::size_t count = listing.series.size();
@@ -93,7 +105,7 @@ std::string FileOperations::openOnlySeries(SeriesFolder folder, Progress& progre
   if (count == 0)
     throw invalidInput("these files hold no DICOM images" + (left.empty() ? "" : "; " + left));
   const bool isOnly = count == 1 && listing.series[0].fault.empty();
-  Opening opening{folder.path, seriesLabel(listing.series[0], 0), true};
+  Opening opening{folder.path, seriesLabel(listing.series[0], 0), true, as};
   opening.kept = folder.kept;
   m_workspace.series.offer(std::move(folder), std::move(listing));
   if (isOnly) open(opening, progress);
@@ -103,7 +115,8 @@ std::string FileOperations::openOnlySeries(SeriesFolder folder, Progress& progre
 }
 
 Json FileOperations::openSeries(const Arguments& request) {
-  const Opening opening = m_workspace.series.opening(request, "series");
+  Opening opening = m_workspace.series.opening(request, "series");
+  opening.as = seriesAs(request);
   return m_workspace.startJob(
       "opening " + opening.label, true, [this, opening](Progress& progress) {
         const Moment before = m_workspace.history.now();
@@ -168,7 +181,7 @@ Json FileOperations::reload(const Arguments& request, const Moment& from) {
 }
 
 void FileOperations::reloadFile(const OpenFile& file, const Moment& from, Progress& progress) {
-  Opening opening{file.path, file.label, false, file.role == FileRole::Truth};
+  Opening opening{file.path, file.label, false, openAs(file.role)};
   opening.series = file.series;
   if (const FileRole role = openingRole(opening); role != file.role)
     throw invalidInput(file.label + ": it was " + roleName(file.role) + ", and is " +

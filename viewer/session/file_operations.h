@@ -25,9 +25,10 @@ public:
   bool offerSeries(const std::filesystem::path& folder, Progress& progress);
   /// Looks through dropped files of DICOM: opens their only series, or lets pages choose.
   Json listSeries(const Arguments& request);
+  /// One of the listed series, as the volume or as the second one.
   Json openSeries(const Arguments& request);
   Json closeSeries();
-  Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, bool asTruth);
+  Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, OpenAs as);
   /// Opens a case of the library in place of all that is open.
   Json openCase(const Arguments& request);
   Json reload(const Arguments& request, const Moment& from);
@@ -38,7 +39,7 @@ public:
   Json forget(const Arguments& request);
 
 private:
-  std::string openOnlySeries(SeriesFolder folder, Progress& progress);
+  std::string openOnlySeries(SeriesFolder folder, OpenAs as, Progress& progress);
   std::string openListed(std::size_t index, Progress& progress);
   void reloadFile(const OpenFile& file, const Moment& from, Progress& progress);
   [[nodiscard]] std::filesystem::path foundCopy(const Arguments& request) const;

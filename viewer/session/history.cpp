@@ -26,6 +26,7 @@ void History::replace(Document document) {
   PartRevisions& parts = m_now.parts;
   parts.value += document.value != old.value;
   parts.volume += document.volume != old.volume;
+  parts.second += document.second != old.second;
   parts.seeds += document.seeds != old.seeds;
   parts.proposals += document.proposals != old.proposals;
   parts.truth += document.truth != old.truth;

@@ -68,8 +68,22 @@ std::shared_ptr<const convert::Volume> volumeOf(const Opening& opening,
       engine::loadVolume(opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
 }
 
+/// Options of the command line are for the first volume. A second one keeps where its header may
+/// lead, and the series that a page has chosen.
+engine::VolumeArguments secondArguments(const engine::VolumeArguments& arguments) {
+  engine::VolumeArguments second;
+  second.allowDetached = arguments.allowDetached;
+  return second;
+}
+
 void dropFiles(Document& document, FileRole role) {
   std::erase_if(document.files, [role](const OpenFile& file) { return file.role == role; });
+}
+
+void closeSecond(Document& document) {
+  document.second.reset();
+  document.secondSource.reset();
+  dropFiles(document, FileRole::Second);
 }
 
 Document add(Document document, const Opening& opening, FileRole role, int id,
@@ -81,6 +95,14 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
       document.volumeSource =
           std::make_shared<const formats::SourceVolume>(convert::describeSource(*document.volume));
       document.proposals.reset();
+      break;
+    case FileRole::Second:
+      if (!document.volume)
+        throw Error(ErrorKind::Usage,
+                    opening.label + ": open the volume first that it is to be seen beside");
+      document.second = volumeOf(opening, secondArguments(arguments), progress);
+      document.secondSource =
+          std::make_shared<const formats::SourceVolume>(convert::describeSource(*document.second));
       break;
     case FileRole::Case:
     case FileRole::Truth: {
@@ -119,18 +141,21 @@ FileRole openingRole(const Opening& opening) {
   if (convert::detectContent(opening.path).kind == convert::ContentKind::Seeds)
     return FileRole::Seeds;
   const engine::FileFormat& format = engine::inputFormat(opening.path, "");
-  if (opening.asTruth && format.kind != engine::FormatKind::Case)
+  if (opening.as == OpenAs::Truth && format.kind != engine::FormatKind::Case)
     throw Error(ErrorKind::Usage, opening.label + ": the truth must be a case");
+  if (opening.as == OpenAs::Second && format.kind != engine::FormatKind::Volume)
+    throw Error(ErrorKind::Usage,
+                opening.label + ": only a volume can be seen beside the first volume");
   switch (format.kind) {
     case engine::FormatKind::Volume:
-      return FileRole::Volume;
+      return opening.as == OpenAs::Second ? FileRole::Second : FileRole::Volume;
     case engine::FormatKind::Mesh:
       return FileRole::Mesh;
     case engine::FormatKind::Case:
     case engine::FormatKind::Centerline:
       break;
   }
-  return opening.asTruth ? FileRole::Truth : FileRole::Case;
+  return opening.as == OpenAs::Truth ? FileRole::Truth : FileRole::Case;
 }
 
 Document withFile(const Document& document, const Opening& opening, int id,
@@ -144,12 +169,17 @@ Document withoutFile(const Document& document, int id) {
                                  [id](const OpenFile& f) { return f.id == id; });
   if (file == result.files.end())
     throw Error(ErrorKind::Usage, "no file of number " + std::to_string(id) + " is open");
-  switch (file->role) {
+  const FileRole role = file->role;
+  switch (role) {
     case FileRole::Volume:
       result.volume.reset();
       result.volumeSource.reset();
       result.proposals.reset();
+      closeSecond(result);
       break;
+    case FileRole::Second:
+      closeSecond(result);
+      return result;
     case FileRole::Case:
       result.seeds = std::make_shared<const Seeds>(waitingSeeds(document));
       result.value.reset();
@@ -165,7 +195,7 @@ Document withoutFile(const Document& document, int id) {
       std::erase_if(result.meshes, [id](const OpenMesh& mesh) { return mesh.id == id; });
       break;
   }
-  result.files.erase(file);
+  std::erase_if(result.files, [id](const OpenFile& f) { return f.id == id; });
   return result;
 }
 

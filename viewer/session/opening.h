@@ -2,6 +2,7 @@
 // Files into the document.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,28 +14,37 @@
 
 namespace lumen::viewer {
 
+/// The part that a file becomes, where its content leaves a choice.
+enum class OpenAs : std::uint8_t {
+  Auto,    ///< as its content is
+  Truth,   ///< a case to compare with
+  Second,  ///< a volume to look at beside the first
+};
+
 struct Opening {
   std::filesystem::path path;
-  std::string label;                          ///< its name in messages
-  bool dropped = false;                       ///< its bytes came from the page; `path` is temporary
-  bool asTruth = false;                       ///< a case to compare with
+  std::string label;     ///< its name in messages
+  bool dropped = false;  ///< its bytes came from the page; `path` is temporary
+  OpenAs as = OpenAs::Auto;
   std::string series{};                       ///< instance UID, of a folder of DICOM
   std::shared_ptr<const DroppedFile> kept{};  ///< keeps a dropped folder while it is read
 };
 
 /// The role of the file, by its content and the ending of its name. Throws Error(Unsupported) for a
-/// file that lumen does not read and Error(InvalidInput) for one that is not there.
+/// file that lumen does not read, Error(InvalidInput) for one that is not there, and Error(Usage)
+/// for one that is not what it should be opened as.
 FileRole openingRole(const Opening& opening);
 
-/// The document with one more file, as number `id`. A volume, a case, a truth or seeds replace
-/// those that were open; meshes are added. A case brings the seeds that it holds, beside those that
+/// The document with one more file, as number `id`. A volume, a second volume, a case, a truth or
+/// seeds replace those that were open; meshes are added. A second volume is read without options
+/// but for the files that a header may name, and needs a first: Error(Usage). A case brings the seeds that it holds, beside those that
 /// wait; a file of seeds leaves those that are tracked. A centerline becomes a case, and is fitted. Throws as
 /// its reader.
 Document withFile(const Document& document, const Opening& opening, int id,
                   const engine::VolumeArguments& volume, Progress& progress);
 
-/// The document without that file and its part: with a case its tracked seeds go, with a file of
-/// seeds those that wait. Throws Error(Usage) if there is none.
+/// The document without that file and its part: with a volume the second goes, with a case its
+/// tracked seeds, with a file of seeds those that wait. Throws Error(Usage) if there is none.
 Document withoutFile(const Document& document, int id);
 
 }  // namespace lumen::viewer

@@ -28,9 +28,9 @@ Json Operations::run(formats::JsonValue request) {
 }
 
 Json Operations::openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label,
-                             bool asTruth) {
+                             OpenAs as) {
   const std::lock_guard gate(m_gate);
-  return m_files.openDropped(std::move(file), label, asTruth);
+  return m_files.openDropped(std::move(file), label, as);
 }
 
 Json Operations::change(const std::string& op, const Arguments& request, const Moment& from) {

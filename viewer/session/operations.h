@@ -23,7 +23,7 @@ public:
   /// Error(Usage) for a request that does not fit the document, and as the stages.
   Json run(formats::JsonValue request);
   /// Opens a dropped file as a job: {"job"}.
-  Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, bool asTruth);
+  Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, OpenAs as);
 
 private:
   Json change(const std::string& op, const Arguments& request, const Moment& from);

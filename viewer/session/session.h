@@ -46,9 +46,8 @@ public:
   std::shared_ptr<const DroppedFile> placeFor(const std::string& name) {
     return m_workspace.dropped.placeFor(name);
   }
-  Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label,
-                   bool asTruth) {
-    return m_operations.openDropped(std::move(file), label, asTruth);
+  Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, OpenAs as) {
+    return m_operations.openDropped(std::move(file), label, as);
   }
 
   /// Looks whether files have changed on disk; pages get the state if the answer is another one.
@@ -84,8 +83,9 @@ public:
     return viewer::deviationPack(now(), id, progress);
   }
   Tagged distancePack(int level, bool quick, Progress& progress);
-  std::shared_ptr<const VolumePack> volumePack(std::string& tag) {
-    return m_workspace.packs.volumePack(now(), tag);
+  /// `role`: Volume or Second.
+  std::shared_ptr<const VolumePack> volumePack(FileRole role, std::string& tag) {
+    return m_workspace.packs.volumePack(now(), role, tag);
   }
   /// The document as a file (encoded_document.h).
   std::string encoded(const std::string& format, const SavingOptions& options, Progress& progress);

@@ -27,12 +27,12 @@ bool isAccepted(const formats::Metadata& metadata, const std::string& digest) {
                      });
 }
 
-std::string nameOf(const Document& document, FileRole role) {
+}  // namespace
+
+std::string shownName(const Document& document, FileRole role) {
   const std::string label = document.labelOf(role);
   return label.empty() ? "the " + roleName(role) : formats::printable(label);
 }
-
-}  // namespace
 
 std::optional<std::string> otherSource(const Document& document) {
   if (!document.value || !document.volumeSource || !document.value->metadata.source)
@@ -41,9 +41,9 @@ std::optional<std::string> otherSource(const Document& document) {
       convert::sourceDifference(*document.volumeSource, *document.value->metadata.source);
   if (!difference || isAccepted(document.value->metadata, document.volumeSource->sha256))
     return std::nullopt;
-  const std::string which = nameOf(document, FileRole::Case) +
+  const std::string which = shownName(document, FileRole::Case) +
                             " was made from another volume than " +
-                            nameOf(document, FileRole::Volume);
+                            shownName(document, FileRole::Volume);
   if (difference->what == "voxels")
     return which + ", whose voxels have the same places and other values";
   return which + ": its " + difference->what + " is " + difference->expected + ", here " +

@@ -9,6 +9,9 @@
 
 namespace lumen::viewer {
 
+/// The name of the file of that role, for people.
+std::string shownName(const Document& document, FileRole role);
+
 /// A sentence on the volume from which the case was not made. None if the case is of this volume or
 /// states no volume, and if it records that a person has accepted this one.
 std::optional<std::string> otherSource(const Document& document);

@@ -10,6 +10,7 @@
 #include "formats/container/printable.h"
 #include "viewer/session/document_seeds.h"
 #include "viewer/session/proposals.h"
+#include "viewer/session/second_volume.h"
 #include "viewer/session/source_match.h"
 
 namespace lumen::viewer {
@@ -67,6 +68,11 @@ Json formatsJson(const Document& document) {
   return list;
 }
 
+Json secondJson(const Document& document) {
+  if (!document.second) return nullptr;
+  return {{"name", document.labelOf(FileRole::Second)}, {"doubt", orNull(secondDoubt(document))}};
+}
+
 std::string makeTitle(const Document& document) {
   for (const FileRole role : {FileRole::Case, FileRole::Volume, FileRole::Mesh})
     if (const std::string label = document.labelOf(role); !label.empty()) return label;
@@ -78,6 +84,7 @@ Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
   return {{"case", parts.value},
           {"surface", surface},
           {"volume", parts.volume},
+          {"second", parts.second},
           {"seeds", parts.seeds},
           {"proposals", parts.proposals},
           {"meshes", parts.meshes},
@@ -120,6 +127,7 @@ Json stateJson(const Workspace& workspace) {
                         : document.value ? recordedAssumptions(document.value->metadata)
                                          : std::vector<std::string>{};
   json["otherSource"] = orNull(otherSource(document));
+  json["second"] = secondJson(document);
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);
   json["proposals"] = proposalsJson(document);

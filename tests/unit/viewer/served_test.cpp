@@ -150,7 +150,7 @@ TEST_F(LookTest, DistancesToTheTruthBelongToTheSurfacesVertices) {
   serve({"two.lumen"});
   EXPECT_EQ(get("distance").status, 404);
   Progress silent;
-  session->open({path("truth.lumen"), "truth.lumen", false, true}, silent);
+  session->open({path("truth.lumen"), "truth.lumen", false, viewer::OpenAs::Truth}, silent);
   const ReadPack surface(get("surface?quick=1").body), pack(get("distance?quick=1").body);
   const auto distance = pack.array<float>("distance");
   ASSERT_EQ(3 * distance.size(), surface.array<float>("position").size());
@@ -235,7 +235,7 @@ TEST_F(WorkTest, ATruthThatIsClosedUndoneAndClosedAgainHasOtherDistances) {
   writeCase("two.lumen", twoVessels());
   serve({"two.lumen"});
   Progress silent;
-  session->open({path("two.lumen"), "truth.lumen", false, true}, silent);
+  session->open({path("two.lumen"), "truth.lumen", false, viewer::OpenAs::Truth}, silent);
   const auto revisions = [this] {
     const Json now = state();
     return std::pair(now["revisions"]["truth"].get<int>(), get("distance?quick=1").status);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Actions of buttons and keys. */
 import type { Flight } from "./flight";
-import { divide, type Dropped } from "./dicom_files";
+import { divide, isVolume, type Dropped } from "./dicom_files";
 import type { App, Tool } from "./model";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { openHelp } from "./help";
 import { applyView, kViewEnding, kViewFormat, readView, takeView } from "./kept_view";
-import { Refused } from "./source";
+import { askPart } from "./series_dialog";
+import { Refused, type OpenAs } from "./source";
 import { askYes, h, saveBlob, saveText } from "./ui";
 
 /** Whether a file holds seeds, by its name and its first text: markups, a table of fiducials, or lumen's own. */
@@ -99,7 +100,7 @@ export class Actions {
     link.remove();
   }
 
-  open(as: "auto" | "truth" = "auto"): void {
+  open(as: OpenAs = "auto"): void {
     const input = h("input", { type: "file", multiple: true });
     input.addEventListener("change", () => void this.openFiles([...(input.files ?? [])], as));
     input.click();
@@ -114,15 +115,21 @@ export class Actions {
     input.click();
   }
   /** Files and folders; those of DICOM go to the server together, which lists their series. */
-  async openDropped(dropped: Dropped, as: "auto" | "truth" = "auto"): Promise<void> {
+  async openDropped(dropped: Dropped, as: OpenAs = "auto"): Promise<void> {
     const { dicom, others } = await divide(dropped);
     if (dicom.length > 0) await this.sendDicom(dicom);
     await this.openEach(others, as);
   }
-  openFiles(files: File[], as: "auto" | "truth" = "auto"): Promise<void> {
+  openFiles(files: File[], as: OpenAs = "auto"): Promise<void> {
     return this.openDropped({ files, inFolders: [] }, as);
   }
   private async sendDicom(files: File[]): Promise<void> {
+    const part = await askPart(
+      this.app,
+      files.length === 1 ? files[0].name : `${files.length} files of DICOM`,
+    );
+    if (part === null) return;
+    this.app.store.set({ seriesAs: part });
     const batch = (this.batch = Math.floor(Math.random() * kMostBatch)),
       { source, inform } = this.app;
     try {
@@ -131,21 +138,23 @@ export class Actions {
         await source.sendSeriesFile(batch, file);
         if (this.batch !== batch) return; // others were dropped meanwhile
       }
-      await this.app.perform({ op: "listSeries", batch });
+      await this.app.perform({ op: "listSeries", batch, second: part === "second" });
     } catch (error) {
       inform(error instanceof Error ? error.message : String(error), "error");
     }
   }
-  private async openEach(files: File[], as: "auto" | "truth"): Promise<void> {
+  private async openEach(files: File[], as: OpenAs): Promise<void> {
     for (const file of files) {
       if (file.name.endsWith(kViewEnding)) {
         await this.openView(file);
         continue;
       }
       if (!(await this.mayReplaceSeeds(file))) continue;
+      const part = as === "auto" && isVolume(file.name) ? await askPart(this.app, file.name) : as;
+      if (part === null) continue;
       try {
         this.app.inform(`Opening ${file.name}…`);
-        await this.app.source.open(file.name, as, file);
+        await this.app.source.open(file.name, part, file);
       } catch (error) {
         this.app.inform(
           error instanceof Refused || error instanceof Error ? error.message : String(error),

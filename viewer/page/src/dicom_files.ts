@@ -13,6 +13,9 @@ export async function isDicom(file: File): Promise<boolean> {
   return (await file.slice(kMarkAt, kMarkAt + kMark.length).text()) === kMark;
 }
 
+/** Whether a file is a volume by its name. */
+export const isVolume = (name: string): boolean => /\.(nrrd|nhdr|nii|nii\.gz|hdr|mha|mhd)$/i.test(name);
+
 export interface Dropped {
   /** Files that were dropped by themselves. */
   files: File[];

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Display settings: the volume's window, parts of the 3D view, colours. */
+/** Display settings: volumes, parts of the 3D view, colours, planes. */
 import { kColourTitles, numbersOf } from "./colouring";
 import type { Actions } from "./actions";
-import type { App, Cast, ColourBy, Layers, Planes, View } from "./model";
+import type { App, ColourBy, Layers, Planes } from "./model";
 import { followVessel } from "./selection";
 import { resetPlanes, turnPlanes } from "./slice_input";
-import { brief, button, checkbox, h, section, select, slider } from "./ui";
-import type { Volume } from "./volume";
-import { kPresets, presetOf, windowOf } from "./window_presets";
+import { button, checkbox, h, section, select, slider } from "./ui";
+import { secondSection, volumeSection } from "./volume_panel";
 
 const kLayerTitles: [keyof Layers, string, string][] = [
   ["surface", "Surface", "The wall as triangles"],
@@ -28,155 +27,7 @@ const kLayerTitles: [keyof Layers, string, string][] = [
 ];
 
 export function displayPanel(app: App, actions: Actions): HTMLElement[] {
-  return [volumeSection(app), sceneSection(app, actions), planesSection(app)];
-}
-
-function volumeSection(app: App): HTMLElement {
-  const { store } = app,
-    plot = h("canvas", { class: "histogram", id: "histogram", "aria-hidden": "true" });
-  const number = (id: string, label: string, which: 0 | 1): HTMLInputElement => {
-    const field = h("input", { type: "number", id, "aria-label": label, title: label, step: "any" });
-    field.addEventListener("change", () => {
-      const window: [number, number] = [...store.get().window];
-      window[which] = Number(field.value);
-      if (Number.isFinite(window[which]) && window[0] < window[1]) store.set({ window });
-      else field.value = brief(store.get().window[which]);
-    });
-    return field;
-  };
-  const low = number("window-low", "Darkest intensity", 0),
-    high = number("window-high", "Brightest intensity", 1);
-  const cast = select<Cast>(
-    "cast",
-    "The volume in the 3D view",
-    [
-      ["off", "Not in 3D"],
-      ["mip", "Projection (MIP)"],
-      ["volume", "Volume"],
-    ],
-    "off",
-    value => store.set({ cast: value }),
-  );
-  const smooth = checkbox(
-    "interpolate",
-    "Smooth voxels",
-    "Interpolate between voxels in the slices",
-    true,
-    on => store.set({ interpolate: on }),
-  );
-  const preset = select<string>(
-    "window-preset",
-    "Window for CT, in Hounsfield units",
-    [["", "Window…"], ...kPresets.map(({ name, title }): [string, string] => [name, title])],
-    "",
-    name => {
-      const window = windowOf(name);
-      if (window !== null) store.set({ window });
-    },
-  );
-  const about = h("p", { class: "hint", id: "volume-about" });
-  const box = section(
-    "section-volume",
-    "Volume",
-    true,
-    h(
-      "div",
-      { class: "row" },
-      low,
-      h("span", {}, "to"),
-      high,
-      button(
-        {
-          text: "Auto",
-          label: "The window that the volume came with",
-          id: "window-auto",
-          class: "button text",
-        },
-        () => {
-          const { volume } = store.get();
-          if (volume !== null) store.set({ window: volume.meta.window as [number, number] });
-        },
-      ),
-    ),
-    plot,
-    h("div", { class: "row" }, cast, smooth),
-    h("label", { class: "line" }, "CT", preset),
-    about,
-  );
-  let drawn: Volume | null = null,
-    counts: ReturnType<Volume["histogram"]> | null = null;
-  const draw = (view: View): void => {
-    low.value = brief(view.window[0]);
-    high.value = brief(view.window[1]);
-    cast.value = view.cast;
-    preset.value = presetOf(view.window);
-    if (view.volume !== null && view.volumeReady >= view.volume.size[2] && drawn !== view.volume) {
-      drawn = view.volume;
-      counts = view.volume.histogram(128);
-    }
-    if (counts !== null && view.volume !== null) drawHistogram(plot, counts, view.window);
-  };
-  store.watch(["volume"], view => {
-    box.hidden = view.volume === null;
-    const m = view.volume?.meta;
-    about.textContent =
-      m === undefined
-        ? ""
-        : `${m.name}: ${m.sourceSize.join(" × ")} voxels of ${m.spacing.map((s, i) => brief(s / (m.reduction[i] || 1))).join(" × ")} mm${
-            m.reduction.some(r => r > 1) ? `, shown reduced by ${m.reduction.join(" × ")}` : ""
-          }`;
-  });
-  store.watch(["volume", "volumeReady", "window", "cast", "theme"], draw);
-  dragWindow(plot, app, () => counts);
-  return box;
-}
-
-/** Moves the nearer edge of the window with the pointer. */
-function dragWindow(
-  plot: HTMLCanvasElement,
-  app: App,
-  counts: () => { low: number; high: number } | null,
-): void {
-  const to = (e: PointerEvent): void => {
-    const c = counts(),
-      box = plot.getBoundingClientRect();
-    if (c === null) return;
-    const x = c.low + ((e.clientX - box.left) / box.width) * (c.high - c.low),
-      [a, b] = app.store.get().window;
-    app.store.set({ window: Math.abs(x - a) < Math.abs(x - b) ? [Math.min(x, b), b] : [a, Math.max(a, x)] });
-  };
-  plot.addEventListener("pointerdown", e => {
-    plot.setPointerCapture(e.pointerId);
-    to(e);
-  });
-  plot.addEventListener("pointermove", e => {
-    if (e.buttons === 1) to(e);
-  });
-}
-
-function drawHistogram(
-  plot: HTMLCanvasElement,
-  counts: { low: number; high: number; counts: Uint32Array },
-  window: [number, number],
-): void {
-  const ratio = devicePixelRatio,
-    width = (plot.width = Math.max(1, plot.clientWidth * ratio)),
-    height = (plot.height = Math.max(1, plot.clientHeight * ratio));
-  const c = plot.getContext("2d")!,
-    style = getComputedStyle(plot),
-    most = Math.log(1 + Math.max(...counts.counts)),
-    n = counts.counts.length;
-  c.fillStyle = style.getPropertyValue("--dim");
-  counts.counts.forEach((count, i) => {
-    const h = (height * Math.log(1 + count)) / most;
-    c.fillRect((i * width) / n, height - h, width / n + 0.5, h);
-  });
-  const at = (x: number): number => ((x - counts.low) / (counts.high - counts.low || 1)) * width;
-  const [a, b] = window.map(at);
-  c.fillStyle = style.getPropertyValue("--accent-soft");
-  c.fillRect(a, 0, b - a, height);
-  c.fillStyle = style.getPropertyValue("--accent");
-  for (const x of [a, b]) c.fillRect(x - ratio, 0, 2 * ratio, height);
+  return [volumeSection(app), secondSection(app), sceneSection(app, actions), planesSection(app)];
 }
 
 function sceneSection(app: App, actions: Actions): HTMLElement {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The view of a case: it survives a reload of the page, and may be kept as a small file beside the case. */
+import { isBeside, type Beside } from "./beside";
 import { fromHex, toHex, type Rgb } from "./colour";
 import { kInitial, type App, type Measurement, type View } from "./model";
 import { areSlabs, type Slabs } from "./slab";
@@ -28,9 +29,11 @@ const kPlain = [
   "panels",
   "axes",
   "slabs",
+  "beside",
+  "secondWindow",
 ] as const;
 /** Those that a file of before may lack. */
-const kLater: readonly string[] = ["slabs"];
+const kLater: readonly string[] = ["slabs", "beside", "secondWindow"];
 /** The words that some of them may be. */
 const kWords: { readonly [name in (typeof kPlain)[number]]?: readonly string[] } = {
   cast: ["off", "mip", "volume"],
@@ -107,7 +110,8 @@ export function readView(text: string): KeptView {
     name =>
       !isLike(value[name], kInitial[name]) ||
       kWords[name]?.includes(value[name] as string) === false ||
-      (name === "slabs" && !areSlabs(value.slabs as Slabs)),
+      (name === "slabs" && !areSlabs(value.slabs as Slabs)) ||
+      (name === "beside" && !isBeside(value.beside as Beside)),
   );
   if (wrong !== undefined) throw new Error(`its "${wrong}" is no value that a view has`);
   const colours = value.colours;
@@ -159,14 +163,17 @@ export function keepView(app: App): void {
       return null; // of another version, or a page that may keep nothing
     }
   };
-  const bringBack = ({ state, tree, volume }: View): void => {
-    const isThere = (state.hasVolume || state.hasCase) && (!state.hasVolume || volume !== null);
+  const bringBack = ({ state, tree, volume, second }: View): void => {
+    const isThere =
+      (state.hasVolume || state.hasCase) &&
+      (!state.hasVolume || volume !== null) &&
+      (state.second === null || second !== null);
     if (isBack || !isThere || (state.hasCase && tree === null)) return;
     isBack = true;
     const kept = read();
     if (kept !== null) queueMicrotask(() => applyView(app, kept)); // after what the volume brings along
   };
-  app.store.watch(["state", "tree", "volume"], bringBack);
+  app.store.watch(["state", "tree", "volume", "second"], bringBack);
   app.store.watch([...kPlain, "hidden", "colours", "opacity", "measurements"], () => {
     if (!isBack) return;
     window.clearTimeout(timer);

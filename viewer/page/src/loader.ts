@@ -1,36 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Keeps what is shown in step with the document: fetches the packs whose revision has changed, small ones first. */
 import { load as loadBlob, type Blob as BlobLibrary } from "../../../libblob/wasm/blob.mjs";
-import { Caster } from "./cast";
 import { fillValues } from "./colouring";
-import type { App, View } from "./model";
-import { headerEnd, Pack } from "./pack";
+import { kFirst, kSecond, type App, type View } from "./model";
+import { Pack } from "./pack";
 import { sameVessels } from "./same_vessel";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { Surface } from "./surface";
 import { Tree } from "./tree";
 import type { State } from "./types";
-import { reduce, Volume } from "./volume";
-import { VolumeTexture } from "./volume_texture";
-
-const kArriving = 500; // ms from one picture of a volume that is arriving to the next
-const kCastSoftware = 128,
-  kCastHardware = 256; // texels along an axis for ray casting
+import { idle } from "./ui";
+import { VolumeLoader } from "./volume_loader";
 
 export class Loader {
-  private seen = { case: -1, surface: -1, volume: -1, proposals: -1, distance: "" };
+  private seen = { case: -1, surface: -1, volume: -1, second: 0, proposals: -1, distance: "" };
   private library: Promise<BlobLibrary | null> | null = null;
-  private texture: VolumeTexture | null = null;
+  private readonly volume: VolumeLoader;
+  private readonly second: VolumeLoader;
   private quickOf = -1;
   private shown = { case: -1, kind: "", level: 0 };
   private first = true;
 
   constructor(
     private readonly app: App,
-    private readonly slices: SliceView[],
-    private readonly scene: SceneView,
+    slices: SliceView[],
+    scene: SceneView,
   ) {
+    this.volume = new VolumeLoader(app, kFirst, slices, scene, () => this.settle());
+    this.second = new VolumeLoader(app, kSecond, slices);
     app.store.watch(["colourBy", "surface", "distance"], view => {
       fillValues(view);
       app.stage.invalidate(scene);
@@ -50,7 +48,11 @@ export class Loader {
     }
     if (r.volume !== this.seen.volume) {
       this.seen.volume = r.volume;
-      jobs.push(this.takeVolume(state));
+      jobs.push(this.volume.take(state.hasVolume));
+    }
+    if ((r.second ?? 0) !== this.seen.second) {
+      this.seen.second = r.second ?? 0;
+      jobs.push(this.second.take(state.second !== null));
     }
     if ((r.proposals ?? 0) !== this.seen.proposals) {
       this.seen.proposals = r.proposals ?? 0;
@@ -193,74 +195,6 @@ export class Loader {
     idle(build);
   }
 
-  private async takeVolume(state: State): Promise<void> {
-    const { store, stage, source } = this.app;
-    if (!state.hasVolume) {
-      this.replaceTexture(null);
-      store.set({ volume: null, volumeReady: 0 });
-      return;
-    }
-    let volume: Volume | null = null,
-      texture: VolumeTexture | null = null,
-      last = performance.now();
-    const arrived = (bytes: Uint8Array, received: number): void => {
-      if (volume === null) {
-        if (received < 4 || received < headerEnd(bytes)) return;
-        volume = new Volume(new Pack(bytes));
-        texture = new VolumeTexture(stage.renderer, volume);
-        this.replaceTexture(texture);
-        store.set({ volume, volumeReady: 0, window: volume.meta.window as [number, number] });
-        this.settle();
-      }
-      const slice = volume.size[0] * volume.size[1] * volume.bytesPerVoxel;
-      volume.complete = Math.min(volume.size[2], Math.max(0, Math.floor((received - volume.begin) / slice)));
-      const whole = volume.complete === volume.size[2],
-        now = performance.now();
-      if (!whole && now - last < kArriving) return; // each picture of what has arrived delays the rest
-      last = now;
-      const upload = (): void => {
-        if (volume === null || this.texture !== texture) return;
-        const more = texture!.upload();
-        if (more) stage.next(upload);
-        else {
-          store.set({ volumeReady: volume.complete });
-          stage.firstPicture ||= volume.complete === volume.size[2];
-        }
-        for (const each of this.slices) stage.invalidate(each);
-      };
-      stage.next(upload);
-    };
-    if ((await source.bytes("volume", {}, arrived)) === null || volume === null) return;
-    stage.afterFirstPicture(() => idle(() => this.prepareCast(volume!)));
-  }
-
-  private replaceTexture(texture: VolumeTexture | null): void {
-    this.texture?.dispose();
-    this.texture = texture;
-    this.scene.caster?.dispose();
-    this.scene.caster = null;
-    this.scene.texture = texture;
-    for (const slice of this.slices) slice.texture = texture;
-  }
-
-  private prepareCast(volume: Volume): void {
-    const { store, stage } = this.app;
-    if (this.texture?.volume !== volume) return;
-    const { low, high } = volume.histogram(256),
-      window = volume.meta.window;
-    this.scene.caster = new Caster(
-      volume,
-      reduce(
-        volume,
-        stage.software ? kCastSoftware : kCastHardware,
-        Math.min(window[0], high),
-        Math.max(window[1], low),
-      ),
-    );
-    stage.invalidate(this.scene);
-    store.set({ volumeReady: volume.size[2] });
-  }
-
   private async takeDistance(surface: Surface): Promise<void> {
     const query: Record<string, string> =
       surface.kind === "quick" ? { quick: "1" } : { level: String(surface.level) };
@@ -280,11 +214,4 @@ function thickest(tree: Tree): number {
   let best = 0;
   for (let i = 1; i < tree.count; ++i) if (tree.radius[i] > tree.radius[best]) best = i;
   return best;
-}
-
-const kIdleBy = 300; // ms after which idle work is done anyway
-
-export function idle(call: () => void): void {
-  if ("requestIdleCallback" in window) window.requestIdleCallback(call, { timeout: kIdleBy });
-  else setTimeout(call, 0);
 }

@@ -111,10 +111,24 @@ async function start(): Promise<void> {
   const loader = new Loader(app, slices, scene),
     watcher = new Watcher(app, shell, loader, actions);
   app.store.watch(
-    ["crosshair", "frame", "planes", "tree", "window", "layout", "interpolate", "slabs"],
+    [
+      "crosshair",
+      "frame",
+      "planes",
+      "tree",
+      "window",
+      "layout",
+      "interpolate",
+      "slabs",
+      "second",
+      "secondReady",
+      "secondWindow",
+      "beside",
+    ],
     view => {
       for (const slice of slices) {
         slice.texture?.interpolate(view.interpolate);
+        slice.second?.interpolate(view.interpolate);
         app.stage.invalidate(slice);
       }
     },
@@ -130,6 +144,7 @@ async function start(): Promise<void> {
       "measurements",
       "pending",
       "brushLines",
+      "stroke",
       "clicks",
       "state",
       "proposals",
@@ -144,7 +159,6 @@ async function start(): Promise<void> {
 }
 
 start().catch((error: unknown) => {
-      "stroke",
   const text = error instanceof Error ? error.message : String(error);
   document.body.append(
     h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)),

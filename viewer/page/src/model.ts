@@ -3,12 +3,13 @@
 import type { Model } from "../../../libblob/wasm/blob.mjs";
 import { branchColour, type Rgb } from "./colour";
 import type { Deviation } from "./deviation";
+import { kNoBeside, type Beside } from "./beside";
 import { kNoSlabs, type Slabs } from "./slab";
-import type { Source } from "./source";
+import type { OpenAs, Source } from "./source";
 import type { Stage } from "./stage";
 import { Store } from "./store";
-import type { Surface } from "./surface";
 import type { Stroke } from "./stroke";
+import type { Surface } from "./surface";
 import type { Tree } from "./tree";
 import { kEmptyState, type Seed, type State, type Vec3 } from "./types";
 import type { Frame } from "./vec";
@@ -69,6 +70,14 @@ export interface View {
   volume: Volume | null;
   /** Slices of the volume that can be shown. */
   volumeReady: number;
+  /** A volume to look at beside the first, at its own places; nothing is tracked in it. */
+  second: Volume | null;
+  secondReady: number;
+  secondWindow: [number, number];
+  /** How the second volume is seen. */
+  beside: Beside;
+  /** The part that a series of the files that were dropped last becomes; null: to be asked. */
+  seriesAs: OpenAs | null;
   blob: Model | null;
 
   selected: number;
@@ -107,6 +116,8 @@ export interface View {
   pending: Vec3[];
   /** The brush at the pointer, and the way that it pushes the wall. */
   brushLines: Vec3[][];
+  /** The stroke that is being drawn. */
+  stroke: Stroke | null;
   /** Radius of the brush, mm; null: that of the vessel. */
   brush: number | null;
   /** mm along a vessel over which a radius that is dragged fades; null: as the vessel is wide, 0: one node. */
@@ -116,8 +127,6 @@ export interface View {
   job: { job: number; name: string; stage: string; done: number; total: number } | null;
   lost: boolean;
   distance: Float32Array | null;
-  /** The stroke that is being drawn. */
-  stroke: Stroke | null;
   figures: Record<string, unknown> | null;
   /** By the number of a mesh: those that are coloured by their distance from the wall. */
   deviations: ReadonlyMap<string, Deviation>;
@@ -136,6 +145,11 @@ export const kInitial: View = {
   surface: null,
   volume: null,
   volumeReady: 0,
+  second: null,
+  secondReady: 0,
+  secondWindow: [0, 1],
+  beside: kNoBeside,
+  seriesAs: null,
   blob: null,
   selected: -1,
   hidden: new Set(),
@@ -176,6 +190,7 @@ export const kInitial: View = {
   measurements: [],
   pending: [],
   brushLines: [],
+  stroke: null,
   brush: null,
   stretch: null,
   clicks: [],
@@ -186,11 +201,15 @@ export const kInitial: View = {
   deviations: new Map(),
 };
 
+/** The members of a view that belong to a volume. */
+export const kFirst = { volume: "volume", ready: "volumeReady", window: "window" } as const,
+  kSecond = { volume: "second", ready: "secondReady", window: "secondWindow" } as const;
+export type VolumeKeys = typeof kFirst | typeof kSecond;
+
 export interface App {
   store: Store<View>;
   source: Source;
   stage: Stage;
-  stroke: null,
   /** Shows the user a line that goes away, and to assistive technology. */
   inform: (text: string, severity?: "note" | "warning" | "error") => void;
   /** Changes the document and reports a refusal. True if it was done. */

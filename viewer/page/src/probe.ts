@@ -9,6 +9,8 @@ export interface Answer {
   position: Vec3;
   /** Intensity, or NaN where there is no voxel. */
   value: number;
+  /** Intensity of the volume beside the first, or NaN. */
+  second: number;
   /** Null without a model. */
   wall: Wall | null;
 }
@@ -54,6 +56,7 @@ export function probe(view: View, p: Vec3, cursor = NOWHERE): Answer {
   return {
     position: p,
     value: view.volume?.sample(p) ?? NaN,
+    second: view.second?.sample(p) ?? NaN,
     wall: view.blob === null ? null : ask(view.blob, p, cursor, Flags.DISTANCE_EXACT),
   };
 }

@@ -11,6 +11,7 @@ import { askText, brief, h } from "./ui";
 const kTitles = {
   position: "mm",
   value: "Value",
+  second: "Second",
   distance: "Wall",
   normal: "Normal",
   node: "Node",
@@ -93,8 +94,13 @@ export class ProbeLine {
       if (answer !== null) this.show(answer);
       else this.rest();
     });
-    app.store.watch(["crosshair", "blob", "volumeReady"], () => {
+    app.store.watch(["crosshair", "blob", "volumeReady", "secondReady"], () => {
       if (!this.pointing) this.rest();
+    });
+    const second = this.fields.second.parentElement!;
+    second.title = "Value of the second volume";
+    app.store.watch(["second"], view => {
+      second.hidden = view.second === null;
     });
     app.store.watch(["axes"], ({ axes }) => {
       frame.textContent = axes;
@@ -118,6 +124,7 @@ export class ProbeLine {
         .map(x => x.toFixed(2))
         .join("  "),
       value: brief(a.value),
+      second: brief(a.second),
       distance: a.wall === null ? "–" : distanceText(a.wall),
       normal:
         a.wall === null

@@ -3,7 +3,8 @@
 import type { App } from "./model";
 import { Pack } from "./pack";
 import type { DicomSeries, SeriesList } from "./types";
-import { brief, button, h } from "./ui";
+import type { OpenAs } from "./source";
+import { brief, button, choose, h } from "./ui";
 
 const kEdge = 128; // pixels of a picture's canvas
 
@@ -45,6 +46,29 @@ async function fetchPicture(app: App, index: number, canvas: HTMLCanvasElement):
   paint(canvas, pack.get("pixel", "u8"), width, height);
 }
 
+const kParts = [
+  { value: "auto", label: "Replace it" },
+  { value: "second", label: "Put over it" },
+] as const;
+
+/** Asks whether a volume takes the place of the one that is open or is seen beside it; null: neither. Without an open
+ * volume there is nothing to ask. */
+export async function askPart(app: App, name: string): Promise<OpenAs | null> {
+  const { volume, state } = app.store.get();
+  if (!state.hasVolume) return "auto";
+  return (await choose(
+    "Replace the volume, or put this one over it?",
+    `${volume?.meta.name ?? "A volume"} is open. ${name} can take its place, or be seen over or beside it, where its file places it. Vessels are tracked in the first volume alone.`,
+    kParts,
+  )) as OpenAs | null;
+}
+
+/** Opens a series as the part that was chosen when its files were dropped; otherwise asks. */
+async function openSeries(app: App, series: DicomSeries, index: number): Promise<void> {
+  const part = app.store.get().seriesAs ?? (await askPart(app, series.description || `Series ${index + 1}`));
+  if (part !== null) await app.perform({ op: "openSeries", series: index, second: part === "second" });
+}
+
 function row(app: App, series: DicomSeries, index: number, choose: () => void): HTMLElement {
   const picture = h("canvas", { width: kEdge, height: kEdge, "aria-hidden": "true" }),
     name = series.description || `Series ${index + 1}`,
@@ -79,7 +103,7 @@ export function openSeriesDialog(app: App): void {
       ...series.list.map((each, index) =>
         row(app, each, index, () => {
           dialog.close();
-          void app.perform({ op: "openSeries", series: index });
+          void openSeries(app, each, index);
         }),
       ),
     ),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Pointer and keys in a slice. Left: the tool (or the crosshair); right: window and level; middle or shift: pan; wheel:
  * slices, with control zoom; control and left: turns the planes. */
-import { kPatientFrame, type App } from "./model";
+import { isSecondAt } from "./beside";
+import { kFirst, kPatientFrame, kSecond, type App, type View, type VolumeKeys } from "./model";
 import { slabKey } from "./slab";
 import type { SliceView } from "./slice_view";
 import type { Tools } from "./tools";
@@ -25,18 +26,24 @@ export const resetPlanes = (app: App): void => app.store.set({ planes: "patient"
 const kWindowStep = 1 / 300; // of the window for a pixel
 const kZoomStep = 1.0015; // for a unit of the wheel
 
-export function shiftWindow(app: App, dx: number, dy: number): void {
-  const [low, high] = app.store.get().window,
+export function shiftWindow(app: App, dx: number, dy: number, keys: VolumeKeys = kFirst): void {
+  const [low, high] = app.store.get()[keys.window],
     width = Math.max(high - low, 1e-6);
   const wider = width * Math.exp(dx * kWindowStep * 2),
     level = (low + high) / 2 + dy * kWindowStep * width;
-  app.store.set({ window: [level - wider / 2, level + wider / 2] });
+  app.store.set({ [keys.window]: [level - wider / 2, level + wider / 2] } as Partial<View>);
 }
 
 export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
   const element = slice.element,
     { store, stage } = app;
-  let drag: { kind: "tool" | "window" | "pan" | "turn"; x: number; y: number; angle: number } | null = null;
+  let drag: {
+    kind: "tool" | "window" | "pan" | "turn";
+    x: number;
+    y: number;
+    angle: number;
+    window: VolumeKeys; // the volume that is seen where a drag begins
+  } | null = null;
   const place = (e: MouseEvent): { x: number; y: number } => {
     const box = element.getBoundingClientRect();
     return { x: e.clientX - box.left, y: e.clientY - box.top };
@@ -59,7 +66,8 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
           : left && (e.ctrlKey || e.metaKey)
             ? "turn"
             : "tool";
-    drag = { kind, x, y, angle: angleAt(x, y) };
+    const window = isSecondAt(store.get(), x / Math.max(element.clientWidth, 1)) ? kSecond : kFirst;
+    drag = { kind, x, y, angle: angleAt(x, y), window };
     if (kind === "tool") tools.pressInSlice(slice, slice.toPosition(x, y));
     e.preventDefault();
   });
@@ -73,7 +81,7 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
     const dx = x - drag.x,
       dy = y - drag.y;
     if (drag.kind === "pan") slice.panBy(dx, dy);
-    else if (drag.kind === "window") shiftWindow(app, dx, dy);
+    else if (drag.kind === "window") shiftWindow(app, dx, dy, drag.window);
     else if (drag.kind === "turn") {
       const angle = angleAt(x, y);
       turnPlanes(app, slice.frame.normal, angle - drag.angle);

@@ -4,6 +4,8 @@ import {
   GLSL3,
   Matrix4,
   Mesh,
+  NoBlending,
+  NormalBlending,
   OrthographicCamera,
   PlaneGeometry,
   Scene,
@@ -35,9 +37,17 @@ uniform vec2 channels;            // 255 and 65280: stored = dot(channels, texel
 uniform float ready;              // share of the slices that have arrived
 uniform vec3 through;             // mm: half a slab, 0 for a plane
 uniform int samples, kind;        // of a slab: places through it; 1 greatest, 2 least, 3 mean
+uniform float alpha, from;        // opacity; nothing is drawn left of this place, in [-1, 1]
+uniform bool warm, over;          // warm colours; over another volume, which shows where this one has no voxel
 bool isOutside(vec3 p) { return any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0))); }
 float storedAt(vec3 p) { return dot(texture(voxels, p).rg, channels); }
+vec3 tint(float x) { return warm ? clamp(vec3(2.2 * x, 2.2 * x - 0.65, 3.2 * x - 2.2), 0.0, 1.0) : vec3(x); }
+void drawNothing(vec3 ground) {
+  if (over) discard;
+  colour = vec4(ground, 1.0);
+}
 void main() {
+  if (at.x < from) discard;
   vec3 p = (toTexture * vec4(centre + at.x * right + at.y * up, 1.0)).xyz;
   float stored = 0.0, count = 0.0;
   if (samples > 1) {
@@ -51,15 +61,36 @@ void main() {
       count += 1.0;
     }
     if (kind == 3) stored /= max(count, 1.0);
-    if (count == 0.0) { colour = vec4(0.027, 0.035, 0.047, 1.0); return; }
+    if (count == 0.0) { drawNothing(vec3(0.027, 0.035, 0.047)); return; }
   } else {
-    if (isOutside(p)) { colour = vec4(0.027, 0.035, 0.047, 1.0); return; }
-    if (p.z > ready) { colour = vec4(0.05, 0.06, 0.08, 1.0); return; }
+    if (isOutside(p)) { drawNothing(vec3(0.027, 0.035, 0.047)); return; }
+    if (p.z > ready) { drawNothing(vec3(0.05, 0.06, 0.08)); return; }
     stored = storedAt(p);
   }
   float shade = clamp((stored - window.x) / max(window.y - window.x, 1e-6), 0.0, 1.0);
-  colour = vec4(vec3(shade), 1.0);
+  colour = vec4(tint(shade), alpha);
 }`;
+
+/** What a view shows: its middle, its axes, and half its width and height in mm. */
+export interface Plane {
+  centre: Vec3;
+  frame: Frame;
+  halfWidth: number;
+  halfHeight: number;
+}
+
+/** Look of a volume that is drawn over another. */
+export interface Over {
+  /** Opacity. */
+  alpha: number;
+  /** Nothing is drawn left of it; in [-1, 1] across the view. */
+  from: number;
+  /** Warm colours instead of grey. */
+  warm: boolean;
+  /** The other volume shows where this one has no voxel. */
+  isSeenThrough: boolean;
+}
+const kAlone: Over = { alpha: 1, from: -1, warm: false, isSeenThrough: false };
 
 export class SliceMaterial {
   private readonly scene = new Scene();
@@ -83,6 +114,10 @@ export class SliceMaterial {
       through: { value: new Vector3() },
       samples: { value: 1 },
       kind: { value: 0 },
+      alpha: { value: 1 },
+      from: { value: -1 },
+      warm: { value: false },
+      over: { value: false },
     },
   });
 
@@ -92,15 +127,16 @@ export class SliceMaterial {
     this.scene.add(quad);
   }
 
-  /** `halfWidth` and `halfHeight` in mm. */
+  /** With `over` on what the viewport has. */
   draw(
     renderer: WebGLRenderer,
     texture: VolumeTexture,
-    plane: { centre: Vec3; frame: Frame; halfWidth: number; halfHeight: number },
+    plane: Plane,
     window: [number, number],
     ready: number,
     slab: Slab,
     samples: number,
+    over: Over = kAlone,
   ): void {
     const u = this.material.uniforms,
       volume: Volume = texture.volume;
@@ -115,6 +151,12 @@ export class SliceMaterial {
     (u.through.value as Vector3).set(...throughOf(slab, plane.frame));
     u.samples.value = samples;
     u.kind.value = ["off", "max", "min", "mean"].indexOf(slab.kind);
+    u.alpha.value = over.alpha;
+    u.from.value = over.from;
+    u.warm.value = over.warm;
+    u.over.value = over.isSeenThrough;
+    this.material.blending = over.alpha < 1 ? NormalBlending : NoBlending;
+    this.material.transparent = over.alpha < 1;
     renderer.render(this.scene, this.camera);
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One of three linked slices: the plane through the crosshair, seen along an axis of the shared frame. */
+import { drawingOf, showsSecond, splitLine } from "./beside";
 import { clearedContext } from "./overlay_canvas";
 import type { WebGLRenderer } from "three";
 import type { App, View } from "./model";
@@ -7,11 +8,13 @@ import { drawProposalsInSlice } from "./proposal_lines";
 import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
 import { drawSliceOverlay } from "./slice_overlay";
 import { drawNamesInSlice } from "./vessel_names";
-import { pickInSlab, samplesOf, slabControl } from "./slab";
-import { SliceMaterial } from "./slice_material";
+import { kMostSamples, pickInSlab, samplesOf, slabControl } from "./slab";
+import { ScenePicture } from "./scene_picture";
+import { SliceMaterial, type Plane } from "./slice_material";
 import type { StageView } from "./stage";
 import type { Vec3 } from "./types";
 import { add, along, dot, scale, sub, type Frame } from "./vec";
+import type { Volume } from "./volume";
 import type { VolumeTexture } from "./volume_texture";
 
 const kQuickSamples = 33,
@@ -20,6 +23,7 @@ const kAcross = 7; // radii of the vessel that half a section shows
 
 export class SliceView implements StageView, SliceProjection {
   private readonly material = new SliceMaterial();
+  private readonly picture = new ScenePicture();
   readonly over: HTMLCanvasElement;
   /** mm that half the height shows; null: fit. */
   private halfHeight: number | null = null;
@@ -27,6 +31,8 @@ export class SliceView implements StageView, SliceProjection {
   private width = 1;
   private height = 1;
   texture: VolumeTexture | null = null;
+  /** Of the volume beside the first. */
+  second: VolumeTexture | null = null;
   /** The next picture of a slab takes all of its places; the first after a change only some. */
   private isFine = false;
   private refining = 0;
@@ -38,6 +44,7 @@ export class SliceView implements StageView, SliceProjection {
   ) {
     this.over = element.querySelector("canvas")!;
     element.querySelector(".viewtools")!.append(slabControl(app, name));
+    element.append(splitLine(app, this));
   }
 
   get frame(): Frame {
@@ -120,31 +127,62 @@ export class SliceView implements StageView, SliceProjection {
     this.height = height;
     const view = this.app.store.get();
     if (this.texture === null || view.volume === null) return;
-    const halfHeight = this.half();
+    const halfHeight = this.half(),
+      plane = {
+        centre: this.centre(),
+        frame: this.frame,
+        halfWidth: (halfHeight * width) / height,
+        halfHeight,
+      },
+      isQuick = this.isQuick(view),
+      draw = (): void => this.drawVolumes(renderer, view, plane, isQuick ? kQuickSamples : kMostSamples);
+    // without a graphics processor a thick slab costs what its pixels cost
+    if (isQuick && this.app.stage.software) this.picture.draw(renderer, [width, height], true, draw);
+    else draw();
+  }
+
+  /** The volume, and the one beside it; with no more places through a slab than `most`. */
+  private drawVolumes(renderer: WebGLRenderer, view: View, plane: Plane, most: number): void {
+    const slab = view.slabs[this.name],
+      samples = (volume: Volume): number => Math.min(most, samplesOf(slab, volume.spacing)),
+      { volume, second, beside } = view;
+    if (this.texture === null || volume === null) return;
     this.material.draw(
       renderer,
       this.texture,
-      { centre: this.centre(), frame: this.frame, halfWidth: (halfHeight * width) / height, halfHeight },
+      plane,
       view.window,
-      view.volumeReady / view.volume.size[2],
-      view.slabs[this.name],
-      this.samples(view),
+      view.volumeReady / volume.size[2],
+      slab,
+      samples(volume),
+    );
+    if (this.second === null || second === null || !showsSecond(view)) return;
+    this.material.draw(
+      renderer,
+      this.second,
+      plane,
+      view.secondWindow,
+      view.secondReady / second.size[2],
+      slab,
+      samples(second),
+      { ...drawingOf(beside), isSeenThrough: beside.mode === "blend" },
     );
   }
 
-  /** Places through the slab for the next picture: few while something moves, and all of them a moment later. */
-  private samples({ slabs, volume }: View): number {
-    const all = samplesOf(slabs[this.name], volume!.spacing);
+  /** Whether the next picture is a quick one: a thick slab while something moves. A moment later it is drawn in full. */
+  private isQuick(view: View): boolean {
     window.clearTimeout(this.refining);
-    if (all <= kQuickSamples || this.isFine) {
+    const shown = [view.volume!, ...(showsSecond(view) ? [view.second!] : [])],
+      wanted = shown.map(({ spacing }) => samplesOf(view.slabs[this.name], spacing));
+    if (Math.max(...wanted) <= kQuickSamples || this.isFine) {
       this.isFine = false;
-      return all;
+      return false;
     }
     this.refining = window.setTimeout(() => {
       this.isFine = true;
       this.app.stage.invalidate(this);
     }, kRefineAfter);
-    return kQuickSamples;
+    return true;
   }
 
   drawOver(width: number, height: number): void {

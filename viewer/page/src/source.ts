@@ -20,6 +20,9 @@ export class Refused extends Error {
   }
 }
 
+/** The part that a file becomes, where its content leaves a choice. */
+export type OpenAs = "auto" | "truth" | "second";
+
 export interface Source {
   /** False: what is embedded is all there is, and nothing can be edited. */
   readonly live: boolean;
@@ -34,7 +37,7 @@ export interface Source {
   listen(listener: (event: Event) => void): void;
   perform(operation: Operation, revision: number): Promise<Answer>;
   vesselAtClick(position: number[]): Promise<VesselAtClick>;
-  open(name: string, as: "auto" | "truth", file: globalThis.Blob): Promise<void>;
+  open(name: string, as: OpenAs, file: globalThis.Blob): Promise<void>;
   /** Sends one file of a batch of DICOM. */
   sendSeriesFile(batch: number, file: File): Promise<void>;
   cancel(job: number): Promise<void>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The server that this page came from; all addresses are relative to the page's own, which holds the token. */
-import { Refused, type Answer, type Received, type Source } from "./source";
+import { Refused, type Answer, type OpenAs, type Received, type Source } from "./source";
 import type { Event, Operation, VesselAtClick, State } from "./types";
 
 const kMostName = 100; // letters of the name of a file of DICOM
@@ -97,7 +97,7 @@ export class ServerSource implements Source {
   async vesselAtClick(position: number[]): Promise<VesselAtClick> {
     return (await this.post("vesselAtClick", JSON.stringify({ position }))) as unknown as VesselAtClick;
   }
-  async open(name: string, as: "auto" | "truth", file: globalThis.Blob): Promise<void> {
+  async open(name: string, as: OpenAs, file: globalThis.Blob): Promise<void> {
     await this.post(withQuery("file", { name, as }), file, "application/octet-stream");
   }
   async sendSeriesFile(batch: number, file: File): Promise<void> {

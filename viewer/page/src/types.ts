@@ -136,6 +136,7 @@ export interface Revisions {
   volume: number;
   seeds: number;
   proposals?: number;
+  second?: number;
   meshes?: number;
   truth?: number;
   distance?: number;
@@ -156,6 +157,8 @@ export interface State {
   assumptions: string[];
   /** A sentence on the volume from which the case was not made, until it is accepted. */
   otherSource: string | null;
+  /** The volume that is seen beside the first, and a sentence on what speaks against that. */
+  second: { name: string; doubt: string | null } | null;
   meshes: { id: number | string; name: string }[];
   seeds: Seed[];
   proposals: Proposal[];
@@ -192,6 +195,7 @@ export const kEmptyState: State = {
   hasTruth: false,
   assumptions: [],
   otherSource: null,
+  second: null,
   meshes: [],
   seeds: [],
   proposals: [],

@@ -173,6 +173,14 @@ export function brief(value: number | null | undefined): string {
 }
 export const mm = (value: number | null | undefined): string => `${brief(value)} mm`;
 
+const kIdleBy = 300; // ms after which idle work is done anyway
+
+/** Calls when nothing else is to be done, or soon. */
+export function idle(call: () => void): void {
+  if ("requestIdleCallback" in window) window.requestIdleCallback(call, { timeout: kIdleBy });
+  else setTimeout(call, 0);
+}
+
 /** Asks for one line of text; null: cancelled. */
 export function askText(title: string, label: string, value: string): Promise<string | null> {
   return new Promise(resolve => {

@@ -179,7 +179,7 @@ function fileSection(app: App): HTMLElement {
           h(
             "span",
             { class: file.changed ? "note changed" : "note" },
-            file.changed ? "changed on disk" : file.kind,
+            file.changed ? "changed on disk" : file.kind === "second" ? "second volume" : file.kind,
           ),
           ...(file.changed && file.named
             ? [
@@ -230,7 +230,10 @@ function fileSection(app: App): HTMLElement {
               id: "series-again",
               class: "button text",
             },
-            () => openSeriesDialog(app),
+            () => {
+              app.store.set({ seriesAs: null }); // another series may become another part
+              openSeriesDialog(app);
+            },
           ),
           button(
             { icon: "close", label: "Forget these series", class: "button" },
