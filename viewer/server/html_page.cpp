@@ -152,9 +152,10 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
     embedded.add("volume", encodeVolume(document));
   for (const OpenMesh& mesh : document.meshes) {
     const std::string which = "?id=" + std::to_string(mesh.id);
-    embedded.addSurface("mesh" + which, session.meshPack(mesh.id));
-    if (const Tagged part = session.deviationPack(mesh.id, progress); part.bytes)
-      embedded.add("deviation" + which, *part.bytes);
+    const Tagged part = session.meshPack(mesh.id);
+    embedded.addSurface("mesh" + which, part);
+    if (const Tagged deviation = session.deviationPack(mesh.id, progress); deviation.bytes)
+      embedded.add("deviation" + which, compactDistances(*part.bytes, *deviation.bytes));
   }
   if (!fileOf(page, "blob.wasm").empty()) embedded.add("blob.wasm", fileOf(page, "blob.wasm"));
   Json state = lookOnly(session.state());

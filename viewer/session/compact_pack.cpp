@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::uint32_t kPositionSteps = 65535;  // steps in a head's 240 mm: under 4 um
 constexpr std::uint32_t kRadiusSteps = 4095;     // only colours show it
+constexpr std::uint32_t kDistanceSteps = 65535;  // the farthest vertex may be far
 constexpr std::uint32_t kNone = 0xffffffff;
 
 /// The arrays of a pack that this program has made.
@@ -175,6 +176,17 @@ std::string compactPack(std::string_view bytes) {
     for (std::uint32_t& vertex : moving) vertex = number[vertex];
     addTriangles(pack, "moving", std::move(moving));
   }
+  return pack.bytes();
+}
+
+std::string compactDistances(std::string_view mesh, std::string_view distances) {
+  const PackReader of(mesh), read(distances);
+  auto triangle = of.get<std::uint32_t>("triangle");
+  const auto old = order(triangle, of.get<float>("position").size() / 3, of.members()["parts"]);
+  PackWriter pack;
+  for (const auto& [name, value] : read.members().items())
+    if (name != "arrays") pack.set(name, value);
+  addSteps(pack, "distance", read.get<float>("distance"), old, 1, kDistanceSteps);
   return pack.bytes();
 }
 

@@ -12,6 +12,11 @@ namespace lumen::viewer {
 /// steps of their range. Takes a pack as surfacePack() and meshPack() make them.
 std::string compactPack(std::string_view pack);
 
+/// The distances of a mesh's vertices (viewer/README.md, "Packs", `deviation`) in the order of
+/// compactPack() of the mesh, in 65,535 steps of their range. Takes packs as meshPack() and
+/// deviationPack() make them.
+std::string compactDistances(std::string_view mesh, std::string_view distances);
+
 /// Bytes as zlib has them (RFC 1950). Throws Error(Failed) where there is no memory.
 std::string deflated(std::string_view bytes);
 

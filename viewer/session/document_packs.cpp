@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/document_packs.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -18,8 +17,7 @@ namespace lumen::viewer {
 
 namespace {
 
-constexpr std::size_t kAtOnce = 1024;    // vertices between two looks whether to go on
-constexpr float kDeviationSteps = 1024;  // of a mm
+constexpr std::size_t kAtOnce = 1024;  // vertices between two looks whether to go on
 
 }  // namespace
 
@@ -71,9 +69,8 @@ Tagged deviationPack(const Moment& now, int id, Progress& progress) {
   if (!now.document.hasModels()) return {};
   for (const OpenMesh& mesh : now.document.meshes) {
     if (mesh.id != id) continue;
-    MeshDeviation made = meshDeviation(*now.document.value, mesh.mesh->mesh.position, progress);
-    // colours show no more, and a page as one file is smaller
-    for (float& mm : made.distance) mm = std::round(mm * kDeviationSteps) / kDeviationSteps;
+    const MeshDeviation made =
+        meshDeviation(*now.document.value, mesh.mesh->mesh.position, progress);
     PackWriter pack;
     pack.add("distance", made.distance);
     pack.set("figures", {{"vertices", made.distance.size()},

@@ -11,7 +11,7 @@ namespace lumen::viewer {
 
 namespace {
 
-constexpr int kAlong = 24;          // places of a volume along each of its axes
+constexpr int kAlong = 24;           // places of a volume along each of its axes
 constexpr double kFewShared = 0.25;  // less is an accident of two coordinate systems more often
 
 /// Whether a position lies in a voxel, the halves at the rim included.

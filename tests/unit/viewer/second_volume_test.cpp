@@ -21,7 +21,8 @@ convert::Volume coarseVolume(std::int16_t value) {
   volume.geometry.size = {8, 10, 12};
   volume.geometry.spacing = {1.5, 1.2, 1};
   volume.geometry.origin = {3, -1, 0};
-  volume.geometry.direction = Eigen::AngleAxisd(0.5235987755982988, Eigen::Vector3d::UnitZ()).matrix();
+  volume.geometry.direction =
+      Eigen::AngleAxisd(0.5235987755982988, Eigen::Vector3d::UnitZ()).matrix();
   std::vector<std::int16_t> voxels(std::size_t{8} * 10 * 12, value);
   voxels[0] = 0;
   volume.voxels = std::move(voxels);
@@ -93,12 +94,14 @@ TEST_F(SecondVolumeTest, DoubtsAreStated) {
   serveBoth({"tube.nrrd"}, "apart.nrrd");
   EXPECT_NE(doubt().find("apart.nrrd and tube.nrrd do not overlap"), std::string::npos) << doubt();
   serveBoth({"tube.nrrd"}, "moved.nrrd");
-  EXPECT_NE(doubt().find("same voxels as tube.nrrd, at other places"), std::string::npos) << doubt();
+  EXPECT_NE(doubt().find("same voxels as tube.nrrd, at other places"), std::string::npos)
+      << doubt();
   convert::Volume rim = movedTube(11);
   std::get<std::vector<std::int16_t>>(rim.voxels)[0] += 1;
   writeVolume("rim.nrrd", rim);
   serveBoth({"tube.nrrd"}, "rim.nrrd");
-  EXPECT_NE(doubt().find("only 13 % of rim.nrrd and tube.nrrd overlap"), std::string::npos) << doubt();
+  EXPECT_NE(doubt().find("only 13 % of rim.nrrd and tube.nrrd overlap"), std::string::npos)
+      << doubt();
   serveBoth({"tube.nrrd"}, "tube.nrrd");
   EXPECT_NE(doubt().find("is the same volume"), std::string::npos) << doubt();
 }
@@ -169,8 +172,8 @@ TEST_F(SecondVolumeTest, CanBeDropped) {
   const auto drop = [this](const std::string& name) {
     std::ifstream file(path(name), std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    const auto answer = client().Post(root + "file?name=" + name + "&as=second", bytes,
-                                      "application/octet-stream");
+    const auto answer =
+        client().Post(root + "file?name=" + name + "&as=second", bytes, "application/octet-stream");
     EXPECT_TRUE(answer);
     waitForJob();
   };

@@ -121,5 +121,14 @@ story("the colours follow the wall that the case has", async t => {
   await settled(alone);
   await alone.getByLabel("Colour by deviation").check();
   assert.deepEqual(await figures(alone, "same.obj"), again, "the page as one file has the same figures");
+  await alone.keyboard.press("3");
+  const sides = await pixels(alone, "#view-scene"),
+    blue = find(sides, isBlue),
+    red = find(sides, isRed);
+  assert.ok(blue.count > 300 && red.count > 300, `${blue.count} pixels are blue and ${red.count} red`);
+  assert.ok(
+    red.at.x > blue.at.x + 5,
+    `each vertex has its own distance: red at ${red.at.x}, blue at ${blue.at.x}`,
+  );
   await picture(alone, "13-deviation-from-disk");
 });
