@@ -65,6 +65,30 @@ const finish = page =>
     return { at: performance.now(), ...window.lumenDrawn };
   });
 
+/** Turns the 3D view by its keys, picture after picture, each of which is waited for: ms on the clock and of processor
+ * for a picture, and its triangles. What a machine can draw, without the wait for a hand that others keep busy. */
+export async function drawTurning(page, pictures, root) {
+  const used = processorTime(root).all,
+    before = await finish(page);
+  await page.evaluate(async count => {
+    const view = document.querySelector("#view-scene"),
+      gl = document.querySelector("canvas.stage").getContext("webgl2");
+    for (let k = 0; k < count; ++k) {
+      view.dispatchEvent(
+        new window.KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true, cancelable: true }),
+      );
+      await new Promise(resolve => requestAnimationFrame(resolve));
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
+    }
+  }, pictures);
+  const after = await finish(page);
+  return {
+    wall: (after.at - before.at) / pictures,
+    processor: (1000 * (processorTime(root).all - used)) / pictures,
+    triangles: (after.triangles - before.triangles) / pictures,
+  };
+}
+
 /** Turns the 3D view with the pointer for N ms: pictures a second, triangles in a picture, and ms of processor for a
  * picture, of the processes below `root`. */
 export async function turn(page, duration, root) {

@@ -13,6 +13,9 @@ import type { State } from "./types";
 import { idle } from "./ui";
 import { VolumeLoader } from "./volume_loader";
 
+const kOutlines = 400, // ms from one drawing of outlines to the next, while they are prepared
+  kWhileMoving = 500; // ms until the scene is looked at again, where it moves
+
 export class Loader {
   private seen = { case: -1, surface: -1, volume: -1, second: 0, proposals: -1, distance: "" };
   private library: Promise<BlobLibrary | null> | null = null;
@@ -24,8 +27,8 @@ export class Loader {
 
   constructor(
     private readonly app: App,
-    slices: SliceView[],
-    scene: SceneView,
+    private readonly slices: SliceView[],
+    private readonly scene: SceneView,
   ) {
     this.volume = new VolumeLoader(app, kFirst, slices, scene, () => this.settle());
     this.second = new VolumeLoader(app, kSecond, slices);
@@ -185,14 +188,24 @@ export class Loader {
     this.shown = { case: ofCase, kind, level };
     this.app.store.set({ surface: new Surface(pack), distance: null });
     document.body.dataset.surface = kind;
-    const { surface } = this.app.store.get(),
-      build = (): void => {
-        if (!live() || surface === null || this.app.store.get().surface !== surface) return;
-        const more = surface.buildNext();
-        this.app.stage.invalidateOver();
-        if (more) idle(build);
-      };
-    idle(build);
+    const { surface } = this.app.store.get();
+    if (surface !== null) this.buildBoxes(surface, live, performance.now());
+  }
+
+  /** Builds what outlines and picking need, a part at a time, while nothing moves; outlines appear by and by. */
+  private buildBoxes(surface: Surface, live: () => boolean, drawn: number): void {
+    idle(() => {
+      if (!live() || this.app.store.get().surface !== surface) return;
+      if (this.scene.isMoving) {
+        window.setTimeout(() => this.buildBoxes(surface, live, drawn), kWhileMoving);
+        return;
+      }
+      const more = surface.buildNext(),
+        now = performance.now(),
+        isDue = !more || now - drawn > kOutlines;
+      if (isDue) for (const slice of this.slices) this.app.stage.invalidateOver(slice);
+      if (more) this.buildBoxes(surface, live, isDue ? now : drawn);
+    });
   }
 
   private async takeDistance(surface: Surface): Promise<void> {

@@ -249,6 +249,10 @@ export class SceneView implements StageView {
     this.app.stage.invalidate(this);
   }
 
+  get isMoving(): boolean {
+    return this.moving !== 0;
+  }
+
   /** A button of the pointer is down on the view, or no longer. */
   hold(isDown: boolean): void {
     this.isHeld = isDown;
