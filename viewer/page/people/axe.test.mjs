@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { settled, startBrowser, story } from "./browser.mjs";
-import { firstVessel, openVessels } from "./hand.mjs";
-import { makeFolder } from "./lumen.mjs";
+import { drop, firstVessel, openVessels } from "./hand.mjs";
+import { lumen, makeFolder } from "./lumen.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
@@ -29,6 +29,13 @@ story("axe-core finds no fault in the page, whatever it shows", async t => {
   await page.keyboard.press("Shift+F");
   await page.locator("#proposal-list .item").first().waitFor();
   await page.locator("#measure-probe").click();
+  lumen("phantom", "tube", file("second.nrrd"), "--size", "40");
+  await drop(page, "second.nrrd", readFileSync(file("second.nrrd")));
+  await page.locator("#ask-second").waitFor();
+  assert.deepEqual(await findings(page), [], "a question");
+  await page.locator("#ask-second").click();
+  await page.locator("#section-second").waitFor();
+  await page.locator("#beside-mode").selectOption("split");
   for (const closed of await page.locator("details:not([open]) > summary").all())
     if (await closed.isVisible()) await closed.click();
   await settled(page);

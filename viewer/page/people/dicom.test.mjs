@@ -72,10 +72,18 @@ story(
     assert.ok((await vessels(page)).length >= 1);
     await picture(page, "dicom-tracked");
 
-    // the other one, from the list that "Files" keeps
+    // the other one over it, from the list that "Files" keeps, and then in its place
     await page.locator("#series-again").click();
     await rows(page).nth(1).click();
-    await reported(page, /Overview is open/);
+    await page.locator("#ask-second").click();
+    await page.locator("#second-about").filter({ hasText: "Overview" }).waitFor();
+    await settled(page);
+    assert.match(await page.locator("#volume-about").textContent(), /^Angiogram/);
+    await picture(page, "13-series-over-the-other");
+    await page.locator("#series-again").click();
+    await rows(page).nth(1).click();
+    await page.locator("#ask-auto").click();
+    await page.locator("#volume-about").filter({ hasText: "Overview" }).waitFor();
   },
 );
 

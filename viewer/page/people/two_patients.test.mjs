@@ -18,8 +18,9 @@ story("a volume of another patient is not tracked into the case without an answe
   assert.equal(await page.locator("#other-source").isVisible(), false);
 
   await drop(page, "other.nrrd", readFileSync(file("other.nrrd")));
+  await page.locator("#ask-auto").click(); // in place of the volume
   const dialog = page.locator("dialog");
-  await dialog.waitFor();
+  await dialog.filter({ hasText: "One patient" }).waitFor();
   assert.match(await dialog.textContent(), /vessels\.lumen was made from another volume than other\.nrrd/);
   await picture(page, "two-patients-question");
   await page.keyboard.press("Escape"); // no answer: the question stays, and nothing is tracked

@@ -119,7 +119,8 @@ function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
         if (r > 0) ring(c, slice, point.position, r / pixel, seed.tracked ? "#7dd3a8" : "#ffd166", reach);
         ring(c, slice, point.position, 3, seed.tracked ? "#7dd3a8" : "#ffd166", reach, true);
         const at = slice.toPixel(point.position);
-        if (i === 0 && Math.abs(at.depth) < reach) label(c, seed.label, at.x + 7, at.y - 6, "#ffe6a8");
+        const isNamed = i === 0 && !seed.tracked; // a vessel has its name by "Names"
+        if (isNamed && Math.abs(at.depth) < reach) label(c, seed.label, at.x + 7, at.y - 6, "#ffe6a8");
       });
     }
   if (view.layers.places)
