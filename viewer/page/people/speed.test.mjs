@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { loadavg } from "node:os";
 import { frames, openPage, picture, settled, startBrowser, story } from "./browser.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
-import { drawn, drawTurning, noteDrawings, turn } from "./turning.mjs";
+import { drawMoving, drawn, noteDrawings, turn } from "./turning.mjs";
 
 const kTurn = 4000, // ms of turning
   kTurns = 3,
@@ -35,7 +35,7 @@ story("a case is turned with fewer triangles and drawn in full when it rests", a
     assert.ok(triangles < 0.5 * full, `${triangles} triangles of ${full} while it moves`);
   }
   for (let k = 0; k < kTurns; ++k) {
-    const { wall, processor, triangles } = await drawTurning(page, kPictures, process.pid);
+    const { wall, processor, triangles } = await drawMoving(page, kPictures, process.pid);
     console.log(
       `${wall.toFixed(0)} ms a picture as fast as it can (${(1000 / wall).toFixed(1)} a second), ${processor.toFixed(0)} ms of processor, ` +
         `${Math.round(triangles)} triangles; load ${loadavg()[0].toFixed(1)}`,

@@ -65,22 +65,30 @@ const finish = page =>
     return { at: performance.now(), ...window.lumenDrawn };
   });
 
-/** Turns the 3D view by its keys, picture after picture, each of which is waited for: ms on the clock and of processor
- * for a picture, and its triangles. What a machine can draw, without the wait for a hand that others keep busy. */
-export async function drawTurning(page, pictures, root) {
+/** Turns the 3D view, or moves the crosshair of a slice, to and fro by keys, picture after picture, each of which is waited
+ * for: ms on the clock and of processor for a picture, and its triangles. That is what a machine can draw, without the
+ * wait for a hand, whose events come late on a busy machine. `element`: selects the view. */
+export async function drawMoving(page, pictures, root, element = "#view-scene") {
   const used = processorTime(root).all,
     before = await finish(page);
-  await page.evaluate(async count => {
-    const view = document.querySelector("#view-scene"),
-      gl = document.querySelector("canvas.stage").getContext("webgl2");
-    for (let k = 0; k < count; ++k) {
-      view.dispatchEvent(
-        new window.KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true, cancelable: true }),
-      );
-      await new Promise(resolve => requestAnimationFrame(resolve));
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
-    }
-  }, pictures);
+  await page.evaluate(
+    async ([count, which]) => {
+      const view = document.querySelector(which),
+        gl = document.querySelector("canvas.stage").getContext("webgl2");
+      for (let k = 0; k < count; ++k) {
+        view.dispatchEvent(
+          new window.KeyboardEvent("keydown", {
+            key: k % 20 < 10 ? "ArrowLeft" : "ArrowRight",
+            bubbles: true,
+            cancelable: true,
+          }),
+        );
+        await new Promise(resolve => requestAnimationFrame(resolve));
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
+      }
+    },
+    [pictures, element],
+  );
   const after = await finish(page);
   return {
     wall: (after.at - before.at) / pictures,

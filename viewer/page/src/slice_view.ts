@@ -18,7 +18,8 @@ import type { Volume } from "./volume";
 import type { VolumeTexture } from "./volume_texture";
 
 const kQuickSamples = 33,
-  kRefineAfter = 150; // ms
+  kRefineAfter = 150, // ms
+  kMostPause = 1200; // ms between two pictures of one movement, at most
 const kAcross = 7; // radii of the vessel that half a section shows
 
 export class SliceView implements StageView, SliceProjection {
@@ -36,6 +37,7 @@ export class SliceView implements StageView, SliceProjection {
   /** The next picture of a slab takes all of its places; the first after a change only some. */
   private isFine = false;
   private refining = 0;
+  private quickAt = -Infinity; // when the last quick picture was drawn, ms
 
   constructor(
     readonly name: SliceName,
@@ -178,10 +180,17 @@ export class SliceView implements StageView, SliceProjection {
       this.isFine = false;
       return false;
     }
-    this.refining = window.setTimeout(() => {
-      this.isFine = true;
-      this.app.stage.invalidate(this);
-    }, kRefineAfter);
+    // where pictures are slow, the next of a movement comes later
+    const now = performance.now(),
+      pause = now - this.quickAt;
+    this.quickAt = now;
+    this.refining = window.setTimeout(
+      () => {
+        this.isFine = true;
+        this.app.stage.invalidate(this);
+      },
+      pause < kMostPause ? Math.max(kRefineAfter, 2 * pause) : kRefineAfter,
+    );
     return true;
   }
 
