@@ -82,6 +82,13 @@ void writeNewFile(std::string_view bytes, const fs::path& file, const fs::path& 
   out.close();
 }
 
+void allowRunning(const fs::path& file) {
+  std::error_code error;
+  fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                  fs::perm_options::add, error);
+  if (error) throw failed(nameOf(file) + ": cannot be made a program: " + error.message());
+}
+
 void flushFolder(const fs::path& folder) {
   const formats::FileDescriptor open = formats::openForReading(folder, O_DIRECTORY);
   if (!open.isOpen() || !formats::flushFileSystem(open.get()))

@@ -42,6 +42,9 @@ private:
 void writeNewFile(std::string_view bytes, const std::filesystem::path& file,
                   const std::filesystem::path& target = {});
 
+/// Lets everybody who may read a file run it. Throws Error(Failed), naming the file.
+void allowRunning(const std::filesystem::path& file);
+
 /// Flushes to the disk all data written to the file system of a folder. Throws Error(Failed),
 /// naming the folder.
 void flushFolder(const std::filesystem::path& folder);

@@ -160,8 +160,13 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
     const convert::ExportResult result =
         convert::exportCase(target, value, options, exportOptionTexts(defaults, target), progress);
     for (const std::string& loss : result.losses) progress.warn("exports/" + name + ": " + loss);
-    for (const convert::ExportFile& one : result.files)
-      incoming.add("exports/" + name + "/" + one.name, "export", one.bytes, name);
+    for (const convert::ExportFile& one : result.files) {
+      const std::string path = "exports/" + name + "/" + one.name;
+      if (one.isProgram)
+        incoming.addProgram(path, "export", one.bytes, name);
+      else
+        incoming.add(path, "export", one.bytes, name);
+    }
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::InvalidInput) throw;
     throw invalidInput(printable(file) + ": --export " + name + ": " + error.what());

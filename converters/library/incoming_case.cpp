@@ -55,6 +55,12 @@ void IncomingCase::add(const std::string& path, const std::string& role, std::st
   note(path, role, target);
 }
 
+void IncomingCase::addProgram(const std::string& path, const std::string& role,
+                              std::string_view bytes, const std::string& target) {
+  add(path, role, bytes, target);
+  allowRunning(folder() / path);
+}
+
 void IncomingCase::addFile(const std::string& path, const std::string& role,
                            const fs::path& source) {
   const fs::path place = newPath(path);

@@ -23,6 +23,9 @@ public:
   /// if it cannot be written.
   void add(const std::string& path, const std::string& role, std::string_view bytes,
            const std::string& target = "");
+  /// As add(), for a program.
+  void addProgram(const std::string& path, const std::string& role, std::string_view bytes,
+                  const std::string& target);
   /// Copies the file `source` into the case and records it. Throws Error(InvalidInput) for a path
   /// that a library may not have, Error(Failed) if it cannot be copied.
   void addFile(const std::string& path, const std::string& role,

@@ -70,7 +70,7 @@ def making(place):
 
 def adding(place):
     first = bag.sha256(place.folder / "lib/library.json")
-    place.add("--export", "svzerod", "--export", "slicer")
+    place.add("--export", "svzerod", "--export", "openfoam")
     place.valid("one case")
     whole = place.library()
     digest = bag.sha256(place.folder / "tube.lumen")
@@ -78,7 +78,9 @@ def adding(place):
     expect(whole["revision"] == 2 and whole["previous"] == first, "the revision before is not named")
     record = json.loads((place.folder / "lib/data" / whole["cases"][0]["id"] / "record.json").read_text())
     expect((record["licence"], record["modality"]) == ("CC0-1.0", "synthetic"), "licence and modality are not taken over")
-    expect({f["target"] for f in record["files"] if f["role"] == "export"} == {"svzerod", "slicer"}, "exports are not recorded")
+    expect({f["target"] for f in record["files"] if f["role"] == "export"} == {"svzerod", "openfoam"}, "exports are not recorded")
+    programs = [p.name for p in (place.folder / "lib/data").rglob("*") if p.is_file() and os.access(p, os.X_OK)]
+    expect(programs == ["Allrun"], f"programs of a case: {programs}")
     info = json.loads(place.run("info", "tube.lumen", "--json").stdout)
     figures = record["figures"]
     for mine, its in ((figures["length_mm"], info["length_mm"]), (figures["fit_error_mm"]["median"], info["error_of_fit_mm"]["median"]),

@@ -55,9 +55,7 @@ void writeFolder(const std::vector<convert::ExportFile>& files, formats::Pending
     const fs::path path = folder.path() / file.name;
     fs::create_directories(path.parent_path());
     writeNewFile(file.bytes, path);
-    if (file.isProgram)
-      fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
-                      fs::perm_options::add);
+    if (file.isProgram) allowRunning(path);
   }
   const auto done = folder.commit();
   if (!done) throw failed(done.error().message);
