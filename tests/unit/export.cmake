@@ -52,6 +52,7 @@ lumen_test(export_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/markdown_text_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/paths_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/simvascular_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/wall_files_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/frame_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/named_end_test.cpp)
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "converters/base/error.h"
 #include "converters/base/vectors.h"
 
 namespace lumen::convert {
@@ -36,19 +35,6 @@ ExportedSurface wallSurface(const ExportInput& input, const Length& usual) {
   ClosedSurfaceOptions options = input.options.surface;
   if (!options.thickness) options.thickness = usual;
   return surfaceWith(input, options);
-}
-
-WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen) {
-  if (input.options.surface.thickness) return {wallSurface(input, usual), ""};
-  // it takes minutes to find that the walls of many touching vessels meet
-  if (!lumen.overlaps.empty())
-    return {std::nullopt, "vessels overlap, so walls around them would meet"};
-  try {
-    return {wallSurface(input, usual), ""};
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::Failed) throw;
-    return {std::nullopt, error.what()};
-  }
 }
 
 Box3d boundingBox(const SurfaceMesh& mesh) {

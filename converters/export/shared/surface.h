@@ -24,17 +24,8 @@ struct ExportedSurface {
 ExportedSurface lumenSurface(const ExportInput& input, std::optional<double> gap = {});
 
 /// A wall around it as a solid, of the thickness in the options, or, without one, of `usual`.
-/// Throws as closedSurface(): Error(Failed) where it would meet itself.
+/// Vessels that touch or overlap share it. Throws as closedSurface().
 ExportedSurface wallSurface(const ExportInput& input, const Length& usual);
-
-struct WallAttempt {
-  std::optional<ExportedSurface> wall;
-  std::string whyNot;  ///< a sentence, if there is none
-};
-
-/// wallSurface(), unless it cannot be made: where vessels overlap, by the report on the lumen's
-/// surface, their walls meet. With a thickness in the options it throws as wallSurface() instead.
-WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen);
 
 /// The box of all vertices.
 Box3d boundingBox(const SurfaceMesh& mesh);

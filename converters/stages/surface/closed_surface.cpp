@@ -226,6 +226,7 @@ private:
     addCoarserLevels(levels, m_options.levels, m_field, m_progress);
     for (std::size_t i = 1; i < levels.size(); ++i)
       levels[i].error = distanceBetween(levels[i].surface, whole ? *whole : levels[0].surface);
+    if (whole && m_options.withWhole) levels.insert(levels.begin(), {*std::move(whole), -1});
     return levels;
   }
 

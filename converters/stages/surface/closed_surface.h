@@ -34,6 +34,9 @@ struct ClosedSurfaceOptions {
   /// Greatest number of triangles: as many are dropped as it takes, wherever the surface may then
   /// lie, unless its topology and its rims need more.
   std::optional<std::size_t> maxTriangles;
+  /// Adds the surface with all triangles as a level before the one that maxError or maxTriangles
+  /// simplify.
+  bool withWhole = false;
   int levels = 1;  ///< number of levels of detail
 };
 

@@ -28,30 +28,54 @@ constexpr std::size_t kUsualPieces = 20000;  // each is a file and a geom: more 
 
 constexpr const char* kFolder = "phantom_assets/meshes/vessel/";
 
-/// The surface with so few triangles that each can be a geom: off by a twentieth of the middle one
-/// of the radii, or as far as it takes to have no more than there may be pieces. Adds a sentence
-/// where that is farther.
-ExportedSurface coarseSurface(const ExportInput& input, std::vector<std::string>& losses) {
+/// A twentieth of the middle one of the radii, mm.
+double usualError(const formats::CenterlineTree& tree) {
   constexpr double kShare = 0.05;
-  const std::uint64_t most = input.options.maxPieces == 0 ? kUsualPieces : input.options.maxPieces;
-  std::vector<float> radii = input.source.tree.radius;
+  std::vector<float> radii = tree.radius;
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
                    radii.end());
+  return kShare * radii[radii.size() / 2];
+}
+
+/// The surface, and behind it, if it has more triangles than either allows, the one with so few
+/// that each can be a geom: off by `maxError` mm, or as far as it takes to have `most` triangles.
+ExportedSurface surfaceInTwo(const ExportInput& input, double maxError, std::uint64_t most) {
   CommonOptions options = input.options;
-  if (!options.surface.maxError) options.surface.maxError = kShare * radii[radii.size() / 2];
+  options.surface.maxError = maxError;
   options.surface.maxTriangles = most;
-  ExportedSurface coarse = lumenSurface({input.source, options, input.frame, input.progress});
-  if (coarse.mesh.triangle.size() > most)
-    throw invalidInput("the wall has " + std::to_string(coarse.mesh.triangle.size()) +
+  options.surface.withWhole = !input.options.surface.maxError;
+  if (!options.surface.withWhole) {
+    ExportedSurface fine = lumenSurface(input);
+    if (fine.mesh.triangle.size() <= most) return fine;
+    ExportedSurface coarse = lumenSurface({input.source, options, input.frame, input.progress});
+    std::swap(fine.mesh, coarse.mesh);
+    coarse.coarser.push_back(std::move(fine.mesh));
+    return coarse;
+  }
+  return lumenSurface({input.source, options, input.frame, input.progress});
+}
+
+/// As surfaceInTwo(), with the count of the coarse one. Adds a sentence where it is farther off than
+/// asked for. Throws Error(InvalidInput) if it has too many triangles at least.
+ExportedSurface makeSurfaces(const ExportInput& input, std::vector<std::string>& losses) {
+  const std::uint64_t most = input.options.maxPieces == 0 ? kUsualPieces : input.options.maxPieces;
+  const double maxError = input.options.surface.maxError.value_or(usualError(input.source.tree));
+  ExportedSurface made = surfaceInTwo(input, maxError, most);
+  const SurfaceMesh& coarse = made.coarser.empty() ? made.mesh : made.coarser.back();
+  if (coarse.triangle.size() > most)
+    throw invalidInput("the wall has " + std::to_string(coarse.triangle.size()) +
                        " triangles at least, each of which is a convex piece; expected is " +
                        kOption.maxPieces.shown() + " of as many");
-  const double error = coarse.report.errors.front();
-  if (error > *options.surface.maxError)
+  made.report.vertices = coarse.position.size();
+  made.report.triangles = coarse.triangle.size();
+  made.report.errors = {made.report.errors.back()};
+  const double error = made.report.errors.front();
+  if (error > maxError)
     losses.push_back("the wall is simplified to at most " + std::to_string(most) +
                      " convex pieces, up to " + fixedText(error, 3) +
                      " mm off the surface; a greater " + kOption.maxPieces.shown() +
                      " is nearer to it");
-  return coarse;
+  return made;
 }
 
 struct CloseModel {
@@ -96,22 +120,22 @@ std::string phantomText(const ExportFrame& frame, std::size_t hulls,
 
 ExportResult exportCathsim(const ExportInput& input) {
   ExportResult result;
-  ExportedSurface coarse = coarseSurface(input, result.losses);
-  const ExportedSurface fine = lumenSurface(input);
-  const std::vector<SurfaceMesh> hulls = makeHulls(input, coarse.mesh);
-  result.ends = plainlyNamed(std::move(coarse.ends));
-  result.files = {{"phantom_assets/vessel.xml", phantomText(input.frame, hulls.size(), result.ends),
-                   "the phantom: one body, the geom `visual` without contacts, hulls, sites", ""},
-                  {std::string(kFolder) + "visual.stl", stlInMetres(fine.mesh), "the surface", ""},
-                  {std::string(kFolder) + "simplified.stl", stlInMetres(coarse.mesh),
-                   "with fewer triangles", ""}};
+  ExportedSurface made = makeSurfaces(input, result.losses);
+  const SurfaceMesh& coarse = made.coarser.empty() ? made.mesh : made.coarser.back();
+  const std::vector<SurfaceMesh> hulls = makeHulls(input, coarse);
+  result.ends = plainlyNamed(std::move(made.ends));
+  result.files = {
+      {"phantom_assets/vessel.xml", phantomText(input.frame, hulls.size(), result.ends),
+       "the phantom: one body, the geom `visual` without contacts, hulls, sites", ""},
+      {std::string(kFolder) + "visual.stl", stlInMetres(made.mesh), "the surface", ""},
+      {std::string(kFolder) + "simplified.stl", stlInMetres(coarse), "with fewer triangles", ""}};
   for (std::size_t k = 0; k < hulls.size(); ++k)
     result.files.push_back(
         {kFolder + ("hull_" + std::to_string(k)) + ".stl", stlInMetres(hulls[k]), "", ""});
   result.others.push_back({std::string(kFolder) + "hull_*.stl", "the wall's convex pieces"});
   result.start = exportText("cathsim/README.md", {{"hulls", std::to_string(hulls.size())}});
   for (std::string& loss : treeLosses(input.source.tree)) result.losses.push_back(std::move(loss));
-  result.surface = std::move(coarse.report);
+  result.surface = std::move(made.report);
   return result;
 }
 

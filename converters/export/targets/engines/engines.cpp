@@ -35,9 +35,7 @@ ExportResult exportScene(const ExportInput& input, const Convention& convention)
   CommonOptions options = input.options;
   options.surface.levels = static_cast<int>(convention.nodes.size());
   const ExportInput leveled{input.source, options, input.frame, input.progress};
-  ExportedSurface surface = lumenSurface(leveled);
-  WallAttempt attempt = tryWall(leveled, kRenderedWall, surface.report);
-  if (attempt.wall) surface = std::move(*attempt.wall);
+  ExportedSurface surface = wallSurface(leveled, kRenderedWall);
   std::vector<SurfaceMesh> levels = {std::move(surface.mesh)};
   std::move(surface.coarser.begin(), surface.coarser.end(), std::back_inserter(levels));
   GltfScene scene{convention.nodes, convention.lod, {}};
@@ -47,12 +45,7 @@ ExportResult exportScene(const ExportInput& input, const Convention& convention)
   ExportResult result;
   result.files.push_back(
       {"vessels.glb", encodeGlbScene(levels, scene),
-       attempt.wall ? "the wall of the vessels as a solid; a node at each end, its z axis out of it"
-                    : "the surface of the lumen; a node at each end, its z axis out of it",
-       ""});
-  if (!attempt.wall)
-    result.losses.push_back("the surface of the lumen takes the place of a wall: " +
-                            attempt.whyNot);
+       "the wall of the vessels as a solid; a node at each end, its z axis out of it", ""});
   result.start = convention.start;
   result.ends = std::move(surface.ends);
   result.surface = std::move(surface.report);

@@ -6,9 +6,8 @@
 
 namespace lumen::convert {
 
-/// vessels.glb: a thick wall, or the lumen's surface where no wall can be made; a node for each
-/// named end, its z axis out of the vessel. Throws as lumenSurface(), tryWall() and
-/// encodeGlbScene().
+/// vessels.glb: a thick wall; a node for each named end, its z axis out of the vessel. Throws as
+/// wallSurface() and encodeGlbScene().
 ExportResult exportGodot(const ExportInput& input);    ///< -col: a collider of its triangles
 ExportResult exportUnity(const ExportInput& input);    ///< _LOD0, _LOD1, _LOD2, and MSFT_lod
 ExportResult exportUnreal(const ExportInput& input);   ///< MSFT_lod

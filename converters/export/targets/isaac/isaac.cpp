@@ -114,21 +114,11 @@ void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid
   add("centerline_radii_mm.npy", encodeNpy(tree.radius, {nodes}), "f32, of each node, mm");
 }
 
-/// The wall as a solid, or, where that cannot be, the lumen's surface.
-ExportedSurface makeWall(const ExportInput& input, ExportResult& result) {
-  ExportedSurface lumen = lumenSurface(input);
-  WallAttempt attempt = tryWall(input, kDeformableWall, lumen.report);
-  if (attempt.wall) return std::move(*attempt.wall);
-  result.losses.push_back("the wall in vessel.usda is the lumen's surface, without a thickness: " +
-                          attempt.whyNot);
-  return lumen;
-}
-
 }  // namespace
 
 ExportResult exportIsaac(const ExportInput& input) {
   ExportResult result;
-  ExportedSurface wall = makeWall(input, result);
+  ExportedSurface wall = wallSurface(input, kDeformableWall);
   const SurfaceMesh shape = quickSurface(input.source, input.progress);
   const DistanceGrid grid = makeGrid(input, shape);
   addCache(result, input, grid);

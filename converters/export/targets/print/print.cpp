@@ -73,28 +73,23 @@ ExportResult exportPrint(const ExportInput& input) {
   addSolid(result, "core", core.mesh, "the lumen as a solid");
   result.start = exportText("print/README.md");
   result.ends = std::move(core.ends);
-  WallAttempt attempt = tryWall(input, kPrintedWall, core.report);
-  if (!attempt.wall) {
-    result.losses.push_back("there is no wall.3mf and no wall.stl: " + attempt.whyNot);
-    result.surface = std::move(core.report);
-    return result;
-  }
-  const Thinnest least = findThinnest(attempt.wall->mesh);
-  addSolid(result, "wall", attempt.wall->mesh, "a wall around the lumen as a solid");
+  ExportedSurface wall = wallSurface(input, kPrintedWall);
+  const Thinnest least = findThinnest(wall.mesh);
+  addSolid(result, "wall", wall.mesh, "a wall around the lumen as a solid");
   result.remarks.push_back(thicknessText(least));
   result.start += "\nChecked: " + thicknessText(least) + ".\n";
   if (least.thickness < kLeastPrintable)
     result.losses.push_back(
         thicknessText(least) + ", less than the " + fixedText(kLeastPrintable, 2) +
         " mm that most printers hold; a greater " + kOption.thickness.shown() + " may help");
-  result.surface = std::move(attempt.wall->report);
+  result.surface = std::move(wall.report);
   return result;
 }
 
 TargetRow printRow() {
   return {.name = "print",
           .title = "3D printers",
-          .files = {"core.3mf", "core.stl"},
+          .files = {"core.3mf", "core.stl", "wall.3mf", "wall.stl"},
           .units = {LengthUnit::Millimetre},
           .axes = {Axes::Lps},
           .holds = "the lumen as a solid; a wall around it, with its least thickness",

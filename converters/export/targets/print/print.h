@@ -8,8 +8,7 @@ namespace lumen::convert {
 
 /// wall.stl and wall.3mf, a solid wall around the lumen that is open at the ends, and core.stl and
 /// core.3mf, the lumen as a solid; mm. README.md states the least thickness of the wall and where
-/// it is. Where no wall can be made, the core alone; the missing wall is reported as a loss. Throws
-/// as lumenSurface() and tryWall().
+/// it is. Throws as lumenSurface() and wallSurface().
 ExportResult exportPrint(const ExportInput& input);
 
 TargetRow printRow();
