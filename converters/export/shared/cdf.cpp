@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "converters/export/shared/grid_shortcuts.h"
+
 namespace lumen::convert {
 
 namespace {
@@ -40,11 +42,12 @@ void appendList(std::string& bytes, const std::vector<T>& values) {
 
 std::vector<float> sampleNodes(const GridSource& source, const Lattice& lattice,
                                const CdfNodes& nodes, double unit, Progress& progress) {
+  const GridShortcuts shortcuts(source, lattice, progress);
   std::vector<float> values;
   for (std::size_t which = 0; which < 4; ++which) {
     const CdfNodes::Family family = nodes.family(which);
     const auto answers = sampleRows(
-        source, family.rows, family.length,
+        shortcuts.source(), family.rows, family.length,
         [&](std::size_t row, std::size_t index) {
           return Eigen::Vector3d(lattice.first + lattice.spacing * nodes.place(which, row, index));
         },

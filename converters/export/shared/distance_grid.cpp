@@ -12,6 +12,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
+#include "converters/export/shared/grid_shortcuts.h"
 
 namespace lumen::convert {
 
@@ -22,28 +23,64 @@ constexpr double kUsualSamples = 8e6;
 /// box around them shows which nodes are near.
 constexpr std::size_t kChunk = 32;
 
-void sampleChunk(const GridSource& source, std::span<const Eigen::Vector3d> points,
-                 std::span<WallDistance> answers) {
-  if (source.region)
-    source.vessels.ofRegion(*source.region, points, source.band, answers);
-  else
-    source.vessels.ofAll(points, source.band, answers);
-  const auto band = static_cast<float>(source.band);
-  for (WallDistance& answer : answers) answer.distance = std::clamp(answer.distance, -band, band);
-}
+/// The samples of a row, which are asked in chunks: those far from the band are not asked at all.
+class RowSampler {
+public:
+  RowSampler(const GridSource& source, std::span<WallDistance> answers)
+      : m_source(source), m_answers(answers) {}
+
+  void add(std::size_t index, const Eigen::Vector3d& place) {
+    if (m_source.near && !m_source.near->contains(place)) {
+      m_answers[index] = {static_cast<float>(m_source.band), 0};
+      return;
+    }
+    if (m_points.size() == kChunk || m_begin + m_points.size() != index) finish();
+    if (m_points.empty()) m_begin = index;
+    m_points.push_back(place);
+  }
+
+  void finish() {
+    const std::span<WallDistance> answers = m_answers.subspan(m_begin, m_points.size());
+    if (m_source.far)
+      askNear(answers);
+    else
+      m_source.ask(m_points, answers);
+    m_points.clear();
+  }
+
+private:
+  /// Asks for the points that the far field has no answer for.
+  void askNear(std::span<WallDistance> answers) {
+    m_isAnswered.resize(m_points.size());
+    m_source.far->answer(m_points, answers, m_isAnswered);
+    std::vector<Eigen::Vector3d> rest;
+    for (std::size_t i = 0; i < m_points.size(); ++i)
+      if (m_isAnswered[i] == 0) rest.push_back(m_points[i]);
+    std::vector<WallDistance> found(rest.size());
+    m_source.ask(rest, found);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < m_points.size(); ++i) {
+      if (m_isAnswered[i] != 0) continue;
+      const WallDistance& one = found[next++];
+      if (one.distance < answers[i].distance) answers[i] = one;
+    }
+  }
+
+  const GridSource& m_source;
+  std::span<WallDistance> m_answers;
+  std::size_t m_begin = 0;
+  std::vector<Eigen::Vector3d> m_points;
+  std::vector<char> m_isAnswered;
+};
 
 std::vector<WallDistance> askRows(const GridSource& source, std::size_t rows, std::size_t length,
                                   const RowPlaces& places, Progress& progress) {
   std::vector<WallDistance> answers(rows * length);
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
     progress.check();
-    std::vector<Eigen::Vector3d> points;
-    for (std::size_t begin = 0; begin < length; begin += kChunk) {
-      const std::size_t end = std::min(begin + kChunk, length);
-      points.clear();
-      for (std::size_t i = begin; i < end; ++i) points.push_back(places(row, i));
-      sampleChunk(source, points, std::span(answers).subspan(row * length + begin, end - begin));
-    }
+    RowSampler sampler(source, std::span(answers).subspan(row * length, length));
+    for (std::size_t i = 0; i < length; ++i) sampler.add(i, places(row, i));
+    sampler.finish();
     progress.advance();
   });
   return answers;
@@ -53,13 +90,16 @@ std::size_t rowsOf(const Lattice& lattice) {
   return static_cast<std::size_t>(lattice.size[1]) * static_cast<std::size_t>(lattice.size[2]);
 }
 
-DistanceGrid askLattice(const GridSource& source, const Lattice& lattice, Progress& progress) {
-  const auto nx = static_cast<std::size_t>(lattice.size[0]),
-             ny = static_cast<std::size_t>(lattice.size[1]);
-  if (static_cast<double>(nx) * static_cast<double>(rowsOf(lattice)) >
+void requireHeld(const Lattice& lattice) {
+  if (static_cast<double>(lattice.size[0]) * static_cast<double>(rowsOf(lattice)) >
       static_cast<double>(kMostGridSamples))
     refuseSpacing(lattice.spacing,
                   "this makes more samples than " + std::to_string(kMostGridSamples));
+}
+
+DistanceGrid askLattice(const GridSource& source, const Lattice& lattice, Progress& progress) {
+  const auto nx = static_cast<std::size_t>(lattice.size[0]),
+             ny = static_cast<std::size_t>(lattice.size[1]);
   return {lattice,
           askRows(
               source, rowsOf(lattice), nx,
@@ -68,6 +108,16 @@ DistanceGrid askLattice(const GridSource& source, const Lattice& lattice, Progre
 }
 
 }  // namespace
+
+void GridSource::ask(std::span<const Eigen::Vector3d> points, std::span<WallDistance> answers,
+                     std::span<WallFoot> feet) const {
+  if (region)
+    vessels.ofRegion(*region, points, band, answers, feet);
+  else
+    vessels.ofAll(points, band, answers, feet);
+  const auto most = static_cast<float>(band);
+  for (WallDistance& answer : answers) answer.distance = std::clamp(answer.distance, -most, most);
+}
 
 Eigen::Vector3d Lattice::at(std::size_t i, std::size_t j, std::size_t k) const {
   return first + spacing * Eigen::Vector3d(static_cast<double>(i), static_cast<double>(j),
@@ -150,20 +200,24 @@ std::vector<WallDistance> sampleRows(const GridSource& source, std::size_t rows,
 }
 
 DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress) {
+  requireHeld(lattice);
+  const GridShortcuts shortcuts(source, lattice, progress);
   progress.begin("distances", rowsOf(lattice));
-  DistanceGrid grid = askLattice(source, lattice, progress);
+  DistanceGrid grid = askLattice(shortcuts.source(), lattice, progress);
   progress.end();
   return grid;
 }
 
 void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
                   const TakeLayers& take, Progress& progress) {
+  const GridShortcuts shortcuts(source, lattice, progress);
   progress.begin("distances", rowsOf(lattice));
   for (int begin = 0; begin < lattice.size[2]; begin += layers) {
     Lattice part = lattice;
     part.size[2] = std::min(layers, lattice.size[2] - begin);
     part.first[2] = lattice.first[2] + begin * lattice.spacing;
-    take(askLattice(source, part, progress), begin);
+    requireHeld(part);
+    take(askLattice(shortcuts.source(), part, progress), begin);
   }
   progress.end();
 }

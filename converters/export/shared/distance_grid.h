@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,12 +48,23 @@ Lattice latticeOver(const Box3d& box, double margin, double spacing);
 /// The samples of `whole` that lie in the box with its margin; at least two along each axis.
 Lattice cropLattice(const Lattice& whole, const Box3d& box, double margin);
 
+class FarField;
+class NearCells;
+
 /// The source of the answers on a grid, and the greatest distance from the wall that is asked for.
 struct GridSource {
   const VesselDistance& vessels;
   const TreeRegion* region = nullptr;  ///< none: all vessels
   /// Distances are clamped to plus and minus this, mm, and not looked for beyond it.
   double band = std::numeric_limits<double>::infinity();
+  /// Shortcuts, which sampleGrid() and sampleLayers() make: answers far from all walls, and cells
+  /// that lie within the band.
+  const FarField* far = nullptr;
+  const NearCells* near = nullptr;
+
+  /// The answers of `vessels`, clamped to the band.
+  void ask(std::span<const Eigen::Vector3d> points, std::span<WallDistance> answers,
+           std::span<WallFoot> feet = {}) const;
 };
 
 /// Place of a sample.

@@ -19,9 +19,6 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// A wall lies within the doubled ball of its node: beyond it, a branch is left to the nearest
-/// node's answer.
-constexpr double kReachRadii = 2;
 /// Radii along the tree within which libblob lets nodes blend.
 constexpr double kNeighbourhood = 4;
 
@@ -105,7 +102,7 @@ bool VesselDistance::hasNodeNear(std::uint32_t branch, const Box3d& box, double 
 }
 
 void VesselDistance::query(std::span<const Eigen::Vector3d> points, std::uint32_t* cursors,
-                           WallDistance* answers) const {
+                           std::span<WallDistance> answers, std::span<WallFoot> feet) const {
   std::vector<blob_sample> samples(points.size());
   blob_query_many(m_model.get(), m_flags, points.size(), coordinates(points), cursors,
                   samples.data());
@@ -115,6 +112,7 @@ void VesselDistance::query(std::span<const Eigen::Vector3d> points, std::uint32_
   for (std::size_t i = 0; i < points.size(); ++i) {
     const blob_sample& sample = samples[i];
     answers[i] = {static_cast<float>(sample.distance), m_tree.branch[sample.node]};
+    if (!feet.empty()) feet[i] = {Eigen::Vector3d(sample.normal), sample.node};
     if (sample.distance <= 0 || (m_flags & BLOB_DISTANCE_EXACT)) continue;
     outside.push_back(i);
     places.push_back(points[i]);
@@ -123,25 +121,32 @@ void VesselDistance::query(std::span<const Eigen::Vector3d> points, std::uint32_
   samples.resize(outside.size());
   blob_query_many(m_model.get(), BLOB_BLENDED | BLOB_DISTANCE_EXACT, places.size(),
                   coordinates(places), nodes.data(), samples.data());
-  for (std::size_t k = 0; k < outside.size(); ++k)
+  for (std::size_t k = 0; k < outside.size(); ++k) {
     answers[outside[k]].distance = static_cast<float>(samples[k].distance);
+    if (!feet.empty()) feet[outside[k]].normal = Eigen::Vector3d(samples[k].normal);
+  }
 }
 
 void VesselDistance::takeLess(std::span<const Eigen::Vector3d> points,
                               const std::vector<std::size_t>& chosen,
-                              std::vector<std::uint32_t>& cursors,
-                              std::span<WallDistance> answers) const {
+                              std::vector<std::uint32_t>& cursors, std::span<WallDistance> answers,
+                              std::span<WallFoot> feet) const {
   if (chosen.empty()) return;
   std::vector<Eigen::Vector3d> places;
   for (const std::size_t i : chosen) places.push_back(points[i]);
   std::vector<WallDistance> found(places.size());
-  query(places, cursors.data(), found.data());
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    if (found[k].distance < answers[chosen[k]].distance) answers[chosen[k]] = found[k];
+  std::vector<WallFoot> footOf(feet.empty() ? 0 : places.size());
+  query(places, cursors.data(), found, footOf);
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    if (found[k].distance >= answers[chosen[k]].distance) continue;
+    answers[chosen[k]] = found[k];
+    if (!feet.empty()) feet[chosen[k]] = footOf[k];
+  }
 }
 
 void VesselDistance::askBranch(std::uint32_t branch, std::span<const Eigen::Vector3d> points,
-                               const Box3d& box, std::span<WallDistance> answers) const {
+                               const Box3d& box, std::span<WallDistance> answers,
+                               std::span<WallFoot> feet) const {
   TreeRegion near;
   const formats::Branch& own = m_tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
@@ -161,7 +166,7 @@ void VesselDistance::askBranch(std::uint32_t branch, std::span<const Eigen::Vect
     chosen.push_back(i);
     cursors.push_back(node);
   }
-  takeLess(points, chosen, cursors, answers);
+  takeLess(points, chosen, cursors, answers, feet);
 }
 
 namespace {
@@ -175,7 +180,7 @@ Box3d boundingBox(std::span<const Eigen::Vector3d> points) {
 }  // namespace
 
 void VesselDistance::ofAll(std::span<const Eigen::Vector3d> points, double band,
-                           std::span<WallDistance> answers) const {
+                           std::span<WallDistance> answers, std::span<WallFoot> feet) const {
   if (points.empty()) return;
   const Box3d box = boundingBox(points);
   bool isNear = false;
@@ -191,12 +196,13 @@ void VesselDistance::ofAll(std::span<const Eigen::Vector3d> points, double band,
     std::fill(answers.begin(), answers.end(), WallDistance{static_cast<float>(band), 0});
     return;
   }
-  query(points, nullptr, answers.data());
-  for (const std::uint32_t b : branches) askBranch(b, points, box, answers);
+  query(points, nullptr, answers, feet);
+  for (const std::uint32_t b : branches) askBranch(b, points, box, answers, feet);
 }
 
 void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Eigen::Vector3d> points,
-                              double band, std::span<WallDistance> answers) const {
+                              double band, std::span<WallDistance> answers,
+                              std::span<WallFoot> feet) const {
   if (points.empty()) return;
   const Box3d box = boundingBox(points);
   bool isNear = false;
@@ -221,7 +227,7 @@ void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Eigen::V
     cursors.push_back(*std::min_element(
         candidates.begin(), candidates.end(),
         [&](std::uint32_t a, std::uint32_t b) { return power(a, p) < power(b, p); }));
-  query(points, cursors.data(), answers.data());
+  query(points, cursors.data(), answers, feet);
 }
 
 }  // namespace lumen::convert

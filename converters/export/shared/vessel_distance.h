@@ -21,6 +21,16 @@ struct WallDistance {
   std::uint32_t branch = 0;  ///< index into the tree's branches, of the node that answered
 };
 
+/// The wall's outward normal at its nearest point, and the node that answered.
+struct WallFoot {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  std::uint32_t node = 0;
+};
+
+/// Radii from a node within which its wall lies: beyond them, a branch is left to the nearest node's
+/// answer.
+inline constexpr double kReachRadii = 2;
+
 /// Nodes of a tree that a query may begin at, ascending.
 using TreeRegion = std::vector<std::uint32_t>;
 
@@ -40,23 +50,28 @@ public:
   /// The distance to all vessels together, which one grid can hold: the nearest node answers, and
   /// every branch within whose doubled radius a point lies; the least counts. `points` are near
   /// each other, such as a part of a grid's row; `answers` has one entry for each. A distance
-  /// beyond `band`, mm, may be answered by the band.
-  void ofAll(std::span<const Eigen::Vector3d> points, double band,
-             std::span<WallDistance> answers) const;
+  /// beyond `band`, mm, may be answered by the band. `feet`
+  /// is empty, or has one entry for each point, which is left as it was beyond the band.
+  void ofAll(std::span<const Eigen::Vector3d> points, double band, std::span<WallDistance> answers,
+             std::span<WallFoot> feet = {}) const;
 
   /// The distance to one part of the tree: from its node of least power a cursor follows the tree,
   /// so vessels that merely touch do not count.
   void ofRegion(const TreeRegion& region, std::span<const Eigen::Vector3d> points, double band,
-                std::span<WallDistance> answers) const;
+                std::span<WallDistance> answers, std::span<WallFoot> feet = {}) const;
+
+  [[nodiscard]] const blob_model& model() const { return *m_model; }
+  [[nodiscard]] const formats::CenterlineTree& tree() const { return m_tree; }
 
 private:
   void query(std::span<const Eigen::Vector3d> points, std::uint32_t* cursors,
-             WallDistance* answers) const;
+             std::span<WallDistance> answers, std::span<WallFoot> feet) const;
   /// Answers for points[chosen[k]] from the nodes cursors[k]; kept where less.
   void takeLess(std::span<const Eigen::Vector3d> points, const std::vector<std::size_t>& chosen,
-                std::vector<std::uint32_t>& cursors, std::span<WallDistance> answers) const;
+                std::vector<std::uint32_t>& cursors, std::span<WallDistance> answers,
+                std::span<WallFoot> feet) const;
   void askBranch(std::uint32_t branch, std::span<const Eigen::Vector3d> points, const Box3d& box,
-                 std::span<WallDistance> answers) const;
+                 std::span<WallDistance> answers, std::span<WallFoot> feet) const;
   /// Whether a wall of the branch may be within `band` of the box.
   [[nodiscard]] bool hasNodeNear(std::uint32_t branch, const Box3d& box, double band) const;
   [[nodiscard]] double power(std::uint32_t node, const Eigen::Vector3d& p) const;

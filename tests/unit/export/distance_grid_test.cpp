@@ -108,6 +108,42 @@ TEST(DistanceGrid, IsTheDistanceToTheWallFarFromItToo) {
       ASSERT_NEAR(askAll(vessels, {x, y, 0}).distance, std::min(y - 1, 11.5 - y), 0.5) << y;
 }
 
+/// A tube of radius 1 at y = 0 and one of 0.5 at y = 12, along x: where both are far, the node of least power may be that of
+/// the farther wall.
+TEST(DistanceGrid, IsTheDistanceToTheNearestOfTwoFarWalls) {
+  formats::Case source;
+  source.metadata.voxelSize = 0.2;
+  addVessel(source, "wide", straightPath({0, 0, 0}, {1, 0, 0}, 20), 1.0, 1.0);
+  addVessel(source, "narrow", straightPath({0, 12, 0}, {1, 0, 0}, 20), 0.5, 1.0);
+  addModels(source);
+  const VesselDistance vessels(source);
+  Progress silent;
+  const DistanceGrid grid =
+      sampleGrid({vessels}, latticeOver({{-1, -1, -2}, {20, 13, 2}}, 0, 0.2), silent);
+  std::size_t at = 0, far = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(grid.lattice.size[2]); ++k)
+    for (std::size_t j = 0; j < static_cast<std::size_t>(grid.lattice.size[1]); ++j)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(grid.lattice.size[0]); ++i, ++at) {
+        const Eigen::Vector3d p = grid.lattice.at(i, j, k);
+        const double found = static_cast<double>(grid.values[at].distance);
+        const double wide = std::hypot(p.y(), p.z()) - 1,
+                     narrow = std::hypot(p.y() - 12, p.z()) - 0.5;
+        if (p.x() < 4 || p.x() > 15 || std::min(wide, narrow) < 3) continue;
+        ++far;
+        // walls of models ripple between nodes, by a few hundredths of a radius
+        ASSERT_NEAR(found, std::min(wide, narrow), 0.05) << p.transpose();
+        if (std::abs(wide - narrow) > 0.1) {
+          ASSERT_EQ(grid.values[at].branch, wide < narrow ? 0U : 1U) << p.transpose();
+        }
+        const double searched = static_cast<double>(askAll(vessels, p).distance);
+        ASSERT_LE(found, searched + 1e-3) << p.transpose();
+        if (wide < narrow - 1) {
+          ASSERT_NEAR(found, searched, 1e-3) << p.transpose();
+        }
+      }
+  EXPECT_GT(far, 10000U);
+}
+
 TEST(DistanceGrid, ClampsToItsBand) {
   const formats::Case source = kissingCase(0.5);
   const VesselDistance vessels(source);
