@@ -51,7 +51,7 @@ def table(file):
 
 
 def check_wall(name, case, expected, ends):
-    """The stress on the surface points downstream, and near the inlet it is of the size of Poiseuille's or of an entrance's."""
+    """The stress on the surface points downstream, and near the inlet it is somewhat less than Poiseuille's."""
     points, triangles, pressures, stresses = table(next(case.glob("wall-*.vtp")))
     expect(len(triangles) == len(pressures) == len(stresses), f"{name}: a value for each triangle")
     expect(all(map(math.isfinite, pressures)), f"{name}: pressures are numbers")
@@ -64,7 +64,9 @@ def check_wall(name, case, expected, ends):
                 ahead.append(sum(s * w for s, w in zip(stress, along)))
         mean = sum(ahead) / max(1, len(ahead))
         poiseuille = 4 * 4e-3 * expected[end["name"]]["flow"] / (math.pi * end["radius"] ** 3)
-        expect(0.7 * poiseuille < mean < 3 * poiseuille, f"{name}: a stress of {mean} Pa behind {end['name']}, Poiseuille's is {poiseuille}")
+        print(f"{name}: stress behind {end['name']} {mean / poiseuille:.3f} times Poiseuille's")
+        # a chord across the first cell is flatter than the profile at the wall, and vessels bend away from the axis of their inlet
+        expect(0.68 * poiseuille < mean < poiseuille, f"{name}: a stress of {mean} Pa behind {end['name']}, Poiseuille's is {poiseuille}")
 
 
 def check_case(name, program, folder, parts):
@@ -77,14 +79,16 @@ def check_case(name, program, folder, parts):
     expect("no illegal triangles" in logs["surfaceCheck"], f"{name}: no illegal triangles")
     expect("Finished meshing without any errors" in logs["snappyHexMesh"], f"{name}: meshed without errors")
     layered = re.findall(r"Extruding \d+ out of \d+ faces \(([0-9.]+)%\)", logs["snappyHexMesh"])
-    expect(layered and float(layered[-1]) > 80, f"{name}: layers at the wall: {layered}")
+    expect(layered and float(layered[-1]) > 98, f"{name}: layers at the wall: {layered}")
     expect("Mesh OK." in logs["checkMesh"] and "Failed" not in logs["checkMesh"], f"{name}: the mesh is OK")
     expect("converged in" in printed, f"{name}: converged: {printed}")
-    expect(abs(float(re.search(r"balance (\S+) %", printed).group(1))) < 0.5, f"{name}: the balance of flows: {printed}")
+    expect(abs(float(re.search(r"balance (\S+) %", printed).group(1))) < 0.01, f"{name}: the balance of flows: {printed}")
     solids = stl(case / "constant" / "triSurface" / "vessel.stl")
     meshed = float(re.search(r"Total volume = ([0-9]+\.[0-9]+(?:e[+-][0-9]+)?)", logs["checkMesh"]).group(1))
-    # six cells across a vessel cut the corners of its section: 3 % of the area, 1.5 % of the radius
-    near(meshed, volume([t for s in solids.values() for t in s]), 0.03, f"{name}: the mesh holds what the surface encloses, m^3")
+    enclosed = volume([t for s in solids.values() for t in s])
+    print(f"{name}: layers on {layered[-1]} % of the wall, {meshed / enclosed:.4f} of the volume")
+    # six cells across a vessel cut the corners of its section
+    expect(0.975 < meshed / enclosed < 1, f"{name}: the mesh holds {meshed / enclosed} of what the surface encloses")
     post = lambda kind, end: last_flow(next((case / "postProcessing" / f"{kind}_{end}").rglob("surfaceFieldValue.dat")))
     expected = {row["end"]: {"flow": float(row["flow_m3_s"]), "drop": float(row["pressure_Pa"])} for row in csv.DictReader((case / "expected.csv").open())}
     speed = 0.2
@@ -94,12 +98,13 @@ def check_case(name, program, folder, parts):
         points = [p for t in solids[end["name"]] for p in t]
         middle = [sum(p[a] for p in points) / len(points) for a in range(3)]
         expect(math.dist(middle, end["position"]) < 0.3 * end["radius"], f"{name}: {end['name']} lies where it is said to")
-        # an entrance takes up to 1.3 times the pressure of the speed there, a fork about as much; a radius that is 1.5 % less adds 6 %,
-        # and bends some 10 %
-        drop, by_law = DENSITY * post("pressure", end["name"]), expected[end["name"]]["drop"]
+        # the resistance goes with the fourth power of the radius, and the volume with its square; an even flow becomes a parabola at the
+        # entrance, which takes 1.33 times the pressure of its speed, and behind a fork once more; bends add up to a seventh at their Dean
+        # numbers of 20 to 35 (White, Proc R Soc A 123, 1929)
+        drop, law, dynamic = DENSITY * post("pressure", end["name"]), expected[end["name"]]["drop"] * (enclosed / meshed) ** 2, DENSITY * speed ** 2 / 2
         if end["kind"] == "inlet":
-            expect(0.95 * by_law < drop < 1.2 * by_law + 2 * DENSITY * speed ** 2 / 2, f"{name}: {drop} Pa at {end['name']}, by Poiseuille {by_law}")
-            print(f"{name}: {drop:.1f} Pa at {end['name']}, by Poiseuille {by_law:.1f}")
+            expect(law + dynamic < drop < 1.15 * law + 2.33 * dynamic, f"{name}: {drop} Pa at {end['name']}, by Poiseuille in the mesh {law}")
+            print(f"{name}: {drop:.1f} Pa at {end['name']}, by Poiseuille in the mesh {law:.1f}, pressure of the speed {dynamic:.1f}")
     check_wall(name, case, expected, manifest["ends"])
     print(name, printed.splitlines()[-2:], re.search(r"cells: +(\d+)", logs["checkMesh"]).group(0))
 

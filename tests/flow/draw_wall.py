@@ -4,7 +4,18 @@
 
 draw_wall.py wall-TIME.vtp OUT.png        (Debian: python3-vtk9)"""
 import sys
+import numpy
 import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+
+def broadest(mesh):
+    """The direction from which a surface looks broadest, and the one that is up then: its axes of inertia. Of both directions the
+    one from the front of the patient (LPS: -y), and up the one towards the head, or to the left where it lies flat."""
+    _, axes = numpy.linalg.eigh(numpy.cov(vtk_to_numpy(mesh.GetPoints().GetData()).T))
+    to_eye, up = axes[:, 0], axes[:, 2]
+    if abs(axes[2, 1]) > abs(up[2]): up = axes[:, 1]
+    return to_eye * (-1 if to_eye[1] > 0 else 1), up * (-1 if up[2] < 0 else 1)
 
 
 def actor(mesh, array, title, most):
@@ -23,10 +34,16 @@ def actor(mesh, array, title, most):
     bar.SetLookupTable(table)
     bar.SetTitle(title)
     bar.SetNumberOfLabels(4)
-    bar.SetMaximumWidthInPixels(70)
-    bar.SetPosition(0.88, 0.1)
+    bar.SetLabelFormat("%-#.3g")
+    bar.SetMaximumWidthInPixels(60)
+    bar.SetPosition(0.84, 0.1)
+    bar.SetVerticalTitleSeparation(12)
+    bar.UnconstrainedFontSizeOn()
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         text.SetColor(0, 0, 0)
+        text.SetFontSize(15)
+        text.ItalicOff()
+        text.BoldOff()
         text.ShadowOff()
     return one, bar
 
@@ -55,10 +72,11 @@ def main(source, out):
         for part in actor(mesh, array, title, bounds(mesh, array, share)): renderer.AddViewProp(part)
         camera = camera or renderer.GetActiveCamera()
         renderer.SetActiveCamera(camera)
-        if k == 0:  # seen from in front of the patient: LPS, so from -y
-            camera.SetPosition(0, -1, 0)
+        if k == 0:
+            to_eye, up = broadest(mesh)
+            camera.SetPosition(*to_eye)
             camera.SetFocalPoint(0, 0, 0)
-            camera.SetViewUp(0, 0, 1)
+            camera.SetViewUp(*up)
             renderer.ResetCamera()
             camera.Zoom(1.05)
         window.AddRenderer(renderer)

@@ -143,27 +143,32 @@ ExportFile allrun(FoamFlow flow) {
 
 std::vector<ExportFile> foamDictionaries(const FoamCase& foam) {
   const bool isSteady = foam.flow == FoamFlow::Steady;
-  return {allrun(foam.flow),
-          {"system/blockMeshDict", blockMeshDict(foam.block), "cubes around the vessels", ""},
-          {"system/surfaceFeatureExtractDict", exportText("openfoam/surfaceFeatureExtractDict"),
-           "the rims of flat ends", ""},
-          {"system/snappyHexMeshDict", snappyHexMeshDict(foam), "the mesh of the inside", ""},
-          {"system/controlDict", controlDict(foam),
-           "steps; flow and pressure at ends, stress at the wall", ""},
-          {"system/fvSchemes",
-           exportText("openfoam/fvSchemes", {{"ddt", isSteady ? "steadyState" : "backward"},
-                                             {"bounded", isSteady ? "bounded " : ""}}),
-           "", ""},
-          {"system/fvSolution", exportText("openfoam/fvSolution"), "", ""},
-          {"constant/transportProperties",
-           exportText("openfoam/transportProperties",
-                      {{"viscosity", numberText(blood::kViscosity / blood::kDensity)}}),
-           "blood", ""},
-          {"constant/turbulenceProperties", exportText("openfoam/turbulenceProperties"), "", ""},
-          {"constant/pascals.awk",
-           exportText("openfoam/pascals.awk", {{"density", numberText(blood::kDensity)}}), "", ""},
-          {"0/U", velocity(foam), "flows through ends", ""},
-          {"0/p", pressure(foam.patches), "pressures at ends", ""}};
+  std::vector<ExportFile> files = {
+      allrun(foam.flow),
+      {"system/blockMeshDict", blockMeshDict(foam.block), "cubes around the vessels", ""},
+      {"system/surfaceFeatureExtractDict", exportText("openfoam/surfaceFeatureExtractDict"),
+       "the rims of flat ends", ""},
+      {"system/snappyHexMeshDict", snappyHexMeshDict(foam), "the mesh of the inside", ""},
+      {"system/controlDict", controlDict(foam),
+       "steps; flow and pressure at ends, stress at the wall", ""},
+      {"system/fvSchemes",
+       exportText("openfoam/fvSchemes", {{"ddt", isSteady ? "steadyState" : "backward"},
+                                         {"bounded", isSteady ? "bounded " : ""}}),
+       "", ""},
+      {"system/fvSolution", exportText("openfoam/fvSolution"), "", ""},
+      {"constant/transportProperties",
+       exportText("openfoam/transportProperties",
+                  {{"viscosity", numberText(blood::kViscosity / blood::kDensity)}}),
+       "blood", ""},
+      {"constant/turbulenceProperties", exportText("openfoam/turbulenceProperties"), "", ""},
+      {"constant/pascals.awk",
+       exportText("openfoam/pascals.awk", {{"density", numberText(blood::kDensity)}}), "", ""},
+      {"0/U", velocity(foam), "flows through ends", ""},
+      {"0/p", pressure(foam.patches), "pressures at ends", ""}};
+  if (!isSteady)
+    files.push_back({"constant/cycle.awk",
+                     exportText("openfoam/cycle.awk", {{"period", numberText(kCycle)}}), "", ""});
+  return files;
 }
 
 std::string expectedTable(const std::vector<FoamPatch>& patches) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,9 +29,18 @@ std::string cellsRemark(const FoamCells& cells) {
          " or more across each vessel, and " + std::to_string(cells.layers) + " layers at the wall";
 }
 
-/// The sentences on the ends that the mesh cannot resolve.
-void reportTrimmed(const std::vector<TrimmedEnd>& ends, FoamGrain grain, ExportResult& result) {
+/// The sentences on the links and the ends that the mesh cannot resolve.
+void reportTrimmed(const Unresolved& gone, FoamGrain grain, ExportResult& result) {
   constexpr std::size_t kMostShown = 10;
+  for (const auto& [one, other] : gone.links)
+    result.losses.push_back(one + " and " + other + ": no blood flows through the link between " +
+                            "them, as " + shownFigure(mostCells(grain)) +
+                            " cells cannot resolve it");
+  if (gone.radius > 0)
+    result.remarks.push_back("ends thinner than " + fixedText(gone.radius, 3) +
+                             " mm are left out, so that there are no more than " +
+                             shownFigure(mostCells(grain)) + " cells");
+  const std::vector<TrimmedEnd>& ends = gone.ends;
   for (std::size_t k = 0; k < ends.size() && k < kMostShown; ++k)
     result.losses.push_back(trimmedText(ends[k]) + ": left out, as " +
                             shownFigure(mostCells(grain)) + " cells cannot resolve it");
@@ -49,6 +59,21 @@ std::string startText(FoamFlow flow) {
                     : "over two cycles of the heart, laminar, in `pimpleFoam`. Flows follow the "
                       "waveform of the common carotid artery of Boileau et al., Int J Numer Meth "
                       "Biomed Eng 31, 2015, scaled to each end's mean"}});
+}
+
+/// A report on the surface of a part of a case, with the branches as the whole case counts them.
+SurfaceReport asInCase(SurfaceReport report, const formats::CenterlineTree& part,
+                       const formats::CenterlineTree& whole) {
+  const auto indexOf = [&](std::uint32_t branch) {
+    std::uint32_t at = 0;
+    while (whole.branches[at].label != part.branches[branch].label) ++at;
+    return at;
+  };
+  for (Overlap& overlap : report.overlaps) {
+    overlap.branch = indexOf(overlap.branch);
+    overlap.other = indexOf(overlap.other);
+  }
+  return report;
 }
 
 }  // namespace
@@ -79,13 +104,13 @@ ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options
                           "the closed surface: solids `wall*`, `inlet*`, `outlet*`", ""});
   result.files.push_back({"expected.csv", expectedTable(foam.patches),
                           "flow through each end, and its pressure by Poiseuille", ""});
-  result.remarks = {cellsRemark(cells)};
+  result.remarks.push_back(cellsRemark(cells));
   for (const FaceGroup& group : made.mesh.groups)
     if (group.kind == FaceKind::Cap)
       result.losses.push_back(
           group.name + ": this end is not flat, so it is a wall, and nothing flows through it");
   result.ends = std::move(made.ends);
-  result.surface = std::move(made.report);
+  result.surface = asInCase(std::move(made.report), source.tree, input.source.tree);
   return result;
 }
 

@@ -51,6 +51,19 @@ double estimate(const formats::CenterlineTree& tree, const FoamCells& cells) {
   return count;
 }
 
+/// Removes the links at which a vessel is thinner than `limit` mm. Returns the labels of the branches
+/// between which they were.
+std::vector<std::array<std::string, 2>> openThinLinks(formats::CenterlineTree& tree, double limit) {
+  std::vector<std::array<std::string, 2>> opened;
+  std::erase_if(tree.links, [&](const auto& link) {
+    const auto [a, b] = link;
+    if (static_cast<double>(std::min(tree.radius[a], tree.radius[b])) >= limit) return false;
+    opened.push_back({tree.branches[tree.branch[a]].label, tree.branches[tree.branch[b]].label});
+    return true;
+  });
+  return opened;
+}
+
 TriangleMesh trianglesOf(const SurfaceMesh& surface) {
   TriangleMesh mesh;
   for (const Float3& p : surface.position) mesh.position.push_back(toEigen(p));
@@ -85,7 +98,7 @@ double mostCells(FoamGrain grain) {
   return presetOf(grain).most;
 }
 
-std::vector<TrimmedEnd> trimToCells(formats::Case& target, FoamGrain grain) {
+Unresolved trimToCells(formats::Case& target, FoamGrain grain) {
   constexpr double kStep = 1.1;
   formats::Case tree = target;  // without the parts that are costly to change
   tree.points.reset();
@@ -96,6 +109,7 @@ std::vector<TrimmedEnd> trimToCells(formats::Case& target, FoamGrain grain) {
   double limit = 0;
   while (foamCells(tree.tree, grain).count > mostCells(grain) && least < most) {
     least *= kStep;
+    openThinLinks(tree.tree, least);
     try {
       trimEnds(tree, {least, 0});
     } catch (const Error&) {
@@ -104,7 +118,11 @@ std::vector<TrimmedEnd> trimToCells(formats::Case& target, FoamGrain grain) {
     limit = least;
   }
   if (limit == 0) return {};
-  return trimEnds(target, {limit, 0}).ends;
+  Unresolved gone;
+  gone.radius = limit;
+  gone.links = openThinLinks(target.tree, limit);
+  gone.ends = trimEnds(target, {limit, 0}).ends;
+  return gone;
 }
 
 FoamBlock foamBlock(const Box3d& box, double edge) {

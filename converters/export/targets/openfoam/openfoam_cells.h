@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -37,9 +38,17 @@ FoamCells foamCells(const formats::CenterlineTree& tree, FoamGrain grain);
 /// Cells that a preset may have: more take hours.
 double mostCells(FoamGrain grain);
 
-/// Removes the thinnest ends of a case until the estimate of foamCells() is at most mostCells(), or
-/// no end can be removed. Returns the ends that are gone.
-std::vector<TrimmedEnd> trimToCells(formats::Case& target, FoamGrain grain);
+/// The parts of a case that cells cannot resolve.
+struct Unresolved {
+  double radius = 0;  ///< mm: thinner ends are gone; 0: none
+  std::vector<TrimmedEnd> ends;
+  /// Labels of branches between which a link is gone: one of them is too thin there.
+  std::vector<std::array<std::string, 2>> links;
+};
+
+/// Removes the thinnest ends of a case, and links at which a vessel is as thin, until the estimate of
+/// foamCells() is at most mostCells(), or nothing can be removed. Returns what is gone.
+Unresolved trimToCells(formats::Case& target, FoamGrain grain);
 
 /// The block of cubes around a surface; `cells` and `box` in the same unit as the result.
 struct FoamBlock {
