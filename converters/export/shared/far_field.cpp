@@ -25,11 +25,12 @@ constexpr int kMostEvaluations = 8, kMostMoves = 24;  // for a point, and for a 
 /// Shares of the radius at the wall: a foot is done if it lies this near to the wall, and if a step
 /// along it would gain no more. What is left is of third order.
 constexpr double kOffWall = 1e-3, kGain = 1e-4;
-constexpr double kLongestStep = 1;    // of the radius at the wall
-constexpr double kFlat = 0.02;        // least eigenvalue that a step is divided by
-constexpr double kTiny = 1e-12;       // mm
-constexpr double kNearer = 1 - 1e-6;  // of a distance: a foot is taken from a neighbour if it is less
-constexpr double kLonger = 1e-4;      // of the radius: as far may a foot be beyond the one it began at
+constexpr double kLongestStep = 1;  // of the radius at the wall
+constexpr double kFlat = 0.02;      // least eigenvalue that a step is divided by
+constexpr double kTiny = 1e-12;     // mm
+constexpr double kNearer =
+    1 - 1e-6;                     // of a distance: a foot is taken from a neighbour if it is less
+constexpr double kLonger = 1e-4;  // of the radius: as far may a foot be beyond the one it began at
 constexpr std::size_t kTogether = 32;
 
 /// Points as libblob takes them: three doubles each.
@@ -84,8 +85,8 @@ FarField::FarField(const GridSource& source, const Lattice& fine, Progress& prog
       for (int i = 0; i + 1 < m_lattice.size[0]; ++i) {
         bool isFar = true;
         for (int corner = 0; corner < 8 && isFar; ++corner) {
-          const Foot& foot = m_feet[indexOf(i + (corner & 1), j + (corner >> 1 & 1),
-                                            k + (corner >> 2))];
+          const Foot& foot =
+              m_feet[indexOf(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2))];
           isFar = foot.distance > far;
         }
         m_isFar[indexOf(i, j, k)] = isFar ? 1 : 0;
@@ -172,6 +173,7 @@ void FarField::sweep(bool isBackward) {
       if (!other.isUsable || distance >= kNearer * own.distance) continue;
       own = other;
       own.distance = distance;
+      own.isInPlace = false;
     }
   }
 }
@@ -185,7 +187,8 @@ void FarField::takeFeetOfNeighbours(const Progress& progress) {
     progress.check();
     for (std::size_t i = 0; i < nx; ++i) {
       Foot& foot = m_feet[row * nx + i];
-      if (foot.isUsable) moveToItsPlace(m_lattice.at(i, row % ny, row / ny), foot);
+      if (foot.isUsable && !foot.isInPlace)
+        moveToItsPlace(m_lattice.at(i, row % ny, row / ny), foot);
     }
   });
 }
@@ -201,6 +204,7 @@ void FarField::moveToItsPlace(const Eigen::Vector3d& corner, Foot& foot) const {
     moved.distance = (corner - moved.at).norm();
     const double radius = static_cast<double>(m_vessels.tree().radius[moved.node]);
     if (moved.distance < foot.distance + kLonger * radius) foot = moved;
+    foot.isInPlace = true;
     return;
   }
 }

@@ -35,11 +35,11 @@ private:
   /// A corner with its nearest point of the wall.
   struct Foot {
     Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = at;
-    Eigen::Vector3d across = at;    ///< a tangent; the other is normal x across
-    std::array<double, 3> bend{};   ///< the shape operator along both tangents, 1/mm
-    double distance = 0;            ///< mm, from the corner; below 0 in the lumen
+    Eigen::Vector3d across = at;   ///< a tangent; the other is normal x across
+    std::array<double, 3> bend{};  ///< the shape operator along both tangents, 1/mm
+    double distance = 0;           ///< mm, from the corner; below 0 in the lumen
     std::uint32_t node = 0;
-    bool isUsable = false;
+    bool isUsable = false, isInPlace = false;  ///< on the wall; and nearest to the corner
   };
   struct Search;  ///< of the foot of a point
 
@@ -67,8 +67,8 @@ private:
 
   const VesselDistance& m_vessels;
   Lattice m_lattice;
-  std::vector<Foot> m_feet;     ///< of the corners, x fastest
-  std::vector<char> m_isFar;    ///< of the cells, by their first corner
+  std::vector<Foot> m_feet;   ///< of the corners, x fastest
+  std::vector<char> m_isFar;  ///< of the cells, by their first corner
 };
 
 }  // namespace lumen::convert

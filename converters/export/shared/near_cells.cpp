@@ -10,7 +10,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr int kSamplesInCell = 4;        // along each axis, or more if there are many samples
+constexpr int kSamplesInCell = 4;       // along each axis, or more if there are many samples
 constexpr double kMostCells = 1 << 26;  // 64 MB
 /// Radii from a node within which its wall lies: kReachRadii, and as much more as the round ends of
 /// vessels are beyond their last nodes.
@@ -18,8 +18,7 @@ constexpr double kReachOfEnds = 3;
 
 }  // namespace
 
-NearCells::NearCells(const GridSource& source, const Lattice& fine)
-    : m_first(fine.first) {
+NearCells::NearCells(const GridSource& source, const Lattice& fine) : m_first(fine.first) {
   int samples = kSamplesInCell;
   const auto cellCount = [&] {
     double count = 1;
