@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -17,6 +18,7 @@
 
 #include "../surface/closed_cases.h"
 #include "converters/base/error.h"
+#include "converters/base/vectors.h"
 #include "converters/export/targets/grid/grid.h"
 #include "kissing.h"
 
@@ -72,6 +74,15 @@ protected:
   fs::path m_folder;
 };
 
+/// The least distance to the balls of the nodes.
+double toBalls(const VesselDistance& vessels, const Eigen::Vector3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < vessels.tree().nodeCount(); ++n)
+    least = std::min(least, (p - toEigen(vessels.tree().centre[n])).norm() -
+                                static_cast<double>(vessels.tree().radius[n]));
+  return least;
+}
+
 /// Every sample of both images is what the field says at the place that ITK gives it, in LPS.
 void expectField(const Image& distance, const Image& branch, const VesselDistance& vessels) {
   const auto region = distance.GetLargestPossibleRegion();
@@ -87,8 +98,13 @@ void expectField(const Image& distance, const Image& branch, const VesselDistanc
     branch.TransformIndexToPhysicalPoint(index, q);
     ASSERT_LT((p - q).GetNorm(), 1e-9);
     const WallDistance truth = askAll(vessels, {p[0], p[1], p[2]});
-    // a NIfTI header holds places in floats, of 2e-6 mm at 20 mm
-    ASSERT_NEAR(distance.GetPixel(index), truth.distance, 1e-4) << p;
+    // a NIfTI header holds places in floats, of 2e-6 mm at 20 mm; far from walls the search of one point may end at another wall
+    // than the nearest, which is about that of the nearest ball of a node, or a round end; forks bulge
+    const double sample = distance.GetPixel(index), single = truth.distance;
+    const double nearest =
+        single < 2 ? single : std::min(single, toBalls(vessels, {p[0], p[1], p[2]}));
+    ASSERT_LT(sample, single + (single < 2 ? 1e-4 : 0.1)) << p;
+    ASSERT_GT(sample, nearest - (single < 2 ? 1e-4 : 0.2)) << p;
     if (std::abs(truth.distance) < 1e-4F) continue;
     ASSERT_EQ(branch.GetPixel(index), truth.distance < 0 ? truth.branch + 1 : 0) << p;
     branches.insert(branch.GetPixel(index));
