@@ -26,7 +26,7 @@ public:
   /// Answers the points that are far from all walls: a fifth of the diagonal of a cell at least. Others, and
   /// few for which Newton's method does not find its end, are not answered, but get a bound of their
   /// distance; `isAnswered` has one entry for each point. The error of a distance is
-  /// mostly below a hundredth of the radius at its wall, and may be a seventh behind a fork or a bulge
+  /// mostly below a hundredth of the radius at its wall, and may be a third behind a fork or a bulge
   /// that is smaller than a cell.
   void answer(std::span<const Eigen::Vector3d> points, std::span<WallDistance> answers,
               std::span<char> isAnswered) const;
