@@ -109,6 +109,19 @@ def check_case(name, program, folder, parts):
     print(name, printed.splitlines()[-2:], re.search(r"cells: +(\d+)", logs["checkMesh"]).group(0))
 
 
+def check_cycle(program, folder):
+    """The verdict on two cycles of the heart, on series of its own: a periodic one, and one that grows by 0.2 a cycle."""
+    lumen(program, folder, "export", "openfoam", "bifurcation.lumen", "beat", "--cells", "coarse", "--flow", "pulsatile", "--quiet")
+    times = [2.2 * k / 777 for k in range(1, 778)]
+    for growth, expected in ((0, 0), (0.2, 10.5)):  # its range over the cycle is 2 - 0.1
+        rows = "".join(f"{t:.6g} {3 + math.sin(2 * math.pi * t / 1.1) + growth * t / 1.1:.8g}\n" for t in times)
+        (folder / "series.dat").write_text("# Time value\n" + rows)
+        said = subprocess.run(["awk", "-f", folder / "beat/constant/cycle.awk", folder / "series.dat"], capture_output=True, text=True).stdout
+        mean, difference = map(float, said.split())
+        near(mean, 3 + 1.5 * growth, 1e-3, f"the mean over the second cycle, growth {growth}")
+        expect(abs(difference - expected) < 0.4, f"halves of cycles differ by {difference} % of the range, expected {expected}")
+
+
 def make(program, folder, design):
     lumen(program, folder, "phantom", design, f"{design}.nrrd", "--size", "64", "--seeds", f"{design}.json", "--quiet")
     lumen(program, folder, "convert", f"{design}.nrrd", f"{design}.lumen", "--seeds", f"{design}.json", "--seeds-only", "--quiet")
@@ -116,6 +129,7 @@ def make(program, folder, design):
 
 def check(program, folder):
     make(program, folder, "bifurcation")
+    check_cycle(program, folder)
     check_case("bifurcation", program, folder, 1)
     make(program, folder, "kissing")
     check_case("kissing", program, folder, 2)
