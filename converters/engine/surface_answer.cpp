@@ -2,6 +2,7 @@
 #include "converters/engine/surface_answer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
@@ -55,13 +56,15 @@ std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report) {
   return sentences;
 }
 
-std::vector<std::string> closedSurfaceWarnings(const formats::Case& value, Progress& progress) {
+SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
   if (!value.models || value.tree.nodeCount() == 0) return {};
   try {
-    return surfaceWarnings(convert::closedSurface(value, {}, progress).report);
+    convert::SurfaceReport report = convert::closedSurface(value, {}, progress).report;
+    std::vector<std::string> warnings = surfaceWarnings(report);
+    return {std::move(report), std::move(warnings)};
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Cancelled) throw;
-    return {std::string("there is no closed surface: ") + error.what()};
+    return {std::nullopt, {std::string("there is no closed surface: ") + error.what()}};
   }
 }
 

@@ -102,6 +102,7 @@ const std::vector<Trial> kVolumeTrials = {
     {"info", {"plain.stl"}, {}, {{"unit", "cm"}}},
     {"info", {"truth.swc"}, {}, {{"unit", "cm"}}},
     {"info", {"case.lumen"}, {}, {{"chunks", "true"}}},
+    {"info", {"case.lumen"}, {}, {{"surface", "true"}}},
     {"info", {"volume"}, {}, {{"from", "nrrd"}}},
     {"check",
      {"tube.nrrd", "case.lumen"},

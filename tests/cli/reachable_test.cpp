@@ -93,6 +93,23 @@ TEST_F(ReachableTest, ValidateReportsTheSurfacesWarningsWhenAskedFor) {
   EXPECT_TRUE(std::any_of(issues.begin(), issues.end(), isSurface)) << issues;
 }
 
+TEST_F(ReachableTest, InfoReportsTheSurfaceAndItsWarningsWhenAskedFor) {
+  const char* const opened = "edges of the tree had no lumen and were opened in the mesh";
+  const Json plain = Json::parse(lumen({"info", "closed.lumen", "--json"}).out);
+  EXPECT_TRUE(plain["surface"].is_null());
+  EXPECT_TRUE(plain["surface_warnings"].empty());
+  const Outcome asked = lumen({"info", "closed.lumen", "--surface"});
+  EXPECT_TRUE(contains(asked.out, opened)) << asked.out;
+  const Json made = Json::parse(lumen({"convert", "closed.lumen", "closed.vtp", "--json"}).out);
+  const Json found = Json::parse(lumen({"info", "closed.lumen", "--surface", "--json"}).out);
+  EXPECT_EQ(found["surface"], made["surface"]);
+  EXPECT_GT(found["surface"]["triangles"], 0);
+  const Json sentences = found["surface_warnings"];
+  EXPECT_TRUE(std::any_of(sentences.begin(), sentences.end(), [&](const Json& sentence) {
+    return contains(sentence.get<std::string>(), opened);
+  })) << sentences;
+}
+
 TEST_F(ReachableTest, TheReportListsTheWarningsOfTheSurfaceThatConvertMakes) {
   const Outcome converted = lumen({"convert", "closed.lumen", "closed.stl"});
   ASSERT_EQ(converted.code, 0) << converted.err;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen info: the facts of a case, a volume, a mesh or a centerline.
+#include <string>
+#include <utility>
+
 #include "converters/engine/answer_text.h"
 #include "converters/engine/case_info_answer.h"
 #include "converters/engine/centerline_input.h"
@@ -8,8 +11,10 @@
 #include "converters/engine/mesh_info.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/surface_answer.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/engine/volume_info.h"
+#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
@@ -33,6 +38,12 @@ public:
         .flag("voxels", m_voxels,
               "Read the voxels of a volume too, not its header only: range and digest")
         .forInputs(kVolumes);
+    table
+        .flag(
+            "surface", m_surface,
+            "Also make the closed surface that lumen convert makes of a case: its triangles, ends "
+            "and overlaps, and its warnings. It takes as long as the mesh: seconds for most cases")
+        .forInputs(kFittedCase);
     addVolumeRows(table, m_volume);
     for (OptionRow& row : table.rows())
       if (!row.isArgument && row.name != "chunks") row.notBeside("chunks");
@@ -60,9 +71,7 @@ public:
       const LoadedCenterline loaded = loadCenterline(m_input, from, m_volume, {}, around.progress);
       return {centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true};
     }
-    const formats::Case value = from.readCase(m_input);
-    const convert::CaseInfo info = convert::describeCase(value, around.progress);
-    return {caseInfoJson(info), caseInfoText(info), 0, true};
+    return describeWithSurface(from.readCase(m_input), around);
   }
 
 private:
@@ -78,9 +87,26 @@ private:
                           progress);
   }
 
+  [[nodiscard]] Answer describeWithSurface(const formats::Case& value, Surroundings& around) const {
+    if (m_surface && !value.models)
+      refuseIdle(*around.table->find("surface"),
+                 "is for cases with models, and " + formats::printable(m_input) + " has none",
+                 around.progress);
+    const convert::CaseInfo info = convert::describeCase(value, around.progress);
+    const SurfaceFindings found =
+        m_surface ? examineSurface(value, around.progress) : SurfaceFindings{};
+    Json json = caseInfoJson(info);
+    json["surface"] = surfaceJson(found.report, value);
+    json["surface_warnings"] = found.warnings;
+    std::string text = caseInfoText(info) + surfaceLines(found.report, value);
+    for (const std::string& sentence : found.warnings) text += "warning      " + sentence + "\n";
+    return {std::move(json), std::move(text), 0, true};
+  }
+
   std::string m_input, m_from;
   bool m_chunks = false;
   bool m_voxels = false;
+  bool m_surface = false;
   VolumeArguments m_volume;
 };
 

@@ -153,7 +153,7 @@ private:
       for (const std::string& assumption : recordedAssumptions(facts.value.metadata))
         facts.otherWarnings.push_back("the volume of the case: " + assumption);
     if (!facts.value.models || facts.value.tree.nodeCount() == 0) return facts;
-    for (const std::string& sentence : closedSurfaceWarnings(facts.value, progress))
+    for (const std::string& sentence : examineSurface(facts.value, progress).warnings)
       facts.otherWarnings.push_back("the surface that lumen convert makes: " + sentence);
     for (const auto& [view, title] : kSides)
       facts.sides.push_back(drawn(facts.value, view, convert::ColorBy::None, title, progress));

@@ -135,7 +135,7 @@ private:
             "the case has no models, so there is no closed surface; lumen fit makes them"));
       return;
     }
-    for (const std::string& sentence : closedSurfaceWarnings(*value, progress)) {
+    for (const std::string& sentence : examineSurface(*value, progress).warnings) {
       ++report.counts.warnings;
       if (report.remarks.size() < m_maxIssues)
         report.remarks.push_back(surfaceRemark(formats::Severity::Warning, sentence));
