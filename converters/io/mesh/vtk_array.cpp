@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include <tbb/parallel_for.h>
 #include <zlib.h>
 
 #include "converters/base/error.h"
@@ -19,14 +20,16 @@ static_assert(std::endian::native == std::endian::little,
 // Bytes per compressed block; VTK's readers inflate a block at a time.
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 
+// zlib's usual level takes three times as long on a surface and saves 2 % of its size.
+constexpr int kLevel = Z_BEST_SPEED;
+
 using Bytes = std::span<const std::byte>;
 
 std::vector<std::byte> deflated(Bytes block) {
   uLongf size = compressBound(block.size());
   std::vector<std::byte> out(size);
   if (compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                reinterpret_cast<const Bytef*>(block.data()), block.size(),
-                Z_DEFAULT_COMPRESSION) != Z_OK)
+                reinterpret_cast<const Bytef*>(block.data()), block.size(), kLevel) != Z_OK)
     throw failed("zlib could not compress a block of the mesh");
   out.resize(size);
   return out;
@@ -36,12 +39,14 @@ std::vector<std::byte> deflated(Bytes block) {
 // compressed size of each; then the blocks.
 std::string coded(Bytes data) {
   const std::size_t blocks = (data.size() + kBlock - 1) / kBlock;
+  std::vector<std::vector<std::byte>> packed(blocks);
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t first = b * kBlock;
+    packed[b] = deflated(data.subspan(first, std::min(kBlock, data.size() - first)));
+  });
   std::vector<std::uint64_t> header{blocks, kBlock, data.size() % kBlock};
   std::vector<std::byte> body;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t first = b * kBlock;
-    const std::vector<std::byte> block =
-        deflated(data.subspan(first, std::min(kBlock, data.size() - first)));
+  for (const std::vector<std::byte>& block : packed) {
     header.push_back(block.size());
     body.insert(body.end(), block.begin(), block.end());
   }
