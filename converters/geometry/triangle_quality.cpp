@@ -6,8 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 namespace lumen::convert {
 namespace {
 
@@ -20,14 +18,6 @@ double nth(std::vector<double>& values, double share) {
 }
 
 }  // namespace
-
-double squaredSine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d ab = b - a, bc = c - b, ca = a - c;
-  const double p = ab.squaredNorm(), q = bc.squaredNorm(), r = ca.squaredNorm();
-  // It lies across the shortest edge: sin = 2 A / (product of the other two).
-  const double others = p < q ? (p < r ? q * r : p * q) : (q < r ? p * r : p * q);
-  return others > 0 ? ab.cross(ca).squaredNorm() / others : 0;
-}
 
 double leastAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   return std::asin(std::min(1.0, std::sqrt(squaredSine(a, b, c))));

@@ -5,16 +5,26 @@
 #include <cstddef>
 #include <span>
 
+#include <Eigen/Geometry>
+
 #include "converters/geometry/triangle_mesh.h"
 
 namespace lumen::convert {
 
 /// Angle below which a triangle is a sliver that harms solvers, radians (15 degrees).
 constexpr double kSharpAngle = 0.2617993877991494;
+constexpr double kSharpSquaredSine = 0.06698729810778068;  ///< squaredSine() at kSharpAngle
 
 /// The squared sine of a triangle's least angle, which is never above 60 degrees: it is monotone in
 /// that angle and needs no square root. 0 if the triangle has no area.
-double squaredSine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+inline double squaredSine(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          const Eigen::Vector3d& c) {
+  const Eigen::Vector3d ab = b - a, bc = c - b, ca = a - c;
+  const double p = ab.squaredNorm(), q = bc.squaredNorm(), r = ca.squaredNorm();
+  // It lies across the shortest edge: sin = 2 A / (product of the other two).
+  const double others = p < q ? (p < r ? q * r : p * q) : (q < r ? p * r : p * q);
+  return others > 0 ? ab.cross(ca).squaredNorm() / others : 0;
+}
 
 /// The least angle of a triangle, radians; 0 if it has no area.
 double leastAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
