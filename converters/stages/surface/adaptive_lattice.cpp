@@ -240,18 +240,24 @@ private:
     m_lattice.m_index[AdaptiveLattice::keyOf(cube.corner, cube.size)] = -1;
   }
 
-  // Splits the leaves that are more than twice as wide as one that they touch.
+  // Splits the leaves that are more than twice as wide as one that they touch. Neighbours in one
+  // cell of four times the size are in the same wider leaf.
   void balance() {
     for (std::size_t i = 0; i < m_lattice.m_cubes.size(); ++i) {
       if (i % kCubeBatch == 0) m_progress.check();
       const LatticeCube cube = m_lattice.m_cubes[i];
       if (cube.size * 4 > m_lattice.m_largest) continue;
-      for (int n = 0; n < 27; ++n) {
-        const Position offset{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
-        Position corner = cube.corner;
-        for (std::size_t a = 0; a < 3; ++a) corner[a] += offset[a] * cube.size;
-        splitWiderAt(corner, cube.size);
-      }
+      const auto isNewCell = [&](std::size_t axis, std::int32_t step) {
+        const std::int32_t at = cube.corner[axis] + step * cube.size, cell = 4 * cube.size;
+        return step < 0 || at - cube.size < 0 || at / cell != (at - cube.size) / cell;
+      };
+      for (std::int32_t z = -1; z <= 1; ++z)
+        for (std::int32_t y = -1; isNewCell(2, z) && y <= 1; ++y)
+          for (std::int32_t x = -1; isNewCell(1, y) && x <= 1; ++x)
+            if (isNewCell(0, x))
+              splitWiderAt({cube.corner[0] + x * cube.size, cube.corner[1] + y * cube.size,
+                            cube.corner[2] + z * cube.size},
+                           cube.size);
       if (m_lattice.m_cubes.size() > kMaxCubes) throw tooFine();
     }
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "converters/stages/surface/hollows.h"
 #include "converters/stages/surface/lattice_topology.h"
@@ -62,7 +63,7 @@ private:
     m_crossings.reserve(m_triangles.size() * 3);
     for (const CrossingTriangle& t : m_triangles)
       m_crossings.insert(m_crossings.end(), t.begin(), t.end());
-    std::sort(m_crossings.begin(), m_crossings.end());
+    tbb::parallel_sort(m_crossings.begin(), m_crossings.end());
     m_crossings.erase(std::unique(m_crossings.begin(), m_crossings.end()), m_crossings.end());
   }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/surface/lattice_vertices.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <tbb/parallel_for.h>
 
 namespace lumen::convert {
 namespace {
@@ -44,19 +47,51 @@ std::array<unsigned, 4> faceCorners(int side) {
 }  // namespace
 
 LatticeVertices::LatticeVertices(const AdaptiveLattice& lattice) : m_lattice(lattice) {
+  findNeighbours();
+  m_own.reserve(lattice.cubes().size());
   m_index.reserve(lattice.cubes().size() * 5 / 2);
   for (std::uint32_t i = 0; i < lattice.cubes().size(); ++i) {
     const LatticeCube& cube = lattice.cubes()[i];
     m_own.push_back({add(centreOf(cube), i), {}});
     for (unsigned c = 0; c < 8; ++c) m_own.back().corner[c] = add(cornerOf(cube, c), i);
     for (int side = 0; side < 6; ++side) {
-      const AdaptiveLattice::Neighbour next = lattice.neighbour(cube, side);
+      const AdaptiveLattice::Neighbour next = m_next[i][static_cast<std::size_t>(side)];
       if (next.kind == AdaptiveLattice::Kind::Coarser) add(faceCentre(cube, side), i);
       if (next.kind != AdaptiveLattice::Kind::None) continue;
       m_isOutermost[add(faceCentre(cube, side), i)] = true;
       for (const unsigned c : faceCorners(side)) m_isOutermost[m_own.back().corner[c]] = true;
     }
   }
+}
+
+void LatticeVertices::findNeighbours() {
+  m_next.resize(m_lattice.cubes().size());
+  tbb::parallel_for(std::size_t{0}, m_next.size(), [&](std::size_t i) {
+    for (int side = 0; side < 6; ++side)
+      m_next[i][static_cast<std::size_t>(side)] = m_lattice.neighbour(m_lattice.cubes()[i], side);
+  });
+}
+
+// A cube's tetrahedra have vertices of itself and of cubes that touch it. Of two cubes that touch,
+// one has a corner that is a corner of the other, since they differ at most by a factor of two.
+std::vector<std::uint8_t> LatticeVertices::cubesNear(
+    const std::vector<std::uint8_t>& marked) const {
+  std::vector<std::uint8_t> holds(m_own.size(), 0), isCorner(size(), 0), isNear(m_own.size(), 0);
+  const auto anyCorner = [&](std::size_t cube, const std::vector<std::uint8_t>& of) {
+    return std::ranges::any_of(m_own[cube].corner, [&](std::uint32_t v) { return of[v] != 0; });
+  };
+  // centres of faces are no corners
+  for (std::uint32_t v = 0; v < size(); ++v)
+    if (marked[v] != 0) holds[m_cube[v]] = 1;
+  tbb::parallel_for(std::size_t{0}, holds.size(), [&](std::size_t cube) {
+    if (marked[m_own[cube].centre] != 0 || anyCorner(cube, marked)) holds[cube] = 1;
+  });
+  for (std::size_t cube = 0; cube < holds.size(); ++cube)
+    if (holds[cube] != 0)
+      for (const std::uint32_t v : m_own[cube].corner) isCorner[v] = 1;
+  tbb::parallel_for(std::size_t{0}, isNear.size(),
+                    [&](std::size_t cube) { isNear[cube] = anyCorner(cube, isCorner) ? 1 : 0; });
+  return isNear;
 }
 
 std::uint32_t LatticeVertices::add(const Position& position, std::uint32_t cube) {
@@ -112,7 +147,7 @@ std::size_t LatticeVertices::collect(std::uint32_t index,
     found[count++] = t;
   };
   for (int side = 0; side < 6; ++side) {
-    const AdaptiveLattice::Neighbour next = m_lattice.neighbour(cube, side);
+    const AdaptiveLattice::Neighbour next = m_next[index][static_cast<std::size_t>(side)];
     if (next.kind == Kind::Finer || (next.kind == Kind::Same && side % 2 != 0)) continue;
     const std::uint32_t other = next.kind == Kind::None ? kNone : m_own[next.cube].centre;
     const std::uint32_t face = next.kind == Kind::Same ? kNone : find(faceCentre(cube, side));

@@ -33,6 +33,9 @@ public:
   }
   /// The centre of a cube, and its corners.
   [[nodiscard]] std::vector<std::uint32_t> verticesOf(std::uint32_t cube) const;
+  /// For each cube, whether one of the tetrahedra that it is responsible for may have a vertex that
+  /// is marked: 1, or 0 if none has.
+  [[nodiscard]] std::vector<std::uint8_t> cubesNear(const std::vector<std::uint8_t>& marked) const;
   /// Whether a vertex lies on the outside of the lattice.
   [[nodiscard]] bool isOutermost(std::uint32_t vertex) const { return m_isOutermost[vertex]; }
 
@@ -53,6 +56,7 @@ private:
     std::uint32_t centre = 0;
     std::array<std::uint32_t, 8> corner{};
   };
+  void findNeighbours();
   std::uint32_t add(const Position& position, std::uint32_t cube);
   [[nodiscard]] std::uint32_t find(const Position& position) const;
   std::size_t collect(std::uint32_t cube, std::array<Tetrahedron, 96>& found) const;
@@ -60,6 +64,8 @@ private:
   void orient(Tetrahedron& t) const;
 
   const AdaptiveLattice& m_lattice;
+  /// Neighbours of each cube by its sides.
+  std::vector<std::array<AdaptiveLattice::Neighbour, 6>> m_next;
   std::vector<Own> m_own;  ///< vertices of each cube
   std::vector<Position> m_position;
   std::vector<std::uint32_t> m_cube;

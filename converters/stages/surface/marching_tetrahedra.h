@@ -15,7 +15,11 @@ namespace lumen::convert {
 /// at each end.
 struct Crossing {
   std::uint32_t inside = 0, outside = 0;
-  friend auto operator<=>(const Crossing&, const Crossing&) = default;
+  friend bool operator==(const Crossing&, const Crossing&) = default;
+  friend bool operator<(const Crossing& a, const Crossing& b) { return a.key() < b.key(); }
+
+private:
+  [[nodiscard]] std::uint64_t key() const { return std::uint64_t{inside} << 32 | outside; }
 };
 
 using CrossingTriangle = std::array<Crossing, 3>;

@@ -2,6 +2,7 @@
 #include "converters/stages/surface/sampled_lattice.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace lumen::convert {
 
@@ -25,24 +26,36 @@ SampledLattice::SampledLattice(const SheetField& field, double share, Progress& 
   });
   progress.end();
   progress.check();
+  m_isForced = m_isInside;
   update();
 }
 
 void SampledLattice::update() {
-  gatherTetrahedra();
+  gatherTetrahedra(m_isForced);
+  m_isForced.assign(size(), 0);
   findSplitEdges();
 }
 
-void SampledLattice::gatherTetrahedra() {
+// The tetrahedra of blocks near vertices that have changed.
+void SampledLattice::gatherTetrahedra(const std::vector<std::uint8_t>& changed) {
   const std::size_t count = m_lattice.cubes().size();
-  m_tetrahedra.assign((count + kBlock - 1) / kBlock, {});
+  const std::vector<std::uint8_t> isNear = m_vertices.cubesNear(m_isInside),
+                                  isChanged = m_vertices.cubesNear(changed);
+  m_tetrahedra.resize((count + kBlock - 1) / kBlock);
   tbb::parallel_for(std::size_t{0}, m_tetrahedra.size(), [&](std::size_t block) {
-    const std::size_t last = std::min(count, (block + 1) * kBlock);
-    for (std::size_t cube = block * kBlock; cube < last; ++cube)
+    const std::size_t first = block * kBlock, last = std::min(count, first + kBlock);
+    if (std::all_of(isChanged.begin() + static_cast<std::ptrdiff_t>(first),
+                    isChanged.begin() + static_cast<std::ptrdiff_t>(last),
+                    [](std::uint8_t one) { return one == 0; }))
+      return;
+    m_tetrahedra[block].clear();
+    for (std::size_t cube = first; cube < last; ++cube) {
+      if (isNear[cube] == 0) continue;
       m_vertices.eachTetrahedron(static_cast<std::uint32_t>(cube), [&](const Tetrahedron& t) {
         if (isInside(t[0]) || isInside(t[1]) || isInside(t[2]) || isInside(t[3]))
           m_tetrahedra[block].push_back(t);
       });
+    }
   });
 }
 
@@ -54,7 +67,7 @@ bool SampledLattice::isOneLumen(std::uint32_t u, std::uint32_t v) const {
 
 void SampledLattice::force(std::uint32_t vertex, const SheetSample& sample) {
   constexpr double kDepth = 1e-3;  // radii
-  m_isInside[vertex] = 1;
+  m_isInside[vertex] = m_isForced[vertex] = 1;
   m_node[vertex] = sample.node;
   m_distance[vertex] = std::min(sample.distance, -kDepth * m_field.radius(sample.node));
 }

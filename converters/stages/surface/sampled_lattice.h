@@ -73,14 +73,17 @@ public:
 
   template <class T>
   static std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
+    std::size_t count = 0;
+    for (const std::vector<T>& part : parts) count += part.size();
     std::vector<T> all;
+    all.reserve(count);
     for (const std::vector<T>& part : parts) all.insert(all.end(), part.begin(), part.end());
     return all;
   }
 
 private:
   static constexpr std::size_t kBlock = 1024;  // cubes that one thread takes at a time
-  void gatherTetrahedra();
+  void gatherTetrahedra(const std::vector<std::uint8_t>& changed);
   void findSplitEdges();
   [[nodiscard]] bool isOneLumen(std::uint32_t u, std::uint32_t v) const;
 
@@ -90,6 +93,7 @@ private:
   std::vector<double> m_distance;
   std::vector<std::uint32_t> m_node;
   std::vector<std::uint8_t> m_isInside;
+  std::vector<std::uint8_t> m_isForced;                // since the tetrahedra were gathered
   std::vector<std::vector<Tetrahedron>> m_tetrahedra;  // by blocks of cubes
   SplitEdges m_split{{}, 0};
   std::vector<bool> m_isOnSplit;
