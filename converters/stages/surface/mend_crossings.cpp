@@ -2,12 +2,15 @@
 #include "converters/stages/surface/mend_crossings.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "converters/stages/surface/box_set.h"
 
@@ -39,29 +42,13 @@ std::vector<std::uint32_t> crossingVertices(const TriangleMesh& mesh,
   return vertices;
 }
 
-// The boxes of the triangles that were in `before`, or have a vertex that was moved since.
-std::vector<Box3d> changedBoxes(const TriangleMesh& mesh, const SelfIntersections& before,
-                                const std::vector<std::uint32_t>& moved) {
-  std::vector<std::uint8_t> isMoved(mesh.position.size(), 0), isChanged(mesh.triangle.size(), 0);
-  for (const std::uint32_t v : moved) isMoved[v] = 1;
-  for (const auto& pair : before.pairs)
-    for (const std::uint32_t t : pair) isChanged[t] = 1;
+// The crossings of a mesh in which only triangles near those that have changed can cross.
+SelfIntersections searchNear(const TriangleMesh& mesh, const std::vector<std::uint8_t>& isChanged,
+                             const Progress& progress) {
   std::vector<Box3d> boxes;
-  for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
-    const Triangle& corner = mesh.triangle[t];
-    if (isChanged[t] != 0 || isMoved[corner[0]] != 0 || isMoved[corner[1]] != 0 ||
-        isMoved[corner[2]] != 0)
-      boxes.push_back(boxOf(mesh, corner));
-  }
-  return boxes;
-}
-
-// The crossings after vertices were moved. Two triangles that cross now, and did not before, are
-// both near one that changed.
-SelfIntersections searchAgain(const TriangleMesh& mesh, const SelfIntersections& before,
-                              const std::vector<std::uint32_t>& moved, const Progress& progress) {
-  if (!before.isComplete) return selfIntersections(mesh, kMostPairs, &progress);
-  const BoxSet changed(changedBoxes(mesh, before, moved));
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t)
+    if (isChanged[t] != 0) boxes.push_back(boxOf(mesh, mesh.triangle[t]));
+  const BoxSet changed(std::move(boxes));
   std::vector<std::uint8_t> isNear(mesh.triangle.size());
   tbb::parallel_for(std::size_t{0}, isNear.size(), [&](std::size_t t) {
     isNear[t] = changed.meets(boxOf(mesh, mesh.triangle[t])) ? 1 : 0;
@@ -78,11 +65,88 @@ SelfIntersections searchAgain(const TriangleMesh& mesh, const SelfIntersections&
   return found;
 }
 
+// The crossings after vertices were moved. Two triangles that cross now, and did not before, are
+// both near one that changed.
+SelfIntersections searchAgain(const TriangleMesh& mesh, const SelfIntersections& before,
+                              const std::vector<std::uint32_t>& moved, const Progress& progress) {
+  if (!before.isComplete) return selfIntersections(mesh, kMostPairs, &progress);
+  std::vector<std::uint8_t> isMoved(mesh.position.size(), 0), isChanged(mesh.triangle.size(), 0);
+  for (const std::uint32_t v : moved) isMoved[v] = 1;
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t)
+    for (const std::uint32_t v : mesh.triangle[t])
+      if (isMoved[v] != 0) isChanged[t] = 1;
+  for (const auto& pair : before.pairs)
+    for (const std::uint32_t t : pair) isChanged[t] = 1;
+  return searchNear(mesh, isChanged, progress);
+}
+
+// Spreads the bits of the corners' coordinates (the finaliser of D. Stafford's Mix13).
+std::uint64_t hashOf(const TriangleMesh& mesh, const Triangle& triangle) {
+  std::uint64_t hash = 0;
+  for (const std::uint32_t v : triangle)
+    for (const double x : mesh.position[v]) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0xBF58476D1CE4E5B9ULL;
+      hash = (hash ^ hash >> 27) * 0x94D049BB133111EBULL;
+      hash ^= hash >> 31;
+    }
+  return hash;
+}
+
 }  // namespace
 
-SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field, Progress& progress) {
+void CrossingSearch::keep(const TriangleMesh& mesh, const SelfIntersections& found) {
+  std::vector<std::uint8_t> crosses(mesh.triangle.size(), 0);
+  for (const auto& pair : found.pairs)
+    for (const std::uint32_t t : pair) crosses[t] = 1;
+  m_first = mesh;
+  for (std::uint32_t t = 0; t < crosses.size(); ++t)
+    if (crosses[t] == 0) m_known.emplace_back(0, t);
+  tbb::parallel_for(std::size_t{0}, m_known.size(), [&](std::size_t i) {
+    m_known[i].first = hashOf(mesh, mesh.triangle[m_known[i].second]);
+  });
+  tbb::parallel_sort(m_known.begin(), m_known.end());
+  m_start.assign(m_known.size() + 1, 0);
+  for (const auto& entry : m_known) ++m_start[bucketOf(entry.first) + 1];
+  std::partial_sum(m_start.begin(), m_start.end(), m_start.begin());
+}
+
+// As many buckets as hashes, which are spread evenly.
+std::size_t CrossingSearch::bucketOf(std::uint64_t hash) const {
+  return static_cast<std::size_t>((hash >> 32) * m_known.size() >> 32);
+}
+
+bool CrossingSearch::isKnown(const TriangleMesh& mesh, const Triangle& triangle) const {
+  const std::uint64_t hash = hashOf(mesh, triangle);
+  const std::size_t bucket = bucketOf(hash);
+  for (std::uint32_t i = m_start[bucket]; i < m_start[bucket + 1]; ++i) {
+    if (m_known[i].first != hash) continue;
+    const Triangle& known = m_first.triangle[m_known[i].second];
+    if (std::equal(known.begin(), known.end(), triangle.begin(),
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     return m_first.position[a] == mesh.position[b];
+                   }))
+      return true;
+  }
+  return false;
+}
+
+SelfIntersections CrossingSearch::find(const TriangleMesh& mesh, const Progress& progress) {
+  if (m_known.empty()) {
+    SelfIntersections found = selfIntersections(mesh, kMostPairs, &progress);
+    // a search that was given up knows nothing
+    if (!found.pairs.empty() && found.isComplete) keep(mesh, found);
+    return found;
+  }
+  std::vector<std::uint8_t> isChanged(mesh.triangle.size());
+  tbb::parallel_for(std::size_t{0}, isChanged.size(),
+                    [&](std::size_t t) { isChanged[t] = isKnown(mesh, mesh.triangle[t]) ? 0 : 1; });
+  return searchNear(mesh, isChanged, progress);
+}
+
+SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
+                                CrossingSearch& search, Progress& progress) {
   progress.begin("crossings", 0);
-  SelfIntersections found = selfIntersections(surface.mesh, kMostPairs, &progress);
+  SelfIntersections found = search.find(surface.mesh, progress);
   const std::vector<bool> isFixed = found.pairs.empty() ? std::vector<bool>() : isOnEnd(surface);
   for (int round = 0; !found.pairs.empty() && round < kMostRounds; ++round) {
     const auto moved = crossingVertices(surface.mesh, found, isFixed);

@@ -3,6 +3,11 @@
 // them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "converters/base/progress.h"
 #include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/case_surface.h"
@@ -10,10 +15,32 @@
 
 namespace lumen::convert {
 
+/// Finds the crossings of meshes that are made one after another and share most triangles.
+class CrossingSearch {
+public:
+  /// The pairs of triangles of a mesh that cross, as selfIntersections() finds them. In all meshes
+  /// but the first, only triangles near those that the first one has not, or that cross there, are
+  /// looked at. Throws Error(Cancelled).
+  SelfIntersections find(const TriangleMesh& mesh, const Progress& progress);
+
+private:
+  void keep(const TriangleMesh& mesh, const SelfIntersections& found);
+  [[nodiscard]] std::size_t bucketOf(std::uint64_t hash) const;
+  [[nodiscard]] bool isKnown(const TriangleMesh& mesh, const Triangle& triangle) const;
+
+  TriangleMesh m_first;
+  /// Hashes of the first mesh's triangles that cross nothing, by the places of their corners, with
+  /// their indices; ascending.
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> m_known;
+  std::vector<std::uint32_t> m_start;  ///< place in m_known of the first hash of each bucket
+};
+
 /// Moves the triangles that pass through others back into their own lumens, in steps of a quarter
 /// of the gap or of a fiftieth of the radius, whichever is more, until none does, or eight times.
 /// Vertices of flat ends stay where they are. Returns the pairs that still intersect. After the first
-/// search only triangles near those that were moved are looked at. Throws Error(Cancelled).
-SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field, Progress& progress);
+/// search, by `search`, only triangles near those that were moved are looked at. Throws
+/// Error(Cancelled).
+SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
+                                CrossingSearch& search, Progress& progress);
 
 }  // namespace lumen::convert

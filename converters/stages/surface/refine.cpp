@@ -42,11 +42,12 @@ RefineReport refine(CaseSurface& surface, const SheetField& field, const EdgeLen
                     Progress& progress) {
   const CaseSurface given = surface;
   RepeatedRemesh remeshing(given, field, edge, progress);
+  CrossingSearch search;
   std::vector<Box3d> places;
   double reach = kFirstReach;
   for (int repeats = 0;; ++repeats) {
     const RemeshReport made = remeshing.run(verticesIn(given, places), surface);
-    const SelfIntersections left = mendCrossings(surface, field, progress);
+    const SelfIntersections left = mendCrossings(surface, field, search, progress);
     if (left.pairs.empty() || repeats == kMostRepeats)
       return {made.offField, made.sharp, left.pairs.size()};
     addPlaces(surface, field, left, reach, places);

@@ -19,9 +19,9 @@ constexpr int kSeamRings = 5;  // reach of the unevenness at a boundary that cou
 constexpr int kMendRings = 4;
 constexpr int kWholeRings = 10;  // six may leave the field
 constexpr int kStretchRounds = 2;
-constexpr double kMendWholeBelow = 1.2 * kSharpAngle;  // as in each piece
-constexpr std::size_t kVertexBatch = 1024;             // vertices between two looks at the progress
-constexpr double kFarthestStep = 0.5;                  // radii: more is no distance from the wall
+constexpr double kMendWholeBelow = 0.0954915028125263;  // squared sine of 18 degrees, as in pieces
+constexpr std::size_t kVertexBatch = 1024;  // vertices between two looks at the progress
+constexpr double kFarthestStep = 0.5;       // radii: more is no distance from the wall
 
 // Whether a triangle stays as it is.
 bool isKeptTriangle(const RemeshState& state, std::uint32_t t) {
@@ -83,8 +83,11 @@ std::vector<RemeshPiece> makePieces(const RemeshState& state, std::vector<Triang
 
 void workOn(RemeshState& state, std::vector<TriangleList> lists, const PieceRules& rules,
             PieceWork work, Progress& progress) {
+  if (lists.empty()) return;
+  progress.begin(work == PieceWork::Seam ? "seams" : "sharp triangles", lists.size());
   const auto pieces = makePieces(state, lists, rules, work, {}, progress);
   putBack(state, lists, pieces);
+  progress.end();
 }
 
 // The pieces of an earlier run that are the same now, since no vertex of theirs stays: null for
@@ -105,10 +108,6 @@ std::vector<const RemeshPiece*> unchangedPieces(const RemeshState& state, const 
   return same;
 }
 
-double leastCornerAngle(const TriangleMesh& mesh, const Triangle& t) {
-  return leastAngle(mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]);
-}
-
 // The corners of triangles that are sharp, or face into the lumen.
 std::vector<std::uint8_t> sharpVertices(const RemeshState& state, const PieceRules& rules) {
   const TriangleMesh& mesh = state.surface.mesh;
@@ -121,7 +120,7 @@ std::vector<std::uint8_t> sharpVertices(const RemeshState& state, const PieceRul
         plane ? *plane
               : Eigen::Vector3d(state.gradient[t[0]] + state.gradient[t[1]] + state.gradient[t[2]]);
     isBad[f] =
-        leastAngle(a, b, c) < kMendWholeBelow || (b - a).cross(c - a).dot(outward) < 0 ? 1 : 0;
+        squaredSine(a, b, c) < kMendWholeBelow || (b - a).cross(c - a).dot(outward) < 0 ? 1 : 0;
   });
   std::vector<std::uint8_t> sharp(mesh.position.size(), 0);
   for (std::size_t f = 0; f < isBad.size(); ++f)
@@ -135,7 +134,9 @@ RemeshReport makeReport(const RemeshState& state, const PieceRules& rules) {
   const CaseSurface& surface = state.surface;
   std::vector<std::uint8_t> isOff = state.isOffField, isSharp(surface.group.size());
   tbb::parallel_for(std::size_t{0}, isSharp.size(), [&](std::size_t t) {
-    isSharp[t] = leastCornerAngle(surface.mesh, surface.mesh.triangle[t]) < kSharpAngle ? 1 : 0;
+    const auto& [a, b, c] = surface.mesh.triangle[t];
+    const auto& p = surface.mesh.position;
+    isSharp[t] = squaredSine(p[a], p[b], p[c]) < kSharpSquaredSine ? 1 : 0;
   });
   report.sharp = static_cast<std::size_t>(std::count(isSharp.begin(), isSharp.end(), 1));
   for (std::size_t t = 0; t < surface.group.size(); ++t)

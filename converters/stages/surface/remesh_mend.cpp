@@ -2,6 +2,8 @@
 // The last sharp triangles, one by one.
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -22,8 +24,43 @@ constexpr int kStretchSteps = 30, kStretchRings = 6, kStretchPasses = 3;
 constexpr double kLongestMade = 2;  // targets: a longer edge is no cure
 constexpr double kGain = 1.0001;    // else it could go round in circles by rounding
 
+// The vertices that changed, by the number of the change. An attempt at a face depends on its
+// vertices and their neighbours alone, so it fails again as long as none of them has changed.
+class Changes {
+public:
+  explicit Changes(const Mesh& mesh)
+      : m_changed(mesh.n_vertices(), 0), m_attempt(mesh.n_faces(), 0) {}
+
+  void mark(Mesh::VertexHandle v) { m_changed[index(v)] = m_now; }
+  void markAround(const Mesh& mesh, Mesh::VertexHandle v) {
+    mark(v);
+    for (const Mesh::VertexHandle w : mesh.vv_range(v)) mark(w);
+  }
+
+  // Whether an attempt at the face may have another outcome than the last one; takes it as made.
+  bool isDue(const Mesh& mesh, Mesh::FaceHandle face) {
+    std::uint32_t& last = m_attempt[static_cast<std::size_t>(face.idx())];
+    const std::uint32_t before = last;
+    last = ++m_now;
+    if (before == 0) return true;
+    for (const Mesh::VertexHandle v : mesh.verticesOf(face)) {
+      if (m_changed[index(v)] >= before) return true;
+      for (const Mesh::VertexHandle w : mesh.vv_range(v))
+        if (m_changed[index(w)] >= before) return true;
+    }
+    return false;
+  }
+
+private:
+  static std::size_t index(Mesh::VertexHandle v) { return static_cast<std::size_t>(v.idx()); }
+
+  std::vector<std::uint32_t> m_changed;  // number of the attempt that changed a vertex last
+  std::vector<std::uint32_t> m_attempt;  // number of the last attempt at a face; 0: none
+  std::uint32_t m_now = 0;
+};
+
 // Flips the edge of the face that helps most.
-bool flipBest(Mesh& mesh, Mesh::FaceHandle face) {
+bool flipBest(Mesh& mesh, Mesh::FaceHandle face, Changes& changes) {
   std::optional<Mesh::EdgeHandle> best;
   double quality = 0;
   for (const Mesh::EdgeHandle edge : mesh.fe_range(face)) {
@@ -34,11 +71,16 @@ bool flipBest(Mesh& mesh, Mesh::FaceHandle face) {
     quality = outcome.quality;
     best = edge;
   }
-  if (best) mesh.flip(*best);
-  return best.has_value();
+  if (!best) return false;
+  mesh.flip(*best);
+  const Mesh::HalfedgeHandle h = mesh.halfedge_handle(*best, 0);
+  for (const Mesh::VertexHandle v : {mesh.from_vertex_handle(h), mesh.to_vertex_handle(h),
+                                     mesh.opposite_vh(h), mesh.opposite_he_opposite_vh(h)})
+    changes.mark(v);
+  return true;
 }
 
-bool collapseBest(Mesh& mesh, Mesh::FaceHandle face) {
+bool collapseBest(Mesh& mesh, Mesh::FaceHandle face, Changes& changes) {
   std::optional<Mesh::HalfedgeHandle> best;
   double quality = 0;
   for (const Mesh::HalfedgeHandle side : mesh.fh_range(face))
@@ -51,8 +93,11 @@ bool collapseBest(Mesh& mesh, Mesh::FaceHandle face) {
       quality = outcome.quality;
       best = h;
     }
-  if (best) mesh.collapse(*best);
-  return best.has_value();
+  if (!best) return false;
+  const Mesh::VertexHandle kept = mesh.to_vertex_handle(*best);
+  mesh.collapse(*best);
+  changes.markAround(mesh, kept);
+  return true;
 }
 
 // Eight directions across the normal, in the plane of a flat end or along a rim.
@@ -76,11 +121,13 @@ std::vector<Eigen::Vector3d> directionsAt(const Mesh& mesh, Mesh::VertexHandle v
 }
 
 // Looks for a better place of one vertex, step by step, and takes it if it is better on the field.
-void moveToBetter(Mesh& mesh, Mesh::VertexHandle v) {
+void moveToBetter(Mesh& mesh, Mesh::VertexHandle v, Changes& changes) {
   const auto kept = mesh.data(v);
   const Eigen::Vector3d start = mesh.point(v);
   if (kept.kind == VertexKind::Locked) return;
-  const double before = mesh.starQuality(v, start);
+  std::vector<Mesh::StarFace> star;
+  mesh.gatherStar(v, star);
+  const double before = mesh.starQuality(star, start);
   const auto directions = directionsAt(mesh, v);
   Eigen::Vector3d place = start;
   double quality = before;
@@ -88,8 +135,8 @@ void moveToBetter(Mesh& mesh, Mesh::VertexHandle v) {
     const Eigen::Vector3d from = place;
     for (const Eigen::Vector3d& direction : directions) {
       const Eigen::Vector3d there = from + step * direction;
-      const double q = mesh.starQuality(v, there);
-      if (q <= kGain * quality || !mesh.mayMove(v, there)) continue;
+      const double q = mesh.starQuality(star, there, kGain * quality);
+      if (q <= kGain * quality || !mesh.mayMove(star, start, there)) continue;
       quality = q;
       place = there;
     }
@@ -97,14 +144,15 @@ void moveToBetter(Mesh& mesh, Mesh::VertexHandle v) {
   if (place == start) return;
   mesh.set_point(v, place);
   if (kept.kind != VertexKind::Flat) settle(mesh, v);
-  if (mesh.starQuality(v, mesh.point(v)) > kGain * before) return;
+  mesh.gatherStar(v, star);
+  if (mesh.starQuality(star, mesh.point(v)) > kGain * before) return changes.mark(v);
   mesh.set_point(v, start);
   mesh.data(v) = kept;
 }
 
-void mendFace(Mesh& mesh, Mesh::FaceHandle face) {
-  if (flipBest(mesh, face) || collapseBest(mesh, face)) return;
-  for (const Mesh::VertexHandle v : mesh.verticesOf(face)) moveToBetter(mesh, v);
+void mendFace(Mesh& mesh, Mesh::FaceHandle face, Changes& changes) {
+  if (flipBest(mesh, face, changes) || collapseBest(mesh, face, changes)) return;
+  for (const Mesh::VertexHandle v : mesh.verticesOf(face)) moveToBetter(mesh, v, changes);
 }
 
 // Faces at the boundary are left to the piece that has them inside.
@@ -169,15 +217,21 @@ void stretch(Mesh& mesh, const std::vector<Mesh::VertexHandle>& vertices) {
 
 void mendFaces(RemeshMesh& mesh, const Progress& progress) {
   std::size_t before = std::numeric_limits<std::size_t>::max();
+  Changes changes(mesh);
   for (int round = 0; round < kRounds; ++round) {
     progress.check();
     const auto bad = facesToMend(mesh);
     if (bad.empty() || bad.size() > before) return;
     before = bad.size();
+    bool isAnyDue = false;
     for (const Mesh::FaceHandle face : bad) {
       progress.check();
-      if (!mesh.status(face).deleted() && needsMending(mesh, face)) mendFace(mesh, face);
+      if (mesh.status(face).deleted() || !needsMending(mesh, face) || !changes.isDue(mesh, face))
+        continue;
+      isAnyDue = true;
+      mendFace(mesh, face, changes);
     }
+    if (!isAnyDue) return;
   }
 }
 

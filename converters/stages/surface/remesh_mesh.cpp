@@ -108,37 +108,11 @@ RemeshPiece RemeshMesh::toPiece() const {
   return piece;
 }
 
-double RemeshMesh::lengthOf(EdgeHandle edge) const {
-  const HalfedgeHandle h = halfedge_handle(edge, 0);
-  return (point(to_vertex_handle(h)) - point(from_vertex_handle(h))).norm();
-}
-
-double RemeshMesh::targetOf(EdgeHandle edge) const {
-  const HalfedgeHandle h = halfedge_handle(edge, 0);
-  return 0.5 * (data(to_vertex_handle(h)).target + data(from_vertex_handle(h)).target);
-}
-
-std::array<RemeshMesh::VertexHandle, 3> RemeshMesh::verticesOf(FaceHandle face) const {
-  const HalfedgeHandle h = halfedge_handle(face);
-  return {from_vertex_handle(h), to_vertex_handle(h), to_vertex_handle(next_halfedge_handle(h))};
-}
-
-RemeshMesh::Corners RemeshMesh::cornersOf(FaceHandle face) const {
-  const auto v = verticesOf(face);
-  return {point(v[0]), point(v[1]), point(v[2])};
-}
-
 RemeshMesh::EdgeHandle RemeshMesh::longestEdge(FaceHandle face) const {
   EdgeHandle longest;
   for (const EdgeHandle edge : fe_range(face))
     if (!longest.is_valid() || lengthOf(edge) > lengthOf(longest)) longest = edge;
   return longest;
-}
-
-Eigen::Vector3d RemeshMesh::outward(std::uint32_t group,
-                                    const std::array<VertexHandle, 3>& vertices) const {
-  if (const auto& plane = m_rules.plane[group]) return *plane;
-  return data(vertices[0]).gradient + data(vertices[1]).gradient + data(vertices[2]).gradient;
 }
 
 double RemeshMesh::measureQuality(const Corners& c, const Eigen::Vector3d& outward) const {
@@ -149,26 +123,55 @@ double RemeshMesh::measureQuality(FaceHandle face) const {
   return measureQuality(cornersOf(face), outward(data(face).group, verticesOf(face)));
 }
 
-double RemeshMesh::starQuality(VertexHandle vertex, const Eigen::Vector3d& position) const {
-  double least = 4;
+void RemeshMesh::gatherStar(VertexHandle vertex, std::vector<StarFace>& star) const {
+  star.clear();
+  const double target = data(vertex).target;
   eachFaceAround(vertex, [&](FaceHandle face, VertexHandle a, VertexHandle b) {
-    const Eigen::Vector3d out = outward(data(face).group, {vertex, a, b});
-    least = std::min(least, measureQuality({position, point(a), point(b)}, out));
+    star.push_back({point(a), point(b), outward(data(face).group, {vertex, a, b}),
+                    target + data(a).target + data(b).target});
   });
-  return least;
 }
 
-bool RemeshMesh::mayMove(VertexHandle vertex, const Eigen::Vector3d& position) const {
-  bool may = true;
-  eachFaceAround(vertex, [&](FaceHandle face, VertexHandle a, VertexHandle b) {
-    if (!may) return;
-    const Corners before{point(vertex), point(a), point(b)}, after{position, before[1], before[2]};
-    may = !isTurned(normalOf(after), before, outward(data(face).group, {vertex, a, b}));
-  });
-  return may;
+double RemeshMesh::starQuality(const std::vector<StarFace>& star, const Eigen::Vector3d& position,
+                               double least) const {
+  double quality = 4;
+  for (const StarFace& face : star) {
+    quality = std::min(quality, measureQuality({position, face.a, face.b}, face.outward));
+    if (quality <= least) break;
+  }
+  return quality;
 }
 
-bool RemeshMesh::mayCollapse(HalfedgeHandle h) {
+bool RemeshMesh::mayMove(const std::vector<StarFace>& star, const Eigen::Vector3d& here,
+                         const Eigen::Vector3d& position) const {
+  return std::ranges::none_of(star, [&](const StarFace& face) {
+    return isTurned(normalOf({position, face.a, face.b}), {here, face.a, face.b}, face.outward);
+  });
+}
+
+// The conditions of OpenMesh's is_collapse_ok(), without its marks on vertices.
+bool RemeshMesh::keepsManifold(HalfedgeHandle h) const {
+  const HalfedgeHandle back = opposite_halfedge_handle(h);
+  const VertexHandle gone = from_vertex_handle(h), kept = to_vertex_handle(h);
+  std::array<VertexHandle, 2> tips;
+  for (const std::size_t side : {0U, 1U}) {
+    const HalfedgeHandle inner = side == 0 ? h : back;
+    if (is_boundary(inner)) continue;
+    const HalfedgeHandle one = next_halfedge_handle(inner), other = next_halfedge_handle(one);
+    tips[side] = to_vertex_handle(one);
+    if (is_boundary(opposite_halfedge_handle(one)) && is_boundary(opposite_halfedge_handle(other)))
+      return false;
+  }
+  if (tips[0] == tips[1]) return false;
+  const bool shareNoOther = eachAround(gone, [&](VertexHandle v) {
+    return v == tips[0] || v == tips[1] ||
+           eachAround(kept, [v](VertexHandle other) { return other != v; });
+  });
+  return shareNoOther &&
+         (!is_boundary(gone) || !is_boundary(kept) || is_boundary(h) || is_boundary(back));
+}
+
+bool RemeshMesh::mayCollapse(HalfedgeHandle h) const {
   const VertexHandle gone = from_vertex_handle(h), kept = to_vertex_handle(h);
   const VertexKind kind = data(gone).kind;
   if (kind == VertexKind::Locked) return false;
@@ -178,7 +181,7 @@ bool RemeshMesh::mayCollapse(HalfedgeHandle h) {
     for (const HalfedgeHandle side : {h, opposite_halfedge_handle(h)})
       if (m_rimEdges[data(face_handle(side)).group] <= kRimEdges) return false;
   }
-  if (!is_collapse_ok(h)) return false;
+  if (!keepsManifold(h)) return false;
   if (!is_boundary(kept)) return true;
   for (const VertexHandle w : vv_range(gone))
     if (w != kept && is_boundary(w) && !find_halfedge(w, kept).is_valid()) return false;
@@ -240,9 +243,11 @@ void RemeshMesh::collapse(HalfedgeHandle h) {
 }
 
 bool RemeshMesh::mayFlip(EdgeHandle edge) const {
-  if (is_boundary(edge) || data(edge).isRim || !is_flip_ok(edge)) return false;
+  if (is_boundary(edge) || data(edge).isRim) return false;
   const HalfedgeHandle h = halfedge_handle(edge, 0);
-  return !(is_boundary(opposite_vh(h)) && is_boundary(opposite_he_opposite_vh(h)));
+  const VertexHandle left = opposite_vh(h), right = opposite_he_opposite_vh(h);
+  return left != right && !(is_boundary(left) && is_boundary(right)) &&
+         eachAround(left, [right](VertexHandle v) { return v != right; });
 }
 
 RemeshMesh::Outcome RemeshMesh::afterFlip(EdgeHandle edge) const {

@@ -63,10 +63,22 @@ public:
     if (++m_pulse % kPulses == 0) m_rules.progress.check();
   }
 
-  [[nodiscard]] double lengthOf(EdgeHandle edge) const;
-  [[nodiscard]] double targetOf(EdgeHandle edge) const;
-  [[nodiscard]] std::array<VertexHandle, 3> verticesOf(FaceHandle face) const;
-  [[nodiscard]] Corners cornersOf(FaceHandle face) const;
+  [[nodiscard]] double lengthOf(EdgeHandle edge) const {
+    const HalfedgeHandle h = halfedge_handle(edge, 0);
+    return (point(to_vertex_handle(h)) - point(from_vertex_handle(h))).norm();
+  }
+  [[nodiscard]] double targetOf(EdgeHandle edge) const {
+    const HalfedgeHandle h = halfedge_handle(edge, 0);
+    return 0.5 * (data(to_vertex_handle(h)).target + data(from_vertex_handle(h)).target);
+  }
+  [[nodiscard]] std::array<VertexHandle, 3> verticesOf(FaceHandle face) const {
+    const HalfedgeHandle h = halfedge_handle(face);
+    return {from_vertex_handle(h), to_vertex_handle(h), to_vertex_handle(next_halfedge_handle(h))};
+  }
+  [[nodiscard]] Corners cornersOf(FaceHandle face) const {
+    const auto v = verticesOf(face);
+    return {point(v[0]), point(v[1]), point(v[2])};
+  }
   /// Calls `visit` with the face and the other two vertices, in its order, of each face around
   /// `vertex`, which has one. Quicker than OpenMesh's circulators with verticesOf().
   template <class Visit>
@@ -84,19 +96,35 @@ public:
 
   /// The direction in which a face of these vertices should look, of any length: zero if unknown.
   [[nodiscard]] Eigen::Vector3d outward(std::uint32_t group,
-                                        const std::array<VertexHandle, 3>& vertices) const;
+                                        const std::array<VertexHandle, 3>& vertices) const {
+    if (const auto& plane = m_rules.plane[group]) return *plane;
+    return data(vertices[0]).gradient + data(vertices[1]).gradient + data(vertices[2]).gradient;
+  }
   /// The squared sine of a face's least angle; 0 if it is turned away from where it should look.
   [[nodiscard]] double measureQuality(FaceHandle face) const;
   [[nodiscard]] double measureQuality(const Corners& corners, const Eigen::Vector3d& outward) const;
-  /// The least quality of the faces around a vertex, as if it were at `position`.
-  [[nodiscard]] double starQuality(VertexHandle vertex, const Eigen::Vector3d& position) const;
 
-  /// True if no face is turned away, or further than now, by moving `vertex` to `position`.
-  [[nodiscard]] bool mayMove(VertexHandle vertex, const Eigen::Vector3d& position) const;
+  /// A face around a vertex, without that vertex' place.
+  struct StarFace {
+    Eigen::Vector3d a, b;     ///< the other corners, in the order of the face
+    Eigen::Vector3d outward;  ///< as outward()
+    double target = 0;        ///< sum of the corners' targets
+  };
+  /// Makes `star` the faces around `vertex`, which has one: for several places of the vertex that
+  /// are looked at one after another.
+  void gatherStar(VertexHandle vertex, std::vector<StarFace>& star) const;
+  /// The least quality of a star's faces, as if its vertex were at `position`; any value up to
+  /// `least` if it is not more than that.
+  [[nodiscard]] double starQuality(const std::vector<StarFace>& star,
+                                   const Eigen::Vector3d& position, double least = 0) const;
+  /// True if no face of a star is turned away, or further than now, by moving its vertex from
+  /// `here` to `position`.
+  [[nodiscard]] bool mayMove(const std::vector<StarFace>& star, const Eigen::Vector3d& here,
+                             const Eigen::Vector3d& position) const;
 
   /// Whether topology, rims and boundary allow a collapse of `h` (its start vanishes);
   /// afterCollapse() has its outcome.
-  [[nodiscard]] bool mayCollapse(HalfedgeHandle h);
+  [[nodiscard]] bool mayCollapse(HalfedgeHandle h) const;
   struct Outcome {
     bool isTurned = false;  ///< a face would turn away, or further than before
     double quality = 0;     ///< the least of the changed faces, after
@@ -117,6 +145,19 @@ public:
 
 private:
   void findKinds();
+  /// Calls `visit` with each vertex around `vertex`, which has an edge, until it returns false; true
+  /// if it never did.
+  template <class Visit>
+  bool eachAround(VertexHandle vertex, Visit&& visit) const {
+    const HalfedgeHandle first = halfedge_handle(vertex);
+    HalfedgeHandle h = first;
+    do {
+      if (!visit(to_vertex_handle(h))) return false;
+      h = opposite_halfedge_handle(prev_halfedge_handle(h));
+    } while (h != first);
+    return true;
+  }
+  [[nodiscard]] bool keepsManifold(HalfedgeHandle h) const;
   static constexpr std::uint32_t kPulses = 4096;  // elements that take a few milliseconds
   const PieceRules& m_rules;
   std::uint32_t m_pulse = 0;

@@ -45,25 +45,25 @@ Eigen::Vector3d rimTarget(const Mesh& mesh, Mesh::VertexHandle v) {
   return count == 2 ? Eigen::Vector3d(sum / 2) : mesh.point(v);
 }
 
-Eigen::Vector3d faceTarget(const Mesh& mesh, Mesh::VertexHandle v) {
+Eigen::Vector3d faceTarget(const std::vector<Mesh::StarFace>& star, const Eigen::Vector3d& here) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = 0;
-  const Eigen::Vector3d here = mesh.point(v);
-  mesh.eachFaceAround(v, [&](Mesh::FaceHandle, Mesh::VertexHandle a, Mesh::VertexHandle b) {
-    const Eigen::Vector3d out = mesh.point(a) - here, next = mesh.point(b) - here;
-    const double target = mesh.data(v).target + mesh.data(a).target + mesh.data(b).target;
-    const double weight = out.cross(next).norm() / (target * target);
+  for (const Mesh::StarFace& face : star) {
+    const Eigen::Vector3d out = face.a - here, next = face.b - here;
+    const double weight = out.cross(next).norm() / (face.target * face.target);
     sum += weight / 3 * (out + next);
     weights += weight;
-  });
+  }
   return weights > 0 ? Eigen::Vector3d(here + sum / weights) : here;
 }
 
 // Moves a vertex as far as no face turns: fully, by half, by a quarter, or not at all.
-void moveTowards(Mesh& mesh, Mesh::VertexHandle v, Eigen::Vector3d move) {
+void moveTowards(Mesh& mesh, Mesh::VertexHandle v, const std::vector<Mesh::StarFace>& star,
+                 Eigen::Vector3d move) {
+  const Eigen::Vector3d here = mesh.point(v);
   for (int attempt = 0; attempt < 3; ++attempt, move *= 0.5) {
-    const Eigen::Vector3d position = mesh.point(v) + move;
-    if (!mesh.mayMove(v, position)) continue;
+    const Eigen::Vector3d position = here + move;
+    if (!mesh.mayMove(star, here, position)) continue;
     mesh.set_point(v, position);
     mesh.data(v).drift += move.norm();
     return;
@@ -89,11 +89,10 @@ void stepOntoField(Mesh& mesh, Mesh::VertexHandle v) {
   mesh.data(v).drift = 0;
 }
 
-// Squared difference of the future valence of a vertex from six; 0 on the boundary, where it is
-// unknown.
-int valenceError(const Mesh& mesh, Mesh::VertexHandle v, int change) {
-  const int error = mesh.data(v).valence + change - 6;
-  return mesh.is_boundary(v) ? 0 : error * error;
+// The change of a vertex' squared difference of its valence from six; 0 on the boundary, where it
+// is unknown.
+int changeOfError(const Mesh& mesh, Mesh::VertexHandle v, int change) {
+  return mesh.is_boundary(v) ? 0 : change * (2 * (mesh.data(v).valence - 6) + change);
 }
 
 // True if the angles across an edge sum up to at most 180 degrees; else the other diagonal is
@@ -108,22 +107,29 @@ bool isDelaunay(const Mesh& mesh, Mesh::EdgeHandle edge) {
 
 }  // namespace
 
-// The longest first: in another order, thin triangles can breed long edges for ever.
+// The longest first: in another order, thin triangles can breed long edges for ever. A split changes
+// no edge but those that it makes, of which one half keeps the handle.
 void splitLong(RemeshMesh& mesh) {
-  std::vector<std::pair<double, int>> tooLong;
-  for (int sweep = 0; sweep < kSplitSweeps; ++sweep) {
-    tooLong.clear();
-    for (const Mesh::EdgeHandle edge : mesh.edges()) {
-      mesh.pulse();
-      const double share = mesh.lengthOf(edge) / mesh.targetOf(edge);
-      if (share > kLong && !mesh.is_boundary(edge)) tooLong.emplace_back(-share, edge.idx());
-    }
+  std::vector<std::pair<double, int>> tooLong, next;
+  const auto look = [&](Mesh::EdgeHandle edge) {
+    mesh.pulse();
+    const double share = mesh.lengthOf(edge) / mesh.targetOf(edge);
+    if (share > kLong && !mesh.is_boundary(edge)) next.emplace_back(-share, edge.idx());
+  };
+  for (const Mesh::EdgeHandle edge : mesh.edges()) look(edge);
+  for (int sweep = 0; !next.empty() && sweep < kSplitSweeps; ++sweep) {
+    tooLong.swap(next);
+    next.clear();
     std::sort(tooLong.begin(), tooLong.end());
+    const auto made = static_cast<int>(mesh.n_edges());
     for (const auto& [share, edge] : tooLong) {
       mesh.pulse();
       mesh.splitEdge(Mesh::EdgeHandle(edge));
     }
-    if (tooLong.empty()) return;
+    if (sweep + 1 == kSplitSweeps) return;
+    for (const auto& [share, edge] : tooLong) look(Mesh::EdgeHandle(edge));
+    for (int edge = made; edge < static_cast<int>(mesh.n_edges()); ++edge)
+      look(Mesh::EdgeHandle(edge));
   }
 }
 
@@ -159,11 +165,11 @@ void flipToSix(RemeshMesh& mesh) {
     const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
     const Mesh::VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h),
                              left = mesh.opposite_vh(h), right = mesh.opposite_he_opposite_vh(h);
-    const int now = valenceError(mesh, from, 0) + valenceError(mesh, to, 0) +
-                    valenceError(mesh, left, 0) + valenceError(mesh, right, 0);
-    const int then = valenceError(mesh, from, -1) + valenceError(mesh, to, -1) +
-                     valenceError(mesh, left, 1) + valenceError(mesh, right, 1);
-    if (then >= now || !mesh.mayFlip(edge)) continue;
+    if (changeOfError(mesh, from, -1) + changeOfError(mesh, to, -1) + changeOfError(mesh, left, 1) +
+                changeOfError(mesh, right, 1) >=
+            0 ||
+        !mesh.mayFlip(edge))
+      continue;
     const Mesh::Outcome outcome = mesh.afterFlip(edge);
     if (outcome.isTurned || outcome.quality < std::min(outcome.before, kFlipQuality)) continue;
     mesh.flip(edge);
@@ -182,23 +188,25 @@ void flipForAngles(RemeshMesh& mesh) {
 }
 
 void relax(RemeshMesh& mesh) {
+  std::vector<Mesh::StarFace> star;
   for (const Mesh::VertexHandle v : mesh.vertices()) {
     mesh.pulse();
     const auto& here = mesh.data(v);
     if (here.kind == VertexKind::Locked) continue;
+    mesh.gatherStar(v, star);
     Eigen::Vector3d move;
     if (here.kind == VertexKind::Rim) {
       move = kRelaxation * (rimTarget(mesh, v) - mesh.point(v));
     } else {
       const auto plane = planeOf(mesh, v);
       const Eigen::Vector3d normal = plane ? *plane : here.gradient;
-      move = kRelaxation * (faceTarget(mesh, v) - mesh.point(v));
+      move = kRelaxation * (faceTarget(star, mesh.point(v)) - mesh.point(v));
       move -= move.dot(normal) * normal;
     }
     const double length = move.norm(), longest = kLongestMove * here.target;
     if (length < kSmallMove * here.target) continue;
     if (length > longest) move *= longest / length;
-    moveTowards(mesh, v, move);
+    moveTowards(mesh, v, star, move);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "converters/geometry/mesh_edges.h"
 
 namespace lumen::convert {
@@ -151,21 +153,27 @@ std::vector<TriangleList> piecesByNode(const CaseSurface& surface) {
 
 std::vector<TriangleList> piecesAround(const TriangleMesh& mesh, std::vector<std::uint8_t> marked,
                                        int rings) {
-  const auto touches = [&](const Triangle& t) {
-    return marked[t[0]] != 0 || marked[t[1]] != 0 || marked[t[2]] != 0;
+  if (std::ranges::none_of(marked, [](std::uint8_t one) { return one != 0; })) return {};
+  std::vector<std::uint8_t> isTouched(mesh.triangle.size());
+  const auto touch = [&] {
+    tbb::parallel_for(std::size_t{0}, isTouched.size(), [&](std::size_t f) {
+      const Triangle& t = mesh.triangle[f];
+      isTouched[f] = marked[t[0]] | marked[t[1]] | marked[t[2]];
+    });
   };
   for (int ring = 1; ring < rings; ++ring) {
-    std::vector<std::uint8_t> grown = marked;
-    for (const Triangle& t : mesh.triangle)
-      if (touches(t)) grown[t[0]] = grown[t[1]] = grown[t[2]] = 1;
-    marked = std::move(grown);
+    touch();
+    for (std::size_t f = 0; f < isTouched.size(); ++f)
+      if (isTouched[f] != 0)
+        for (const std::uint32_t v : mesh.triangle[f]) marked[v] = 1;
   }
+  touch();
   std::vector<std::uint32_t> parent(mesh.position.size());
   std::iota(parent.begin(), parent.end(), 0U);
   TriangleList inside;
   for (std::uint32_t f = 0; f < mesh.triangle.size(); ++f) {
+    if (isTouched[f] == 0) continue;
     const Triangle& t = mesh.triangle[f];
-    if (!touches(t)) continue;
     inside.push_back(f);
     const std::uint32_t root = findRoot(parent, t[0]);
     parent[findRoot(parent, t[1])] = root;
