@@ -19,11 +19,12 @@ lumen_test(random_surface_test
   SLOW "RandomTrees[.]Have.*"
   SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/random_trees_test.cpp)
 
-# Ends of closed surfaces.
+# Ends and crossings of closed surfaces.
 lumen_test(ends_test
   LIBS lumen_surface
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/bare_stretches_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/crossing_search_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp

@@ -42,6 +42,26 @@ std::vector<std::uint32_t> crossingVertices(const TriangleMesh& mesh,
   return vertices;
 }
 
+// Some triangles of a mesh, with their vertices alone.
+TriangleMesh partOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  std::vector<std::uint32_t> used;
+  used.reserve(3 * triangles.size());
+  for (const std::uint32_t t : triangles)
+    used.insert(used.end(), mesh.triangle[t].begin(), mesh.triangle[t].end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  TriangleMesh part;
+  part.position.reserve(used.size());
+  for (const std::uint32_t v : used) part.position.push_back(mesh.position[v]);
+  part.triangle.reserve(triangles.size());
+  for (const std::uint32_t t : triangles) {
+    Triangle& corner = part.triangle.emplace_back(mesh.triangle[t]);
+    for (std::uint32_t& v : corner)
+      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  }
+  return part;
+}
+
 // The crossings of a mesh in which only triangles near those that have changed can cross.
 SelfIntersections searchNear(const TriangleMesh& mesh, const std::vector<std::uint8_t>& isChanged,
                              const Progress& progress) {
@@ -53,13 +73,10 @@ SelfIntersections searchNear(const TriangleMesh& mesh, const std::vector<std::ui
   tbb::parallel_for(std::size_t{0}, isNear.size(), [&](std::size_t t) {
     isNear[t] = changed.meets(boxOf(mesh, mesh.triangle[t])) ? 1 : 0;
   });
-  TriangleMesh part{mesh.position, {}};
   std::vector<std::uint32_t> number;
-  for (std::uint32_t t = 0; t < isNear.size(); ++t) {
-    if (isNear[t] == 0) continue;
-    part.triangle.push_back(mesh.triangle[t]);
-    number.push_back(t);
-  }
+  for (std::uint32_t t = 0; t < isNear.size(); ++t)
+    if (isNear[t] != 0) number.push_back(t);
+  const TriangleMesh part = partOf(mesh, number);
   SelfIntersections found = selfIntersections(part, kMostPairs, &progress);
   for (auto& pair : found.pairs) pair = {number[pair[0]], number[pair[1]]};
   return found;
@@ -72,9 +89,10 @@ SelfIntersections searchAgain(const TriangleMesh& mesh, const SelfIntersections&
   if (!before.isComplete) return selfIntersections(mesh, kMostPairs, &progress);
   std::vector<std::uint8_t> isMoved(mesh.position.size(), 0), isChanged(mesh.triangle.size(), 0);
   for (const std::uint32_t v : moved) isMoved[v] = 1;
-  for (std::size_t t = 0; t < mesh.triangle.size(); ++t)
-    for (const std::uint32_t v : mesh.triangle[t])
-      if (isMoved[v] != 0) isChanged[t] = 1;
+  tbb::parallel_for(std::size_t{0}, isChanged.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangle[t];
+    isChanged[t] = isMoved[a] | isMoved[b] | isMoved[c];
+  });
   for (const auto& pair : before.pairs)
     for (const std::uint32_t t : pair) isChanged[t] = 1;
   return searchNear(mesh, isChanged, progress);
