@@ -75,11 +75,6 @@ bool segmentMeetsTriangle(const TrianglePoints& t, const Point& a, const Point& 
                orientation(a, b, t[2], t[0]));
 }
 
-bool segmentMeetsTriangle(const TrianglePoints& t, const Point& a, const Point& b) {
-  return segmentMeetsTriangle(t, a, b, orientation(t[0], t[1], t[2], a),
-                              orientation(t[0], t[1], t[2], b));
-}
-
 bool flatTrianglesMeet(const TrianglePoints& one, const TrianglePoints& other) {
   const int axis = projectionAxis(one).value_or(0);
   const Flat a = drop(one, axis), b = drop(other, axis);
@@ -127,11 +122,21 @@ TrianglePoints cornersOf(const TriangleMesh& mesh, const Triangle& t) {
   return {mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]};
 }
 
+// Sides of two points with respect to the triangle's plane.
+std::array<int, 2> sidesOf(const TrianglePoints& t, const Point& a, const Point& b) {
+  return {orientation(t[0], t[1], t[2], a), orientation(t[0], t[1], t[2], b)};
+}
+
+// A triangle whose other corners lie on one side of the other's plane has the vertex alone there.
 bool meetBeyondVertex(const TriangleMesh& mesh, const Triangle& one, const Triangle& other,
                       std::uint32_t shared) {
   const TrianglePoints a = cornersOf(mesh, turned(one, indexOf(one, shared)));
   const TrianglePoints b = cornersOf(mesh, turned(other, indexOf(other, shared)));
-  return segmentMeetsTriangle(a, b[1], b[2]) || segmentMeetsTriangle(b, a[1], a[2]);
+  const auto [b1, b2] = sidesOf(a, b[1], b[2]);
+  if (b1 * b2 > 0) return false;
+  const auto [a1, a2] = sidesOf(b, a[1], a[2]);
+  if (a1 * a2 > 0) return false;
+  return segmentMeetsTriangle(a, b[1], b[2], b1, b2) || segmentMeetsTriangle(b, a[1], a[2], a1, a2);
 }
 
 }  // namespace

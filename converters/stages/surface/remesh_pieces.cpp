@@ -2,6 +2,7 @@
 #include "converters/stages/surface/remesh_pieces.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -26,20 +27,48 @@ struct LocalMesh {
   std::vector<std::uint32_t> home;  // each vertex' number in the mesh, ascending
 };
 
-LocalMesh localMesh(const TriangleMesh& mesh, const TriangleList& list) {
-  LocalMesh local;
-  local.triangle.reserve(list.size());
-  local.home.reserve(3 * list.size());
-  for (const std::uint32_t t : list) {
-    local.triangle.push_back(mesh.triangle[t]);
-    local.home.insert(local.home.end(), mesh.triangle[t].begin(), mesh.triangle[t].end());
+// A set of vertices, in which each knows how many come before it.
+class VertexRanks {
+public:
+  explicit VertexRanks(std::size_t vertices)
+      : m_bits(vertices / kBits + 1, 0), m_before(m_bits.size(), 0) {}
+
+  void add(std::uint32_t v) { m_bits[v / kBits] |= std::uint64_t{1} << v % kBits; }
+
+  // The vertices, ascending; rank() counts those that are there now.
+  std::vector<std::uint32_t> list() {
+    std::vector<std::uint32_t> vertices;
+    for (std::size_t i = 0; i < m_bits.size(); ++i) {
+      m_before[i] = static_cast<std::uint32_t>(vertices.size());
+      for (std::uint64_t left = m_bits[i]; left != 0; left &= left - 1)
+        vertices.push_back(static_cast<std::uint32_t>(
+            i * kBits + static_cast<std::size_t>(std::countr_zero(left))));
+    }
+    return vertices;
   }
-  std::sort(local.home.begin(), local.home.end());
-  local.home.erase(std::unique(local.home.begin(), local.home.end()), local.home.end());
-  for (Triangle& t : local.triangle)
-    for (std::uint32_t& v : t)
-      v = static_cast<std::uint32_t>(std::lower_bound(local.home.begin(), local.home.end(), v) -
-                                     local.home.begin());
+
+  [[nodiscard]] std::uint32_t rank(std::uint32_t v) const {
+    const std::uint64_t below = m_bits[v / kBits] & ((std::uint64_t{1} << v % kBits) - 1);
+    return m_before[v / kBits] + static_cast<std::uint32_t>(std::popcount(below));
+  }
+
+private:
+  static constexpr std::size_t kBits = 64;
+  std::vector<std::uint64_t> m_bits;
+  std::vector<std::uint32_t> m_before;  // vertices in the words before
+};
+
+LocalMesh localMesh(const TriangleMesh& mesh, const TriangleList& list) {
+  VertexRanks ranks(mesh.position.size());
+  for (const std::uint32_t t : list)
+    for (const std::uint32_t v : mesh.triangle[t]) ranks.add(v);
+  LocalMesh local;
+  local.home = ranks.list();
+  local.triangle.reserve(list.size());
+  for (const std::uint32_t t : list) {
+    const auto& [a, b, c] = mesh.triangle[t];
+    local.triangle.push_back({ranks.rank(a), ranks.rank(b), ranks.rank(c)});
+  }
   return local;
 }
 

@@ -27,7 +27,11 @@ field::Vec toVec(const Eigen::Vector3d& p) {
 
 SheetField::SheetField(const formats::Case& source, const field::BlendedField& field,
                        const SheetOptions& options)
-    : m_source(source), m_field(field), m_options(options), m_edges(source.tree) {
+    : m_source(source),
+      m_field(field),
+      m_options(options),
+      m_wall(field::levelTransform(field.kernel(), field.level()).h),
+      m_edges(source.tree) {
   if (options.isUnion) {
     m_touchingOffset.assign(source.tree.nodeCount() + 1, 0);
     return;
@@ -50,8 +54,7 @@ SheetField::Wall SheetField::nearestWall(const Eigen::Vector3d& point, std::uint
     return {f.value > level ? -r : std::max(distance - r, 1e-3 * r), away};
   }
   const field::LevelTransform here = field::levelTransform(m_field.kernel(), f.value, slope);
-  const double wanted = field::levelTransform(m_field.kernel(), level).h;
-  const double d = std::abs(wanted - here.h), g = here.slope;
+  const double d = std::abs(m_wall - here.h), g = here.slope;
   const double s = std::sqrt(d * d + r * r * g * g);
   const double k = d * (g * r + s + d) / (g * r + s);
   const bool isInside = f.value > level;

@@ -144,6 +144,7 @@ private:
   const formats::Case& m_source;
   const field::BlendedField& m_field;
   SheetOptions m_options;
+  double m_wall;  ///< the level transform on the wall
   formats::Neighbours m_edges;
   std::vector<std::uint32_t> m_touchingOffset, m_touching;  ///< CSR over nodes
 };
