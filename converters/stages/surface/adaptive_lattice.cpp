@@ -75,6 +75,7 @@ public:
         m_progress(progress) {}
 
   void run() {
+    m_progress.begin("cells", 0);
     layOut();
     std::vector<Cube> level = coarsest();
     while (!level.empty()) {
@@ -83,6 +84,7 @@ public:
     }
     balance();
     dropParents();
+    m_progress.end();
   }
 
 private:

@@ -153,15 +153,23 @@ private:
     if (m_options.touching == Touching::Apart) note(thinWalls(outer, around, m_progress));
     CaseSurface solid = thickWall(inner, outer);
     std::size_t& crossings = m_result.report.crossings;
-    crossings = selfIntersections(solid.mesh, kMostCrossings, &m_progress).pairs.size();
+    crossings = countCrossings(solid);
     if (crossings > 0) {
       liftOuter(inner, outer, around, m_progress);
       solid = thickWall(inner, outer);
-      crossings = selfIntersections(solid.mesh, kMostCrossings, &m_progress).pairs.size();
+      crossings = countCrossings(solid);
     }
     m_result.report.wall = measureWall(solid, m_field, thickness, m_progress);
     note(m_result.report.wall->shared);
     return solid;
+  }
+
+  std::size_t countCrossings(const CaseSurface& surface) {
+    m_progress.begin("crossings", 0);
+    const std::size_t count =
+        selfIntersections(surface.mesh, kMostCrossings, &m_progress).pairs.size();
+    m_progress.end();
+    return count;
   }
 
   void note(const std::vector<std::string>& sentences) {

@@ -26,12 +26,14 @@ public:
       : m_field(field), m_report(report), m_progress(progress), m_lattice(field, share, progress) {}
 
   CaseSurface run() {
+    m_progress.begin("topology", 0);
     m_lumens = labelLumens(m_lattice);
     m_trees = joinTrees(m_lattice, m_field, m_lumens, m_report.openedEdges);
     m_report.trees = m_trees.size();
     m_progress.check();
     march();
     if (m_field.options().isUnion) {
+      m_progress.end();
       CaseSurface surface = assemble();
       dropHollows(surface);
       return surface;
@@ -48,6 +50,7 @@ public:
     }
     if (isGrown) march();
     m_progress.check();
+    m_progress.end();
     return assemble();
   }
 
