@@ -20,6 +20,7 @@ void remeshToTargets(RemeshMesh& mesh, bool isFirst, const Progress& progress) {
     moveOntoField(mesh, false);
     // Once: where the field has folds every edge leaves it, however short.
     if (isFirst && iteration == 0) refineSlits(mesh);
+    mesh.garbage_collection();
   }
   for (int i = 0; i < kLastRelaxations; ++i) {
     progress.check();
@@ -41,6 +42,7 @@ void remeshPiece(RemeshPiece& piece, const PieceRules& rules, PieceWork work,
     remeshToTargets(mesh, work == PieceWork::Remesh, progress);
   mendFaces(mesh, progress);
   if (work == PieceWork::Stretch) stretchFolds(mesh, progress);
+  mesh.garbage_collection();
   piece = mesh.toPiece();
 }
 
