@@ -52,6 +52,8 @@ def draw(plot, file):
             axes.set_yscale("log")
         else:
             axes.set_ylim(bottom=least)
+        if plot.get("logarithmic_x"):
+            axes.set_xscale("log")
         axes.set_title(plot["title"], weight="bold")
         axes.set_xlabel(plot["x"])
         axes.set_ylabel(plot["y"])
