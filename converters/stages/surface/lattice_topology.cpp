@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
 
 #include "converters/base/vectors.h"
 #include "formats/case/topology.h"
@@ -54,7 +57,9 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> findEdges(
   return edges;
 }
 
-std::vector<TreeLumen> findTrees(const formats::CenterlineTree& tree) {
+// The connected trees; `treeOf` gets the index of each node's.
+std::vector<TreeLumen> findTrees(const formats::CenterlineTree& tree,
+                                 std::vector<std::uint32_t>& treeOf) {
   DisjointSets sets(tree.nodeCount());
   std::vector<std::size_t> loops(tree.nodeCount(), 0);
   std::vector<std::uint32_t> closing;
@@ -64,9 +69,39 @@ std::vector<TreeLumen> findTrees(const formats::CenterlineTree& tree) {
   }
   for (const std::uint32_t node : closing) ++loops[sets.find(node)];
   std::vector<TreeLumen> trees;
-  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
-    if (sets.find(i) == i) trees.push_back({i, loops[i], kOutside, kOutside});
+  treeOf.resize(tree.nodeCount());
+  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
+    treeOf[i] = static_cast<std::uint32_t>(trees.size());
+    if (sets.find(i) == i)
+      trees.push_back({i, loops[i], kOutside, kOutside});
+    else
+      treeOf[i] = treeOf[sets.find(i)];
+  }
   return trees;
+}
+
+// The lumen that holds most nodes of a tree is the tree's, and begins at the first of them: where
+// vessels cross, opening one may take the surroundings of single nodes of another.
+void chooseLumens(const std::vector<std::uint32_t>& treeOf, const std::vector<std::uint32_t>& at,
+                  const std::vector<std::uint32_t>& lumens, std::vector<TreeLumen>& trees) {
+  struct Share {
+    std::size_t nodes = 0;
+    std::uint32_t first = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Share> shares;
+  for (std::uint32_t i = 0; i < at.size(); ++i) {
+    if (at[i] == kOutside || lumens[at[i]] == kOutside) continue;
+    ++shares.try_emplace({treeOf[i], lumens[at[i]]}, Share{0, i}).first->second.nodes;
+  }
+  std::vector<Share> best(trees.size());
+  for (const auto& [of, share] : shares) {
+    Share& most = best[of.first];
+    if (share.nodes < most.nodes || (share.nodes == most.nodes && share.first > most.first))
+      continue;
+    most = share;
+    trees[of.first].start = at[share.first];
+    trees[of.first].lumen = of.second;
+  }
 }
 
 }  // namespace
@@ -106,13 +141,12 @@ std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SheetField& fiel
     lumens = labelLumens(lattice);
     for (std::uint32_t i = 0; i < at.size(); ++i) at[i] = places.at(i);
   }
-  std::vector<TreeLumen> trees = findTrees(tree);
+  std::vector<std::uint32_t> treeOf;
+  std::vector<TreeLumen> trees = findTrees(tree, treeOf);
+  chooseLumens(treeOf, at, lumens, trees);
   std::vector<bool> isKept(lattice.size(), false);
-  for (TreeLumen& one : trees) {
-    one.start = at[one.node];
-    one.lumen = lumenAt(one.node);
+  for (const TreeLumen& one : trees)
     if (one.lumen != kOutside) isKept[one.lumen] = true;
-  }
   for (std::uint32_t v = 0; v < lattice.size(); ++v) {
     if (lumens[v] == kOutside || isKept[lumens[v]]) continue;
     lattice.setInside(v, false);

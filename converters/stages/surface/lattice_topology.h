@@ -20,8 +20,8 @@ std::vector<std::uint32_t> labelLumens(const SampledLattice& lattice);
 struct TreeLumen {
   std::uint32_t node = 0;   ///< the first node
   std::size_t links = 0;    ///< number of loops that its edges and links close
-  std::uint32_t start = 0;  ///< a vertex in its lumen, at the first node
-  std::uint32_t lumen = 0;  ///< its part, as numbered by labelLumens()
+  std::uint32_t start = 0;  ///< a vertex in its lumen, at the first node that is in it
+  std::uint32_t lumen = 0;  ///< the part that holds most of its nodes, as numbered by labelLumens()
 };
 
 /// Opens the tree edges along which no lumen leads from end to end, by a passage as wide as a cube,

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint64_t kCases = 6;
 constexpr std::uint64_t kEndBehindABend = 66;  // whose flat face would pass through the bend
+constexpr std::uint64_t kTakenNode = 85;       // whose first node is in the passage of another edge
 
 TEST(RandomTrees, TouchCrossAndJump) {
   std::size_t touching = 0;
@@ -53,6 +54,10 @@ TEST(RandomTrees, HaveClosedSurfacesOfTheirTopology) {
 
 TEST(RandomTrees, HaveAnEndThatStaysRoundWhereItsFaceWouldPassThroughAWall) {
   EXPECT_EQ(test::faultOf(test::randomTrees(kEndBehindABend)), "");
+}
+
+TEST(RandomTrees, HaveTheLumenOfMostNodesWhereTheFirstNodeIsInNone) {
+  EXPECT_EQ(test::faultOf(test::randomTrees(kTakenNode)), "");
 }
 
 TEST(RandomTrees, HaveClosedWalls) {
