@@ -160,14 +160,21 @@ RemeshReport RepeatedRemesh::run(const std::vector<std::uint8_t>& isKept, CaseSu
   moveOntoField(state, rules);
   // Vertices that no piece holds inside are boundary as well.
   state.isBoundary.assign(vertices, 1);
-  std::vector<TriangleList> lists = piecesByNode(surface);
+  // The division of the first run: what stays has other nodes afterwards.
+  if (m_division.empty()) m_division = piecesByNode(surface);
+  std::vector<TriangleList> lists = m_division;
   m_progress.begin("remeshing", lists.size());
+  const auto unchanged = unchangedPieces(state, rules, lists, m_made);
+  for (std::size_t i = 0; i < unchanged.size(); ++i)
+    if (unchanged[i] != nullptr) lists[i] = m_cutOut[i];
   std::vector<RemeshPiece> pieces =
-      makePieces(state, lists, rules, PieceWork::Remesh,
-                 unchangedPieces(state, rules, lists, m_made), m_progress);
+      makePieces(state, lists, rules, PieceWork::Remesh, unchanged, m_progress);
   putBack(state, lists, pieces);
   m_progress.end();
-  if (isKept.empty()) m_made = std::move(pieces);
+  if (isKept.empty()) {
+    m_made = std::move(pieces);
+    m_cutOut = std::move(lists);
+  }
   workOn(state, piecesAround(surface.mesh, state.isBoundary, kSeamRings), rules, PieceWork::Seam,
          m_progress);
   workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kMendRings), rules,

@@ -46,7 +46,10 @@ private:
   const SheetField& m_field;
   EdgeLength m_edge;
   Progress& m_progress;
-  std::vector<RemeshPiece> m_made;  ///< the pieces of the first run, with nothing kept
+  std::vector<std::vector<std::uint32_t>> m_division;  ///< triangles by pieces
+  /// The pieces of the run with nothing kept, and the triangles that were cut out as them.
+  std::vector<RemeshPiece> m_made;
+  std::vector<std::vector<std::uint32_t>> m_cutOut;
 };
 
 }  // namespace lumen::convert

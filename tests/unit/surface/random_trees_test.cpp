@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint64_t kCases = 6;
 constexpr std::uint64_t kEndBehindABend = 66;  // whose flat face would pass through the bend
+constexpr std::uint64_t kPinchedPiece = 89;    // of which triangles at a vertex were left alone
 constexpr std::uint64_t kTakenNode = 85;       // whose first node is in the passage of another edge
 
 TEST(RandomTrees, TouchCrossAndJump) {
@@ -58,6 +59,10 @@ TEST(RandomTrees, HaveAnEndThatStaysRoundWhereItsFaceWouldPassThroughAWall) {
 
 TEST(RandomTrees, HaveTheLumenOfMostNodesWhereTheFirstNodeIsInNone) {
   EXPECT_EQ(test::faultOf(test::randomTrees(kTakenNode)), "");
+}
+
+TEST(RandomTrees, HaveNoHoleWhereAPieceIsUsedAgain) {
+  EXPECT_EQ(test::faultOf(test::randomTrees(kPinchedPiece)), "");
 }
 
 TEST(RandomTrees, HaveClosedWalls) {
