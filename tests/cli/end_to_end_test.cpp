@@ -49,7 +49,7 @@ TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   const Json info = Json::parse(told.out);
   EXPECT_EQ(keys(info), (Names{"branches", "nodes", "links", "points", "blobs", "blobs_per_node",
                                "length_mm", "reachable", "radius_mm", "error_of_fit_mm",
-                               "provenance", "note", "node_arrays", "seeds", "branch_table"}));
+                               "provenance", "note", "node_arrays", "seeds", "branch_table", "surface", "surface_warnings"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);
   EXPECT_EQ(keys(info["provenance"]),

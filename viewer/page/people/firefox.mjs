@@ -85,3 +85,49 @@ export async function keep(page, name) {
   mkdirSync(kPictures, { recursive: true });
   await page.screenshot({ path: join(kPictures, `${name}.png`) });
 }
+
+/** Presses a key while another one is held. */
+export async function chord(page, held, key) {
+  await page.keyboard.down(held);
+  await page.keyboard.press(key);
+  await page.keyboard.up(held);
+}
+
+/** Drops files, {name, bytes}, onto the views. */
+export async function dropFiles(page, files) {
+  await page.evaluate(
+    list => {
+      const data = new DataTransfer();
+      for (const [name, base64] of list)
+        data.items.add(new File([Uint8Array.from(atob(base64), c => c.charCodeAt(0))], name));
+      for (const type of ["dragenter", "dragover", "drop"])
+        document
+          .querySelector("#views")
+          .dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+    },
+    files.map(({ name, bytes }) => [name, bytes.toString("base64")]),
+  );
+}
+
+/** The pixel at which a slice shows a position, mm, read off the line below the views. */
+export async function placeIn(page, name, position) {
+  const box = await (await page.$(`#view-${name}`)).boundingBox(),
+    x = Math.round(box.width / 2),
+    y = Math.round(box.height / 2),
+    step = 50;
+  const pointedAt = async (dx, dy) => {
+    await page.mouse.move(box.x + x + dx, box.y + y + dy);
+    await settle(page);
+    return (await page.$eval("#probe-position", e => e.dataset.mm)).split(" ").map(Number);
+  };
+  const origin = await pointedAt(0, 0),
+    minus = (a, b) => a.map((value, i) => value - b[i]),
+    dot = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0),
+    right = minus(await pointedAt(step, 0), origin),
+    down = minus(await pointedAt(0, step), origin),
+    wanted = minus(position, origin);
+  return {
+    x: box.x + x + (step * dot(wanted, right)) / dot(right, right),
+    y: box.y + y + (step * dot(wanted, down)) / dot(down, down),
+  };
+}

@@ -2,19 +2,12 @@
 // The page in Firefox: opening, probing, a cut with views that follow, dropped DICOM, folding panels.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { count, keep, openInFirefox, settle, text, untilText } from "./firefox.mjs";
+import { chord, count, dropFiles, keep, openInFirefox, settle, text, untilText } from "./firefox.mjs";
 import { firstVessel } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 import { dicomSlices, readNrrd } from "./make_dicom.mjs";
 
 const rows = "#tree-list [role=treeitem]";
-
-/** Presses keys that are held with Shift. */
-async function shift(page, key) {
-  await page.keyboard.down("Shift");
-  await page.keyboard.press(key);
-  await page.keyboard.up("Shift");
-}
 
 test("a case is opened, probed and cut where the views show it, and its panels fold", async t => {
   const file = makeFolder(t);
@@ -46,13 +39,11 @@ test("a case is opened, probed and cut where the views show it, and its panels f
   await keep(page, "firefox-probe");
 
   const before = await count(page, rows);
-  await shift(page, "X");
+  await chord(page, "Shift", "X");
   await page.waitForFunction((where, n) => document.querySelectorAll(where).length > n, {}, rows, before);
   await settle(page);
   await keep(page, "firefox-cut");
-  await page.keyboard.down("Control");
-  await page.keyboard.press("z");
-  await page.keyboard.up("Control");
+  await chord(page, "Control", "z");
   await page.waitForFunction((where, n) => document.querySelectorAll(where).length === n, {}, rows, before);
 
   const wide = (await (await page.$("#views")).boundingBox()).width;
@@ -74,17 +65,9 @@ test("DICOM is dropped and one of two series chosen", async t => {
     ];
   const { address } = await view(t),
     page = await openInFirefox(t, address);
-  await page.evaluate(
-    list => {
-      const data = new DataTransfer();
-      for (const [name, base64] of list)
-        data.items.add(new File([Uint8Array.from(atob(base64), c => c.charCodeAt(0))], name));
-      for (const type of ["dragenter", "dragover", "drop"])
-        document
-          .querySelector("#views")
-          .dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
-    },
-    files.map(({ name, bytes }, i) => [`${i}-${name}`, bytes.toString("base64")]),
+  await dropFiles(
+    page,
+    files.map(({ name, bytes }, i) => ({ name: `${i}-${name}`, bytes })),
   );
   await page.waitForSelector("#series-dialog .series");
   await keep(page, "firefox-series");

@@ -14,7 +14,7 @@ const needed = [
   [join(page, "dist/page.js"), "npm run build in viewer/page"],
   [join(page, "dist/blob.wasm"), "the target viewer_page, which needs what libblob/wasm/README.md names"],
 ];
-if (process.argv.includes("firefox"))
+if (process.argv.some(name => name.startsWith("firefox")))
   needed.push(
     [process.env.FIREFOX ?? "/usr/bin/firefox-esr", "apt install firefox-esr"],
     ["/usr/bin/Xvfb", "apt install xvfb"],
