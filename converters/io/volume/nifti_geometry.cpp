@@ -11,6 +11,7 @@
 #include <nifti/nifti1_io.h>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
@@ -117,13 +118,13 @@ void reportDisagreement(const Transform& used, const char* name, const Transform
                         const char* otherName, const NiftiHeader& header,
                         std::vector<std::string>& assumptions) {
   const double apart = distanceOf(used, other, header);
-  const double tolerance = kAgree * toEigen(header.pixdim).minCoeff();
-  if (!(apart > tolerance)) return;
+  const double voxel = toEigen(header.pixdim).minCoeff();
+  if (!(apart > kAgree * voxel)) return;
   assumptions.push_back("its qform (code " + std::to_string(header.qformCode) +
                         ") and its sform (code " + std::to_string(header.sformCode) +
-                        ") place voxels up to " + longNumber(apart) + " apart; the " + name +
-                        " is used; if the " + otherName + " is right, remove the " + name +
-                        " (set its code to 0)");
+                        ") place voxels up to " + numberText(apart / voxel, 3) +
+                        " voxels apart; the " + name + " is used; if the " + otherName +
+                        " is right, remove the " + name + " (set its code to 0)");
 }
 
 /// The transform that places the voxels, or null if none is stated.

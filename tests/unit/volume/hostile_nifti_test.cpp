@@ -183,7 +183,7 @@ TEST_F(HostileNifti, ATransformThatIsNotStatedMayHoldAnything) {
 
 TEST_F(HostileNifti, TransformsThatDisagreeAreToldWithTheOneThatCounts) {
   const HeaderBytes moved = HeaderBytes().codes(1, 1).put(268, 3.0F);
-  expectAssumption(moved, {"qform (code 1)", "sform (code 1)", "up to 3 apart", "sform is used"});
+  expectAssumption(moved, {"qform (code 1)", "sform (code 1)", "voxels apart", "sform is used"});
   const HeaderBytes turned = HeaderBytes().codes(1, 2).put(264, 1.0F);
   expectAssumption(turned, {"qform (code 1)", "sform (code 2)", "sform is used"});
   const HeaderBytes older = HeaderBytes().codes(2, 1).put(264, 1.0F);
