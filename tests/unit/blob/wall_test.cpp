@@ -83,7 +83,7 @@ TEST(BlobNearest, APointOnAnAxisIsTheRadiusFromTheWall) {
       blob_query(model.get(), BLOB_DISTANCE_EXACT, at(mm).data(), &cursor, &exact);
       ASSERT_EQ(exact.distance, found.distance) << mm;
       double turned = 0;  // of the normal into the axis
-      for (int i = 0; i < 3; ++i) turned += exact.normal[i] * along[i];
+      for (std::size_t i = 0; i < 3; ++i) turned += exact.normal[i] * along[i];
       ASSERT_LT(std::abs(turned), 0.1) << mm;
     }
   }
