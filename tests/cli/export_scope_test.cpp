@@ -14,10 +14,10 @@ namespace {
 using convert::ExportTarget;
 
 /// A value of each option that differs from its default for the case below. The edge is shorter than
-/// the one that the wall of game engines, 0.4 radii thick, asks for.
+/// those that the walls of game engines and Isaac, 0.4 and 0.2 radii thick, ask for.
 const std::map<std::string, std::string> kValues = {
     {"unit", "m"},         {"up", "y"},
-    {"edge", "0.3r"},      {"max-error", "0.3"},
+    {"edge", "0.2r"},      {"max-error", "0.3"},
     {"extend", "2r"},      {"thickness", "0.3r"},
     {"max-pieces", "1"},   {"grid", "0.9"},
     {"format", "nifti"},   {"band", "0.5"},
