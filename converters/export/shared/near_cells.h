@@ -12,7 +12,7 @@ namespace lumen::convert {
 /// nodes in which all walls lie. Places are in mm, LPS.
 class NearCells {
 public:
-  /// Of all nodes, or those of a region. O(nodes, times the cells of a ball).
+  /// Cells near all nodes, or near those of a region. O(nodes, times the cells of a ball).
   NearCells(const GridSource& source, const Lattice& fine);
 
   /// False if no wall is within the band of a point of the lattice.

@@ -94,12 +94,18 @@ TEST(DistanceGrid, OneGridMergesWhatTouchesAndOneForEachBranchDoesNot) {
   EXPECT_NEAR(ownAtOther, 0.62, 0.05);
 }
 
-TEST(DistanceGrid, IsTheDistanceToTheWallFarFromItToo) {
+/// A tube of radius 1 at y = 0 and one of 0.5 at y = 12, along x.
+formats::Case wideAndNarrow() {
   formats::Case source;
   source.metadata.voxelSize = 0.2;
   addVessel(source, "wide", straightPath({0, 0, 0}, {1, 0, 0}, 20), 1.0, 1.0);
   addVessel(source, "narrow", straightPath({0, 12, 0}, {1, 0, 0}, 20), 0.5, 1.0);
   addModels(source);
+  return source;
+}
+
+TEST(DistanceGrid, IsTheDistanceToTheWallFarFromItToo) {
+  const formats::Case source = wideAndNarrow();
   const VesselDistance vessels(source);
   for (double y = 1.5; y < 11; y += 0.1)
     for (double x = 3; x < 16; x += 0.7)
@@ -108,14 +114,9 @@ TEST(DistanceGrid, IsTheDistanceToTheWallFarFromItToo) {
       ASSERT_NEAR(askAll(vessels, {x, y, 0}).distance, std::min(y - 1, 11.5 - y), 0.5) << y;
 }
 
-/// A tube of radius 1 at y = 0 and one of 0.5 at y = 12, along x: where both are far, the node of least power may be that of
-/// the farther wall.
+// Where both are far, the node of least power may be that of the farther wall.
 TEST(DistanceGrid, IsTheDistanceToTheNearestOfTwoFarWalls) {
-  formats::Case source;
-  source.metadata.voxelSize = 0.2;
-  addVessel(source, "wide", straightPath({0, 0, 0}, {1, 0, 0}, 20), 1.0, 1.0);
-  addVessel(source, "narrow", straightPath({0, 12, 0}, {1, 0, 0}, 20), 0.5, 1.0);
-  addModels(source);
+  const formats::Case source = wideAndNarrow();
   const VesselDistance vessels(source);
   Progress silent;
   const DistanceGrid grid =
