@@ -18,4 +18,15 @@ struct TriangleMesh {
   std::vector<Triangle> triangle;
 };
 
+/// A place as files of meshes hold it.
+inline Eigen::Vector3d roundedToFloats(const Eigen::Vector3d& place) {
+  return place.cast<float>().cast<double>();
+}
+
+/// Rounds all positions to floats, so that the mesh has the shape that its file will have: a
+/// triangle of a thousandth of a millimetre can be turned over by that.
+inline void roundToFloats(TriangleMesh& mesh) {
+  for (Eigen::Vector3d& place : mesh.position) place = roundedToFloats(place);
+}
+
 }  // namespace lumen::convert

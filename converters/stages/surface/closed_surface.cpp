@@ -138,7 +138,7 @@ private:
     const Length& thickness = *m_options.thickness;
     // beyond its ends, so that the outer surface is cut where it runs on
     CaseSurface prolonged = inner;
-    extendEnds(prolonged, m_source, {{"", {thickness.mm, kBeyondEnds + thickness.radii}}});
+    extendFreeEnds(prolonged, m_source, {thickness.mm, kBeyondEnds + thickness.radii});
     const OffsetField around(m_source, m_blended, m_field.options().gap / 3, prolonged, thickness,
                              m_options.touching);
     SurfaceReport ofOuter;
@@ -152,22 +152,22 @@ private:
     m_progress.check();
     if (m_options.touching == Touching::Apart) note(thinWalls(outer, around, m_progress));
     CaseSurface solid = thickWall(inner, outer);
-    std::size_t& crossings = m_result.report.crossings;
-    crossings = countCrossings(solid);
-    if (crossings > 0) {
+    if (countCrossings(solid) > 0) {
       liftOuter(inner, outer, around, m_progress);
       solid = thickWall(inner, outer);
-      crossings = countCrossings(solid);
+      countCrossings(solid);
     }
     m_result.report.wall = measureWall(solid, m_field, thickness, m_progress);
     note(m_result.report.wall->shared);
     return solid;
   }
 
-  std::size_t countCrossings(const CaseSurface& surface) {
+  // Those of the file, for the report.
+  std::size_t countCrossings(CaseSurface& surface) {
     m_progress.begin("crossings", 0);
-    const std::size_t count =
-        selfIntersections(surface.mesh, kMostCrossings, &m_progress).pairs.size();
+    roundToFloats(surface.mesh);
+    std::size_t& count = m_result.report.crossings;
+    count = selfIntersections(surface.mesh, kMostCrossings, &m_progress).pairs.size();
     m_progress.end();
     return count;
   }

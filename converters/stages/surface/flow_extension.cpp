@@ -101,6 +101,12 @@ std::vector<std::optional<Length>> lengthsOf(const CaseSurface& surface,
   return found;
 }
 
+std::string nameOfEnd(const CaseSurface& surface, std::uint32_t end) {
+  return formats::printable(surface.groups[surface.ends[end].group].name);
+}
+
+using Met = std::set<std::pair<std::uint32_t, std::string>>;  // an end, and what its tube runs into
+
 // Collisions of tubes. Vertices from `firstNew` on are those of tubes; `owner` is the end of each.
 class Collisions {
 public:
@@ -108,19 +114,15 @@ public:
              const std::vector<std::uint32_t>& owner)
       : m_surface(surface), m_source(source), m_firstNew(firstNew), m_owner(owner) {}
 
-  [[nodiscard]] std::vector<std::string> sentences() const {
+  [[nodiscard]] Met find() const {
     const TriangleMesh near = trianglesNear();
-    std::set<std::pair<std::uint32_t, std::string>> met;
+    Met met;
     for (const auto& [one, other] : selfIntersections(near).pairs) {
       const Triangle &a = near.triangle[one], &b = near.triangle[other];
       if (const auto end = ownerOf(a)) met.insert({*end, nameOf(b)});
       if (const auto end = ownerOf(b)) met.insert({*end, nameOf(a)});
     }
-    std::vector<std::string> sentences;
-    for (const auto& [end, what] : met)
-      sentences.push_back("the extension of " + nameOfEnd(end) + " runs into " + what +
-                          "; expected a shorter extend there");
-    return sentences;
+    return met;
   }
 
 private:
@@ -130,11 +132,8 @@ private:
     if (last < m_firstNew) return std::nullopt;
     return m_owner[last - m_firstNew];
   }
-  [[nodiscard]] std::string nameOfEnd(std::uint32_t end) const {
-    return formats::printable(m_surface.groups[m_surface.ends[end].group].name);
-  }
   [[nodiscard]] std::string nameOf(const Triangle& t) const {
-    if (const auto end = ownerOf(t)) return "the extension of " + nameOfEnd(*end);
+    if (const auto end = ownerOf(t)) return "the extension of " + nameOfEnd(m_surface, *end);
     const std::uint32_t branch = m_source.tree.branch[m_surface.node[t[0]]];
     return "branch " + formats::printable(m_source.tree.branches[branch].label);
   }
@@ -159,6 +158,24 @@ private:
   const std::vector<std::uint32_t>& m_owner;
 };
 
+// Prolongs the ends that have a length.
+Met extendBy(CaseSurface& surface, const formats::Case& source,
+             const std::vector<std::optional<Length>>& lengths,
+             const std::vector<std::vector<std::uint32_t>>& rims) {
+  std::vector<std::vector<std::uint32_t>> faces(surface.groups.size());
+  for (std::uint32_t t = 0; t < surface.group.size(); ++t) faces[surface.group[t]].push_back(t);
+  const std::size_t before = surface.mesh.position.size();
+  std::vector<std::uint32_t> owner;  // end of each new vertex
+  SurfaceFans fans(surface);
+  for (std::size_t e = 0; e < lengths.size(); ++e) {
+    if (lengths[e])
+      extend(fans, surface.ends[e], rims[e], faces[surface.ends[e].group], *lengths[e]);
+    owner.resize(surface.mesh.position.size() - before, static_cast<std::uint32_t>(e));
+  }
+  fans.compact();  // new vertices stay the last ones
+  return Collisions(surface, source, surface.mesh.position.size() - owner.size(), owner).find();
+}
+
 }  // namespace
 
 std::vector<std::string> extendEnds(CaseSurface& surface, const formats::Case& source,
@@ -166,20 +183,25 @@ std::vector<std::string> extendEnds(CaseSurface& surface, const formats::Case& s
   std::vector<std::string> messages;
   const auto rims = findRims(surface);
   const auto wanted = lengthsOf(surface, source, lengths, rims, messages);
-  std::vector<std::vector<std::uint32_t>> faces(surface.groups.size());
-  for (std::uint32_t t = 0; t < surface.group.size(); ++t) faces[surface.group[t]].push_back(t);
-  const std::size_t before = surface.mesh.position.size();
-  std::vector<std::uint32_t> owner;  // end of each new vertex
-  SurfaceFans fans(surface);
-  for (std::size_t e = 0; e < wanted.size(); ++e) {
-    if (wanted[e]) extend(fans, surface.ends[e], rims[e], faces[surface.ends[e].group], *wanted[e]);
-    owner.resize(surface.mesh.position.size() - before, static_cast<std::uint32_t>(e));
-  }
-  fans.compact();  // new vertices stay the last ones
-  const std::size_t firstNew = surface.mesh.position.size() - owner.size();
-  const auto met = Collisions(surface, source, firstNew, owner).sentences();
-  messages.insert(messages.end(), met.begin(), met.end());
+  for (const auto& [end, what] : extendBy(surface, source, wanted, rims))
+    messages.push_back("the extension of " + nameOfEnd(surface, end) + " runs into " + what +
+                       "; expected a shorter extend there");
   return messages;
+}
+
+void extendFreeEnds(CaseSurface& surface, const formats::Case& source, const Length& length) {
+  const auto rims = findRims(surface);
+  std::vector<std::optional<Length>> lengths(surface.ends.size());
+  for (std::size_t e = 0; e < lengths.size(); ++e)
+    if (!rims[e].empty()) lengths[e] = length;
+  CaseSurface all = surface;
+  const Met met = extendBy(all, source, lengths, rims);
+  if (met.empty()) {
+    surface = std::move(all);
+    return;
+  }
+  for (const auto& [end, what] : met) lengths[end].reset();
+  extendBy(surface, source, lengths, rims);
 }
 
 }  // namespace lumen::convert

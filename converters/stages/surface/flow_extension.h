@@ -22,4 +22,8 @@ namespace lumen::convert {
 std::vector<std::string> extendEnds(CaseSurface& surface, const formats::Case& source,
                                     const std::vector<EndLength>& lengths);
 
+/// Extends all flat ends by one length, but those whose tube would run into the surface or into
+/// another tube: these stay as they are.
+void extendFreeEnds(CaseSurface& surface, const formats::Case& source, const Length& length);
+
 }  // namespace lumen::convert

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMostPairs = 1'000'000;
 constexpr int kMostRounds = 8;
+constexpr int kMostSmoothings = 30;
 
 std::vector<bool> isOnEnd(const CaseSurface& surface) {
   std::vector<bool> result(surface.mesh.position.size(), false);
@@ -40,6 +42,21 @@ std::vector<std::uint32_t> crossingVertices(const TriangleMesh& mesh,
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
+}
+
+// Moves each of these vertices to the middle of its neighbours.
+void moveToMiddles(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices) {
+  std::vector<Eigen::Vector4d> sum(vertices.size(), Eigen::Vector4d::Zero());
+  for (const Triangle& t : mesh.triangle)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = std::lower_bound(vertices.begin(), vertices.end(), t[i]);
+      if (at == vertices.end() || *at != t[i]) continue;
+      // a closed surface has each neighbour once as the next corner
+      sum[static_cast<std::size_t>(at - vertices.begin())] +=
+          mesh.position[t[(i + 1) % 3]].homogeneous();
+    }
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    mesh.position[vertices[i]] = roundedToFloats(sum[i].hnormalized());
 }
 
 // Some triangles of a mesh, with their vertices alone.
@@ -164,6 +181,7 @@ SelfIntersections CrossingSearch::find(const TriangleMesh& mesh, const Progress&
 SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
                                 CrossingSearch& search, Progress& progress) {
   progress.begin("crossings", 0);
+  roundToFloats(surface.mesh);
   SelfIntersections found = search.find(surface.mesh, progress);
   const std::vector<bool> isFixed = found.pairs.empty() ? std::vector<bool>() : isOnEnd(surface);
   for (int round = 0; !found.pairs.empty() && round < kMostRounds; ++round) {
@@ -173,12 +191,32 @@ SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
       Eigen::Vector3d& position = surface.mesh.position[v];
       const SheetSample sample = field.at(position, surface.node[v]);
       const double step = std::max(0.25 * field.options().gap, 0.02 * field.radius(sample.node));
-      position -= step * sample.gradient;
+      position = roundedToFloats(position - step * sample.gradient);
     });
     found = searchAgain(surface.mesh, found, moved, progress);
   }
   progress.end();
   return found;
+}
+
+std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress) {
+  progress.begin("crossings", 0);
+  const std::vector<bool> isFixed = isOnEnd(surface);
+  TriangleMesh mesh = surface.mesh;
+  SelfIntersections left = found;
+  std::vector<std::uint32_t> all;
+  for (int round = 0; !left.pairs.empty() && round < kMostSmoothings; ++round) {
+    const auto moved = crossingVertices(mesh, left, isFixed);
+    moveToMiddles(mesh, moved);
+    all.insert(all.end(), moved.begin(), moved.end());
+    left = searchAgain(mesh, left, moved, progress);
+  }
+  progress.end();
+  if (left.pairs.size() >= found.pairs.size()) return 0;
+  surface.mesh = std::move(mesh);
+  found = std::move(left);
+  std::sort(all.begin(), all.end());
+  return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
 }
 
 }  // namespace lumen::convert

@@ -35,12 +35,19 @@ private:
   std::vector<std::uint32_t> m_start;  ///< place in m_known of the first hash of each bucket
 };
 
-/// Moves the triangles that pass through others back into their own lumens, in steps of a quarter
+/// Rounds all positions to floats, as files hold them, so that no crossing appears when they are
+/// written. Then moves the triangles that pass through others back into their own lumens, in steps of a quarter
 /// of the gap or of a fiftieth of the radius, whichever is more, until none does, or eight times.
 /// Vertices of flat ends stay where they are. Returns the pairs that still intersect. After the first
 /// search, by `search`, only triangles near those that were moved are looked at. Throws
 /// Error(Cancelled).
 SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
                                 CrossingSearch& search, Progress& progress);
+
+/// Takes the surface off its field where nothing else helps: moves the vertices of the crossing
+/// triangles `found` to the middles of their neighbours, up to thirty times, until no triangles
+/// cross. Vertices of flat ends stay. Leaves the surface as it was if no fewer pairs are left; else
+/// `found` becomes those. Returns the number of vertices that were moved. Throws Error(Cancelled).
+std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress);
 
 }  // namespace lumen::convert

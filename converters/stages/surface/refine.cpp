@@ -47,9 +47,12 @@ RefineReport refine(CaseSurface& surface, const SheetField& field, const EdgeLen
   double reach = kFirstReach;
   for (int repeats = 0;; ++repeats) {
     const RemeshReport made = remeshing.run(verticesIn(given, places), surface);
-    const SelfIntersections left = mendCrossings(surface, field, search, progress);
-    if (left.pairs.empty() || repeats == kMostRepeats)
-      return {made.offField, made.sharp, left.pairs.size()};
+    SelfIntersections left = mendCrossings(surface, field, search, progress);
+    if (left.pairs.empty()) return {made.offField, made.sharp, 0};
+    if (repeats == kMostRepeats) {
+      const std::size_t moved = smoothCrossings(surface, left, progress);
+      return {made.offField + moved, made.sharp, left.pairs.size()};
+    }
     addPlaces(surface, field, left, reach, places);
     reach *= 2;
   }

@@ -138,7 +138,8 @@ void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SheetField& f
     for (const std::uint32_t v : moved) {
       const SheetSample sample = field.at(outer.mesh.position[v], outer.node[v]);
       const double thickness = wall.offset + wall.offsetShare * field.radius(sample.node);
-      outer.mesh.position[v] += kLift * thickness * sample.gradient;
+      outer.mesh.position[v] =
+          roundedToFloats(outer.mesh.position[v] + kLift * thickness * sample.gradient);
     }
   }
 }

@@ -7,7 +7,7 @@
 PROOF is the program lumen_surface_proof, LUMEN the program. Makes a case of every phantom kind, of ten synthetic patients
 (`lumen phantom patient`, seeds 1 to 10, and one of 512 voxels), of the volumes and the arterial trees in DATA, converts it
 with default options, and measures the file that was written. Where tetgen is installed it then fills the inside
-(-pq), from the smallest on, for ten minutes at most each. NAMEs choose some of the cases. Cases, surfaces, NAME.proof.json and NAME.tets.json
+(-pq), from the smallest on, for ten minutes at most each. Cases in WALLED get a wall, too. NAMEs choose some of the cases. Cases, surfaces, NAME.proof.json and NAME.tets.json
 stay in FOLDER, and a case or result that is there is not made again; so does closed_surfaces.md, which is printed too.
 """
 import json
@@ -21,7 +21,10 @@ from pathlib import Path
 
 CLICKS = Path(__file__).resolve().parents[2] / "data"
 KINDS = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout", "sac-lobes", "companion", "hairpin",
-         "right-angle", "fading", "thick-slices"]
+         "right-angle", "fading", "thick-slices", "willis"]
+WALLED = ["willis", *(f"patient-{seed}" for seed in range(1, 11)), "3DRA", "aorta", "fistula"]
+THICKNESS = "0.2r"
+BINS = [(0, 3), (3, 6), (6, 9), (9, 11), (11, 15), (15, 21)]  # of the histogram, in tenths of the thickness
 VOLUMES = [("3DRA", "aneurism-3dra.nrrd", "aneurism-3dra"), ("aorta", "aorta/aorta.mha", "aorta"), ("fistula", "avf/avf.nii", "avf")]
 TETGEN_SECONDS = 600
 
@@ -118,6 +121,26 @@ def prove(proof, lumen, folder, name, make):
     return result
 
 
+def solid(lumen, folder, name):
+    """The solid wall, as lumen reports it, and the file, as `lumen info` judges it."""
+    kept = folder / f"{name}.wall.json"
+    if not kept.exists():
+        file = folder / f"{name}.wall.vtp"
+        answer, _, processor = run(lumen, "convert", folder / f"{name}.lumen", file, "--thickness", THICKNESS, "--json")
+        result = {"processor": processor, "said": json.loads(answer)["surface"], "file": json.loads(run(lumen, "info", file, "--json")[0])}
+        file.unlink()
+        kept.write_text(json.dumps(result) + "\n")
+    return json.loads(kept.read_text())
+
+
+def wall_row(name, result):
+    said, file = result["said"], result["file"]
+    histogram, least = said["wall"]["histogram"], said["wall"]
+    shares = [f"{100 * sum(histogram[low:high]) / sum(histogram):.2f}" for low, high in BINS]
+    return [name, f"{file['triangles']:,}", f"{result['processor']:.1f}", "yes" if file["closed"] and file["manifold"] and file["oriented"] else "**no**",
+            file["self_intersections"], f"{least['median_mm']:.3f}", f"{least['least_mm']:.3f} at {place(least['least_place'])}", *shares]
+
+
 def table(head, rows):
     line = "| " + " | ".join(head) + " |\n|" + "---|" * len(head) + "\n"
     return line + "".join("| " + " | ".join(str(cell) for cell in row) + " |\n" for row in rows) + "\n"
@@ -171,6 +194,13 @@ def report(results):
             if f["radii"] > (1e-3 if what == "a vertex" else 0.05)]
     if rows:
         text += "**Where surface and field part the most**\n\n" + table(["case", "farthest is", "branch", "node", "at, mm", "radii"], rows)
+    rows = [wall_row(name, r["solid"]) for name, r in results.items() if "solid" in r]
+    if rows:
+        text += (f"**Walls**, `--thickness {THICKNESS}`: closed, a manifold, oriented, and pairs of triangles that intersect, by `lumen info` of the "
+                 "file; thickness at the vertices of the lumens' side, in mm, and their shares by tenths of the thickness that was asked for, "
+                 "in per cent.\n\n"
+                 + table(["case", "triangles", "processor s", "closed, manifold, outward", "intersections", "median", "least",
+                          *(f"{low / 10:g} to {high / 10:g}" if high < 21 else f"over {low / 10:g}" for low, high in BINS)], rows))
     rows = [[name, r["said"]["openedEdges"], len(r["said"]["cuts"]), len(r["said"]["overlaps"]), r["said"]["offField"], r["said"]["roundedEnds"]]
             for name, r in results.items() if r["said"]["openedEdges"] or r["said"]["cuts"] or r["said"]["overlaps"] or r["said"]["offField"] or r["said"]["roundedEnds"]]
     if rows:
@@ -191,6 +221,10 @@ def main():
         if not wanted or name in wanted:
             results[name] = prove(proof, lumen, folder, name, make)
             print(f"{name}: {'right' if is_right(results[name]['facts']) else 'NOT RIGHT'}", file=sys.stderr, flush=True)
+    for name, result in results.items():
+        if name in WALLED:
+            result["solid"] = solid(lumen, folder, name)
+            print(f"wall of {name}", file=sys.stderr, flush=True)
     (folder / "closed_surfaces.md").write_text(report(results).rstrip() + "\n")
     for name, result in sorted(results.items(), key=lambda item: item[1]["facts"]["triangles"]):
         result["tets"] = fill(lumen, folder, name, result["facts"]["volume_mm3"])

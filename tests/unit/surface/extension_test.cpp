@@ -141,19 +141,41 @@ TEST(ExtendEnds, OneBranchOnly) {
   EXPECT_NEAR((closed.surface.ends[2].centre - ends[2].centre).norm(), 3, 1e-9);
 }
 
-TEST(ExtendEnds, SaysWhatATubeRunsInto) {
-  // A hairpin whose last node points at its own first leg.
+// Two vessels, of which the last node of one points at the other.
+formats::Case pointingCase() {
   formats::Case source;
   source.metadata.voxelSize = 0.2;
   test::addVessel(source, "one", test::straightPath({0, 0, 0}, {1, 0, 0}, 12), 1.0, 1.0);
   test::addVessel(source, "two", test::straightPath({6, 12, 0}, {0, -1, 0}, 7), 1.0, 1.0);
   test::addModels(source);
-  test::ClosedCase closed(std::move(source));
+  return source;
+}
+
+TEST(ExtendEnds, SaysWhatATubeRunsInto) {
+  test::ClosedCase closed(pointingCase());
   cut(closed);
   const auto messages = extendEnds(closed.surface, closed.source, {{"two", {0, 7}}});
   ASSERT_EQ(messages.size(), 1U);
   EXPECT_EQ(messages[0],
             "the extension of outlet-two runs into branch one; expected a shorter extend there");
+}
+
+TEST(ExtendFreeEnds, LeavesTheEndWhoseTubeWouldRunIntoAnotherVessel) {
+  test::ClosedCase closed(pointingCase());
+  cut(closed);
+  const std::vector<SurfaceEnd> before = closed.surface.ends;
+  ASSERT_EQ(before.size(), 4U);
+  extendFreeEnds(closed.surface, closed.source, {0, 7});
+  expectClosed(closed.surface, 4);
+  for (std::size_t e = 0; e < before.size(); ++e) {
+    const SurfaceEnd& end = closed.surface.ends[e];
+    const bool isStuck = closed.surface.groups[end.group].name == "outlet-two";
+    const double moved = (end.centre - before[e].centre).norm();
+    if (isStuck)
+      EXPECT_EQ(moved, 0);
+    else
+      EXPECT_GT(moved, 6);
+  }
 }
 
 TEST(ExtendEnds, RefusesUnknownLabelsAndTwoLengthsAndTooMuch) {

@@ -14,6 +14,8 @@ namespace {
 constexpr std::uint64_t kCases = 6;
 constexpr std::uint64_t kEndBehindABend = 66;  // whose flat face would pass through the bend
 constexpr std::uint64_t kPinchedPiece = 89;    // of which triangles at a vertex were left alone
+constexpr std::uint64_t kSmallTriangle = 408;  // which rounding to floats would turn over
+constexpr std::uint64_t kFolded = 673;         // in which crossings stay along the field
 constexpr std::uint64_t kTakenNode = 85;       // whose first node is in the passage of another edge
 
 TEST(RandomTrees, TouchCrossAndJump) {
@@ -63,6 +65,14 @@ TEST(RandomTrees, HaveTheLumenOfMostNodesWhereTheFirstNodeIsInNone) {
 
 TEST(RandomTrees, HaveNoHoleWhereAPieceIsUsedAgain) {
   EXPECT_EQ(test::faultOf(test::randomTrees(kPinchedPiece)), "");
+}
+
+TEST(RandomTrees, HaveNoCrossingWhenPlacesAreRoundedAsInFiles) {
+  EXPECT_EQ(test::faultOf(test::randomTrees(kSmallTriangle)), "");
+}
+
+TEST(RandomTrees, HaveNoFoldThatOnlySmoothingUndoes) {
+  EXPECT_EQ(test::faultOf(test::randomTrees(kFolded)), "");
 }
 
 TEST(RandomTrees, HaveClosedWalls) {
