@@ -6,7 +6,6 @@ lumen_test(check_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/ideal_edge_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/missing_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/picture_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/profile_edge_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/projection_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/skeleton_paths_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/tree_places_test.cpp

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "converters/judge/check/profile_edge.h"
+#include "converters/voxels/profile_edge.h"
 
 namespace lumen::convert {
 namespace {
@@ -55,13 +55,6 @@ double displacement(const Shape& shape, double radius, double s, double voxel) {
 }
 
 }  // namespace
-
-// Three voxels show both levels of an edge that lies up to a voxel off; half a radius serves wide
-// vessels. The opposite wall lies beyond the axis; a level needs at least a voxel.
-ProfileReach profileReach(double radius, double voxel) {
-  const double reach = std::max(3 * voxel, 0.5 * radius);
-  return {std::max(std::min(reach, radius), voxel), reach};
-}
 
 IdealEdge::IdealEdge(double pointSpread, double voxel) : m_sigma(pointSpread), m_voxel(voxel) {
   if (!(pointSpread > 0)) return;

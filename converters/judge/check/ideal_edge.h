@@ -6,12 +6,6 @@
 
 namespace lumen::convert {
 
-/// Extent of profiles inward and outward from the wall of a vessel of this radius, mm.
-struct ProfileReach {
-  double inward, outward;
-};
-ProfileReach profileReach(double radius, double voxel);
-
 /// Displacement of the edge that findEdge() detects at the wall of a cylinder or a ball blurred by
 /// a Gaussian: measured on exact profiles, so it holds for findEdge()'s definition of an edge.
 class IdealEdge {

@@ -7,8 +7,8 @@
 
 #include "converters/base/progress.h"
 #include "converters/judge/check/lumen_voxels.h"
-#include "converters/judge/check/profile_edge.h"
 #include "converters/voxels/bspline.h"
+#include "converters/voxels/profile_edge.h"
 #include "formats/case/case.h"
 #include "formats/field/blended_field.h"
 

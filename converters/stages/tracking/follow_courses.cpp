@@ -2,6 +2,7 @@
 #include "converters/stages/tracking/follow_courses.h"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -11,33 +12,21 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
-#include "converters/geometry/box.h"
 #include "converters/stages/tracking/aneurysm.h"
+#include "converters/stages/tracking/branch_lumen.h"
 #include "converters/stages/tracking/nodes_along.h"
 #include "converters/stages/tracking/path_rules.h"
+#include "converters/stages/tracking/wall_evidence.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-using formats::NodeOrigin;
 using formats::StopReason;
 
 constexpr double kThinnestVoxels = 1;     // voxels: what is thinner is blurred to that
 constexpr double kLeastFitted = 1.0 / 3;  // share of the nodes of a vessel that are cylinders
-constexpr std::size_t kFewestFitted = 4;
-constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall that it leaves
-
-bool isFitted(const TrackedNode& node) {
-  return node.origin != NodeOrigin::Bridged;
-}
-
-/// The nodes of a course that the cylinders bear out: without the ends at which none fits.
-void dropBareEnds(std::vector<TrackedNode>& nodes) {
-  const auto last = std::find_if(nodes.rbegin(), nodes.rend(), isFitted).base();
-  nodes.erase(last, nodes.end());
-  nodes.erase(nodes.begin(), std::find_if(nodes.begin(), nodes.end(), isFitted));
-}
+constexpr double kShortestVoxels = 4;     // length of a vessel beyond the wall that it leaves
 
 /// Leaves the longest stretch that begins and ends with a cylinder and has the least share of them; the first of
 /// several. A course that follows a vessel and then something else is a vessel as far as cylinders bear it out.
@@ -60,29 +49,6 @@ void keepSupported(std::vector<TrackedNode>& nodes) {
   nodes.erase(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(best.first));
 }
 
-/// A vessel that is tracked, with the box of its lumen.
-struct Lumen {
-  explicit Lumen(const TrackedBranch& branch) : nodes(branch.nodes) {
-    for (const TrackedNode& node : nodes) box.add(node.centre, node.radius);
-  }
-  /// The radius of the vessel around a point in its lumen; 0 outside.
-  [[nodiscard]] double radiusAround(const Vector3d& point) const {
-    if (!box.contains(point)) return 0;
-    const ChainPoint at = closestOnChain(nodes, point);
-    return at.distance < at.radius ? at.radius : 0;
-  }
-
-  std::span<const TrackedNode> nodes;
-  Box3d box;
-};
-
-/// The greatest radius of the vessels in whose lumen a point lies; 0 if there is none.
-double radiusAround(std::span<const Lumen> vessels, const Vector3d& point) {
-  double radius = 0;
-  for (const Lumen& vessel : vessels) radius = std::max(radius, vessel.radiusAround(point));
-  return radius;
-}
-
 /// The longest stretch of a vessel that no vessel before it holds.
 struct OutsideStretch {
   std::size_t first = 0, end = 0;
@@ -90,7 +56,8 @@ struct OutsideStretch {
   double besides = 0;  ///< greatest radius of the vessels beside it, mm
 };
 
-OutsideStretch findOutside(std::span<const Lumen> before, const std::vector<TrackedNode>& nodes) {
+OutsideStretch findOutside(std::span<const BranchLumen> before,
+                           const std::vector<TrackedNode>& nodes) {
   OutsideStretch best, here;
   double widest = 0;
   for (std::size_t i = 0; i <= nodes.size(); ++i) {
@@ -108,7 +75,7 @@ OutsideStretch findOutside(std::span<const Lumen> before, const std::vector<Trac
 
 /// Leaves the stretch of a vessel outside of those that it hangs on. A stretch that is shorter than
 /// these are wide, or than it is wide itself, is a bump of their wall.
-void dropInside(std::span<const Lumen> before, double voxel, TrackedBranch& branch) {
+void dropInside(std::span<const BranchLumen> before, double voxel, TrackedBranch& branch) {
   if (branch.nodes.empty() || before.empty()) return;
   const OutsideStretch out = findOutside(before, branch.nodes);
   std::vector<double> radii;
@@ -120,12 +87,7 @@ void dropInside(std::span<const Lumen> before, double voxel, TrackedBranch& bran
     return;
   }
   if (out.end < branch.nodes.size()) branch.stopReason = StopReason::MetBranch;
-  branch.nodes.erase(branch.nodes.begin() + static_cast<std::ptrdiff_t>(out.end),
-                     branch.nodes.end());
-  branch.nodes.erase(branch.nodes.begin(),
-                     branch.nodes.begin() + static_cast<std::ptrdiff_t>(out.first));
-  dropBareEnds(branch.nodes);
-  branch.clickNode = branch.nodes.size() / 2;
+  keepStretch(branch, out.first, out.end);
 }
 
 bool isAtFace(const VolumeGeometry& geometry, const TrackedNode& node, double sign) {
@@ -161,10 +123,58 @@ TrackedBranch follow(TrackRun& run, const SeedBranch& seed) {
   return branch;
 }
 
+/// The nearest of the branches [first, end) to a place.
+int nearestBranch(const TrackedTree& tree, std::size_t first, std::size_t end,
+                  const Vector3d& place) {
+  std::size_t nearest = first;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = first; i < end; ++i) {
+    if (tree.branches[i].nodes.empty()) continue;
+    const double distance = closestOnChain(tree.branches[i].nodes, place).distance;
+    if (distance >= least) continue;
+    least = distance;
+    nearest = i;
+  }
+  return static_cast<int>(nearest);
+}
+
+/// Adds further parts of branches behind these, as roots. Children go to the nearest part.
+void addParts(std::vector<std::vector<TrackedBranch>> further, TrackedTree& tree,
+              std::vector<int>& parent) {
+  TrackedTree all{{}, {}, tree.known};
+  std::vector<int> from;
+  std::vector<std::size_t> place;  // of the first part of each branch
+  for (std::size_t i = 0; i < further.size(); ++i) {
+    place.push_back(all.branches.size());
+    all.seeds.push_back(tree.seeds[i]);
+    all.branches.push_back(std::move(tree.branches[i]));
+    from.push_back(parent[i]);
+    for (std::size_t k = 0; k < further[i].size(); ++k) {
+      SeedBranch seed = tree.seeds[i];
+      seed.label += "-" + std::to_string(k + 2);
+      seed.parent.reset();
+      all.seeds.push_back(std::move(seed));
+      all.branches.push_back(std::move(further[i][k]));
+      from.push_back(-1);
+    }
+  }
+  place.push_back(all.branches.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] < 0) continue;
+    const auto above = static_cast<std::size_t>(from[i]);
+    const std::vector<TrackedNode>& nodes = all.branches[i].nodes;
+    from[i] = nodes.empty()
+                  ? static_cast<int>(place[above])
+                  : nearestBranch(all, place[above], place[above + 1], nodes.front().centre);
+  }
+  tree = std::move(all);
+  parent = std::move(from);
+}
+
 }  // namespace
 
 void followCourses(const TrackContext& context, TrackedTree& tree, Progress& progress) {
-  const std::size_t count = tree.seeds.size();
+  std::size_t count = tree.seeds.size();
   tree.branches.resize(count);
   std::unordered_map<std::string, int> position;
   std::vector<int> parent(count, -1);
@@ -186,13 +196,15 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
   // parents come first and lose what lies in theirs before their children are compared with them
   for (std::size_t i = tree.known; i < count; ++i) {
     context.progress.check();
-    std::vector<Lumen> before;
+    std::vector<BranchLumen> before;
     for (std::size_t k = 0; k < tree.known; ++k) before.emplace_back(tree.branches[k]);
     for (int p = parent[i]; p >= static_cast<int>(tree.known);
          p = parent[static_cast<std::size_t>(p)])
       before.emplace_back(tree.branches[static_cast<std::size_t>(p)]);
     dropInside(before, context.volume.geometry().voxelSize(), tree.branches[i]);
   }
+  addParts(takeWithoutEdges(context, tree), tree, parent);
+  count = tree.seeds.size();
   for (std::size_t i = tree.known; i < count; ++i) {
     int above = parent[i];
     while (above >= 0 && tree.branches[static_cast<std::size_t>(above)].nodes.empty())
@@ -211,7 +223,7 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
 }
 
 std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const TrackedTree& tree) {
-  std::vector<Lumen> known;
+  std::vector<BranchLumen> known;
   for (std::size_t k = 0; k < tree.known; ++k) known.emplace_back(tree.branches[k]);
   std::vector<SeedBranch> out;
   std::unordered_map<std::string, std::string> lastStretch;  // the last stretch of each course

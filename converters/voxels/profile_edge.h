@@ -10,6 +10,12 @@ namespace lumen::convert {
 /// Samples per voxel edge in a profile.
 constexpr int kSamplesPerVoxel = 8;
 
+/// Extent of profiles inward and outward from the wall of a vessel of this radius, mm.
+struct ProfileReach {
+  double inward, outward;
+};
+ProfileReach profileReach(double radius, double voxel);
+
 enum class EdgeKind {
   None,   ///< no change, or too little of the profile lies in the volume
   Falls,  ///< from the lumen to the background

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Profiles that a person can draw: a level inside, a level outside, an edge a voxel wide.
-#include "converters/judge/check/profile_edge.h"
+#include "converters/voxels/profile_edge.h"
 
 #include <cmath>
 #include <vector>

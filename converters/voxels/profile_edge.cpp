@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/check/profile_edge.h"
+#include "converters/voxels/profile_edge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,6 +85,13 @@ private:
 };
 
 }  // namespace
+
+// Three voxels show both levels of an edge that lies up to a voxel off; half a radius serves wide
+// vessels. The opposite wall lies beyond the axis; a level needs at least a voxel.
+ProfileReach profileReach(double radius, double voxel) {
+  const double reach = std::max(3 * voxel, 0.5 * radius);
+  return {std::max(std::min(reach, radius), voxel), reach};
+}
 
 ProfileEdge findEdge(std::span<const float> values, std::size_t wall) {
   const Profile profile(values, static_cast<int>(wall));
