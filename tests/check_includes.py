@@ -58,11 +58,13 @@ MAY_INCLUDE["converters/export/sofa_plugin/tests"] = []
 MAY_INCLUDE["viewer/session"] = FORMATS + ["libblob/include"] + CONVERTERS
 MAY_INCLUDE["viewer/server"] = MAY_INCLUDE["viewer/session"] + ["viewer/session"]
 MAY_INCLUDE["converters/cli"] = MAY_INCLUDE["viewer/server"] + ["viewer/server"]
+# The Python module stands beside them.
+MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session"]
 
 
 def sources():
     """Every C or C++ file of the product, relative to the root."""
-    for top in ("formats", "libblob/include", "libblob/src", "converters", "viewer/session", "viewer/server"):
+    for top in ("formats", "libblob/include", "libblob/src", "converters", "viewer/session", "viewer/server", "packages/python/src"):
         yield from (p.relative_to(ROOT) for p in sorted((ROOT / top).rglob("*")) if p.suffix in (".h", ".cpp", ".c"))
 
 

@@ -11,7 +11,7 @@ Exit status: 0 each name has one definition, 1 some name has two."""
 import collections, pathlib, re, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ("formats", "libblob", "converters", "viewer", "tests")
+FOLDERS = ("formats", "libblob", "converters", "viewer", "packages", "tests")
 # libblob's back ends define the same vector types, each in a file that the others do not see.
 ONE_OF_SEVERAL = re.compile(r"libblob/src/simd/f8_\w+\.h")
 

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Signed distance, gradient, normal and inside test of a vessel case, for many points at once.
+
+    vessel = lumen.blob.Model(case)
+    tool = vessel.cursor(points)          # one node for each point, kept from step to step
+    answer = vessel.query(points, tool)   # points (n, 3), mm, LPS
+    answer.distance, answer.normal        # (n,) mm, negative in the lumen; (n, 3), outwards
+
+Packed arrays (n, 3) of float64 are read where they lie, others (float32, lists, slices) are copied.
+One point of shape (3,) gives answers without the leading axis. Queries let go of Python's lock, and
+any number of threads may query one model, each with cursors of its own. libblob's header, blob.h,
+defines each number.
+"""
+from __future__ import annotations
+
+import os
+
+from . import _lumen
+from ._case import Case
+from ._lumen import Answer, Approaches, Cursor, Hits, Nearest
+
+__all__ = ["Answer", "Approaches", "BLENDED", "Cursor", "DISTANCE_EXACT", "HOLD", "Hits", "LOCAL",
+           "Model", "Nearest"]
+
+BLENDED = 0  #: the wall of the case: models of neighbours blend
+LOCAL = 1  #: the model of the cursor's node answers alone, the fastest
+DISTANCE_EXACT = 2  #: distance and normal refer to the nearest point of the wall
+HOLD = 4  #: cursors do not move
+
+
+class Model(_lumen.Model):
+    """A vessel tree with its blobs, which never changes.
+
+    Parameters
+    ----------
+    source : Case or path
+        A case with models, or a .lumen file.
+    verify : bool
+        Checks the checksums of a file.
+    """
+
+    def __init__(self, source, verify: bool = True):
+        if isinstance(source, Case):
+            super().__init__(source._core)  # pylint: disable=protected-access
+        else:
+            super().__init__(os.fspath(source), verify)

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// libblob's queries for Python: batches of points, one call of libblob for each.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <pybind11/stl/filesystem.h>
+
+#include "formats/case/case_file.h"
+#include "formats/container/printable.h"
+#include "packages/python/src/blob_records.h"
+#include "packages/python/src/case_object.h"
+#include "packages/python/src/python_error.h"
+
+namespace py = pybind11;
+
+namespace lumen::python {
+
+namespace {
+
+using Samples = Records<blob_sample>;
+using NearestPoints = Records<blob_nearest_point>;
+using Hits = Records<blob_hit>;
+using Approaches = Records<blob_approach>;
+
+struct CloseModel {
+  void operator()(blob_model* model) const { blob_model_close(model); }
+};
+
+/// A model of libblob, which any number of threads may query.
+struct ModelObject {
+  std::unique_ptr<blob_model, CloseModel> model;
+  blob_model_info info{};
+};
+using SharedModel = std::shared_ptr<ModelObject>;
+
+/// The model that `open` makes. Raises lumen.Error, which names `subject`.
+template <class Open>
+SharedModel opened(const std::string& subject, bool verify, const Open& open) {
+  std::array<char, 500> message{};
+  blob_open_def definition = blob_open_def_default();
+  definition.verify = verify ? 1 : 0;
+  definition.message = message.data();
+  definition.message_size = message.size();
+  blob_model* model = nullptr;
+  blob_status status = BLOB_OK;
+  {
+    const py::gil_scoped_release released;
+    status = open(definition, &model);
+  }
+  if (status != BLOB_OK) {
+    const std::string reason = message[0] != '\0' ? message.data() : blob_status_text(status);
+    raise(invalidInput(subject + ": " + reason));
+  }
+  auto object = std::make_shared<ModelObject>();
+  object->model.reset(model);
+  object->info = blob_model_describe(model);
+  return object;
+}
+
+SharedModel openFile(const std::filesystem::path& file, bool verify) {
+  return opened(formats::printable(file.string()), verify,
+                [&](const blob_open_def& definition, blob_model** model) {
+                  return blob_model_open(file.c_str(), &definition, model);
+                });
+}
+
+SharedModel openCase(const CaseObject& source) {
+  if (const auto valid = formats::validate(source.value); !valid) raise(valid.error(), "");
+  return opened("case", false, [&](const blob_open_def& definition, blob_model** model) {
+    const auto bytes = formats::encodeBinary(source.value);
+    return blob_model_open_bytes(bytes.data(), bytes.size(), &definition, model);
+  });
+}
+
+/// The nodes of a cursor for `count` points, or null for None.
+std::uint32_t* nodesOf(CursorObject* cursor, std::size_t count) {
+  if (cursor == nullptr) return nullptr;
+  if (cursor->nodes.size() != count)
+    throw py::value_error("cursor: found " + std::to_string(cursor->nodes.size()) +
+                          " points, expected " + std::to_string(count));
+  return cursor->nodes.data();
+}
+
+py::object query(const ModelObject& self, const py::object& points, CursorObject* cursor,
+                 std::uint32_t flags, const py::object& out) {
+  const PackedPoints packed(points, "points");
+  std::uint32_t* const nodes = nodesOf(cursor, packed.count());
+  const bool isNew = out.is_none();
+  py::object answer =
+      isNew ? py::cast(std::make_unique<Samples>(packed.count(), packed.isSingle())) : out;
+  auto& samples = answer.cast<Samples&>();
+  if (samples.count != packed.count() || samples.isSingle != packed.isSingle())
+    throw py::value_error("out: found an answer for " + std::to_string(samples.count) +
+                          " points, expected " + std::to_string(packed.count()));
+  const py::gil_scoped_release released;
+  blob_query_many(self.model.get(), flags, packed.count(), packed.at(), nodes, samples.at.get());
+  return answer;
+}
+
+/// Calls `each` with the index, point, cursor and record of every point.
+template <class Record, class Each>
+std::unique_ptr<Records<Record>> forEach(const PackedPoints& points, CursorObject* cursor,
+                                         const Each& each) {
+  std::uint32_t* const nodes = nodesOf(cursor, points.count());
+  auto records = std::make_unique<Records<Record>>(points.count(), points.isSingle());
+  const py::gil_scoped_release released;
+  for (std::size_t i = 0; i < points.count(); ++i)
+    each(i, points.at()[i], nodes == nullptr ? nullptr : nodes + i, &records->at[i]);
+  return records;
+}
+
+std::unique_ptr<NearestPoints> nearest(const ModelObject& self, const py::object& points,
+                                       CursorObject* cursor, std::uint32_t flags, double tolerance,
+                                       std::uint32_t maxSteps) {
+  const PackedPoints packed(points, "points");
+  return forEach<blob_nearest_point>(
+      packed, cursor, [&](std::size_t, const double* point, std::uint32_t* node, auto* out) {
+        blob_nearest(self.model.get(), flags, point, node, tolerance, maxSteps, out);
+      });
+}
+
+/// Points of the ends of segments, as many as of their starts.
+PackedPoints endsLike(const PackedPoints& starts, const py::object& ends) {
+  PackedPoints packed(ends, "ends");
+  if (packed.count() != starts.count())
+    throw py::value_error("ends: found " + std::to_string(packed.count()) + " points, expected " +
+                          std::to_string(starts.count()));
+  return packed;
+}
+
+std::unique_ptr<Hits> segmentHits(const ModelObject& self, const py::object& starts,
+                                  const py::object& ends, CursorObject* cursor, std::uint32_t flags,
+                                  double tolerance, std::uint32_t maxSteps) {
+  const PackedPoints from(starts, "starts");
+  const PackedPoints to = endsLike(from, ends);
+  return forEach<blob_hit>(from, cursor,
+                           [&](std::size_t i, const double* point, std::uint32_t* node, auto* out) {
+                             blob_segment_hit(self.model.get(), flags, point, to.at()[i], node,
+                                              tolerance, maxSteps, out);
+                           });
+}
+
+std::unique_ptr<Approaches> capsules(const ModelObject& self, const py::object& starts,
+                                     const py::object& ends, double radius, CursorObject* cursor,
+                                     std::uint32_t flags) {
+  const PackedPoints from(starts, "starts");
+  const PackedPoints to = endsLike(from, ends);
+  return forEach<blob_approach>(
+      from, cursor, [&](std::size_t i, const double* point, std::uint32_t* node, auto* out) {
+        blob_capsule_approach(self.model.get(), flags, point, to.at()[i], radius, node, out);
+      });
+}
+
+std::unique_ptr<CursorObject> locate(const ModelObject& self, const py::object& points) {
+  const PackedPoints packed(points, "points");
+  auto cursor = std::make_unique<CursorObject>(packed.count());
+  const py::gil_scoped_release released;
+  for (std::size_t i = 0; i < packed.count(); ++i)
+    cursor->nodes[i] = blob_cursor_locate(self.model.get(), packed.at()[i]);
+  return cursor;
+}
+
+/// Adds fields of a record as properties of its class.
+template <class Record, class... Fields>
+void addColumns(py::class_<Records<Record>>& type,
+                const std::pair<const char*, Fields Record::*>&... fields) {
+  type.def("__len__", [](const Records<Record>& self) { return self.count; });
+  (type.def_property_readonly(
+       fields.first,
+       [field = fields.second](const py::object& self) { return columnOf(self, field); }),
+   ...);
+}
+
+template <class Record, class Field>
+std::pair<const char*, Field Record::*> column(const char* name, Field Record::*field) {
+  return {name, field};
+}
+
+/// Adds bits of a field as a property of truth values.
+template <class Record, class Field>
+void addTruth(py::class_<Records<Record>>& type, const char* name, Field Record::*field,
+              unsigned mask = ~0u) {
+  type.def_property_readonly(
+      name, [field, mask](const Records<Record>& self) { return truthOf(self, field, mask); });
+}
+
+void addAnswers(py::module_& module) {
+  py::class_<Samples> answer(module, "Answer");
+  addColumns(answer, column("value", &blob_sample::value),
+             column("gradient", &blob_sample::gradient), column("distance", &blob_sample::distance),
+             column("normal", &blob_sample::normal), column("node", &blob_sample::node));
+  addTruth(answer, "inside", &blob_sample::state, BLOB_INSIDE);
+  addTruth(answer, "not_converged", &blob_sample::state, BLOB_NOT_CONVERGED);
+  py::class_<NearestPoints> points(module, "Nearest");
+  addColumns(points, column("point", &blob_nearest_point::point),
+             column("normal", &blob_nearest_point::normal),
+             column("distance", &blob_nearest_point::distance),
+             column("node", &blob_nearest_point::node));
+  addTruth(points, "converged", &blob_nearest_point::converged);
+  py::class_<Hits> hits(module, "Hits");
+  addColumns(hits, column("t", &blob_hit::t), column("point", &blob_hit::point),
+             column("normal", &blob_hit::normal), column("node", &blob_hit::node));
+  addTruth(hits, "hit", &blob_hit::hit);
+  addTruth(hits, "complete", &blob_hit::complete);
+  py::class_<Approaches> approaches(module, "Approaches");
+  addColumns(approaches, column("t", &blob_approach::t), column("point", &blob_approach::point),
+             column("distance", &blob_approach::distance), column("normal", &blob_approach::normal),
+             column("depth", &blob_approach::depth), column("node", &blob_approach::node));
+  addTruth(approaches, "not_converged", &blob_approach::state, BLOB_NOT_CONVERGED);
+}
+
+void addCursor(py::module_& module) {
+  py::class_<CursorObject>(module, "Cursor")
+      .def(py::init<std::size_t>(), py::arg("count"))
+      .def("__len__", [](const CursorObject& self) { return self.nodes.size(); })
+      .def("copy", [](const CursorObject& self) { return CursorObject(self); })
+      .def_property_readonly("node", [](const py::object& self) {
+        auto& nodes = self.cast<CursorObject&>().nodes;
+        return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(nodes.size()), nodes.data(),
+                                          self);
+      });
+}
+
+void addQueries(py::class_<ModelObject, SharedModel>& model) {
+  const auto cursor = py::arg("cursor") = py::none();
+  const auto flags = py::arg("flags") = 0u;
+  const auto tolerance = py::arg("tolerance") = 0.0;
+  const auto steps = py::arg("max_steps") = 0u;
+  model.def("query", &query, py::arg("points"), cursor, flags, py::arg("out") = py::none());
+  model.def("nearest", &nearest, py::arg("points"), cursor, flags, tolerance, steps);
+  model.def("segment_hits", &segmentHits, py::arg("starts"), py::arg("ends"), cursor, flags,
+            tolerance, steps);
+  model.def("capsules", &capsules, py::arg("starts"), py::arg("ends"), py::arg("radius"), cursor,
+            flags);
+  model.def("cursor", &locate, py::arg("points"));
+}
+
+void addFacts(py::class_<ModelObject, SharedModel>& model) {
+  model.def("__len__", [](const ModelObject& self) { return self.info.node_count; });
+  model.def_property_readonly("blob_count",
+                              [](const ModelObject& self) { return self.info.blob_count; });
+  model.def_property_readonly("iso_level",
+                              [](const ModelObject& self) { return self.info.iso_level; });
+  model.def_property_readonly("bytes", [](const ModelObject& self) { return self.info.bytes; });
+  model.def_property_readonly("bounds", [](const ModelObject& self) {
+    py::array_t<double> box({2, 3});
+    std::copy_n(self.info.low, 3, box.mutable_data(0));
+    std::copy_n(self.info.high, 3, box.mutable_data(1));
+    return box;
+  });
+}
+
+}  // namespace
+
+void addBlob(py::module_& module) {
+  addAnswers(module);
+  addCursor(module);
+  py::class_<ModelObject, SharedModel> model(module, "Model");
+  model.def(py::init(&openCase), py::arg("source"));
+  model.def(py::init(&openFile), py::arg("source"), py::arg("verify") = true);
+  addQueries(model);
+  addFacts(model);
+  model.attr("__module__") = "lumen.blob";
+}
+
+}  // namespace lumen::python

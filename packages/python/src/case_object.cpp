@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "packages/python/src/case_object.h"
+
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "converters/engine/file_access.h"
+#include "formats/case/case_file.h"
+#include "formats/case/enum_names.h"
+#include "formats/case/metadata_json.h"
+#include "formats/container/printable.h"
+#include "packages/python/src/python_error.h"
+
+namespace py = pybind11;
+
+namespace lumen::python {
+
+namespace {
+
+using formats::Case;
+namespace fs = std::filesystem;
+
+template <class Element>
+struct Row {
+  using Number = Element;
+  static constexpr py::ssize_t columns = 1;
+};
+template <>
+struct Row<formats::Vec3f> {
+  using Number = float;
+  static constexpr py::ssize_t columns = 3;
+};
+template <>
+struct Row<std::array<std::uint32_t, 2>> {
+  using Number = std::uint32_t;
+  static constexpr py::ssize_t columns = 2;
+};
+
+/// A view of the numbers of `data`, which `self`, a CaseObject, holds: (rows,) or (rows, columns).
+template <class Element>
+py::array viewOf(const py::object& self, const std::vector<Element>& data,
+                 py::ssize_t columns = Row<Element>::columns) {
+  using Number = typename Row<Element>::Number;
+  constexpr auto kSize = static_cast<py::ssize_t>(sizeof(Number));
+  const auto count = static_cast<py::ssize_t>(data.size()) * Row<Element>::columns;
+  std::vector<py::ssize_t> shape{count / columns}, strides{kSize * columns};
+  if (columns > 1) {
+    shape.push_back(columns);
+    strides.push_back(kSize);
+  }
+  // NumPy would take a null pointer for a request to allocate
+  static const Number nothing{};
+  const void* const at = data.empty() ? static_cast<const void*>(&nothing) : data.data();
+  py::array view(py::dtype::of<Number>(), shape, strides, at, self);
+  if (!self.cast<const CaseObject&>().isWritable) view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+const Case& caseOf(const py::object& self) {
+  return self.cast<const CaseObject&>().value;
+}
+
+/// Adds an array of the tree as a property.
+template <class Element>
+void addArray(py::class_<CaseObject, SharedCase>& type, const char* name,
+              std::vector<Element> formats::CenterlineTree::*member) {
+  type.def_property_readonly(
+      name, [member](const py::object& self) { return viewOf(self, caseOf(self).tree.*member); });
+}
+
+/// Adds an array of an optional part of the case, None without the part.
+template <class Part, class Element>
+void addArray(py::class_<CaseObject, SharedCase>& type, const char* name,
+              std::optional<Part> Case::*part, std::vector<Element> Part::*member) {
+  type.def_property_readonly(name, [part, member](const py::object& self) -> py::object {
+    const std::optional<Part>& found = caseOf(self).*part;
+    if (!found) return py::none();
+    return viewOf(self, (*found).*member);
+  });
+}
+
+void addTree(py::class_<CaseObject, SharedCase>& type) {
+  using Tree = formats::CenterlineTree;
+  addArray(type, "centre", &Tree::centre);
+  addArray(type, "direction", &Tree::direction);
+  addArray(type, "radius", &Tree::radius);
+  addArray(type, "height", &Tree::height);
+  addArray(type, "parent", &Tree::parent);
+  addArray(type, "branch", &Tree::branch);
+  addArray(type, "inlier_rate", &Tree::inlierRate);
+  addArray(type, "links", &Tree::links);
+  type.def_property_readonly("branches", [](const CaseObject& self) {
+    py::list branches;
+    for (const formats::Branch& b : self.value.tree.branches)
+      branches.append(py::make_tuple(b.label, formats::enumName(formats::kBranchKindNames, b.kind),
+                                     b.parentNode, b.firstNode, b.nodeCount,
+                                     formats::enumName(formats::kStopReasonNames, b.stopReason),
+                                     b.meanInlierRate));
+    return branches;
+  });
+}
+
+void addParts(py::class_<CaseObject, SharedCase>& type) {
+  using formats::BlobbyModels;
+  using formats::PointSets;
+  addArray(type, "point_offset", &Case::points, &PointSets::offset);
+  addArray(type, "point_position", &Case::points, &PointSets::position);
+  addArray(type, "blob_offset", &Case::models, &BlobbyModels::offset);
+  addArray(type, "blob_centre", &Case::models, &BlobbyModels::centre);
+  addArray(type, "blob_width", &Case::models, &BlobbyModels::width);
+  type.def_property_readonly("kernel", [](const CaseObject& self) -> py::object {
+    if (!self.value.models) return py::none();
+    const BlobbyModels& models = *self.value.models;
+    return py::make_tuple(formats::enumName(formats::kKernelNames, models.kernel),
+                          models.kernelParameter, models.isoLevel);
+  });
+  type.def_property_readonly("node_arrays", [](const py::object& self) {
+    py::dict arrays;
+    for (const formats::NodeArray& array : caseOf(self).nodeArrays)
+      std::visit(
+          [&](const auto& values) {
+            arrays[array.name.c_str()] = viewOf(self, values, py::ssize_t{array.components});
+          },
+          array.values);
+    return arrays;
+  });
+  type.def_property_readonly("metadata_json", [](const CaseObject& self) {
+    return formats::metadataJson(self.value.metadata, self.value.nodeArrays);
+  });
+}
+
+formats::Expected<Case> decoded(std::span<const std::byte> bytes) {
+  const py::gil_scoped_release released;
+  return formats::decodeCase(bytes);
+}
+
+SharedCase readCase(const fs::path& file) {
+  const auto read = [&] {
+    const py::gil_scoped_release released;
+    return formats::readFileBytes(file);
+  }();
+  if (!read) raise(read.error(), formats::printable(file.string()));
+  auto value = decoded(*read);
+  if (!value) raise(value.error(), formats::printable(file.string()));
+  return sharedCase(*std::move(value));
+}
+
+SharedCase decodeBytes(const py::bytes& bytes) {
+  const auto text = static_cast<std::string_view>(bytes);
+  auto value = decoded(std::as_bytes(std::span(text.data(), text.size())));
+  if (!value) raise(value.error(), "");
+  return sharedCase(*std::move(value));
+}
+
+void requireValid(const CaseObject& self) {
+  const formats::Status valid = [&] {
+    const py::gil_scoped_release released;
+    return formats::validate(self.value);
+  }();
+  if (!valid) raise(valid.error(), "");
+}
+
+py::bytes encodeBytes(const CaseObject& self, bool isJson, bool compress, int pointBits) {
+  requireValid(self);
+  if (pointBits != 0 && isJson) {
+    CaseObject rounded = self;
+    formats::quantisePoints(rounded.value, pointBits);
+    return formats::encodeJson(rounded.value);
+  }
+  if (isJson) return formats::encodeJson(self.value);
+  std::vector<std::byte> bytes;
+  {
+    const py::gil_scoped_release released;
+    bytes = formats::encodeBinary(self.value, {compress, pointBits});
+  }
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void writeCase(const CaseObject& self, const fs::path& file, bool isJson, bool compress,
+               int pointBits) {
+  requireValid(self);
+  const formats::Status status = [&] {
+    const py::gil_scoped_release released;
+    return formats::writeCaseFile(
+        self.value, file, isJson ? formats::CaseEncoding::Json : formats::CaseEncoding::Binary,
+        {compress, pointBits});
+  }();
+  if (!status) raise(status.error(), formats::printable(file.string()));
+}
+
+py::tuple issuesOf(const CaseObject& self, std::size_t most) {
+  formats::IssueList issues(most);
+  formats::checkCase(self.value, issues);
+  const formats::IssueCounts counts = issues.counts();
+  py::list facts;
+  for (const formats::Issue& issue : issues.take()) facts.append(issueFacts(issue));
+  return py::make_tuple(counts.errors, counts.warnings, counts.information, facts);
+}
+
+}  // namespace
+
+void addCase(py::module_& module) {
+  py::class_<CaseObject, SharedCase> type(module, "Case", "A case in memory, and views of it.");
+  addTree(type);
+  addParts(type);
+  type.def_readonly("writable", &CaseObject::isWritable);
+  type.def_static("read", &readCase);
+  type.def_static("decode", &decodeBytes);
+  type.def("encode", &encodeBytes);
+  type.def("write", &writeCase);
+  type.def("issues", &issuesOf);
+  type.def("copy", [](const CaseObject& self, bool isWritable) {
+    return sharedCase(self.value, isWritable);
+  });
+  type.def("equals", [](const CaseObject& self, const CaseObject& other) {
+    return self.value == other.value;
+  });
+}
+
+}  // namespace lumen::python

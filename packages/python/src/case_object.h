@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case as an object of Python, with its arrays as views of its memory.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <pybind11/pybind11.h>
+
+#include "formats/case/case.h"
+
+namespace lumen::python {
+
+/// A case whose arrays never move: views of NumPy point into them and keep this object alive.
+struct CaseObject {
+  formats::Case value;
+  bool isWritable = false;  ///< its arrays may be written to
+};
+using SharedCase = std::shared_ptr<CaseObject>;
+
+inline SharedCase sharedCase(formats::Case value, bool isWritable = false) {
+  return std::make_shared<CaseObject>(CaseObject{std::move(value), isWritable});
+}
+
+/// Adds the class Case.
+void addCase(pybind11::module_& module);
+/// Adds the corrections of a case, `edit_*` and `refit`.
+void addEdits(pybind11::module_& module);
+
+}  // namespace lumen::python

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults of lumen as exceptions of Python: lumen.Error, which lumen/_errors.py defines.
+#pragma once
+
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+#include "converters/base/error.h"
+#include "formats/container/issue.h"
+
+namespace lumen::python {
+
+/// Raises lumen.Error with the message, the kind and the exit code of `error`. The caller holds
+/// Python's lock.
+[[noreturn]] void raise(const Error& error);
+
+/// Raises lumen.Error with the place of the fault, its rule, and the values found and expected.
+/// `file` may be empty. The caller holds Python's lock.
+[[noreturn]] void raise(const formats::Issue& issue, const std::string& file);
+
+/// An issue as a dictionary with the keys of the answer of `lumen validate`.
+pybind11::dict issueFacts(const formats::Issue& issue);
+
+}  // namespace lumen::python

@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Operations of the engine: results, options, progress, Ctrl-C, threads."""
+import contextlib
+import glob
+import inspect
+import io
+import os
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import lumen
+from fixture import sample
+
+# A volume that takes seconds to track, and one that a run can be stopped in.
+SLOW = "patient"
+
+
+def left_over():
+    """Folders of runs that have not been removed."""
+    return glob.glob(os.path.join(tempfile.gettempdir(), "lumen-*"))
+
+
+class VolumeTest(unittest.TestCase):
+    def test_a_written_volume_is_read_with_its_geometry(self):
+        turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]])
+        array = np.arange(24, dtype=np.int16).reshape(2, 3, 4)
+        volume = lumen.Volume(array, (0.5, 0.6, 0.7), (1, 2, 3), turn)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.nrrd")
+            volume.write(path)
+            again = lumen.Volume.read(path)
+            info = lumen.run("info", path)
+        np.testing.assert_array_equal(again.array, array)
+        np.testing.assert_allclose(again.spacing, volume.spacing)
+        np.testing.assert_allclose(again.origin, volume.origin)
+        np.testing.assert_allclose(again.direction, turn)
+        np.testing.assert_allclose(again.position((1, 1, 1)), turn @ (0.5, 0.6, 0.7) + (1, 2, 3))
+        self.assertEqual(info["size"], [4, 3, 2])
+
+    def test_the_array_that_was_read_points_into_the_volume(self):
+        array = sample().phantom.volume.array
+        self.assertFalse(array.flags.owndata)
+        self.assertEqual(array.ndim, 3)
+
+    def test_other_arrays_are_refused(self):
+        for array in (np.zeros((2, 2)), np.zeros((2, 2, 0)), np.zeros((2, 2, 2), complex)):
+            with self.assertRaises(ValueError):
+                lumen.Volume(array)
+
+    def test_every_type_of_voxels_gives_its_values(self):
+        for kind in ("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8", ">i2", "?"):
+            array = np.array([[[0, 1], [1, 0]]] * 2).astype(kind)
+            with tempfile.TemporaryDirectory() as folder:
+                lumen.Volume(array).write(os.path.join(folder, "a.nrrd"))
+                again = lumen.Volume.read(os.path.join(folder, "a.nrrd"))
+            np.testing.assert_array_equal(again.array, array.astype(float), err_msg=kind)
+
+
+class ResultsTest(unittest.TestCase):
+    def setUp(self):
+        self.sample = sample()
+        self.case = self.sample.case
+
+    def test_the_case_is_close_to_the_truth(self):
+        scores = self.case.compare(self.sample.phantom.truth)
+        self.assertLess(scores["assd_mm"], 0.1)
+        self.assertEqual({b.label for b in self.case.branches},
+                         {s["label"] for s in self.sample.phantom.seeds})
+
+    def test_tracking_and_fit_are_the_parts_of_a_conversion(self):
+        phantom = self.sample.phantom
+        tracked = lumen.track(phantom.volume, seeds=phantom.seeds, seeds_only=True)
+        self.assertIsNone(tracked.models)
+        fitted = tracked.fit()
+        np.testing.assert_array_equal(fitted.tree.centre, self.case.tree.centre)
+        np.testing.assert_array_equal(fitted.models.width, self.case.models.width)
+
+    def test_vessels_are_found_without_a_click(self):
+        seeds = lumen.find_vessels(self.sample.phantom.volume)
+        self.assertGreaterEqual(len(seeds), 2)
+        truth = self.sample.phantom.truth.tree
+        for seed in seeds:
+            point = seed["points"][0]
+            point = point["position"] if isinstance(point, dict) else point
+            away = np.linalg.norm(truth.centre - point, axis=1)
+            self.assertLess(away.min(), truth.radius[away.argmin()])
+
+    def test_seeds_may_be_points_by_label(self):
+        points = {seed["label"]: [p["position"] if isinstance(p, dict) else p for p in seed["points"]]
+                  for seed in self.sample.phantom.seeds[:1]}
+        case = lumen.track(self.sample.phantom.volume, seeds=points, seeds_only=True)
+        self.assertEqual([b.label for b in case.branches], list(points))
+
+    def test_a_mesh_is_closed_and_as_large_as_the_lumen(self):
+        mesh = self.case.mesh()
+        self.assertEqual(mesh.vertices.dtype, np.float32)
+        edges = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        _, uses = np.unique(edges, axis=0, return_counts=True)
+        self.assertTrue((uses == 2).all())
+        self.assertIn("wall", mesh.groups)
+        self.assertEqual(set(np.unique(mesh.group)), set(range(1, len(mesh.groups) + 1)))
+        np.testing.assert_allclose(np.linalg.norm(mesh.attributes["normal"], axis=1), 1, atol=1e-3)
+        model = lumen.blob.Model(self.case)
+        wall = np.unique(mesh.triangles[mesh.group == 1 + mesh.groups.index("wall")])
+        away = np.abs(model.query(mesh.vertices[wall]).distance)
+        self.assertLess(np.median(away), 0.02)
+        self.assertGreater(mesh.volume(), 0)
+
+    def test_a_mesh_file_is_written_by_its_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.glb")
+            answer = lumen.convert(self.case, path, colour="radius")
+            with open(path, "rb") as file:
+                self.assertEqual(file.read(4), b"glTF")
+        self.assertEqual(answer["branches"], len(self.case.branches))
+
+    def test_measures_have_units_in_their_names(self):
+        measures = self.case.measure()
+        vessels = measures["cases"][0]["vessels"]
+        self.assertEqual(measures["cases"][0]["case"], "case.lumen")
+        lengths = [vessel["length_mm"]["value"] for vessel in vessels]
+        self.assertAlmostEqual(sum(lengths), 42, delta=5)
+
+    def test_the_check_agrees_with_the_volume(self):
+        self.assertEqual(self.case.check(self.sample.phantom.volume).code, 0)
+
+    def test_an_export_is_a_folder_of_files(self):
+        self.assertIn("sofa", [target["name"] for target in lumen.targets()])
+        with tempfile.TemporaryDirectory() as folder:
+            self.case.export("sofa", os.path.join(folder, "out"))
+            self.assertIn("lumen-export.json", os.listdir(os.path.join(folder, "out")))
+
+    def test_a_picture_is_a_png_of_its_size_and_not_blank(self):
+        picture = self.case.picture(size=(320, 240), view="left")
+        self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">2I", picture[16:24]), (320, 240))
+        self.assertEqual(self.case._repr_png_()[:4], b"\x89PNG")
+        self.assertIsNone(lumen.track(self.sample.phantom.volume, seeds=self.sample.phantom.seeds,
+                                      seeds_only=True)._repr_png_())
+
+
+class OptionsTest(unittest.TestCase):
+    def setUp(self):
+        self.case = sample().case
+
+    def test_an_unknown_name_gets_the_engines_suggestion(self):
+        with self.assertRaisesRegex(lumen.Error, "max_subdivision: .*did you mean max_subdivisions") as e:
+            self.case.fit(max_subdivision=3)
+        self.assertEqual((e.exception.exit_code, e.exception.kind), (2, "usage"))
+
+    def test_a_value_out_of_range_is_refused_with_both_values(self):
+        with self.assertRaises(lumen.Error) as raised:
+            self.case.fit(max_subdivisions=-3)
+        self.assertRegex(str(raised.exception), "^max_subdivisions: found -3, expected ")
+        self.assertEqual(raised.exception.found, "-3")
+
+    def test_files_in_messages_have_no_temporary_names(self):
+        tracked = lumen.track(sample().phantom.volume, seeds=sample().phantom.seeds, seeds_only=True)
+        with self.assertRaises(lumen.Error) as raised:
+            tracked.picture()
+        self.assertRegex(str(raised.exception), "^case.lumen: ")
+        self.assertEqual(raised.exception.file, "case.lumen")
+
+    def test_options_are_in_signatures_docstrings_and_stubs(self):
+        for function, command in ((lumen.track, "track"), (lumen.convert, "convert"),
+                                  (lumen.Case.fit, "fit"), (lumen.Case.picture, "picture")):
+            parameters = inspect.signature(function).parameters
+            for row in lumen.options_of(command):
+                if row["keyword"] in ("to", "turntable"):
+                    continue
+                self.assertIn(row["keyword"], parameters)
+                self.assertIn(row["keyword"] + " : ", function.__doc__)
+        stub = os.path.join(os.path.dirname(lumen.__file__), "__init__.pyi")
+        with open(stub, encoding="utf-8") as file:
+            text = file.read()
+        self.assertNotIn("{", text)
+        self.assertIn("inlier_rate: Optional[float] = None", text)
+        compile(text, stub, "exec")
+
+    def test_what_the_package_offers_is_in_the_stubs(self):
+        stub = os.path.join(os.path.dirname(lumen.__file__), "__init__.pyi")
+        with open(stub, encoding="utf-8") as file:
+            text = file.read()
+        for name in lumen.__all__:
+            self.assertRegex(text, rf"(class|def|import) {name}\b|as {name}\b")
+            value = getattr(lumen, name)
+            if inspect.isclass(value) and value.__module__.startswith("lumen"):
+                for member in vars(value):
+                    if not member.startswith("_") and not issubclass(value, tuple):
+                        self.assertRegex(text, rf"\b{member}\b", name)
+
+    def test_warnings_are_warnings_and_errors_with_strict(self):
+        volume = sample().phantom.volume
+        outside = [{"label": "far", "points": [[1e4, 0, 0]]}, *sample().phantom.seeds]
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            lumen.track(volume, seeds=outside, seeds_only=True)
+        caught = [w for w in caught if issubclass(w.category, lumen.Warning)]
+        self.assertTrue(caught)
+        self.assertEqual(caught[0].filename, __file__)
+        with self.assertRaisesRegex(lumen.Error, "strict"):
+            lumen.track(volume, seeds=outside, seeds_only=True, strict=True)
+
+
+class WatchedTest(unittest.TestCase):
+    def test_progress_is_reported_by_the_calling_thread(self):
+        calls = []
+        lumen.track(sample().phantom.volume, seeds=sample().phantom.seeds, seeds_only=True,
+                    progress=lambda *state: calls.append((threading.current_thread(), state)))
+        self.assertTrue(calls)
+        self.assertEqual({thread for thread, _ in calls}, {threading.current_thread()})
+        for _, (stage, done, total) in calls:
+            self.assertIsInstance(stage, str)
+            self.assertTrue(total == 0 or done <= total)
+
+    def test_an_exception_of_progress_stops_the_work(self):
+        before = left_over()
+
+        class Enough(Exception):
+            pass
+
+        def stop(*_):
+            raise Enough
+
+        with self.assertRaises(Enough):
+            lumen.phantom(SLOW, progress=stop)
+        self.assertEqual(left_over(), before)
+
+    def test_ctrl_c_raises_and_leaves_nothing_half_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = ("import lumen, sys\n"
+                       "print('ready', flush=True)\n"
+                       "try:\n"
+                       f"    lumen.run('phantom', {SLOW!r}, sys.argv[1])\n"
+                       "except KeyboardInterrupt:\n"
+                       "    print('interrupted')\n")
+            child = subprocess.Popen([sys.executable, "-c", program, os.path.join(folder, "a.nrrd")],
+                                     stdout=subprocess.PIPE, text=True,
+                                     env=dict(os.environ, TMPDIR=folder))
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            time.sleep(0.3)
+            child.send_signal(signal.SIGINT)
+            began = time.monotonic()
+            out, _ = child.communicate(timeout=30)
+            self.assertEqual((out, child.returncode), ("interrupted\n", 0))
+            self.assertLess(time.monotonic() - began, 10)
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_other_threads_run_meanwhile(self):
+        counted = [0]
+        done = threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        began = time.monotonic()
+        sample().case.mesh()
+        seconds = time.monotonic() - began
+        done.set()
+        thread.join()
+        self.assertGreater(counted[0], 50 * seconds)
+
+    def test_two_threads_get_the_same_result(self):
+        results = []
+        work = lambda: results.append(sample().case.fit(threads=1))
+        threads = [threading.Thread(target=work) for _ in range(2)]
+        sample()
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(results), 2)
+        self.assertEqual(results[0], results[1])
+
+    def test_nothing_is_printed(self):
+        with contextlib.redirect_stdout(io.StringIO()) as out:
+            sample().case.info()
+        self.assertEqual(out.getvalue(), "")
+
+
+if __name__ == "__main__":
+    unittest.main()

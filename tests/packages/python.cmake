@@ -1,0 +1,10 @@
+# The Python package lumen, as its users have it: views, operations, queries, the notebook, the stubs.
+if(NOT TARGET lumen_python OR NOT HAS_NUMPY)
+  return()
+endif()
+foreach(part case operations blob notebook)
+  python_test(PythonPackage.${part} foreign -W error::ResourceWarning -m unittest test_${part})
+  set_tests_properties(PythonPackage.${part} PROPERTIES
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/packages/python/tests
+    ENVIRONMENT "PYTHONPATH=${LUMEN_PYTHON_PATH}")
+endforeach()
