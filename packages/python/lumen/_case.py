@@ -205,7 +205,7 @@ class Case:
     def __eq__(self, other):
         return isinstance(other, Case) and self._core.equals(other._core)
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self):
         return Case.from_bytes, (self.to_bytes(),)

@@ -169,7 +169,7 @@ class Staging:
             return path
         return os.fspath(value)
 
-    def seeds(self, value: Any) -> str:
+    def seeds(self, value: Any) -> Any:
         """The file of seeds: a path as it is, others written as lumen's JSON."""
         if value is None or isinstance(value, (str, os.PathLike)):
             return value

@@ -2,6 +2,8 @@
 """Meshes that the engine writes, as arrays."""
 from __future__ import annotations
 
+from typing import Dict, List
+
 import numpy as np
 
 from ._parts import Mesh
@@ -15,7 +17,9 @@ def read_mesh(path: str) -> Mesh:
         data = file.read()
     header, _, _ = data.partition(b"end_header\n")
     start = len(header) + len(b"end_header\n")
-    groups, columns, counts = [], {}, {}
+    groups: List[str] = []
+    columns: Dict[str, list] = {}
+    counts: Dict[str, int] = {}
     element = ""
     for line in header.decode().splitlines():
         words = line.split(" ")
@@ -34,7 +38,7 @@ def read_mesh(path: str) -> Mesh:
     column = lambda name: np.ascontiguousarray(vertex[name])
     stacked = lambda names: np.stack([vertex[name] for name in names], axis=1)
     attributes = {"normal": stacked(("nx", "ny", "nz"))}
-    attributes.update((name, column(name)) for name in vertex.dtype.names
+    attributes.update((name, column(name)) for name in vertex.dtype.names or ()
                       if name not in ("x", "y", "z", "nx", "ny", "nz"))
     return Mesh(stacked(("x", "y", "z")), np.ascontiguousarray(face["corners"]),
                 np.ascontiguousarray(face["group"]), groups, attributes)

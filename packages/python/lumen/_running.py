@@ -5,7 +5,10 @@ from __future__ import annotations
 import json
 import logging
 import os
+import sys
+import types
 import warnings as python_warnings
+from typing import Optional
 
 from . import _lumen
 from ._errors import Error, Warning  # pylint: disable=redefined-builtin
@@ -37,7 +40,7 @@ class Answer(dict):
 def warn(messages) -> None:
     """Shows warnings at the line that called lumen."""
     folder, level = os.path.dirname(__file__), 2
-    frame = python_warnings.sys._getframe(1)  # pylint: disable=protected-access
+    frame: Optional[types.FrameType] = sys._getframe(1)  # pylint: disable=protected-access
     while frame is not None and os.path.dirname(frame.f_code.co_filename) == folder:
         frame, level = frame.f_back, level + 1
     for message in messages:

@@ -16,9 +16,10 @@ def run_by_kernel(document):
     """The outputs of all cells, as Jupyter makes them."""
     import nbclient
     import nbformat
-    asyncio.set_event_loop(asyncio.new_event_loop())
-    notebook = nbformat.from_dict(document)
-    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    notebook = nbformat.reads(json.dumps(document), as_version=4)
+    with contextlib.closing(asyncio.new_event_loop()) as loop:
+        asyncio.set_event_loop(loop)
+        nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
     return [output for cell in notebook.cells for output in cell.get("outputs", ())]
 
 
@@ -40,6 +41,7 @@ class NotebookTest(unittest.TestCase):
         before = os.environ.get("TMPDIR")
         self.addCleanup(lambda: os.environ.update(TMPDIR=before) if before else os.environ.pop("TMPDIR"))
         os.environ["TMPDIR"] = folder.name
+        os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # the kernel's debugger prints advice
         tempfile.tempdir = None
         self.addCleanup(setattr, tempfile, "tempdir", None)
 

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The stubs beside the package (stubtest) and beside a program that uses it (mypy)."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import mypy  # noqa: F401  pylint: disable=unused-import
+except ImportError:
+    mypy = None
+
+# Modules that are not for users, aliases of types, classes that users do not make, pybind11's metaclass.
+EXPECTED = re.compile(r"lumen\._|lumen\.(blob\.)?(Floats|PathLike|Report|Seeds|VolumeLike|Doubles|Nodes|Truth) is not present"
+                      r"|.*metaclass differs|lumen\.(blob\.)?(Case|Mesh|Models|Points|Tree|Answer|Approaches|Hits|Nearest)"
+                      r"\.__init__ is inconsistent")
+PROGRAM = """
+import lumen
+import numpy as np
+case = lumen.convert("a.nrrd", seeds={"a": np.zeros((2, 3))}, inlier_rate=0.6, root=[(0, 0, 1)])
+reveal_type(case)
+reveal_type(lumen.convert(case, "b.glb", colour="radius"))
+reveal_type(case.tree.radius)
+reveal_type(lumen.blob.Model(case).query(np.zeros((3, 3))).distance)
+lumen.convert("a.nrrd", inlier_rte=0.6)
+case.picture(view="back")
+"""
+
+
+@unittest.skipIf(mypy is None, "mypy (Debian: mypy) is missing")
+class StubsTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def run_module(self, *arguments):
+        ended = subprocess.run([sys.executable, "-m", *arguments], cwd=self.folder, text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        return ended.stdout
+
+    def test_signatures_are_those_of_the_package(self):
+        out = self.run_module("mypy.stubtest", "lumen", "--ignore-missing-stub", "--concise")
+        self.assertIn("lumen.blob.Model is inconsistent, metaclass differs", out)  # it ran
+        self.assertEqual([line for line in out.splitlines() if not EXPECTED.match(line)], [])
+
+    def test_a_program_is_checked(self):
+        with open(os.path.join(self.folder, "use.py"), "w", encoding="utf-8") as file:
+            file.write(PROGRAM)
+        lines = self.run_module("mypy", "--strict", "use.py").splitlines()
+        revealed = [re.search(r'"(.*)"', line)[1] for line in lines if "Revealed" in line]
+        self.assertEqual(revealed[:2], ["lumen.Case", "lumen.Answer"])
+        self.assertIn("_32Bit", revealed[2])
+        self.assertIn("_64Bit", revealed[3])
+        wrong = [line.split(":")[1] for line in lines if ": error: " in line]
+        self.assertEqual(wrong, ["9", "10"])
+
+
+if __name__ == "__main__":
+    unittest.main()
