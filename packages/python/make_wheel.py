@@ -136,6 +136,9 @@ def main():
         (tree / info / "METADATA").write_text(METADATA.format(version=version, minor=python, next=int(python) + 1,
                                                               description=description), encoding="utf-8")
         (tree / info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: lumen\nRoot-Is-Purelib: false\nTag: {tag}\n")
+        strangers = [str(path) for path in libraries(module).values() if tree.resolve() not in path.parents]
+        if strangers:
+            sys.exit(f"make_wheel.py: found {', '.join(strangers)} outside of the wheel, expected all in lumen.libs")
         wheel = out / f"lumen-{version}-{tag}.whl"
         pack(tree, wheel, info)
         unpacked = sum(p.stat().st_size for p in tree.rglob("*") if p.is_file())

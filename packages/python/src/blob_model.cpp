@@ -97,7 +97,10 @@ py::object query(const ModelObject& self, const py::object& points, CursorObject
     throw py::value_error("out: found an answer for " + std::to_string(samples.count) +
                           " points, expected " + std::to_string(packed.count()));
   const py::gil_scoped_release released;
-  blob_query_many(self.model.get(), flags, packed.count(), packed.at(), nodes, samples.at.get());
+  packed.forBlocks([&](std::size_t begin, std::size_t count, const double(*at)[3]) {
+    blob_query_many(self.model.get(), flags, count, at, nodes == nullptr ? nullptr : nodes + begin,
+                    samples.at + begin);
+  });
   return answer;
 }
 
@@ -108,8 +111,11 @@ std::unique_ptr<Records<Record>> forEach(const PackedPoints& points, CursorObjec
   std::uint32_t* const nodes = nodesOf(cursor, points.count());
   auto records = std::make_unique<Records<Record>>(points.count(), points.isSingle());
   const py::gil_scoped_release released;
-  for (std::size_t i = 0; i < points.count(); ++i)
-    each(i, points.at()[i], nodes == nullptr ? nullptr : nodes + i, &records->at[i]);
+  points.forBlocks([&](std::size_t begin, std::size_t count, const double(*at)[3]) {
+    for (std::size_t i = 0; i < count; ++i)
+      each(begin + i, at[i], nodes == nullptr ? nullptr : nodes + begin + i,
+           &records->at[begin + i]);
+  });
   return records;
 }
 
@@ -139,8 +145,8 @@ std::unique_ptr<Hits> segmentHits(const ModelObject& self, const py::object& sta
   const PackedPoints to = endsLike(from, ends);
   return forEach<blob_hit>(from, cursor,
                            [&](std::size_t i, const double* point, std::uint32_t* node, auto* out) {
-                             blob_segment_hit(self.model.get(), flags, point, to.at()[i], node,
-                                              tolerance, maxSteps, out);
+                             blob_segment_hit(self.model.get(), flags, point, to.point(i).data(),
+                                              node, tolerance, maxSteps, out);
                            });
 }
 
@@ -151,7 +157,8 @@ std::unique_ptr<Approaches> capsules(const ModelObject& self, const py::object& 
   const PackedPoints to = endsLike(from, ends);
   return forEach<blob_approach>(
       from, cursor, [&](std::size_t i, const double* point, std::uint32_t* node, auto* out) {
-        blob_capsule_approach(self.model.get(), flags, point, to.at()[i], radius, node, out);
+        blob_capsule_approach(self.model.get(), flags, point, to.point(i).data(), radius, node,
+                              out);
       });
 }
 
@@ -159,8 +166,10 @@ std::unique_ptr<CursorObject> locate(const ModelObject& self, const py::object& 
   const PackedPoints packed(points, "points");
   auto cursor = std::make_unique<CursorObject>(packed.count());
   const py::gil_scoped_release released;
-  for (std::size_t i = 0; i < packed.count(); ++i)
-    cursor->nodes[i] = blob_cursor_locate(self.model.get(), packed.at()[i]);
+  packed.forBlocks([&](std::size_t begin, std::size_t count, const double(*at)[3]) {
+    for (std::size_t i = 0; i < count; ++i)
+      cursor->nodes[begin + i] = blob_cursor_locate(self.model.get(), at[i]);
+  });
   return cursor;
 }
 

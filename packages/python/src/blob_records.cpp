@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "packages/python/src/blob_records.h"
 
+#include <mutex>
+#include <utility>
+
 namespace py = pybind11;
 
 namespace lumen::python {
@@ -18,7 +21,44 @@ std::string shapeText(const py::array& points) {
   return py::str(points.attr("shape"));
 }
 
+/// Smaller blocks come back warm from the C library.
+constexpr std::size_t kLeastKept = std::size_t{16} << 20;  // bytes
+/// Larger blocks are too much to hold without need.
+constexpr std::size_t kMostKept = std::size_t{128} << 20;  // bytes
+
+struct SpareBlock {
+  std::mutex mutex;
+  std::unique_ptr<std::byte[]> block;
+  std::size_t size = 0;
+};
+SpareBlock& spareBlock() {
+  // never destroyed: answers may outlive the end of the module
+  static SpareBlock& spare = *new SpareBlock;
+  return spare;
+}
+
 }  // namespace
+
+RecordMemory::RecordMemory(std::size_t bytes) : m_size(bytes) {
+  if (bytes >= kLeastKept) {
+    SpareBlock& spare = spareBlock();
+    const std::lock_guard lock(spare.mutex);
+    if (spare.size >= bytes && spare.size / 2 <= bytes) {
+      m_size = std::exchange(spare.size, 0);
+      m_block = std::move(spare.block);
+      return;
+    }
+  }
+  m_block = std::make_unique_for_overwrite<std::byte[]>(bytes);
+}
+
+RecordMemory::~RecordMemory() {
+  if (m_size < kLeastKept || m_size > kMostKept) return;
+  SpareBlock& spare = spareBlock();
+  const std::lock_guard lock(spare.mutex);
+  spare.block = std::move(m_block);
+  spare.size = m_size;
+}
 
 PackedPoints::PackedPoints(const py::object& points, const char* role) {
   const py::array given = py::array::ensure(points);
@@ -40,12 +80,13 @@ PackedPoints::PackedPoints(const py::object& points, const char* role) {
 }
 
 void PackedPoints::copy(const py::array& points, const char* role) {
-  m_copy.resize(3 * m_count);
-  m_at = m_copy.data();
-  if (points.dtype().num() == py::detail::npy_api::NPY_FLOAT_ && points.itemsize() == 4 &&
-      points.dtype().byteorder() == '=' && (points.flags() & py::array::c_style) != 0) {
-    const auto* const single = static_cast<const float*>(points.data());
-    for (std::size_t i = 0; i < m_copy.size(); ++i) m_copy[i] = static_cast<double>(single[i]);
+  const bool isFloat = points.dtype().num() == py::detail::npy_api::NPY_FLOAT_ &&
+                       points.dtype().byteorder() == '=' &&
+                       (points.flags() & py::array::c_style) != 0 &&
+                       reinterpret_cast<std::uintptr_t>(points.data()) % alignof(float) == 0;
+  if (isFloat) {
+    m_kept = points;
+    m_floats = static_cast<const float*>(points.data());
     return;
   }
   const auto doubles =
@@ -53,7 +94,8 @@ void PackedPoints::copy(const py::array& points, const char* role) {
   if (!doubles)
     throw py::type_error(std::string(role) + ": found " + std::string(py::str(points.dtype())) +
                          ", expected numbers");
-  std::copy_n(doubles.data(), m_copy.size(), m_copy.begin());
+  m_copy.assign(doubles.data(), doubles.data() + 3 * m_count);
+  m_at = m_copy.data();
 }
 
 }  // namespace lumen::python

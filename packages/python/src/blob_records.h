@@ -2,6 +2,7 @@
 // Points from arrays of NumPy, and answers of libblob as objects whose columns are views.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,33 +17,78 @@
 
 namespace lumen::python {
 
-/// Points as libblob takes them. Packed doubles stay where they are; others are copied.
+/// Points as libblob takes them, block by block. Packed doubles stay where they are, and are one
+/// block; packed floats become doubles block by block, in the processor's first cache; others are
+/// copied at once.
 class PackedPoints {
 public:
+  static constexpr std::size_t kBlock = 256;  ///< points of a block of floats: 6 kB as doubles
+
   /// An array (n, 3) or (3,) of numbers. Raises ValueError, which names `role`, for other shapes.
   PackedPoints(const pybind11::object& points, const char* role);
   [[nodiscard]] std::size_t count() const { return m_count; }
   [[nodiscard]] bool isSingle() const { return m_isSingle; }  ///< the shape is (3,)
-  [[nodiscard]] const double (*at() const)[3] { return reinterpret_cast<const double(*)[3]>(m_at); }
+  /// Calls `use` with the first index, the number and the positions of each block.
+  template <class Use>
+  void forBlocks(const Use& use) const {
+    if (m_floats == nullptr) return use(std::size_t{0}, m_count, rows(m_at));
+    double block[3 * kBlock];
+    for (std::size_t begin = 0; begin < m_count; begin += kBlock) {
+      const std::size_t count = std::min(kBlock, m_count - begin);
+      std::copy_n(m_floats + 3 * begin, 3 * count, block);
+      use(begin, count, rows(block));
+    }
+  }
+  [[nodiscard]] std::array<double, 3> point(std::size_t index) const {
+    std::array<double, 3> found;
+    if (m_floats == nullptr)
+      std::copy_n(m_at + 3 * index, 3, found.begin());
+    else
+      std::copy_n(m_floats + 3 * index, 3, found.begin());
+    return found;
+  }
 
 private:
+  static const double (*rows(const double* at))[3] {
+    return reinterpret_cast<const double(*)[3]>(at);
+  }
   void copy(const pybind11::array& points, const char* role);
 
   pybind11::object m_kept;
   std::vector<double> m_copy;
   const double* m_at = nullptr;
+  const float* m_floats = nullptr;  ///< null for doubles
   std::size_t m_count = 0;
   bool m_isSingle = false;
+};
+
+/// Memory of answers. The last large block that was freed is kept for the next answer: pages that
+/// the system gives anew cost half as much as the queries.
+class RecordMemory {
+public:
+  explicit RecordMemory(std::size_t bytes);
+  ~RecordMemory();
+  RecordMemory(const RecordMemory&) = delete;
+  RecordMemory& operator=(const RecordMemory&) = delete;
+  [[nodiscard]] void* at() const { return m_block.get(); }
+
+private:
+  std::unique_ptr<std::byte[]> m_block;
+  std::size_t m_size;
 };
 
 /// Answers of one kind, one for each point.
 template <class Record>
 struct Records {
   Records(std::size_t size, bool single)
-      : count(size), isSingle(single), at(std::make_unique_for_overwrite<Record[]>(size)) {}
+      : count(size),
+        isSingle(single),
+        memory(size * sizeof(Record)),
+        at(static_cast<Record*>(memory.at())) {}
   std::size_t count;
   bool isSingle;  ///< columns have no leading axis
-  std::unique_ptr<Record[]> at;
+  RecordMemory memory;
+  Record* at;
 };
 
 /// Tool points and their nodes, which queries move.

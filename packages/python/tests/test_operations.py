@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Operations of the engine: results, options, progress, Ctrl-C, threads."""
 import contextlib
-import glob
 import inspect
 import io
 import os
@@ -13,6 +12,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
@@ -22,11 +22,6 @@ from fixture import sample
 
 # A volume that takes seconds to track, and one that a run can be stopped in.
 SLOW = "patient"
-
-
-def left_over():
-    """Folders of runs that have not been removed."""
-    return glob.glob(os.path.join(tempfile.gettempdir(), "lumen-*"))
 
 
 class VolumeTest(unittest.TestCase):
@@ -223,17 +218,16 @@ class WatchedTest(unittest.TestCase):
             self.assertTrue(total == 0 or done <= total)
 
     def test_an_exception_of_progress_stops_the_work(self):
-        before = left_over()
-
         class Enough(Exception):
             pass
 
         def stop(*_):
             raise Enough
 
-        with self.assertRaises(Enough):
-            lumen.phantom(SLOW, progress=stop)
-        self.assertEqual(left_over(), before)
+        with tempfile.TemporaryDirectory() as folder:
+            with unittest.mock.patch("tempfile.tempdir", folder), self.assertRaises(Enough):
+                lumen.phantom(SLOW, progress=stop)
+            self.assertEqual(os.listdir(folder), [])
 
     def test_ctrl_c_raises_and_leaves_nothing_half_written(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -12,9 +12,10 @@
 
 #include "blob.h"
 
+/* Seconds of processor time: other programs count less than they do in time. */
 static double now(void) {
   struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
