@@ -53,7 +53,7 @@ SharedModel opened(const std::string& subject, bool verify, const Open& open) {
   }
   if (status != BLOB_OK) {
     const std::string reason = message[0] != '\0' ? message.data() : blob_status_text(status);
-    raise(invalidInput(subject + ": " + reason));
+    raise(invalidInput(subject + ": " + reason), subject);
   }
   auto object = std::make_shared<ModelObject>();
   object->model.reset(model);

@@ -19,8 +19,10 @@ namespace {
 
 }  // namespace
 
-void raise(const Error& error) {
-  raiseWith(error.what(), error.kind(), py::dict());
+void raise(const Error& error, const std::string& file) {
+  py::dict facts;
+  if (!file.empty()) facts["file"] = file;
+  raiseWith(error.what(), error.kind(), facts);
 }
 
 void raise(const formats::Issue& issue, const std::string& file) {

@@ -11,9 +11,9 @@
 
 namespace lumen::python {
 
-/// Raises lumen.Error with the message, the kind and the exit code of `error`. The caller holds
-/// Python's lock.
-[[noreturn]] void raise(const Error& error);
+/// Raises lumen.Error with the message, the kind and the exit code of `error`. `file` may be empty.
+/// The caller holds Python's lock.
+[[noreturn]] void raise(const Error& error, const std::string& file = {});
 
 /// Raises lumen.Error with the place of the fault, its rule, and the values found and expected.
 /// `file` may be empty. The caller holds Python's lock.

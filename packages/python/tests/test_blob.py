@@ -130,8 +130,9 @@ class BlobTest(unittest.TestCase):
             model = blob.Model(path)
             with open(path, "wb") as file:
                 file.write(b"no case at all")
-            with self.assertRaisesRegex(lumen.Error, "a.lumen: "):
+            with self.assertRaisesRegex(lumen.Error, "a.lumen: ") as raised:
                 blob.Model(path)
+            self.assertEqual(raised.exception.file, path)
         np.testing.assert_array_equal(model.query(self.points).value, self.model.query(self.points).value)
         with self.assertRaises(lumen.Error):
             blob.Model("absent.lumen")
