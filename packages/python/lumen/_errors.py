@@ -6,6 +6,7 @@ import re
 from typing import Optional
 
 KINDS = {1: "failed", 2: "usage", 3: "invalid input", 4: "unsupported", 130: "interrupted"}
+_PLACE = re.compile(r'\bat "(?P<pointer>/[^"]*)"|\b(?P<count>(?:byte|line) \d+)')
 _FOUND = re.compile(r"found (?P<found>.+?), expected (?P<expected>.+)", re.DOTALL)
 
 
@@ -26,7 +27,7 @@ class Error(Exception):
     file : str or None
         The file that the fault is in.
     place : str or None
-        The place in the file: "byte 128", or a JSON pointer such as "/tree/radius/0".
+        The place in the file: "byte 128", "line 3", or a JSON pointer such as "/tree/radius/0".
     code, number : str and int, or None
         The rule of the case format that is broken, such as "RADIUS_RANGE" and 406.
     found, expected : str or None
@@ -41,6 +42,8 @@ class Error(Exception):
         self.exit_code = exit_code
         self.kind = KINDS.get(exit_code, "failed")
         self.file, self.place, self.code, self.number = file, place, code, number
+        if place is None and (match := _PLACE.search(message)):
+            self.place = match["pointer"] or match["count"]
         match = _FOUND.search(message)
         self.found = match["found"] if found is None and match else found
         self.expected = match["expected"] if expected is None and match else expected

@@ -52,8 +52,9 @@ class Volume:
         :func:`lumen.convert` (series, crop, spacing, unit...). The array points into the volume."""
         from ._running import called, warn
         from ._options import texts_of
-        voxels, warnings = called(_lumen.read_volume, os.fspath(path), texts_of("convert", options),
-                                  progress)
+        path = os.fspath(path)
+        voxels, warnings = called(_lumen.read_volume, path, texts_of("convert", options), progress,
+                                  known=[path])
         warn(warnings)
         return cls(voxels.array, voxels.spacing, voxels.origin, voxels.direction)
 

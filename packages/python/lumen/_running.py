@@ -77,7 +77,9 @@ def run_staged(staging: Staging, command: str, arguments, options, progress=None
         elif word in files and value is not None:
             given[word] = staging.path_of(value)
     texts = texts_of(command, given)
-    known = names + [text for _, values in texts for text in values]
+    words = [row["name"] for row in commands()[command]["rows"] if row["argument"]]
+    known = [name for name, word in zip(names, words + words[-1:] * len(names))
+             if word not in ("NAME", "TARGET")] + [text for _, values in texts for text in values]
     json_text, text, code, warnings, details = called(
         _lumen.run, command, names, texts, progress, threads or 0, strict, staging=staging,
         known=known)

@@ -165,6 +165,31 @@ class OptionsTest(unittest.TestCase):
         self.assertRegex(str(raised.exception), "^case.lumen: ")
         self.assertEqual(raised.exception.file, "case.lumen")
 
+    def test_errors_have_their_file_and_place(self):
+        volume, missing = sample().phantom.volume, "absent.nrrd"
+        calls = ((lambda: lumen.convert(missing), missing, None),
+                 (lambda: lumen.Volume.read(missing), missing, None),
+                 (lambda: lumen.track(volume, seeds=[{"label": "a"}]), "seeds.json", "/branches/0"),
+                 (lambda: self.case.export("sofaa", "nowhere"), None, None))
+        for call, file, place in calls:
+            with self.assertRaises(lumen.Error) as raised:
+                call()
+            self.assertEqual((raised.exception.file, raised.exception.place), (file, place))
+        self.assertEqual(lumen.Error("a.nrrd: line 3: found x, expected y").place, "line 3")
+
+    def test_volumes_lie_behind_pictures_and_name_branches(self):
+        volume = sample().phantom.volume
+        plain, behind = (self.case.picture(size=(320, 240), view="anterior", volume=v)
+                         for v in (None, volume))
+        self.assertNotEqual(plain, behind)
+        with tempfile.TemporaryDirectory() as folder:
+            mask = os.path.join(folder, "mask.nrrd")
+            self.case.check(volume, mask=mask)
+            labels = lumen.Volume.read(mask)
+        self.assertEqual(set(np.unique(labels.array)), {0, 1, 2})
+        made = lumen.convert(lumen.Volume(labels.array > 0, labels.spacing, labels.origin), mask=True)
+        self.assertLess(made.compare(sample().phantom.truth)["assd_mm"], 0.1)
+
     def test_options_are_in_signatures_docstrings_and_stubs(self):
         for function, command in ((lumen.track, "track"), (lumen.convert, "convert"),
                                   (lumen.Case.fit, "fit"), (lumen.Case.picture, "picture")):
