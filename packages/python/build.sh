@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # build.sh OUT: builds the Python package in build/release, and writes its wheel into the folder OUT.
-# It needs the packages of ./bootstrap.sh demo, and pybind11-dev, python3-dev, patchelf and binutils.
+# It needs the packages that ./bootstrap.sh packages patchelf installs.
 set -euo pipefail
 [ $# -eq 1 ] || {
   echo "Usage: packages/python/build.sh OUT" >&2
