@@ -21,6 +21,7 @@
 #include "converters/cli/parser.h"
 #include "converters/cli/terminal_progress.h"
 #include "converters/cli/usage_error.h"
+#include "converters/cli/version_text.h"
 #include "converters/engine/operation_process.h"
 #include "converters/io/volume/itk_image.h"
 
@@ -30,8 +31,6 @@ namespace {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failed, 2 usage, 3 invalid input, 4 unsupported, 130 interrupted.";
-
-constexpr const char* kVersion = "lumen " LUMEN_VERSION "\n";
 
 void printError(const std::string& text) {
   std::fprintf(stderr, "lumen: error: %s\n", messageText(text).c_str());
@@ -123,7 +122,9 @@ std::string listOfCommands(CLI::App& app, const std::string& how) {
 
 std::string topLevelHelp(const engine::Engine& commands) {
   CLI::App app("From an angiography volume to a simulator-ready vessel case.", "lumen");
-  app.set_version_flag("-V,--version", "", "Print the version");
+  app.set_version_flag(
+      "-V,--version", "",
+      "Print the version; with --json also those of the file formats, and the parts");
   std::string last;
   for (const auto& [command, table] : commands.commands()) {
     const std::string word = engine::firstWord(command->name());
@@ -163,6 +164,16 @@ int runNamed(const engine::Engine& commands, std::span<const char* const> argume
   return runCommand(commands, bound, static_cast<int>(arguments.size()), arguments.data());
 }
 
+/// `more`: words after --version, of which there is one.
+void printVersion(std::span<const char* const> more) {
+  for (const std::string_view word : more)
+    if (word != kOption.json.shown())
+      throw Error(ErrorKind::Usage, "\"" + std::string(word) +
+                                        "\" is no option of the version: it has only " +
+                                        kOption.json.shown());
+  print(more.empty() ? versionLine() : versionJson());
+}
+
 int dispatch(std::span<const char* const> words) {
   const engine::Engine commands = allCommands();
   const std::string first = words.size() > 1 ? words[1] : "";
@@ -180,7 +191,7 @@ int dispatch(std::span<const char* const> words) {
     return 0;
   }
   if (first == "version" || first == "--version" || first == "-V") {
-    print(kVersion);
+    printVersion(words.subspan(2));
     return 0;
   }
   if (first == engine::kOperationWord && words.size() == 3) return runOperation(commands, words[2]);

@@ -108,7 +108,8 @@ void requireFormat(const JsonPlace& root, const char* name) {
   if (const JsonPlace format = root.at("format"); format.text() != name)
     format.refuse("\"" + std::string(name) + "\"");
   const JsonPlace version = root.at("formatVersion");
-  if (!version.value().is(1)) version.refuse("1, the only version that this lumen reads");
+  if (!version.value().is(kLibraryFormat))
+    version.refuse(std::to_string(kLibraryFormat) + ", the only version that this lumen reads");
 }
 
 }  // namespace lumen::convert

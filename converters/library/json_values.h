@@ -11,6 +11,9 @@
 
 namespace lumen::convert {
 
+/// `formatVersion` of library.json and record.json, spec/library.md.
+inline constexpr int kLibraryFormat = 1;
+
 /// The greatest whole number that every reader of JSON holds exactly.
 inline constexpr std::uint64_t kMostWhole = std::uint64_t{1} << 53;
 
@@ -31,7 +34,7 @@ std::string caseId(const JsonPlace& place);
 bool isDay(std::string_view text);
 bool isUuid(std::string_view text);
 
-/// Refuses another format than `name`, and another version than 1.
+/// Refuses another format than `name`, and another version than kLibraryFormat.
 void requireFormat(const JsonPlace& root, const char* name);
 
 }  // namespace lumen::convert

@@ -70,7 +70,7 @@ std::string newLibraryId() {
 
 std::string libraryText(const LibraryFile& library) {
   Json json = {{"format", "lumen-library"},
-               {"formatVersion", 1},
+               {"formatVersion", kLibraryFormat},
                {"id", library.id},
                {"revision", library.revision},
                {"previous", library.previous ? Json(*library.previous) : Json()},

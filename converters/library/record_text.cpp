@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // record.h: the bytes of record.json.
+#include "converters/library/json_values.h"
 #include "converters/library/record.h"
 
 namespace lumen::convert {
@@ -74,7 +75,7 @@ std::string recordText(const CaseRecord& record) {
   const CaseAbout& about = record.about;
   const Json json = {
       {"format", "lumen-library-case"},
-      {"formatVersion", 1},
+      {"formatVersion", kLibraryFormat},
       {"id", record.id},
       {"version", record.version},
       {"date", record.date},

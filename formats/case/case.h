@@ -105,7 +105,7 @@ using ParameterValue = std::variant<bool, std::int64_t, double, std::string>;
 /// One processing step with every parameter value that it used.
 struct Step {
   std::string name;  ///< "track", "fit", "phantom", ...
-  std::string tool;  ///< "lumen 0.1.0"
+  std::string tool;  ///< "lumen 0.2.0"
   std::map<std::string, ParameterValue> parameters;
   friend bool operator==(const Step&, const Step&) = default;
 };

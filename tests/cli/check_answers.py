@@ -153,6 +153,7 @@ def make_cases(lumen, folder):
     go("library.schema.json", "library", "extract", "lib", "extract", "--case", "two")
     go("library.schema.json", "library", "remove", "lib", "two")
     go("completion.schema.json", "completion", "bash")
+    hold("version.schema.json", subprocess.run([lumen, "--version", "--json"], capture_output=True, timeout=60), "--version")
     (folder / "library").mkdir()
     (folder / "library/library.json").write_text(json.dumps(dict(
         format="lumen-library", formatVersion=1, id="0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4", revision=1, previous=None, title="Cases", description="",

@@ -2,6 +2,8 @@
 // Help, arguments that are refused, and the exit code of each class of failure.
 #include <regex>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
@@ -60,6 +62,22 @@ TEST_F(UsageTest, TheVersionIsOneLine) {
     EXPECT_TRUE(std::regex_match(version.out, std::regex("lumen [0-9]+\\.[0-9]+\\.[0-9]+\n")))
         << version.out;
   }
+}
+
+TEST_F(UsageTest, TheVersionAsJsonNamesThatOfTheLineAndOfTheFormats) {
+  const Outcome version = lumen({"--version", "--json"});
+  EXPECT_EQ(version.code, 0);
+  const auto answer = nlohmann::json::parse(version.out);
+  EXPECT_EQ("lumen " + answer.at("version").get<std::string>() + "\n", lumen({"--version"}).out);
+  EXPECT_EQ(answer.at("version"), answer.at("libblob"));
+  EXPECT_EQ(answer.at("formats").at("case"), "1.1");
+  EXPECT_EQ(lumen({"version", "--json"}).out, version.out);
+}
+
+TEST_F(UsageTest, TheVersionRefusesAnOptionThatWouldDoNothing) {
+  const Outcome refused = lumen({"--version", "--quiet"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(contains(refused.err, "\"--quiet\"")) << refused.err;
 }
 
 TEST_F(UsageTest, HelpIsACommandToo) {

@@ -20,8 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kManifestVersion = 1;  // version of spec/export.md
-constexpr int kDigits = 5;           // digits of numbers in README.md
+constexpr int kDigits = 5;  // digits of numbers in README.md
 
 Json vectorJson(const Eigen::Vector3d& v) {
   // adding zero: no negative zeros, so that equal folders have equal texts

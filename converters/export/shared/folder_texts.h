@@ -9,6 +9,9 @@
 
 namespace lumen::convert {
 
+/// `version` of lumen-export.json, spec/export.md.
+inline constexpr int kManifestVersion = 1;
+
 /// README.md: title, how to start, files, units and frame, named ends.
 std::string readmeText(const TargetRow& target, const ExportFrame& frame,
                        const ExportResult& result);

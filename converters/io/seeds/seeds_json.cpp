@@ -96,7 +96,8 @@ std::vector<SeedBranch> parseSeeds(const JsonPlace& root, const SeedReading& rea
     root.at("format").refuse("\"lumen-seeds\": this is no file of seeds");
   root.onlyKeys(
       {"$schema", "format", "version", "comment", "coordinateSystem", "units", "branches"});
-  if (!root.at("version").value().is(1)) root.at("version").refuse("1");
+  if (!root.at("version").value().is(kSeedsVersion))
+    root.at("version").refuse(std::to_string(kSeedsVersion));
   for (const char* key : {"$schema", "comment"})
     if (root.has(key)) (void)root.at(key).text();
   const SeedFrame frame = parseFrame(root, reading);
@@ -108,7 +109,8 @@ std::vector<SeedBranch> parseSeeds(const JsonPlace& root, const SeedReading& rea
 
 std::string seedsText(const std::vector<SeedBranch>& seeds) {
   std::string text =
-      "{\n  \"format\": \"lumen-seeds\",\n  \"version\": 1,\n  \"coordinateSystem\": \"LPS\",\n"
+      "{\n  \"format\": \"lumen-seeds\",\n  \"version\": " + std::to_string(kSeedsVersion) +
+      ",\n  \"coordinateSystem\": \"LPS\",\n"
       "  \"units\": \"mm\",\n  \"branches\": [\n";
   for (std::size_t i = 0; i < seeds.size(); ++i)
     text += branchText(seeds[i]) + (i + 1 < seeds.size() ? ",\n" : "\n");

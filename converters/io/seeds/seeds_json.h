@@ -9,6 +9,9 @@
 
 namespace lumen::convert {
 
+/// `version` of a file of seeds, spec/seeds.md.
+inline constexpr int kSeedsVersion = 1;
+
 /// The branches in file order, not yet checked across branches. Throws Error(InvalidInput).
 std::vector<SeedBranch> parseSeeds(const JsonPlace& root, const SeedReading& reading);
 
