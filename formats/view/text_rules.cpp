@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/view/text_rules.h"
 
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "formats/container/utf8.h"
@@ -49,5 +51,46 @@ std::string jsonPointerToken(std::string_view key) {
   }
   return token;
 }
+
+#if defined(__wasm__)
+
+namespace {
+
+/// "12.5" of the digits 125 and the exponent 1; "1.25e-09" where zeros would fill more than four places.
+std::string placed(const std::string& digits, int exponent) {
+  const int count = static_cast<int>(digits.size());
+  const auto at = [&](int place) { return static_cast<std::size_t>(place); };
+  if (exponent < -4 || exponent > 15)
+    return digits.substr(0, 1) + (count > 1 ? "." + digits.substr(1) : "") + "e" +
+           std::to_string(exponent);
+  if (exponent < 0) return "0." + std::string(at(-1 - exponent), '0') + digits;
+  if (count <= exponent + 1) return digits + std::string(at(exponent + 1 - count), '0');
+  return digits.substr(0, at(exponent + 1)) + "." + digits.substr(at(exponent + 1));
+}
+
+}  // namespace
+
+void appendRounded(std::string& text, double value) {
+  constexpr double kScale = 1e8;  // nine digits before the point
+  if (std::isnan(value)) {
+    text += "nan";
+    return;
+  }
+  if (std::signbit(value)) text += "-";
+  value = std::abs(value);
+  if (std::isinf(value)) {
+    text += "inf";
+    return;
+  }
+  int exponent = 0;
+  for (; value >= 10; ++exponent) value /= 10;
+  for (; value > 0 && value < 1; --exponent) value *= 10;
+  auto digits = static_cast<std::uint64_t>(value * kScale + 0.5);
+  if (digits >= 10 * static_cast<std::uint64_t>(kScale)) ++exponent;
+  while (digits > 9 && digits % 10 == 0) digits /= 10;
+  text += placed(std::to_string(digits), exponent);
+}
+
+#endif
 
 }  // namespace lumen::formats

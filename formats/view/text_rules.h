@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "formats/container/issue.h"
 
@@ -31,9 +32,18 @@ inline std::string at(const std::string& array, std::size_t index) {
   return array + "/" + std::to_string(index);
 }
 
+#if defined(__wasm__)
+/// Appends `value` with at most nine digits; "nan" and "inf" included. The tables of the shortest text would be a
+/// third of the download of a page, which shows such numbers in messages alone.
+void appendRounded(std::string& text, double value);
+#endif
+
 /// Appends the shortest text that reads back as `value`; "nan" and "inf" included.
 template <class Number>
 void appendNumber(std::string& text, Number value) {
+#if defined(__wasm__)
+  if constexpr (std::is_floating_point_v<Number>) return appendRounded(text, double{value});
+#endif
   char buffer[32];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
   text.append(buffer, result.ptr);
