@@ -166,9 +166,10 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
   head.policy = kPolicy;
   head.title = state["title"].get<std::string>();
   head.links = "<style>" + style + "</style>\n";
-  return htmlPage(head, "<script type=\"application/json\" id=\"lumen-embedded\">" +
-                            embedded.text(state) + "</script>\n<script>" +
-                            inlineScript(fileOf(page, "page.js")) + "</script>\n");
+  return htmlPage(
+      head, "<lumen-case></lumen-case>\n<script type=\"application/json\" id=\"lumen-embedded\">" +
+                embedded.text(state) + "</script>\n<script>" +
+                inlineScript(fileOf(page, "page.js")) + "</script>\n");
 }
 
 }  // namespace lumen::viewer

@@ -3,6 +3,7 @@
  * cursor held at the node. */
 import { BufferAttribute, BufferGeometry, Mesh } from "three";
 import { Flags, type Model } from "../../../libblob/wasm/blob.mjs";
+import { kTetrahedra } from "./field_surface";
 import type { App } from "./model";
 import { kNoClip, PartMaterial } from "./part_material";
 import type { SceneView } from "./scene_view";
@@ -10,16 +11,6 @@ import type { Tree } from "./tree";
 
 const kCells = 22; // along an edge of the box
 const kBoxRadii = 2.2; // radii from the centre to the box's sides: a local field may go on beyond; it is cut there
-
-// six tetrahedra of a cube that share its diagonal; corners are bits x, y, z
-const kTetrahedra = [
-  [0, 1, 3, 7],
-  [0, 3, 2, 7],
-  [0, 2, 6, 7],
-  [0, 6, 4, 7],
-  [0, 4, 5, 7],
-  [0, 5, 1, 7],
-];
 
 /** Triangles (x y z of three corners each) of the zero level of values on a grid of n^3 points over a box. */
 export function marchTetrahedra(value: ArrayLike<number>, n: number, low: number[], step: number): number[] {

@@ -7,11 +7,13 @@ import { caseMeasuresPanel } from "./case_measures_panel";
 import { displayPanel } from "./display_panel";
 import { findPanel } from "./find_panel";
 import { Flight } from "./flight";
+import { Frame } from "./frame";
 import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
 import { deviationLegend, surfaceLegend } from "./legend";
 import { libraryPanel } from "./library_panel";
 import { Loader } from "./loader";
+import { LumenCase } from "./lumen_case";
 import { keepView } from "./kept_view";
 import { LocalModel } from "./local_model";
 import { MeshLayer } from "./mesh_layer";
@@ -67,10 +69,11 @@ function makeApp(source: Source, shell: Shell): App {
   return app;
 }
 
-async function start(): Promise<void> {
-  const source = EmbeddedSource.find() ?? new ServerSource();
+async function start(root: HTMLElement): Promise<void> {
+  const frame = Frame.find(),
+    source = (await frame?.source()) ?? EmbeddedSource.find() ?? new ServerSource();
   const state = source.state(); // the request is on its way while the graphics start
-  const shell = makeShell();
+  const shell = makeShell(root);
   const app = makeApp(source, shell);
   const slices = (["axial", "coronal", "sagittal"] as SliceName[]).map(
       name => new SliceView(name, shell[name], app),
@@ -84,7 +87,8 @@ async function start(): Promise<void> {
     work = new WorkList(app, actions);
   offerUnsaved(app);
   offerSeries(app);
-  keepView(app);
+  if (frame === null) keepView(app);
+  else frame.applyView(app.store);
   const tools = new Tools(app, hand, flight, wire);
   for (const slice of slices) listenToSlice(slice, app, tools);
   listenToScene(scene, app, tools);
@@ -156,11 +160,21 @@ async function start(): Promise<void> {
     },
   );
   await watcher.begin(state);
+  frame?.ready(app.store);
 }
 
-start().catch((error: unknown) => {
-  const text = error instanceof Error ? error.message : String(error);
-  document.body.append(
-    h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)),
-  );
-});
+/** The whole page is one of these elements: without `src` it shows what the document embeds, or what the server holds. */
+class PageCase extends LumenCase {
+  protected override show(): void {
+    if (this.hasAttribute("src")) super.show();
+    else if (this.childElementCount === 0) start(this).catch((error: unknown) => this.fail(error));
+  }
+  private fail(error: unknown): void {
+    const text = error instanceof Error ? error.message : String(error);
+    this.append(
+      h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)),
+    );
+    Frame.find()?.fail(text);
+  }
+}
+customElements.define("lumen-case", PageCase);

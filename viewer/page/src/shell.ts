@@ -43,7 +43,8 @@ function viewElement(id: string, label: string, help: string): HTMLElement {
 const kSliceHelp =
   "Arrow keys move the crosshair, page up and down step through slices, plus and minus zoom.";
 
-export function makeShell(): Shell {
+/** The frame, which becomes the content of `root`. */
+export function makeShell(root: HTMLElement): Shell {
   const shell: Shell = {
     bar: h("div", { class: "bar", role: "toolbar", "aria-label": "Tools" }),
     left: h("aside", { class: "panel left", "aria-label": "Vessels" }),
@@ -66,7 +67,7 @@ export function makeShell(): Shell {
   };
   shell.scene.append(h("div", { class: "legends" }, shell.legend, shell.deviations));
   shell.views.append(shell.canvas, shell.axial, shell.scene, shell.coronal, shell.sagittal, shell.empty);
-  document.body.append(
+  root.append(
     h("a", { class: "skip", href: "#tree-list" }, "To the list of vessels"),
     h("header", {}, h("h1", { class: "unseen" }, "lumen"), shell.bar),
     h(

@@ -23,15 +23,18 @@ async function inflated(bytes: Uint8Array): Promise<Uint8Array> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-interface Embedded {
+/** Base64 of what zlib has compressed, or the bytes themselves, once they are asked for. */
+type Part = string | (() => Promise<Uint8Array>);
+
+export interface Embedded {
   state: Partial<State>;
-  parts: Record<string, string>;
+  parts: Record<string, Part>;
 }
 
 export class EmbeddedSource implements Source {
   readonly live = false;
   private readonly state0: Partial<State>;
-  private readonly parts: Map<string, string>;
+  private readonly parts: Map<string, Part>;
 
   /** Null if nothing is embedded: there is a server. */
   static find(): EmbeddedSource | null {
@@ -52,9 +55,9 @@ export class EmbeddedSource implements Source {
     received?: Received,
   ): Promise<Uint8Array | null> {
     const key = "id" in query ? `${name}?id=${query.id}` : name,
-      text = this.parts.get(key);
-    if (text === undefined) return null;
-    const bytes = await inflated(fromBase64(text));
+      part = this.parts.get(key);
+    if (part === undefined) return null;
+    const bytes = typeof part === "string" ? await inflated(fromBase64(part)) : await part();
     if (name === "volume") this.parts.delete(key); // it is asked for once, and is large
     received?.(bytes, bytes.length);
     return bytes;

@@ -99,7 +99,11 @@ export class Surface {
     for (const v of this.triangle)
       if (v >= vertices) throw new Error("A triangle of the surface names a vertex that does not exist.");
     const position = new BufferAttribute(this.position, 3);
-    const normal = new BufferAttribute(packed(vertexNormals(this.position, this.triangle)), 4, true);
+    const normal = new BufferAttribute(
+      packed(pack.optional("normal", "f32") ?? vertexNormals(this.position, this.triangle)),
+      4,
+      true,
+    );
     this.value = new BufferAttribute(new Float32Array(vertices), 1);
     const moving = pack.optional("moving", "u32");
     if (moving?.some(v => v >= vertices) === true)

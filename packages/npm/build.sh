@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# build.sh OUT: makes the npm packages @lumen/blob and @lumen/viewer as OUT/NAME.tgz. Needs `npm ci` in viewer/page, and blob.wasm
+# (target blob_wasm) in $LUMEN_BUILD (default: build/release). Equal sources give equal bytes.
+set -euo pipefail
+[ $# -eq 1 ] || { sed -n '3,4p' "$0" >&2; exit 2; }
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+mkdir -p "$1"
+out=$(cd "$1" && pwd)
+build=${LUMEN_BUILD:-$root/build/release}
+page=$root/viewer/page
+wasm=$(find "$build/libblob" -name blob.wasm | head -n 1)
+[ -n "$wasm" ] || { echo "build.sh: no blob.wasm in $build; cmake --build it with -t blob_wasm" >&2; exit 1; }
+[ -d "$page/node_modules" ] || { echo "build.sh: npm ci in viewer/page is missing" >&2; exit 1; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+cp -r "$root/packages/npm/blob" "$root/packages/npm/viewer" "$work/"
+cp "$root/libblob/wasm/blob.mjs" "$work/blob/"
+for package in blob viewer; do cp "$root/LICENSE" "$wasm" "$work/$package/"; done
+
+# types from the JSDoc of the wrapper
+cat >"$work/tsconfig.json" <<'JSON'
+{"compilerOptions": {"allowJs": true, "declaration": true, "emitDeclarationOnly": true, "target": "es2022", "module": "nodenext",
+  "lib": ["es2022", "dom"], "types": []}, "files": ["blob/blob.mjs"]}
+JSON
+"$page/node_modules/.bin/tsc" -p "$work/tsconfig.json"
+
+(cd "$page" && node build.mjs "$work/page" >/dev/null)
+cp "$work/page/page.js" "$work/page/page.css" "$work/viewer/"
+rm "$work/viewer/index.ts"
+"$page/node_modules/.bin/esbuild" "$root/packages/npm/viewer/index.ts" --bundle --format=esm --target=es2022 --minify \
+  --charset=utf8 --log-level=warning --outfile="$work/viewer/index.js"
+
+for package in blob viewer; do
+  (cd "$work/$package" && npm pack --silent --pack-destination "$out" >/dev/null)
+done
+ls -l "$out"/lumen-*.tgz

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// @lumen/blob in Node, in its threads, in a page, in a worker of the page, and as TypeScript sees it.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { copyFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { startBrowser } from "../../../viewer/page/people/browser.mjs";
+import { expectedDistances, installed, kCase, kRoot, served } from "./made.mjs";
+
+const kMostBytes = 150_000, // of the archive
+  kNear = 1e-6; // mm
+
+// asks the package for distances, wherever it runs
+const kAsk = `
+export async function ask({ loadBlob }, bytes, places) {
+  const model = (await loadBlob()).open(bytes), batch = model.batch(places.length / 3);
+  batch.points.set(places);
+  batch.query();
+  const distances = [...batch.distances()];
+  batch.free();
+  model.close();
+  return distances;
+}
+`;
+
+function near(found, expected, where) {
+  assert.equal(found.length, expected.length, where);
+  for (const [i, x] of found.entries()) assert.ok(Math.abs(x - expected[i]) < kNear, `${where}: ${x} for ${expected[i]}`);
+}
+
+test("the archive is small, and answers as the native library in Node and its threads", t => {
+  const { folder, size } = installed(t),
+    { places, distances } = expectedDistances(process.env.LUMEN, folder);
+  assert.ok(size("blob") <= kMostBytes, `${size("blob")} bytes`);
+  writeFileSync(join(folder, "ask.mjs"), kAsk);
+  writeFileSync(join(folder, "places.json"), JSON.stringify(places));
+  writeFileSync(
+    join(folder, "main.mjs"),
+    `import * as blob from "@lumen/blob";
+import { readFileSync } from "node:fs";
+import { isMainThread, parentPort, Worker } from "node:worker_threads";
+import { ask } from "./ask.mjs";
+const places = JSON.parse(readFileSync("places.json", "utf8")), bytes = readFileSync(process.argv[2]);
+const own = await ask(blob, bytes, places);
+if (!isMainThread) parentPort.postMessage(own);
+else new Worker(new URL(import.meta.url), { argv: [process.argv[2]] }).once("message", of => console.log(JSON.stringify([own, of])));
+`,
+  );
+  const [own, ofThread] = JSON.parse(execFileSync(process.execPath, ["main.mjs", kCase], { cwd: folder, encoding: "utf8" }));
+  near(own, distances, "Node");
+  near(ofThread, distances, "a thread of Node");
+});
+
+test("TypeScript knows the types, and refuses a wrong one", t => {
+  const { folder } = installed(t),
+    tsc = join(kRoot, "viewer/page/node_modules/.bin/tsc"),
+    check = (name, text) => {
+      writeFileSync(join(folder, name), text);
+      const compilerOptions = { noEmit: true, strict: true, target: "es2022", module: "nodenext", lib: ["es2022", "dom"], types: [] };
+      writeFileSync(join(folder, "tsconfig.json"), JSON.stringify({ compilerOptions, files: [name] }));
+      return () => execFileSync(tsc, ["-p", "."], { cwd: folder, encoding: "utf8", stdio: "pipe" });
+    };
+  const head = 'import { loadBlob, Flags, type Model } from "@lumen/blob";\nimport { LumenCase } from "@lumen/viewer";\n';
+  const right = check(
+    "good.ts",
+    `${head}const model: Model = (await loadBlob()).open(new Uint8Array(3));
+const batch = model.batch(2);
+batch.query(Flags.LOCAL);
+const distance: number = batch.sample(0).distance + model.describe().isoLevel;
+const element: LumenCase = document.createElement("lumen-case");
+element.src = String(distance);\n`,
+  );
+  right();
+  assert.throws(check("bad.ts", `${head}const text: string = (await loadBlob()).open(new Uint8Array(3)).batch(2).distances();\nvoid LumenCase;\n`));
+});
+
+test("a page and its worker have the same answers", async t => {
+  const { folder } = installed(t),
+    { places, distances } = expectedDistances(process.env.LUMEN, folder);
+  copyFileSync(kCase, join(folder, "fork.lumen"));
+  writeFileSync(join(folder, "ask.mjs"), kAsk);
+  const get = 'new Uint8Array(await (await fetch("/fork.lumen")).arrayBuffer())';
+  writeFileSync(
+    join(folder, "worker.mjs"),
+    `import * as blob from "/node_modules/@lumen/blob/index.mjs";
+import { ask } from "/ask.mjs";
+onmessage = async ({ data }) => postMessage(await ask(blob, ${get}, data));\n`,
+  );
+  writeFileSync(
+    join(folder, "page.html"),
+    `<!doctype html><title>blob</title><link rel="icon" href="data:,">
+<script type="importmap">{"imports": {"@lumen/blob": "/node_modules/@lumen/blob/index.mjs"}}</script>
+<script type="module">
+import * as blob from "@lumen/blob";
+import { ask } from "/ask.mjs";
+window.asked = async places => {
+  const worker = new Worker("/worker.mjs", { type: "module" });
+  worker.postMessage(places);
+  const ofWorker = new Promise((resolve, reject) => { worker.onmessage = e => resolve(e.data); worker.onerror = e => reject(new Error(e.message)); });
+  return [await ask(blob, ${get}, places), await ofWorker];
+};
+</script>\n`,
+  );
+  const address = await served(t, folder),
+    browser = await startBrowser(t),
+    page = await browser.newPage();
+  await page.goto(`${address}page.html`);
+  await page.waitForFunction(() => window.asked !== undefined);
+  const [own, ofWorker] = await page.evaluate(p => window.asked(p), places);
+  near(own, distances, "a page");
+  near(ofWorker, distances, "a worker");
+});
