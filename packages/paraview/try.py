@@ -26,7 +26,6 @@ ColorBy(line, ("POINTS", "Radius"))
 line.SetScalarBarVisibility(view, True)
 arrows = Show(Glyph(Input=OutputPort(reader, 2), GlyphType="Arrow", OrientationArray=["POINTS", "Outwards"],
                     ScaleArray=["POINTS", "No scale array"], ScaleFactor=2, GlyphMode="All Points"), view)
-ColorBy(arrows, None)
 arrows.DiffuseColor = [1, 0.9, 0.3]
 ResetCamera(view)
 at = list(view.CameraFocalPoint)

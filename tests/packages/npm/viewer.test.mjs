@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // <lumen-case> on somebody's page: a case alone, a page of lumen view, and files that cannot be shown.
 import assert from "node:assert/strict";
-import { copyFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join } from "node:path";
+import { test } from "node:test";
+import { pathToFileURL } from "node:url";
 import { frames, picture, startBrowser, story } from "../../../viewer/page/people/browser.mjs";
 import { lumen } from "../../../viewer/page/people/lumen.mjs";
-import { installed, kCase, served } from "./made.mjs";
+import { installed, kCase, kRoot, served } from "./made.mjs";
 
 // what a careful site allows, and README.md of the package asks for
 const kPolicy =
@@ -52,6 +55,53 @@ const coloured = frame =>
     return count;
   });
 
+/** The page's own reading of a case and its surface, and libblob, as one module for Node. */
+async function pageCode(folder) {
+  const page = join(kRoot, "viewer/page"),
+    { build } = createRequire(join(page, "build.mjs"))("esbuild"),
+    outfile = join(folder, "code.mjs"),
+    contents = ["./src/case_file", "./src/field_surface", "./src/pack", "./src/tree", "../../libblob/wasm/blob.mjs"]
+      .map(name => `export * from "${name}";`)
+      .join("\n");
+  await build({ stdin: { contents, resolveDir: page }, bundle: true, format: "esm", platform: "node", outfile, logLevel: "error" });
+  return import(pathToFileURL(outfile).href);
+}
+
+/** Numbers of triangles at the edges, each once. */
+function trianglesAtEdges(triangle) {
+  const edges = new Map();
+  for (let t = 0; t < triangle.length; t += 3)
+    for (const [i, j] of [
+      [0, 1],
+      [1, 2],
+      [2, 0],
+    ]) {
+      const [a, b] = [triangle[t + i], triangle[t + j]].sort((x, y) => x - y);
+      edges.set(`${a} ${b}`, (edges.get(`${a} ${b}`) ?? 0) + 1);
+    }
+  return new Set(edges.values());
+}
+
+test("the surface of a case is closed, lies on the wall, and faces outwards", async t => {
+  const { folder } = installed(t),
+    code = await pageCode(folder),
+    file = new Uint8Array(readFileSync(kCase)),
+    model = (await code.load(readFileSync(join(folder, "node_modules/@lumen/viewer/blob.wasm")))).open(file),
+    pack = new code.Pack(code.surfacePack(model, new code.Tree(new code.Pack(code.packOfCase(file))))),
+    [position, normal, triangle] = [pack.get("position", "f32"), pack.get("normal", "f32"), pack.get("triangle", "u32")],
+    count = position.length / 3;
+  assert.ok(count > 3000, `${count} vertices`);
+  assert.deepEqual(trianglesAtEdges(triangle), new Set([2]), "each edge has two triangles");
+  const batch = model.batch(count);
+  batch.points.set(position);
+  batch.query(code.Flags.DISTANCE_EXACT);
+  const off = Array.from(batch.distances(), Math.abs).sort((a, b) => a - b);
+  assert.ok(off[Math.floor(0.99 * count)] < 1e-4 && off[count - 1] < 0.05, `${off[Math.floor(0.99 * count)]}, ${off[count - 1]} mm off the wall`);
+  batch.points.set(position.map((x, i) => x + 0.1 * normal[i]));
+  batch.query();
+  assert.ok(batch.distances().filter(x => x > 0).length > 0.98 * count, "normals point out of the lumen");
+});
+
 story("a case alone and a page of lumen view stand on one page, apart from it and from one another", async t => {
   const { folder } = installed(t);
   copyFileSync(kCase, join(folder, "fork.lumen"));
@@ -81,7 +131,7 @@ story("a case alone and a page of lumen view stand on one page, apart from it an
   assert.deepEqual(mistakes, []);
 });
 
-story("the surface that a browser makes lies on the wall, and is closed", async t => {
+story("a pointer on the surface that a browser makes is on the wall", async t => {
   const { folder } = installed(t);
   copyFileSync(kCase, join(folder, "fork.lumen"));
   writePage(folder, '<lumen-case id="case" src="fork.lumen" panels="both" layout="four"></lumen-case>');

@@ -9,8 +9,8 @@ const kBlock = 6, // cells along an edge of a block
   kSide = kBlock + 1, // points
   kPoints = kSide ** 3,
   kReach = 1.5, // radii from a node's centre within which its wall is looked for
-  kCellsAcross = 5, // of a vessel of the lower quartile of radii
-  kMostPoints = 2e6, // of the grid: a second or two of queries
+  kCellsAcross = 4, // of a vessel of the lower quartile of radii
+  kMostPoints = 1e6, // of the grid: a second or two of queries
   kSteps = 2; // of Newton's method onto the wall
 
 /** Six tetrahedra of a cube that share its diagonal; corners are bits x, y, z. */
