@@ -17,7 +17,10 @@ trap 'rm -rf "$work"' EXIT
 
 cp -r "$root/packages/npm/blob" "$root/packages/npm/viewer" "$work/"
 cp "$root/libblob/wasm/blob.mjs" "$work/blob/"
-for package in blob viewer; do cp "$root/LICENSE" "$wasm" "$work/$package/"; done
+for package in blob viewer; do
+  cp "$root/LICENSE" "$root/THIRD_PARTY.md" "$work/$package/"
+  install -m 644 "$wasm" "$work/$package/"
+done
 
 # types from the JSDoc of the wrapper
 cat >"$work/tsconfig.json" <<'JSON'
