@@ -6,17 +6,17 @@ version.py            prints the version
 version.py --check    names the places that state another one; exit status 1 if there are some
 version.py --write    writes the version into all of them
 
-A place is found by the name of its file among those that git tracks, so that a new package needs no line here. The tests,
+A place is found by the name of its file, so that a new package needs no line here. The tests,
 whose data of older versions stays as it is, have none."""
 import pathlib, re, subprocess, sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+NO_SOURCE = {"node_modules", ".git", "obj-x86_64-linux-gnu"}
 NUMBER = r"([0-9]+\.[0-9]+\.[0-9]+)"
 
 # Names of files, and what stands before the version there; (?m) makes ^ the start of a line.
 PLACES = {
     "CITATION.cff": [r"(?m)^version: "],
-    "CHANGELOG.md": [r"\A# Changes\n\n## "],
     "pyproject.toml": [r'(?m)^version = "'],
     "package.json": [r'(?m)^  "version": "'],
     "vcpkg.json": [r'(?m)^  "version(?:-semver|-string)?": "'],
@@ -38,9 +38,13 @@ def project_version():
     return re.search(r"project\(lumen VERSION " + NUMBER, (ROOT / "CMakeLists.txt").read_text())[1]
 
 
-def tracked():
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True)
-    return [name for name in listed.stdout.splitlines() if not name.startswith("tests/")]
+def files():
+    """Names of the sources: of git, or of an archive that was unpacked. Those of tests are left out."""
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-co", "--exclude-standard"], capture_output=True, text=True) \
+        if (ROOT / ".git").exists() else None
+    if listed is not None and listed.returncode == 0: names = listed.stdout.splitlines()
+    else: names = [path.relative_to(ROOT).as_posix() for path in ROOT.rglob("*") if not NO_SOURCE & set(path.relative_to(ROOT).parts)]
+    return [name for name in names if not name.startswith(("tests/", "build", "dist/"))]
 
 
 def patterns(name):
@@ -56,7 +60,7 @@ def macros(version):
 
 
 def stated(name, text):
-    """(version, start, end) of each place in a text, but blob.h's, whose version is three numbers."""
+    """(version, start, end) of each place in a text, but for those of SPECIAL."""
     for pattern in patterns(name):
         for found in pattern.finditer(text):
             yield found[1], *found.span(1)
@@ -68,16 +72,29 @@ def header_with(text, version):
     return text
 
 
+def add_on_with(text, version):
+    return re.sub(r'(?m)^(    "version": )\([0-9, ]+\)', rf"\1({version.replace('.', ', ')})", text)
+
+
+def changes_with(text, version):
+    """The newest section is that of the version; sections of released ones keep their names."""
+    head = "# Changes\n\n"
+    return text if text.startswith(f"{head}## {version}\n") else text.replace(head, f"{head}## {version}\n\n", 1)
+
+
+# Places whose version is not a text of its own.
+SPECIAL = {"libblob/include/blob.h": header_with, "packages/blender/lumen_blender/__init__.py": add_on_with, "CHANGELOG.md": changes_with}
+
+
 def text_with(name, text, version):
-    if name == "libblob/include/blob.h":
-        return header_with(text, version)
+    if name in SPECIAL: return SPECIAL[name](text, version)
     for _, start, end in sorted(stated(name, text), key=lambda place: -place[1]):
         text = text[:start] + version + text[end:]
     return text
 
 
 def holds_version(name, text):
-    return name == "libblob/include/blob.h" or any(True for _ in stated(name, text))
+    return name in SPECIAL or any(True for _ in stated(name, text))
 
 
 def main(how):
@@ -86,8 +103,8 @@ def main(how):
         print(version)
         return 0
     places, wrong = [], []
-    for name in tracked():
-        if name != "libblob/include/blob.h" and not patterns(name): continue
+    for name in files():
+        if name not in SPECIAL and not patterns(name): continue
         path = ROOT / name
         if not path.is_file(): continue
         text = path.read_text()
