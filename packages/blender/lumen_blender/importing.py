@@ -38,7 +38,7 @@ def add_curves(tree, collection, scale):
         if parent >= 0: points.insert(0, (tree["centre"][parent], tree["radius"][nodes[0]]))
         curve = bpy.data.curves.new(branch["label"], "CURVE")
         curve.dimensions = "3D"
-        curve.bevel_depth = scale  # of a radius of 1: so that points show their radii
+        curve.bevel_depth = scale  # drawn at a radius of 1, so points show their radii in mm
         curve.use_fill_caps = True
         curve.materials.append(material(f"lumen vessel {index % len(COLOURS) + 1}", COLOURS[index % len(COLOURS)]))
         spline = curve.splines.new("POLY")

@@ -10,7 +10,7 @@ import { frames, picture, startBrowser, story } from "../../../viewer/page/peopl
 import { lumen } from "../../../viewer/page/people/lumen.mjs";
 import { installed, kCase, kRoot, served } from "./made.mjs";
 
-// what a careful site allows, and README.md of the package asks for
+// the policy of a careful site, as README.md of the package asks for it
 const kPolicy =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; connect-src 'self'; frame-src 'self'; img-src data: blob:";
 

@@ -102,7 +102,7 @@ export function packOfCase(bytes: Uint8Array): Uint8Array {
       throw new Error(`Node ${i} of the case names a parent or a branch that does not exist.`);
     if (parent[i] < 0) continue;
     const apart = Math.hypot(...[0, 1, 2].map(a => centre[3 * i + a] - centre[3 * parent[i] + a])),
-      isFirst = branches[branch[i]].firstNode === i, // of which the part outside of the parent's ball counts
+      isFirst = branches[branch[i]].firstNode === i, // its edge counts from the parent's ball on
       edge = isFirst ? Math.max(0, apart - radius[parent[i]]) : apart;
     rootDistance[i] = rootDistance[parent[i]] + edge;
     branches[branch[i]].length += edge;

@@ -9,9 +9,9 @@ const kBlock = 6, // cells along an edge of a block
   kSide = kBlock + 1, // points
   kPoints = kSide ** 3,
   kReach = 1.5, // radii from a node's centre within which its wall is looked for
-  kCellsAcross = 4, // of a vessel of the lower quartile of radii
-  kMostPoints = 1e6, // of the grid: a second or two of queries
-  kSteps = 2; // of Newton's method onto the wall
+  kCellsAcross = 4, // cells across a vessel at the lower quartile of radii
+  kMostPoints = 1e6, // bound on the grid's points: a second or two of queries
+  kSteps = 2; // steps of Newton's method onto the wall
 
 /** Six tetrahedra of a cube that share its diagonal; corners are bits x, y, z. */
 export const kTetrahedra = [

@@ -9,7 +9,7 @@ export interface PageFiles {
   wasm: string;
 }
 
-/** What the page inside reads of its element; see frame.ts. */
+/** Settings that the page inside reads of its element; see frame.ts. */
 export interface Framed {
   /** Absolute. */
   src: string;

@@ -49,7 +49,7 @@ function embeddedCase(title: string, file: Uint8Array, wasm: () => Promise<Uint8
   };
 }
 
-/** What a page of `lumen view --html` embeds; scripts of it do not run. */
+/** The data that a page of `lumen view --html` embeds; its scripts do not run. */
 function embeddedInPage(text: string): Embedded {
   const found = new DOMParser().parseFromString(text, "text/html").getElementById("lumen-embedded");
   if (found === null)

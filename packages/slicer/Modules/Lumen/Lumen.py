@@ -29,7 +29,7 @@ class Lumen(ScriptedLoadableModule):
 
 
 class LumenLogic(ScriptedLoadableModuleLogic):
-    """What the buttons do, without the buttons."""
+    """The work behind the buttons."""
 
     def outputs(self, name):
         """New nodes for the results: surface, centerline and ends."""

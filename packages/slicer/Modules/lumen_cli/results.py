@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the modules make of a case: a surface and a centerline as models, and the ends of vessels as a list of points."""
+"""Results of the modules, made of a case: a surface and a centerline as models, and the ends of vessels as a list of points."""
 import json, pathlib, shutil, tempfile
 
 from . import Failure, run
