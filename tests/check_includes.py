@@ -16,6 +16,8 @@ MAY_INCLUDE = {
     "formats/field": [],
     "formats/view": ["formats/container", "formats/field"],
     "formats/case": ["formats/container", "formats/field", "formats/view"],
+    "formats/include/lumen": [],
+    "formats/api": ["formats/include/lumen", "formats/container", "formats/field", "formats/view", "formats/case"],
     "libblob/include": [],
     "libblob/src": ["libblob/include", "libblob/src/simd", "formats/container", "formats/field", "formats/view"],
     "libblob/src/simd": ["libblob/include", "libblob/src", "formats/field"],
@@ -70,7 +72,7 @@ def sources():
 
 def resolve(file, name, files):
     """The file that an include names, or None for one of another project."""
-    for base in (pathlib.Path(), file.parent, pathlib.Path("libblob/src"), pathlib.Path("libblob/include")):
+    for base in (pathlib.Path(), file.parent, pathlib.Path("libblob/src"), pathlib.Path("libblob/include"), pathlib.Path("formats/include")):
         if base / name in files: return base / name
     return None
 

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+# libblob and the case library for programs in C and C++.
+lumen_test(case_library_test
+  LABELS foreign
+  LIBS lumen::case
+  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/case_library_test.cpp)
+
+if(NOT LUMEN_SANITIZE)
+  add_test(NAME CppLibraries.AreFoundBuiltAndRunByProjectsOfOthers
+    COMMAND ${CMAKE_COMMAND}
+      -D BUILD=${PROJECT_BINARY_DIR} -D ROOT=${PROJECT_SOURCE_DIR} -D WORK=${CMAKE_CURRENT_BINARY_DIR}/consumer
+      -D LIBDIR=${CMAKE_INSTALL_LIBDIR} -D CC=${CMAKE_C_COMPILER} -D CXX=${CMAKE_CXX_COMPILER}
+      # flags of this build, whose objects a compiler cache has
+      "-DFLAGS=-DLUMEN_UNITY=${LUMEN_UNITY};-DLUMEN_WERROR=${LUMEN_WERROR}"
+      -P ${CMAKE_CURRENT_SOURCE_DIR}/consume.cmake)
+  set_tests_properties(CppLibraries.AreFoundBuiltAndRunByProjectsOfOthers PROPERTIES LABELS foreign)
+endif()
