@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Installs components blob and case of BUILD below WORK. Then builds and runs formats/examples against them by
+# Installs components blob and case of BUILD below WORK. Then builds and runs packages/examples against them by
 # find_package and by pkg-config, and against the sources in ROOT by add_subdirectory with FLAGS.
 function(run expected)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
@@ -19,7 +19,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 set(consumer ${ROOT}/tests/packages/consumer)
 set(common -G Ninja -D CMAKE_C_COMPILER=${CC} -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_BUILD_TYPE=Release
-  -D EXAMPLES=${ROOT}/formats/examples)
+  -D EXAMPLES=${ROOT}/packages/examples)
 foreach(component blob case)
   run("" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component ${component})
 endforeach()
@@ -42,7 +42,7 @@ execute_process(COMMAND ${PKG_CONFIG} --cflags --libs lumen-case blob OUTPUT_VAR
   OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 separate_arguments(flags)
 file(MAKE_DIRECTORY ${WORK}/plain)
-run("" ${CC} ${ROOT}/formats/examples/make_case.c -o ${WORK}/plain/make_case ${flags})
-run("" ${CXX} -std=c++17 ${ROOT}/formats/examples/widest_places.cpp -o ${WORK}/plain/widest_places ${flags})
+run("" ${CC} ${ROOT}/packages/examples/make_case.c -o ${WORK}/plain/make_case ${flags})
+run("" ${CXX} -std=c++17 ${ROOT}/packages/examples/widest_places.cpp -o ${WORK}/plain/widest_places ${flags})
 run("" ${CXX} -std=c++11 ${WORK}/installed/cpp11.cpp -o ${WORK}/plain/cpp11 ${flags})
 try(${WORK}/plain)
