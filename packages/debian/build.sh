@@ -89,7 +89,7 @@ build() {
     mkdir -p "$inside/sofa"
     mounts+=" && mount --bind '$LUMEN_SOFA' '$inside/sofa'"
   fi
-  unshare --mount --net --pid --fork sh -c "$mounts && exec chroot '$inside' env -i \
+  unshare --mount --net --pid --fork --kill-child sh -c "$mounts && exec chroot '$inside' env -i \
     PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/nonexistent CCACHE_DIR=/ccache LUMEN_SOFA=/sofa \
     DEB_BUILD_OPTIONS='noautodbgsym parallel=$(nproc)' DEB_BUILD_PROFILES='${profiles[*]}' \
     $* sh -c 'umask \${UMASK:-022}; cd $path/lumen-$upstream && dpkg-buildpackage -b -us -uc'"
