@@ -87,7 +87,7 @@ for deb in "$debs"/*.deb; do
   rm -rf "$work/taken"
   dpkg-deb -R "$deb" "$work/taken"
   sed -i "s/$version/$version+next/g" "$work/taken/DEBIAN/control"
-  dpkg-deb --root-owner-group -b "$work/taken" "$work/next" >>"$work/apt.log"
+  dpkg-deb -Znone --root-owner-group -b "$work/taken" "$work/next" >>"$work/apt.log"
 done
 mkdir "$root/packages/next"
 cp "$work/next"/*.deb "$root/packages/next"
