@@ -9,7 +9,8 @@ namespace lumen::cli {
 /// "lumen 0.2.0" and an end of line.
 std::string versionLine();
 
-/// Answer of `lumen --version --json`, spec/answers/version.schema.json. Equal builds give equal bytes.
+/// Answer of `lumen --version --json`, spec/answers/version.schema.json. Equal builds give equal
+/// bytes.
 std::string versionJson();
 
 }  // namespace lumen::cli

@@ -56,7 +56,8 @@ std::string jsonPointerToken(std::string_view key) {
 
 namespace {
 
-/// "12.5" of the digits 125 and the exponent 1; "1.25e-09" where zeros would fill more than four places.
+/// "12.5" of the digits 125 and the exponent 1; "1.25e-09" where zeros would fill more than four
+/// places.
 std::string placed(const std::string& digits, int exponent) {
   const int count = static_cast<int>(digits.size());
   const auto at = [&](int place) { return static_cast<std::size_t>(place); };

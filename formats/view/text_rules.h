@@ -33,8 +33,8 @@ inline std::string at(const std::string& array, std::size_t index) {
 }
 
 #if defined(__wasm__)
-/// Appends `value` with at most nine digits; "nan" and "inf" included. The tables of the shortest text would be a
-/// third of the download of a page, which shows such numbers in messages alone.
+/// Appends `value` with at most nine digits; "nan" and "inf" included. The tables of the shortest
+/// text would be a third of the download of a page, which shows such numbers in messages alone.
 void appendRounded(std::string& text, double value);
 #endif
 

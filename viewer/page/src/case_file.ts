@@ -58,14 +58,15 @@ function branchesOf(chunks: Map<string, Uint8Array>, nodes: number): BranchRecor
     out: BranchRecord[] = [];
   for (let at = 0; at + kRecord <= records.length; at += kRecord) {
     const [firstNode, nodeCount] = [view.getUint32(at, true), view.getUint32(at + 4, true)],
+      parentNode = view.getInt32(at + 8, true),
       label = view.getUint32(at + 12, true),
       confidence = view.getFloat32(at + 20, true);
-    if (nodeCount === 0 || firstNode + nodeCount > nodes)
+    if (nodeCount === 0 || firstNode + nodeCount > nodes || parentNode >= nodes)
       throw new Error("A branch of the case names a node that does not exist.");
     out.push({
       label: new TextDecoder().decode(labels.subarray(label, label + view.getUint16(at + 16, true))),
       kind: kKinds[records[at + 18]] ?? "vessel",
-      parentNode: view.getInt32(at + 8, true),
+      parentNode,
       firstNode,
       nodeCount,
       stopReason: kStops[records[at + 19]] ?? "unknown",
@@ -81,6 +82,32 @@ interface Metadata {
   steps?: { name: string; tool: string; parameters: Record<string, unknown> }[];
 }
 
+interface Nodes {
+  centre: Float32Array<ArrayBuffer>;
+  radius: Float32Array<ArrayBuffer>;
+  parent: Int32Array<ArrayBuffer>;
+  branch: Uint32Array<ArrayBuffer>;
+}
+
+/** mm along the tree from each node's root. Adds up the lengths of branches. Throws where a node's parent or branch does not exist. */
+function measure(
+  { centre, radius, parent, branch }: Nodes,
+  branches: BranchRecord[],
+): Float32Array<ArrayBuffer> {
+  const distance = new Float32Array(radius.length);
+  for (let i = 0; i < radius.length; ++i) {
+    if (parent[i] >= i || branch[i] >= branches.length)
+      throw new Error(`Node ${i} of the case names a parent or a branch that does not exist.`);
+    if (parent[i] < 0) continue;
+    const apart = Math.hypot(...[0, 1, 2].map(a => centre[3 * i + a] - centre[3 * parent[i] + a])),
+      isFirst = branches[branch[i]].firstNode === i, // its edge counts from the parent's ball on
+      edge = isFirst ? Math.max(0, apart - radius[parent[i]]) : apart;
+    distance[i] = distance[parent[i]] + edge;
+    branches[branch[i]].length += edge;
+  }
+  return distance;
+}
+
 /** The pack "case" (../../README.md) of a file's bytes, without wall points. Throws with a sentence for people. */
 export function packOfCase(bytes: Uint8Array): Uint8Array {
   const chunks = chunksOf(bytes),
@@ -89,24 +116,15 @@ export function packOfCase(bytes: Uint8Array): Uint8Array {
   const meta = JSON.parse(new TextDecoder().decode(needed(chunks, "META"))) as Metadata,
     numbers = (name: string, columns: number): Float32Array<ArrayBuffer> =>
       new Float32Array(needed(chunks, name, 4 * n * columns).buffer),
-    centre = numbers("NCEN", 3),
-    radius = numbers("NRAD", 1),
-    parent = new Int32Array(needed(chunks, "NPAR", 4 * n).buffer),
-    branch = new Uint32Array(needed(chunks, "NBRA", 4 * n).buffer),
+    nodes = {
+      centre: numbers("NCEN", 3),
+      radius: numbers("NRAD", 1),
+      parent: new Int32Array(needed(chunks, "NPAR", 4 * n).buffer),
+      branch: new Uint32Array(needed(chunks, "NBRA", 4 * n).buffer),
+    },
     branches = branchesOf(chunks, n),
     inlierRate = chunks.has("NINL") ? numbers("NINL", 1) : null,
     links = new Uint32Array(chunks.has("LINK") ? needed(chunks, "LINK").buffer : new ArrayBuffer(0));
-  const rootDistance = new Float32Array(n);
-  for (let i = 0; i < n; ++i) {
-    if (parent[i] >= i || branch[i] >= branches.length)
-      throw new Error(`Node ${i} of the case names a parent or a branch that does not exist.`);
-    if (parent[i] < 0) continue;
-    const apart = Math.hypot(...[0, 1, 2].map(a => centre[3 * i + a] - centre[3 * parent[i] + a])),
-      isFirst = branches[branch[i]].firstNode === i, // its edge counts from the parent's ball on
-      edge = isFirst ? Math.max(0, apart - radius[parent[i]]) : apart;
-    rootDistance[i] = rootDistance[parent[i]] + edge;
-    branches[branch[i]].length += edge;
-  }
   if (links.some(node => node >= n)) throw new Error("A link of the case names a node that does not exist.");
   return makePack(
     {
@@ -117,14 +135,14 @@ export function packOfCase(bytes: Uint8Array): Uint8Array {
       steps: meta.steps ?? [],
     },
     {
-      centre: { type: "f32", shape: [n, 3], data: centre },
+      centre: { type: "f32", shape: [n, 3], data: nodes.centre },
       direction: { type: "f32", shape: [n, 3], data: numbers("NDIR", 3) },
-      radius: { type: "f32", shape: [n], data: radius },
+      radius: { type: "f32", shape: [n], data: nodes.radius },
       height: { type: "f32", shape: [n], data: numbers("NHEI", 1) },
-      parent: { type: "i32", shape: [n], data: parent },
-      branch: { type: "u32", shape: [n], data: branch },
+      parent: { type: "i32", shape: [n], data: nodes.parent },
+      branch: { type: "u32", shape: [n], data: nodes.branch },
       ...(inlierRate === null ? {} : { inlierRate: { type: "f32", shape: [n], data: inlierRate } }),
-      rootDistance: { type: "f32", shape: [n], data: rootDistance },
+      rootDistance: { type: "f32", shape: [n], data: measure(nodes, branches) },
       links: { type: "u32", shape: [links.length / 2, 2], data: links },
     },
   );
