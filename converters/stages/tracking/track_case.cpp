@@ -169,7 +169,6 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
     inGrid = [&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); };
   used.pointSpread = trackTree(tracking, trackBranches, inGrid, tree, progress).pointSpread;
   for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
-  tree.seeds = seeds;
 
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
