@@ -90,6 +90,13 @@ void reportRefused(convert::TrackRemarks& remarks, Progress& progress) {
   remarks.failures.clear();
 }
 
+/// The places of bone; empty where none was found, so that edges are not examined for it. `found`
+/// must outlive it.
+convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
+  if (found.bone.empty()) return {};
+  return [&found](const Eigen::Vector3d& point) { return found.isBone(point); };
+}
+
 }  // namespace
 
 convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
@@ -145,9 +152,8 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
   candidates = found.courses.size();
   if (found.courses.empty()) return {};
-  convert::TrackResult result = convert::trackAlongCourses(
-      volume, found.courses, [&](const Eigen::Vector3d& point) { return found.isBone(point); },
-      options, progress);
+  convert::TrackResult result =
+      convert::trackAlongCourses(volume, found.courses, placesOfBone(found), options, progress);
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
   const convert::Surrounding around{
@@ -168,9 +174,8 @@ convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
                                 Progress& progress) {
   const convert::FoundVessels found =
       convert::findVessels(volume, tracking.options().dark, progress);
-  convert::AddedTracks added = convert::addTracksAlongCourses(
-      tracking, known, found.courses,
-      [&](const Eigen::Vector3d& point) { return found.isBone(point); }, progress);
+  convert::AddedTracks added =
+      convert::addTracksAlongCourses(tracking, known, found.courses, placesOfBone(found), progress);
   reportRefused(added, progress);
   return added;
 }

@@ -203,7 +203,7 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
       before.emplace_back(tree.branches[static_cast<std::size_t>(p)]);
     dropInside(before, context.volume.geometry().voxelSize(), tree.branches[i]);
   }
-  addParts(takeWithoutEdges(context, tree), tree, parent);
+  if (context.isNoVessel) addParts(takeWithoutEdges(context, tree), tree, parent);
   count = tree.seeds.size();
   for (std::size_t i = tree.known; i < count; ++i) {
     int above = parent[i];

@@ -11,7 +11,8 @@ namespace lumen::convert {
 
 /// Fits cylinders along the courses of a tree's seeds: their points, with radii, lead from the
 /// parent's axis to the tip. A vessel along which too few cylinders fit is none: it gets no nodes,
-/// and its children hang on the vessel before it. The result does not depend on the number of
+/// and its children hang on the vessel before it. Where the context knows of places that are no vessels,
+/// the volume must have edges at the walls of all others, too (wall_evidence.h). The result does not depend on the number of
 /// threads. Throws Error(Cancelled).
 void followCourses(const TrackContext& context, TrackedTree& tree, Progress& progress);
 

@@ -113,8 +113,7 @@ private:
     const ProfileReach extent = reach(node.radius);
     const auto wall = static_cast<std::size_t>(extent.inward / step);
     values.resize(wall + static_cast<std::size_t>(extent.outward / step) + 1);
-    const Vector3d start =
-        node.centre + (node.radius - static_cast<double>(wall) * step) * outward;
+    const Vector3d start = node.centre + (node.radius - static_cast<double>(wall) * step) * outward;
     m_context.volume.sampleLine(
         geometry.indexFromWorld(start),
         (geometry.direction.transpose() * outward * step).cwiseQuotient(geometry.spacing), values);
