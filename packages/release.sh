@@ -16,7 +16,12 @@ export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%
 
 kinds=("$@")
 if [ ${#kinds[@]} -eq 0 ]; then
-  for build in "$here"/*/build.sh; do kinds+=("$(basename "$(dirname "$build")")"); done
+  for build in "$here"/*/build.sh; do
+    kind=$(basename "$(dirname "$build")")
+    [ "$kind" = container ] || kinds+=("$kind")
+  done
+  # a container is made from the Debian packages
+  [ ! -e "$here/container/build.sh" ] || kinds+=(container)
 fi
 if ! git -C "$root" diff --quiet HEAD; then
   echo "release.sh: files differ from the last commit; packages of committed files do not have these changes" >&2
