@@ -67,8 +67,8 @@ include=$(build_packages | paste -sd,)${LUMEN_CCACHE:+,ccache}
 chroot_archive=$chroots/bookworm-$(sha256sum <<<"$include" | cut -c1-12).tar
 if [ ! -s "$chroot_archive" ]; then
   echo "== A chroot of Debian 12 with what the build needs"
-  mmdebstrap --variant=buildd --include="$include" ${LUMEN_CHROOT_OPTIONS:-} bookworm "$chroot_archive.new"
-  mv "$chroot_archive.new" "$chroot_archive"
+  mmdebstrap --variant=buildd --include="$include" ${LUMEN_CHROOT_OPTIONS:-} bookworm "${chroot_archive%.tar}.new.tar"
+  mv "${chroot_archive%.tar}.new.tar" "$chroot_archive"
 fi
 
 # build PATH OUT COMMAND...: builds in a fresh chroot at PATH, with COMMAND before dpkg-buildpackage

@@ -17,7 +17,7 @@ readonly most_mb=150
 chroots=${LUMEN_CHROOTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lumen/chroots}
 mkdir -p "$chroots"
 bare=$chroots/bookworm-minbase.tar
-[ -s "$bare" ] || { mmdebstrap --variant=minbase bookworm "$bare.new" && mv "$bare.new" "$bare"; }
+[ -s "$bare" ] || { mmdebstrap --variant=minbase bookworm "${bare%.tar}.new.tar" && mv "${bare%.tar}.new.tar" "$bare"; }
 work=$(mktemp -d)
 root=$work/root
 trap 'rm -rf --one-file-system "$work"' EXIT
