@@ -23,7 +23,7 @@ chroots=${LUMEN_CHROOTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lumen/chroots}
 mkdir -p "$chroots"
 # bare SUITE FOLDER
 bare() {
-  [ -s "$chroots/$1-minbase.tar" ] || { mmdebstrap --variant=minbase "$1" "$chroots/$1-minbase.tar.new" && mv "$chroots/$1-minbase.tar.new" "$chroots/$1-minbase.tar"; }
+  [ -s "$chroots/$1-minbase.tar" ] || { mmdebstrap --variant=minbase "$1" "$chroots/$1-minbase.new.tar" && mv "$chroots/$1-minbase.new.tar" "$chroots/$1-minbase.tar"; }
   mkdir -p "$2"
   tar -x --numeric-owner -C "$2" -f "$chroots/$1-minbase.tar"
 }
