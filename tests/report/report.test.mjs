@@ -58,7 +58,7 @@ function fork(file) {
 }
 
 story("a report opens from disk without a network, and all its pictures show something", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   fork(file);
   const answer = lumen("report", file("fork.lumen"), file("fork.html"), "--volume", file("fork.nrrd"));
   const { page, seen } = await open(t, file, "fork.html");
@@ -76,7 +76,7 @@ story("a report opens from disk without a network, and all its pictures show som
 });
 
 story("texts of a hostile case stay texts, and break nothing", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   fork(file);
   lumen("convert", file("fork.lumen"), file("fork.lumen.json"));
   const value = JSON.parse(readFileSync(file("fork.lumen.json"), "utf8"));
@@ -107,7 +107,7 @@ story("texts of a hostile case stay texts, and break nothing", async t => {
 });
 
 story("a hundred vessels and more have a row and a plot each, and no two plots overlap", async t => {
-  const file = makeFolder(t), vessels = 120, lines = [];
+  const file = makeFolder(), vessels = 120, lines = [];
   // a helix that a vessel leaves outwards at every step
   const at = (i, reach) => [(20 + reach) * Math.cos(i / 5), (20 + reach) * Math.sin(i / 5), i].map(x => x.toFixed(3)).join(" ");
   for (let i = 0; i <= vessels; ++i) lines.push(`${i + 1} 3 ${at(i, 0)} 1 ${i === 0 ? -1 : i}`);

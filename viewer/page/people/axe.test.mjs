@@ -19,7 +19,7 @@ async function findings(page) {
 }
 
 story("axe-core finds no fault in the page, whatever it shows", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   firstVessel(file, "bifurcation");
   const page = await openVessels(t, browser, file);

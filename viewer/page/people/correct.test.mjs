@@ -49,7 +49,7 @@ async function toMiddle(page, label) {
 const press = (page, id) => () => page.locator(`#edit-${id}:enabled`).click();
 
 story("every correction can be made and undone", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
@@ -172,7 +172,7 @@ story("every correction can be made and undone", async t => {
 });
 
 story("a seed is moved, and a vessel is tracked through several clicks", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const truth = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches[0].points[0].position;
@@ -223,7 +223,7 @@ story("a seed is moved, and a vessel is tracked through several clicks", async t
 });
 
 story("an aneurysm is a chain of clicks", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "aneurysm", file("volume.nrrd"), "--seeds", file("seeds.json"));
   const [vesselSeed, sac] = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches;

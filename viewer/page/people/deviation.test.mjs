@@ -26,7 +26,7 @@ const isBlue = (r, g, b) => b > 70 && b > 1.6 * r,
   isRed = (r, g, b) => r > 70 && r > 1.6 * b;
 
 story("a mesh that was moved is blue where it is in the lumen and red where it is outside", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "bifurcation", file("volume.nrrd"), "--size", "64", "--seeds", file("seeds.json"));
   lumen("convert", file("volume.nrrd"), file("fork.lumen"), "--seeds", file("seeds.json"));
@@ -76,7 +76,7 @@ story("a mesh that was moved is blue where it is in the lumen and red where it i
 });
 
 story("the colours follow the wall that the case has", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "bifurcation", file("volume.nrrd"), "--size", "64", "--seeds", file("seeds.json"));
   lumen("convert", file("volume.nrrd"), file("fork.lumen"), "--seeds", file("seeds.json"));

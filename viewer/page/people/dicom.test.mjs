@@ -30,7 +30,7 @@ const rows = page => page.locator("#series-dialog .series");
 story(
   "files of DICOM are dropped, one of their series is chosen by its picture, and a vessel tracked in it",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t),
       { files, volume } = makeSeries(file),
       { address } = await view(t);
@@ -90,7 +90,7 @@ story(
 story(
   "a folder of DICOM with other files in it is chosen, and what is wrong in it stops nothing",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t),
       { files } = makeSeries(file),
       folder = file("disc");
@@ -126,7 +126,7 @@ story(
 );
 
 story("lumen view of a folder of several series asks which one", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t),
     { files } = makeSeries(file);
   mkdirSync(file("head"));

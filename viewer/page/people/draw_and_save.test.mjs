@@ -15,7 +15,7 @@ const rows = page =>
 story(
   "three clicks in the demonstration's volume become a case that is corrected, saved and found again",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t);
     lumen("phantom", "patient", file("angiogram.nrrd"), "--seeds", file("seeds.json"));
     const clicks = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches.filter(seed =>

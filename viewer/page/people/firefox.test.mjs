@@ -10,7 +10,7 @@ import { dicomSlices, readNrrd } from "./make_dicom.mjs";
 const rows = "#tree-list [role=treeitem]";
 
 test("a case is opened, probed and cut where the views show it, and its panels fold", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   firstVessel(file, "bifurcation");
   const { address } = await view(t, file("volume.nrrd"), file("vessels.lumen")),
     page = await openInFirefox(t, address);
@@ -56,7 +56,7 @@ test("a case is opened, probed and cut where the views show it, and its panels f
 });
 
 test("DICOM is dropped and one of two series chosen", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   lumen("phantom", "bifurcation", file("volume.nrrd"), "--size", "64");
   const volume = readNrrd(file("volume.nrrd")),
     files = [

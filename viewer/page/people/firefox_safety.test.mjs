@@ -25,7 +25,7 @@ async function seedAt(page, place) {
 }
 
 test("a volume of another patient is not tracked into the case without an answer", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   kissing(file);
   lumen("phantom", "kissing", file("other.nrrd"), "--noise", "0.2", "--seed", "7");
   const { address } = await view(t, file("volume.nrrd"), file("vessels.lumen")),
@@ -46,7 +46,7 @@ test("a volume of another patient is not tracked into the case without an answer
 });
 
 test("a seed that waits is saved with the case, and waits again", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   firstVessel(file, "kissing");
   const second = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches[1].points[0].position,
     { address } = await view(t, file("volume.nrrd"), file("vessels.lumen")),
@@ -69,7 +69,7 @@ test("a seed that waits is saved with the case, and waits again", async t => {
 });
 
 test("an orientation that two transforms of a file state differently is named", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   lumen("phantom", "tube", file("tube.nii"), "--size", "48");
   const bytes = readFileSync(file("tube.nii"));
   bytes.writeInt16LE(1, 252); // code of the qform, which stays as it is
@@ -84,7 +84,7 @@ test("an orientation that two transforms of a file state differently is named", 
 });
 
 test("the wall is pulled by the brush, and put back", async t => {
-  const file = makeFolder(t);
+  const file = makeFolder();
   firstVessel(file, "bifurcation");
   const { address } = await view(t, file("volume.nrrd"), file("vessels.lumen")),
     page = await openInFirefox(t, address);

@@ -19,7 +19,7 @@ async function waiting(page, count) {
 story(
   "a volume becomes a saved tree: some vessels are accepted, one is rejected, the rest at once",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t);
     lumen("phantom", "patient", file("angiogram.nrrd"), "--size", "128");
     const server = await view(t, file("angiogram.nrrd"), file("vessels.lumen")),
@@ -115,7 +115,7 @@ story(
 );
 
 story("finding is cancelled, and what cannot be found is reported", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "patient", file("angiogram.nrrd"));
   const server = await view(t, file("angiogram.nrrd")),
@@ -130,7 +130,7 @@ story("finding is cancelled, and what cannot be found is reported", async t => {
 });
 
 story("proposals in a light and narrow window", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "bifurcation", file("volume.nrrd"));
   const server = await view(t, file("volume.nrrd")),

@@ -18,7 +18,7 @@ function blobSays(model, position) {
 }
 
 story("the page from disk, with the network off, probes what libblob answers", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t),
     asked = [];
   kissing(file);

@@ -21,7 +21,7 @@ const within = folder => pathToFileURL(folder).href;
 
 /** A library with pages, and the address of the first from disk. */
 function library(t, given = cases, about = kAbout) {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     folder = file("site of cases");
   mkdirSync(folder);
   writeLibrary(folder, given, about);
@@ -200,7 +200,7 @@ story(
     await picture(page, "gallery-case");
     const commands = await page.locator("#files pre").textContent(),
       id = /site\/case\/(.*)\.html/.exec(page.url())[1],
-      file = makeFolder(t);
+      file = makeFolder();
     mkdirSync(file("fetched"));
     const { status, stdout, stderr } = spawnSync("bash", ["-e"], {
       input: commands,

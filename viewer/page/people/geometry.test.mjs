@@ -13,7 +13,7 @@ const distance = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
 story(
   "a person measures a case, and a click on a number goes to the place where it was measured",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t);
     bothVessels(file, "bifurcation");
     const page = await openVessels(t, browser, file);

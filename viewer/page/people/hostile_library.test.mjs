@@ -77,7 +77,7 @@ const intruders = page =>
 story(
   "titles, labels and all other texts of hostile cases stay text, in pages, attributes, scripts and addresses",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       folder = file("library"),
       browser = await startBrowser(t),
       cases = kTexts.map(hostile);

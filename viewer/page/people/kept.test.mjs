@@ -20,7 +20,7 @@ async function goTo(page, text) {
 }
 
 story("coordinates are typed and shown in the axes that the user chose", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   bothVessels(file, "bifurcation");
   const page = await openVessels(t, browser, file);
@@ -39,7 +39,7 @@ story("coordinates are typed and shown in the axes that the user chose", async t
 story(
   "measurements, hidden vessels, window and colours survive a reload, and go along as a file",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t);
     bothVessels(file, "bifurcation");
     const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
@@ -88,7 +88,7 @@ story(
 );
 
 story("after a crash the page asks in the middle what becomes of the work, and takes it up", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   bothVessels(file, "bifurcation");
   firstVessel(file, "bifurcation", "vessels.unsaved.lumen");

@@ -6,7 +6,7 @@ import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 story("a vessel is tracked without a pointer", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "tube", file("volume.nrrd"), "--seeds", file("seeds.json"));
   const server = await view(t, file("volume.nrrd")),

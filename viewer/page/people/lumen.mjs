@@ -7,10 +7,16 @@ import { join } from "node:path";
 
 export const kLumen = process.env.LUMEN ?? "lumen";
 
-/** A folder that goes with the test. */
-export function makeFolder(test) {
+const folders = [];
+// at the end, when no program writes into them any more
+process.on("exit", () => {
+  for (const folder of folders) rmSync(folder, { recursive: true, force: true });
+});
+
+/** A folder that goes with the process. */
+export function makeFolder() {
   const folder = mkdtempSync(join(tmpdir(), "lumen-people-"));
-  test.after(() => rmSync(folder, { recursive: true, force: true }));
+  folders.push(folder);
   return name => join(folder, name);
 }
 
@@ -29,7 +35,7 @@ export function lumen(...words) {
 export async function view(test, ...files) {
   const child = spawn(kLumen, ["view", "--no-browser", "--json", ...files], {
     stdio: ["ignore", "pipe", "pipe"],
-    env: { ...process.env, XDG_STATE_HOME: makeFolder(test)(".") }, // of a document without a file, unsaved work
+    env: { ...process.env, XDG_STATE_HOME: makeFolder()(".") }, // of a document without a file, unsaved work
   });
   const ended = new Promise(resolve => child.once("exit", resolve));
   let out = "",

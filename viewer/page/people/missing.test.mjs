@@ -10,7 +10,7 @@ const places = page => page.locator("#work-list .item.row:is([data-kind=missing]
 story(
   "a click on a ring in the 3D view places a seed in what is missing, and tracking leaves less of it",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t);
     firstVessel(file, "bifurcation");
     const page = await openVessels(t, browser, file);
@@ -47,7 +47,7 @@ story(
 );
 
 story("a click on a ring in a slice does the same", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   firstVessel(file, "kissing");
   const page = await openVessels(t, browser, file);

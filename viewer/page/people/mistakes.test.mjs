@@ -7,7 +7,7 @@ import { document, drop, kissing, reported, vessel, vessels } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 story("a broken file that is dropped is named with its fault, and changes nothing", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const server = await view(t, file("vessels.lumen")),
@@ -58,7 +58,7 @@ story("a broken file that is dropped is named with its fault, and changes nothin
 });
 
 story("a vessel whose name is markup has that name, and nothing else happens", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t),
     name = "<img src=x onerror=document.title='taken'>";
   lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
@@ -83,7 +83,7 @@ story("a vessel whose name is markup has that name, and nothing else happens", a
 });
 
 story("long work that is cancelled has changed nothing", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "patient", file("volume.nrrd"), "--seeds", file("seeds.json"));
   const server = await view(t, file("volume.nrrd"), file("seeds.json")),
@@ -111,7 +111,7 @@ story("long work that is cancelled has changed nothing", async t => {
 });
 
 story("two pages on one document see each other's changes", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
@@ -141,7 +141,7 @@ story("two pages on one document see each other's changes", async t => {
 });
 
 story("a change of the file by another program is reported, and not overwritten unasked", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   copyFileSync(file("vessels.lumen"), file("copy.lumen"));

@@ -5,7 +5,7 @@ import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 story("a preset sets the window, and another window is no preset", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "bifurcation", file("volume.nrrd"), "--size", "64");
   const { address } = await view(t, file("volume.nrrd")),

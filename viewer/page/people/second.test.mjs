@@ -92,7 +92,7 @@ async function openBoth(t, file, browser) {
 }
 
 story("a second volume is blended over the first where its file places it", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t),
     { tube, beside } = makeVolumes(file),
     page = await openBoth(t, file, browser);
@@ -141,7 +141,7 @@ async function lookAtAxial(page, place) {
 }
 
 story("both volumes are side by side, and the line between them can be dragged", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t),
     { tube, beside } = makeVolumes(file),
     page = await openBoth(t, file, browser);
@@ -189,7 +189,7 @@ story("both volumes are side by side, and the line between them can be dragged",
 story(
   "a volume that is dropped on another is asked about, and one that lies elsewhere is warned of",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t),
       { tube, beside } = makeVolumes(file);
     writeTurned(

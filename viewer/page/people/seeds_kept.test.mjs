@@ -7,7 +7,7 @@ import { firstVessel, openVessels, placeSeed, reported, vessels } from "./hand.m
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 story("a seed that waits is saved with the case, waits again, and is tracked then", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   firstVessel(file, "kissing");
   const second = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches[1].points[0].position;

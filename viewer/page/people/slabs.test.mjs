@@ -18,7 +18,7 @@ async function brightness(page) {
 }
 
 story("a slab shows the vessel beside the plane, and a click in it takes that vessel", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "tube", file("volume.nrrd"), "--seeds", file("seeds.json"));
   const [x, y, z] = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches[0].points[0].position;
@@ -75,7 +75,7 @@ story("a slab shows the vessel beside the plane, and a click in it takes that ve
 });
 
 story("a seed is placed on the vessel that a slab shows", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   lumen("phantom", "tube", file("volume.nrrd"), "--seeds", file("seeds.json"));
   const [x, y, z] = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches[0].points[0].position;

@@ -12,7 +12,7 @@ const kTurn = 4000, // ms of turning
   kPictures = 30;
 
 story("a case is turned with fewer triangles and drawn in full when it rests", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   let path = process.env.LUMEN_SPEED_FILE;
   if (path === undefined) {

@@ -44,7 +44,7 @@ async function seenVessels(address) {
 }
 
 story("ten vessels are found without a click and accepted, and the same by clicks", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t),
     volume = volumeOf(file);
   let server = await view(t, volume, file("found.lumen"));

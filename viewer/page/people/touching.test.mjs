@@ -26,7 +26,7 @@ const firstTouched = async (page, box, x) => {
 };
 
 story("a wire is pushed past where two vessels touch, and every point of it stays in its vessel", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const server = await view(t, file("vessels.lumen")),

@@ -7,7 +7,7 @@ import { drop, kissing, placeSeed, reported, vessel } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 story("a volume of another patient is not tracked into the case without an answer", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   lumen("phantom", "kissing", file("other.nrrd"), "--noise", "0.2", "--seed", "7");

@@ -65,7 +65,7 @@ async function drag(page, from, to, name) {
 }
 
 story("the brush pushes and pulls the wall where it is dragged", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const page = await openVessels(t, browser, file),
@@ -111,7 +111,7 @@ story("the brush pushes and pulls the wall where it is dragged", async t => {
 });
 
 story("a radius that is dragged fades along the vessel, or stays with one node", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const page = await openVessels(t, browser, file);
@@ -151,7 +151,7 @@ story("a radius that is dragged fades along the vessel, or stays with one node",
 });
 
 story("nodes are added and deleted, where the views show them", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   kissing(file);
   const page = await openVessels(t, browser, file);
@@ -172,7 +172,7 @@ story("nodes are added and deleted, where the views show them", async t => {
 });
 
 story("a vessel is tracked on beyond its end, and several clicks end with Enter", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   firstVessel(file, "kissing");
   const page = await openVessels(t, browser, file);

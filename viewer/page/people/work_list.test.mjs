@@ -38,7 +38,7 @@ async function openCut(t, browser, file) {
 story(
   "a list of places is tracked, joined and ignored by keys until nothing is left, and the case keeps why",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t);
     const page = await openCut(t, browser, file);
     const found = await rows(page).count();
@@ -102,7 +102,7 @@ story(
 );
 
 story("a button that changes a vessel shows the place first, and acts when it is pressed again", async t => {
-  const file = makeFolder(t),
+  const file = makeFolder(),
     browser = await startBrowser(t);
   const page = await openCut(t, browser, file);
   const remove = page.locator("#work-list .item[data-kind=loose] .button.delete");
@@ -117,7 +117,7 @@ story("a button that changes a vessel shows the place first, and acts when it is
 story(
   "in a new volume the found vessels are the list: a key shows one, another accepts or rejects it",
   async t => {
-    const file = makeFolder(t),
+    const file = makeFolder(),
       browser = await startBrowser(t);
     lumen("phantom", "kissing", file("volume.nrrd"));
     const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
