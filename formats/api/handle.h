@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the functions of lumen/case.h share: the case behind the pointer, and the way from issues and
+// Shared by the functions of lumen/case.h: the case behind the pointer, and the way from issues and
 // exceptions to a status.
 #pragma once
 

@@ -285,7 +285,7 @@ typedef enum lumen_case_encoding {
 typedef struct lumen_case_write_def {
   lumen_case_encoding encoding;
   int32_t compress;   /* 1: zstd for every chunk that it makes smaller; libblob reads no compressed models */
-  int32_t point_bits; /* 1 to 30: rounds wall points to so many bits of their bounding box; 0: exact */
+  int32_t point_bits; /* 1 to 30: bits of wall points within their bounding box; 0: exact */
   uint32_t cookie;    /* set by lumen_case_write_def_default() */
 } lumen_case_write_def;
 

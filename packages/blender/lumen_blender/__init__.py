@@ -53,7 +53,7 @@ class ImportLumenCase(LumenOperator, bpy.types.Operator, ImportHelper):
     scale: SCALE
     curves: BoolProperty(name="Centerlines", description="A curve for each vessel, with its radii", default=True)
     surface: BoolProperty(name="Surface and ends", description="The closed surface, and an empty at each end", default=True)
-    edge: StringProperty(name="Edge length", description="Of the surface, in mm or as a share of the radius, such as 0.5r", default="0.5r")
+    edge: StringProperty(name="Edge length", description="Edge of the surface in mm, or as a share of the radius, such as 0.5r", default="0.5r")
 
     def work(self, context, program):
         made = importing.import_case(context, self.filepath, program, self.scale, self.curves, self.surface, self.edge)
