@@ -37,7 +37,7 @@ def check_xml(lumen, folder):
     good = (MODULES / "LumenVessels.xml").read_text()
     for old, new in (("<name>edge</name>", "<name>my edge</name>"), ("<channel>output</channel>", "<channel>out</channel>"),
                      ("<default>false</default>", "<default>0</default>"), ("<index>0</index>\n    </image>", "<index>1</index>\n    </image>"),
-                     ("<longflag>dark</longflag>", ""), ("<license>Apache-2.0</license>", ""), ("<minimum>0</minimum>", "<minimum>2</minimum>")):
+                     ("<longflag>dark</longflag>", ""), ("<longflag>dark</longflag>", "<longflag>is-dark</longflag>"), ("<image>", "<image color=\"red\">"), ("<license>Apache-2.0</license>", ""), ("<minimum>0</minimum>", "<minimum>2</minimum>")):
         check(old in good and faults_of(good.replace(old, new)), f"the checker lets {new!r} for {old!r} through")
 
 
@@ -62,7 +62,7 @@ def check_run(lumen, folder):
         (folder / f"vessel{i}.mrk.json").write_text(json.dumps({"markups": [
             {"type": "Curve", "name": branch["label"], "coordinateSystem": "LPS", "controlPoints": points}]}))
     seeded = [word for i in range(len(seeds)) for word in ("--seeds", f"vessel{i}.mrk.json")]
-    made = module("LumenVessels", *seeded, "--random-seed", "1", "--edge", "0.6r", "--surface", "wall.vtp", "--centerline", "line.vtp",
+    made = module("LumenVessels", *seeded, "--randomSeed", "1", "--edge", "0.6r", "--surface", "wall.vtp", "--centerline", "line.vtp",
                   "--ends", "ends.mrk.json", "--case", "fork.lumen", fork, lumen=lumen, folder=folder)
     check(made.returncode == 0, f"LumenVessels: {made.stderr}")
     check_progress(made.stdout, "Vessels from volume")
@@ -92,7 +92,7 @@ def check_models(folder):
 
 def check_failures(lumen, folder):
     for words, message in ((["--surface", "x.vtp", "none.nrrd"], "none.nrrd"), (["--colour", "red", "fork.nrrd"], "--colour"), ([], "volume"),
-                           (["--seeds-only", "fork.nrrd"], "seeds")):
+                           (["--seedsOnly", "fork.nrrd"], "seeds")):
         told = module("LumenVessels", *words, lumen=lumen, folder=folder)
         check(told.returncode == 1 and message in told.stderr and "Traceback" not in told.stderr, f"LumenVessels {words}: {told}")
     told = module("LumenCaseToModel", "--surface", "x.vtp", "fork.lumen", lumen="/nowhere/lumen", folder=folder)

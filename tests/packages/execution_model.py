@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rules of 3D Slicer's Execution Model for the XML of a command-line module, written from its documentation and from the
-messages of its parser (ModuleDescriptionParser)."""
+source of its parser (SlicerExecutionModel, ModuleDescriptionParser.cxx, commit 57d54ad): a long flag has no dashes inside, and each
+kind of parameter has attributes of its own."""
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -10,9 +11,13 @@ SCALARS = {"integer": int, "float": float, "double": float}
 VALUES = {"boolean", "string", "file", "directory", "image", "geometry", "pointfile", "table", "transform", "measurement", "point", "region",
           *SCALARS, *(name + "-vector" for name in (*SCALARS, "string")), *(name + "-enumeration" for name in (*SCALARS, "string"))}
 CHANNELLED = {"file", "directory", "image", "geometry", "pointfile", "table", "transform", "measurement"}
-ATTRIBUTES = {"multiple", "hidden", "fileExtensions", "coordinateSystem", "type", "reference", "aggregate"}
+ATTRIBUTES = {"file": {"multiple", "fileExtensions"}, "directory": {"multiple"}, "boolean": {"hidden"}, "image": {"multiple", "fileExtensions", "type", "hidden", "reference"},
+              "geometry": {"multiple", "aggregate", "fileExtensions", "type", "reference"}, "transform": {"multiple", "fileExtensions", "type", "reference"},
+              "table": {"multiple", "fileExtensions", "type", "hidden", "reference"}, "measurement": {"multiple", "fileExtensions", "type", "hidden", "reference"},
+              "point": {"multiple", "coordinateSystem"}, "region": {"multiple", "coordinateSystem"}, "pointfile": {"multiple", "fileExtensions", "coordinateSystem"}}
+SCALAR_ATTRIBUTES = {"multiple", "hidden"}
 MEMBERS = {"name", "flag", "longflag", "description", "label", "default", "constraints", "channel", "index", "element"}
-TYPES = {"image": {"scalar", "label", "tensor", "diffusion-weighted", "vector", "model", "any"}, "geometry": {"fiberbundle", "model", "any"}}
+TYPES = {"image": {"scalar", "label", "tensor", "diffusion-weighted", "vector", "model", "any"}, "geometry": {"fiberbundle", "model"}}
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*$")
 
 
@@ -60,13 +65,14 @@ def check_parameter(parameter):
         if child.tag not in MEMBERS: yield f"{where}: <{child.tag}> is no member"
         if len(parameter.findall(child.tag)) > 1 and child.tag != "element": yield f"{where}: <{child.tag}> is there twice"
     for attribute in parameter.keys():
-        if attribute not in ATTRIBUTES: yield f"{where}: there is no attribute {attribute}"
+        if attribute not in ATTRIBUTES.get(parameter.tag, SCALAR_ATTRIBUTES): yield f"{where}: there is no attribute {attribute}"
     flags, index = [text_of(parameter, tag) for tag in ("flag", "longflag")], text_of(parameter, "index")
-    if not any(flags) and index == "": yield f"{where}: it has neither a flag nor an index"
+    if flags[1] == "" and index == "": yield f"{where}: it has neither a long flag nor an index"
+    if flags[1] and not NAME.match(flags[1].lstrip("-")): yield f"{where}: the long flag {flags[1]} is no identifier"
     if any(flags) and index != "": yield f"{where}: it has a flag and an index"
     if flags[0] and len(flags[0].lstrip("-")) != 1: yield f"{where}: a flag is one letter"
     if (parameter.tag in CHANNELLED) != (text_of(parameter, "channel") in ("input", "output")): yield f"{where}: its channel is wrong"
-    if parameter.get("type", "any") not in TYPES.get(parameter.tag, {"any"}): yield f"{where}: there is no type {parameter.get('type')}"
+    if parameter.get("type") not in {None, *TYPES.get(parameter.tag, ())}: yield f"{where}: there is no type {parameter.get('type')}"
     for ending in filter(None, parameter.get("fileExtensions", "").split(",")):
         if not ending.startswith("."): yield f"{where}: the ending {ending} has no point"
     if parameter.get("coordinateSystem", "lps") not in ("lps", "ras", "ijk"): yield f"{where}: there is no such coordinate system"
