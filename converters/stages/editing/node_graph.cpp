@@ -131,11 +131,10 @@ std::uint32_t NodeGraph::findMain(std::uint32_t node) const {
   return best == kNoNode ? any : best;
 }
 
-std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
+std::vector<std::uint32_t> NodeGraph::inwardFrom(std::uint32_t end, double reach) const {
   std::vector<std::uint32_t> nodes;
   std::uint32_t before = kNoNode;
   double along = 0;
-  const double reach = 2 * kArmEndRadii * double{m_draft.nodes[end].radius};
   for (std::uint32_t i = end; i != kNoNode && along < reach;) {
     if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
     nodes.push_back(i);
@@ -149,7 +148,22 @@ std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
     before = i;
     i = next;
   }
-  return armAlong(nodes);
+  return nodes;
+}
+
+std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
+  return armAlong(inwardFrom(end, 2 * kArmEndRadii * radius(end)));
+}
+
+Vector3d NodeGraph::outwardAt(std::uint32_t end) const {
+  Vector3d sum = Vector3d::Zero();
+  const std::vector<std::uint32_t> nodes = inwardFrom(end, 2 * radius(end));
+  const Vector3d away = position(end) - position(nodes.back());
+  for (const std::uint32_t node : nodes) {
+    const Vector3d direction = toEigen(m_draft.nodes[node].direction);
+    sum += direction.dot(away) < 0 ? -direction : direction;
+  }
+  return sum.normalized();
 }
 
 std::optional<std::pair<double, double>> NodeGraph::widthsAround(std::uint32_t a,
@@ -179,16 +193,29 @@ void NodeGraph::detach(std::uint32_t node, std::span<const std::uint32_t> stem) 
   }
 }
 
-bool NodeGraph::hangTogether(std::uint32_t a, std::uint32_t b) const {
+std::vector<std::uint32_t> NodeGraph::treeOf(std::uint32_t node) const {
   std::vector<bool> isSeen(m_beside.size(), false);
-  std::vector<std::uint32_t> reached{a};
-  isSeen[a] = true;
-  for (std::size_t k = 0; k < reached.size() && !isSeen[b]; ++k)
+  std::vector<std::uint32_t> reached{node};
+  isSeen[node] = true;
+  for (std::size_t k = 0; k < reached.size(); ++k)
     for (const std::uint32_t j : m_beside[reached[k]]) {
       if (!isSeen[j]) reached.push_back(j);
       isSeen[j] = true;
     }
-  return isSeen[b];
+  return reached;
+}
+
+bool NodeGraph::hangTogether(std::uint32_t a, std::uint32_t b) const {
+  const std::vector<std::uint32_t> tree = treeOf(a);
+  return std::find(tree.begin(), tree.end(), b) != tree.end();
+}
+
+double NodeGraph::treeLength(std::uint32_t node) const {
+  double length = 0;
+  for (const std::uint32_t i : treeOf(node))
+    for (const std::uint32_t j : m_beside[i])
+      if (i < j) length += (position(i) - position(j)).norm();
+  return length;
 }
 
 void NodeGraph::join(std::uint32_t a, std::uint32_t b) {

@@ -45,6 +45,9 @@ public:
   /// The stretch from an end of the graph on, as far as there is no fork, or through forks ahead;
   /// empty if it is shorter than its width.
   [[nodiscard]] std::optional<Arm> armFrom(std::uint32_t end) const;
+  /// Mean direction, out of the vessel, of the nodes within two radii of an end of the graph: unlike
+  /// an arm it follows a vessel that bends.
+  [[nodiscard]] Eigen::Vector3d outwardAt(std::uint32_t end) const;
   /// The nodes of a vessel up to eight radii before and behind one of them, which is among them.
   [[nodiscard]] std::vector<std::uint32_t> stretchAround(std::uint32_t node) const;
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t node) const;
@@ -61,6 +64,8 @@ public:
   void join(std::uint32_t a, std::uint32_t b);
   /// The ends of each tree; of a tree of one node, that.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> endsOfTrees() const;
+  /// Length of all edges of the tree that a node belongs to, mm.
+  [[nodiscard]] double treeLength(std::uint32_t node) const;
   /// For each node the reason why a branch of the draft ended at it.
   [[nodiscard]] std::vector<formats::StopReason> reasonsAtEnds() const;
   /// Lets the directions of all nodes point away from the roots.
@@ -68,11 +73,15 @@ public:
 
 private:
   void connect(std::uint32_t a, std::uint32_t b);
+  /// The nodes of the tree that a node belongs to, from it on.
+  [[nodiscard]] std::vector<std::uint32_t> treeOf(std::uint32_t node) const;
   [[nodiscard]] bool hangTogether(std::uint32_t a, std::uint32_t b) const;
   /// Nodes from one on, each followed by its `next`, over the reach of an arm.
   [[nodiscard]] std::vector<std::uint32_t> follow(std::uint32_t node,
                                                   const std::vector<std::uint32_t>& next) const;
   [[nodiscard]] std::uint32_t findMain(std::uint32_t node) const;
+  /// Nodes from an end of the graph over a length, mm; the widest vessel goes on at forks.
+  [[nodiscard]] std::vector<std::uint32_t> inwardFrom(std::uint32_t end, double reach) const;
 
   Draft& m_draft;
   std::vector<bool> m_isVessel;

@@ -11,7 +11,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
-#include "converters/geometry/disjoint_sets.h"
+#include "converters/stages/editing/across_voids.h"
 #include "converters/stages/editing/draft.h"
 #include "converters/stages/editing/node_graph.h"
 #include "converters/stages/editing/smooth_axes.h"
@@ -56,9 +56,9 @@ public:
     m_graph.orient(m_graph.formerRoots());
     const std::vector<Match> joined = chosen(matches(findEnds(m_graph.chains())));
     join(joined);
+    std::vector<Vector3d> places = joinAcrossVoids(m_graph);
     m_graph.orient(roots());
     rebuild();
-    std::vector<Vector3d> places;
     for (const Match& match : joined) places.push_back(m_ends[match.a].position);
     return places;
   }

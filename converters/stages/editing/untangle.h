@@ -24,6 +24,7 @@ struct Surrounding {
 /// - Two ends that face one another through the lumen, of like direction and width, are one vessel:
 ///   two that leave a third on both sides cross it, and are joined to one another instead; a tip and
 ///   a start, or two tips, are joined by a bridge. A join that closes a loop becomes a link.
+/// - Ends of two trees that face one another across a void are one vessel, too (across_voids.h).
 /// - Each tree begins at its widest end that leaves the volume, or at its widest end if those that
 ///   leave are less than half as wide.
 /// - At a fork the straightest, widest vessel keeps the branch. Vessels are named vessel-1 and so on,

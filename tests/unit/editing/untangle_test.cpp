@@ -128,6 +128,40 @@ TEST(Untangle, TipsOfOtherWidthOrSideStayApart) {
   EXPECT_EQ(rootsOf(value), 3U);
 }
 
+/// Two vessels of radius 1 along x, 10 mm long, whose ends face one another across a gap, and nothing is lumen.
+Case aroundAVoid(double gap, int count = 21) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", along({-10 - gap / 2, 0, 0}, {1, 0, 0}, 21), 1);
+  addBeads(value, "b", along({10 + gap / 2 - 0.5 * (21 - count), 0, 0}, {-1, 0, 0}, count), 1.1F);
+  return withoutModels(value);
+}
+
+const Surrounding kDark{[](const Vector3d&) { return false; }, kEverywhere.isInside};
+
+TEST(Untangle, VesselsThatFaceOneAnotherAcrossAVoidAreOne) {
+  Case value = aroundAVoid(5);
+  EXPECT_EQ(untangle(value, kDark).size(), 1U);
+  EXPECT_EQ(findFault(value), "");
+  EXPECT_EQ(value.tree.branches.size(), 1U);
+}
+
+TEST(Untangle, ALongVoidStaysOpen) {
+  Case value = aroundAVoid(6.5);  // more than three times both radii
+  EXPECT_TRUE(untangle(value, kDark).empty());
+  EXPECT_EQ(rootsOf(value), 2U);
+}
+
+TEST(Untangle, NoShortPieceIsJoinedAcrossAVoid) {
+  Case value = aroundAVoid(5, 11);  // 5 mm of vessel
+  EXPECT_TRUE(untangle(value, kDark).empty());
+}
+
+TEST(Untangle, AVesselBesideAVoidStaysApart) {
+  Case value = aroundAVoid(4);
+  for (std::size_t n = 21; n < 42; ++n) value.tree.centre[n].y = 2.5F;
+  EXPECT_TRUE(untangle(value, kDark).empty());
+}
+
 TEST(Untangle, AJoinThatClosesALoopIsALink) {
   // a ring whose two halves leave one trunk and meet on the other side
   Case value = formats::test::noBeads();
