@@ -39,9 +39,10 @@ struct DicomListing {
   std::size_t others = 0;           ///< files that are no DICOM images
 };
 
-/// Looks through the files of `folder`, not of its subfolders. A file that cannot be read is listed
-/// and stops nothing. The options state a spacing that files lack. Throws Error(InvalidInput) for a folder that cannot be listed,
-/// Error(Unsupported) where lumen is built without DICOM, and Error(Cancelled).
+/// Looks through the files of `folder` and of the folders below it. A file that cannot be read is
+/// listed and stops nothing. The options state a spacing that files lack. Throws
+/// Error(InvalidInput) for a folder that cannot be listed, Error(Unsupported) where lumen is built
+/// without DICOM, and Error(Cancelled).
 DicomListing listDicomSeries(const std::filesystem::path& folder, const ReadVolumeOptions& options,
                              Progress& progress);
 

@@ -59,8 +59,8 @@ TEST_F(Dicom, SeveralSeriesAreListed) {
   writeSeries("b", other, 4);
   const std::string refused = readRefusal(directory());
   for (const char* part :
-       {"3: ", "2 DICOM series", "--series", "1: 1.2.3.1 (3 files, Angio, 4 x 3)",
-        "2: 1.2.3.2 (4 files, Mask, 5 x 3)"})
+       {"3: ", "2 DICOM series", "--series", "1: 1.2.3.1 (3 files, CT, Angio, 4 x 3)",
+        "2: 1.2.3.2 (4 files, CT, Mask, 5 x 3)"})
     EXPECT_NE(refused.find(part), std::string::npos) << part << " is not in " << refused;
 }
 
@@ -73,6 +73,40 @@ TEST_F(Dicom, SeriesIsChosenByNumberOrUid) {
   EXPECT_EQ(readQuietly(directory(), {"1", {}}).geometry.size, (std::array{4, 3, 3}));
   EXPECT_EQ(readQuietly(directory(), {"2", {}}).geometry.size, (std::array{5, 3, 4}));
   EXPECT_EQ(readQuietly(directory(), {"1.2.3.2", {}}).geometry.size, (std::array{5, 3, 4}));
+}
+
+TEST_F(Dicom, SeriesAreFoundInFoldersBelow) {
+  for (const char* name : {"disc/st0/se0", "disc/st0/se1", "disc/.cache"})
+    std::filesystem::create_directories(path(name));
+  writeSeries("disc/st0/se0/a", {}, 3);
+  DicomSlice other;
+  other.series = "1.2.3.2";
+  other.columns = 5;
+  writeSeries("disc/st0/se1/b", other, 4);
+  writeSeries("disc/.cache/a", {}, 3);  // not searched: each position would be there twice
+  write("disc/DICOMDIR", "no image here");
+  expectRefused(readRefusal(path("disc")),
+                {"2 DICOM series", "1: 1.2.3.1 (3 files, CT, Angio, 4 x 3, in st0/se0)",
+                 "2: 1.2.3.2 (4 files, CT, Angio, 5 x 3, in st0/se1)"});
+  EXPECT_EQ(readQuietly(path("disc"), {"1.2.3.2", {}}).geometry.size, (std::array{5, 3, 4}));
+}
+
+TEST_F(Dicom, ASeriesMayLieInSeveralFolders) {
+  std::filesystem::create_directories(path("disc/a"));
+  std::filesystem::create_directories(path("disc/b"));
+  writeSeries("disc/a/", {}, 4);
+  std::filesystem::rename(path("disc/a/90.dcm"), path("disc/b/90.dcm"));
+  EXPECT_EQ(readQuietly(path("disc")).geometry.size, (std::array{4, 3, 4}));
+}
+
+TEST_F(Dicom, ADamagedFileInTheFolderOfAnotherSeriesIsNoMatter) {
+  for (const char* name : {"disc/a", "disc/b"}) std::filesystem::create_directories(path(name));
+  writeSeries("disc/a/", {}, 3);
+  const std::string image = DicomSlice().bytes();
+  write("disc/b/early.dcm", image.substr(0, 210));  // in a value before its series
+  EXPECT_EQ(readQuietly(path("disc")).geometry.size[2], 3);
+  write("disc/a/early.dcm", image.substr(0, 210));
+  expectRefused(readRefusal(path("disc")), {"early.dcm"});
 }
 
 TEST_F(Dicom, UnknownSeriesIsRefusedWithTheListing) {
