@@ -18,8 +18,6 @@ namespace lumen::engine {
 
 namespace {
 
-constexpr const char* kGroup = "Statements about the case";
-
 std::string refusal(const std::string& found, const std::string& expected) {
   return "found " + formats::printable(found) + ", expected " + expected;
 }
@@ -92,7 +90,7 @@ ValueCheck caseIdText() {
 }
 
 void addAboutRows(OptionTable& table, AboutArguments& about) {
-  table.group(kGroup);
+  table.group(kStatementsGroup);
   table.file("about", about.file,
              "JSON file of the statements below, under the keys of record.json, or a record.json");
   addText(table, "title", about.title, "Title [the anatomy, or the id]", 255);
@@ -153,6 +151,21 @@ convert::CaseAbout statedAbout(const AboutArguments& arguments, const convert::C
   if (!arguments.codes.empty()) about.codes.clear();
   for (const std::string& code : arguments.codes) about.codes.push_back(parseCode(code));
   return about;
+}
+
+void clearEmptied(const OptionTable& table, convert::CaseAbout& about) {
+  const std::pair<std::string_view, std::string*> texts[] = {
+      {"title", &about.title},
+      {"description", &about.description},
+      {"anatomy", &about.anatomy},
+      {"attribution", &about.attribution},
+      {"doi", &about.doi},
+      {"origin", &about.origin},
+      {kOption.consent.name, &about.consent},
+      {kOption.deidentification.name, &about.deidentification}};
+  for (const auto& [name, text] : texts)
+    if (const OptionRow& row = *table.find(name); row.isGiven && row.givenValues.back().empty())
+      text->clear();
 }
 
 std::string revisionDay(const std::string& given) {

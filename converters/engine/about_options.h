@@ -19,6 +19,9 @@ struct AboutArguments {
   bool synthetic = false;
 };
 
+/// Group of the rows of addAboutRows().
+inline constexpr const char* kStatementsGroup = "Statements about the case";
+
 void addAboutRows(OptionTable& table, AboutArguments& about);
 
 /// The statements of the command line, then those of the file, then `known`; `licence` where none
@@ -26,6 +29,9 @@ void addAboutRows(OptionTable& table, AboutArguments& about);
 /// there.
 convert::CaseAbout statedAbout(const AboutArguments& arguments, const convert::CaseAbout& known,
                                const std::string& licence);
+
+/// Empties the texts of `about` whose options are given with an empty value.
+void clearEmptied(const OptionTable& table, convert::CaseAbout& about);
 
 /// A text of `least` to `most` bytes, UTF-8 without control characters.
 ValueCheck checkTextLength(std::size_t least, std::size_t most);

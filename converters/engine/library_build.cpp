@@ -55,22 +55,30 @@ void requireAbout(const BuildRow& row, const convert::LibraryFile& library) {
     throw invalidInput(missing);
 }
 
-/// Refuses, all at once, rows that would only fail after work.
-void requireRows(const std::vector<BuildRow>& rows, const convert::LibraryFile& library,
-                 const std::string& list, const Engine& engine) {
+/// Moves rows that would only fail after work to the faults of the list.
+void findFaults(convert::BuildList& list, const convert::LibraryFile& library,
+                const Engine& engine) {
   const BoundCommand convertCommand = engine.find("convert");
-  std::string faults;
-  for (const BuildRow& row : rows) {
+  std::erase_if(list.rows, [&](const BuildRow& row) {
     try {
       requireTargets(row);
       requireOptions(row, *convertCommand.table);
       requireAbout(row, library);
+      return false;
     } catch (const Error& error) {
-      faults += (faults.empty() ? "" : "\n") + formats::printable(list) + ": line " +
-                std::to_string(row.line) + ": " + error.what();
+      list.faults.push_back({row.line, row.id, error.what()});
+      return true;
     }
-  }
-  if (!faults.empty()) throw invalidInput(faults);
+  });
+}
+
+RowResult resultOf(const convert::RowFault& fault) {
+  RowResult result;
+  result.line = fault.line;
+  result.id = fault.id;
+  result.code = static_cast<int>(ErrorKind::InvalidInput);
+  result.why = fault.why;
+  return result;
 }
 
 const char* endName(RowEnd end) {
@@ -153,14 +161,14 @@ void addBuildRows(OptionTable& table, BuildArguments& arguments) {
       .checkedBy(fileName());
 }
 
-std::vector<BuildRow> loadBuildList(const std::string& file) {
+convert::BuildList loadBuildList(const std::string& file) {
   return convert::readBuildList(readWholeFile(file, "list"), file);
 }
 
-Answer buildLibrary(const std::vector<BuildRow>& rows, const std::string& list,
-                    const std::string& library, const BuildArguments& arguments,
-                    const Surroundings& around) {
-  requireRows(rows, convert::openLibrary(library), list, around.engine);
+Answer buildLibrary(convert::BuildList rows, const std::string& list, const std::string& library,
+                    const BuildArguments& arguments, const Surroundings& around) {
+  findFaults(rows, convert::openLibrary(library), around.engine);
+  if (!arguments.keepGoing) convert::requireNoFaults(rows.faults, list);
   const auto cores = std::max(1U, std::thread::hardware_concurrency());
   const int all = around.threads > 0 ? around.threads : static_cast<int>(cores);
   ProcessOptions process;
@@ -176,7 +184,16 @@ Answer buildLibrary(const std::vector<BuildRow>& rows, const std::string& list,
   options.work = arguments.work.empty() ? folder.parent_path().string() + ".build" : arguments.work;
   options.jobs = arguments.jobs;
   options.day = revisionDay("");
-  const auto results = convert::buildLibrary(rows, folder.parent_path(), options, around.progress);
+  std::vector<RowResult> results;
+  for (const convert::RowFault& fault : rows.faults) {
+    results.push_back(resultOf(fault));
+    around.progress.warn("line " + std::to_string(fault.line) + ": " + fault.why);
+  }
+  for (RowResult& result :
+       convert::buildLibrary(rows.rows, folder.parent_path(), options, around.progress))
+    results.push_back(std::move(result));
+  std::sort(results.begin(), results.end(),
+            [](const RowResult& a, const RowResult& b) { return a.line < b.line; });
   if (countRows(results, RowEnd::Failed) == 0) convert::removeWorkFolder(options.work);
   return makeAnswer(results, library);
 }

@@ -13,20 +13,20 @@ namespace lumen::engine {
 
 struct BuildArguments {
   int jobs = 1;
-  std::string work;  ///< empty: LIBRARY.build
+  std::string work;        ///< empty: LIBRARY.build
+  bool keepGoing = false;  ///< rows with a fault do not stop the others
 };
 
 void addBuildRows(OptionTable& table, BuildArguments& arguments);
 
 /// Throws Error(InvalidInput) as convert::readBuildList(), and for a file that cannot be read.
-std::vector<convert::BuildRow> loadBuildList(const std::string& file);
+convert::BuildList loadBuildList(const std::string& file);
 
 /// Makes the rows and answers with a table of the rows that failed and why. Throws
-/// Error(InvalidInput) for a row that cannot succeed, as far as that is seen before any work.
-/// Returns the exit code: 0 if every row is in the library, 3 if the inputs alone are to blame for
-/// those that are not, else 1.
-Answer buildLibrary(const std::vector<convert::BuildRow>& rows, const std::string& list,
-                    const std::string& library, const BuildArguments& arguments,
-                    const Surroundings& around);
+/// Error(InvalidInput) for rows that cannot succeed, as far as that is seen before any work, unless
+/// the arguments keep it going: then these rows have failed. Returns the exit code: 0 if every row
+/// is in the library, 3 if the inputs alone are to blame for those that are not, else 1.
+Answer buildLibrary(convert::BuildList rows, const std::string& list, const std::string& library,
+                    const BuildArguments& arguments, const Surroundings& around);
 
 }  // namespace lumen::engine

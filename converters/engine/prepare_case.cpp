@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/number_text.h"
 #include "converters/base/privacy.h"
 #include "converters/base/relayed_progress.h"
@@ -104,16 +106,11 @@ void requireModels(const CaseWishes& wishes, const std::string& file) {
   if (wishes.viewer) refuse("--viewer");
 }
 
-void warnOfPersons(std::span<const std::byte> bytes, const std::string& file,
-                   const convert::CaseAbout& about, Progress& progress) {
-  const auto warn = [&](const std::string& where, const std::vector<PrivacyFinding>& findings) {
-    for (const PrivacyFinding& finding : findings)
-      progress.warn(printable(where + ": at \"" + finding.pointer + "\": " + finding.message +
-                              " (" + std::string(finding.code) + "); look before giving it away"));
-  };
-  warn(file, scanPrivacy(bytes));
-  for (const auto& [pointer, text] : convert::textsToLookAt(about))
-    warn("the description of the case", scanText(*text, pointer));
+void warnOfFindings(const std::string& where, const std::vector<PrivacyFinding>& findings,
+                    Progress& progress) {
+  for (const PrivacyFinding& finding : findings)
+    progress.warn(printable(where + ": at \"" + finding.pointer + "\": " + finding.message + " (" +
+                            std::string(finding.code) + "); look before giving it away"));
 }
 
 void addPicture(const formats::Case& value, View view, std::optional<double> turn,
@@ -173,28 +170,32 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
   }
 }
 
-/// Adds pages that other commands make of the case. They see it under its id, as the name of a file
-/// may identify a patient.
-void addPages(std::string_view caseBytes, const CaseWishes& wishes, IncomingCase& incoming,
-              const Surroundings& around) {
-  if (!wishes.report && !wishes.viewer) return;
+/// A page that another command makes of the case, which it sees under its id.
+void addPage(const std::string& name, const std::string& role, std::string_view caseBytes,
+             const std::function<Operation(const std::string& file, const std::string& page)>& made,
+             IncomingCase& incoming, const Surroundings& around) {
   const convert::PrivateFolder folder;
   const fs::path file = folder.path() / (incoming.record.id + ".lumen");
+  const fs::path page = folder.path() / name;
   writeText(caseBytes, file);
   QuietProgress quiet(around.progress);
   const Surroundings within{around.engine, quiet};
-  if (wishes.report) {
-    const fs::path page = folder.path() / "report.html";
-    Operation report{"report", {file.string(), page.string()}, {}};
-    (void)around.engine.run(report.with("title", incoming.record.about.title), within);
-    incoming.addFile("report.html", "report", page);
-  }
-  if (wishes.viewer) {
-    const fs::path page = folder.path() / "view.html";
-    Operation view{"view", {file.string()}, {}};
-    (void)around.engine.run(view.with("html", page.string()), within);
-    incoming.addFile("view.html", "other", page);
-  }
+  (void)around.engine.run(made(file.string(), page.string()), within);
+  incoming.addFile(name, role, page);
+}
+
+void addReport(std::string_view caseBytes, IncomingCase& incoming, const Surroundings& around) {
+  const auto made = [&](const std::string& file, const std::string& page) {
+    return Operation{"report", {file, page}, {}}.with("title", incoming.record.about.title);
+  };
+  addPage("report.html", "report", caseBytes, made, incoming, around);
+}
+
+void addViewer(std::string_view caseBytes, IncomingCase& incoming, const Surroundings& around) {
+  const auto made = [](const std::string& file, const std::string& page) {
+    return Operation{"view", {file}, {}}.with("html", page);
+  };
+  addPage("view.html", "other", caseBytes, made, incoming, around);
 }
 
 }  // namespace
@@ -212,6 +213,19 @@ std::string idOfCase(const fs::path& caseFile) {
   return idOfDigest(sha256(binaryCase(caseFile).first));
 }
 
+std::string defaultTitle(const convert::CaseAbout& about, const std::string& id) {
+  return about.anatomy.empty() ? "Case " + id : about.anatomy;
+}
+
+void warnOfPersonsIn(const convert::CaseAbout& about, Progress& progress) {
+  for (const auto& [pointer, text] : convert::textsToLookAt(about))
+    warnOfFindings("the description of the case", scanText(*text, pointer), progress);
+}
+
+void addReportPage(const fs::path& caseFile, IncomingCase& incoming, const Surroundings& around) {
+  addReport(readWholeFile(caseFile, "case"), incoming, around);
+}
+
 IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
                          const CaseWishes& wishes, const fs::path& library,
                          const Surroundings& around) {
@@ -225,8 +239,9 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   const std::string id = wishes.id.empty() ? idOfDigest(digest) : wishes.id;
   if (!wishes.replace) convert::requireNewId(convert::openLibrary(library), id);
   if (!value.models) requireModels(wishes, file);
-  if (about.title.empty()) about.title = about.anatomy.empty() ? "Case " + id : about.anatomy;
-  warnOfPersons(bytes, file, about, progress);
+  if (about.title.empty()) about.title = defaultTitle(about, id);
+  warnOfFindings(file, scanPrivacy(bytes), progress);
+  warnOfPersonsIn(about, progress);
 
   IncomingCase incoming(library);
   incoming.record.id = id;
@@ -245,7 +260,8 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   if (value.models) addPictures(value, wishes, incoming, progress);
   for (const std::string& target : wishes.targets)
     addExport(target, value, file, incoming, progress);
-  addPages(asText(bytes), wishes, incoming, around);
+  if (wishes.report) addReport(asText(bytes), incoming, around);
+  if (wishes.viewer) addViewer(asText(bytes), incoming, around);
   return incoming;
 }
 

@@ -32,6 +32,17 @@ struct CaseWishes {
 /// The words that views may have.
 const std::vector<std::string>& pictureViews();
 
+/// The title of a case whose statements have none.
+std::string defaultTitle(const convert::CaseAbout& about, const std::string& id);
+
+/// Warns of statements that look like a person's.
+void warnOfPersonsIn(const convert::CaseAbout& about, Progress& progress);
+
+/// Adds the page of `lumen report`, under the title of the record. The page sees the case under its
+/// id, as the name of a file may identify a patient.
+void addReportPage(const std::filesystem::path& caseFile, convert::IncomingCase& incoming,
+                   const Surroundings& around);
+
 /// Makes everything in `wishes` beside `library`. Everything that can be refused is refused before
 /// long work: Error(InvalidInput) for a case that cannot be read, for a missing statement
 /// (convert::missingStatement()) and for wishes that a case without models cannot fulfil;

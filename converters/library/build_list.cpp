@@ -111,12 +111,11 @@ void requireFile(const fs::path& file, const std::string& column) {
     throw invalidInput(column + ": there is no " + formats::printable(file.string()));
 }
 
-/// A row of the list; throws with the fault, without the place.
-BuildRow parseRow(const Cells& names, const Cells& cells, const fs::path& folder) {
+/// Fills in a row of the list; throws with the fault, without the place.
+void parseRow(const Cells& names, const Cells& cells, const fs::path& folder, BuildRow& row) {
   if (cells.size() > names.size())
     throw invalidInput("found " + std::to_string(cells.size()) + " cells, expected " +
                        std::to_string(names.size()) + ": a text with a comma needs quotes");
-  BuildRow row;
   auto about = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!formats::isUtf8(cells[i])) throw invalidInput(names[i] + ": is not UTF-8");
@@ -129,7 +128,6 @@ BuildRow parseRow(const Cells& names, const Cells& cells, const fs::path& folder
     throw invalidInput("id: found " + quotedText(row.id) + ", expected " + kCaseIdRule);
   row.about = about.dump(2) + "\n";
   (void)readAbout(row.about, "the statements about it");
-  return row;
 }
 
 Cells namesOf(CsvRow row, const std::string& name) {
@@ -152,51 +150,59 @@ Cells namesOf(CsvRow row, const std::string& name) {
   return names;
 }
 
-void requireDifferentIds(const std::vector<BuildRow>& rows, std::vector<std::string>& faults) {
+/// Moves rows whose id a row before has to the faults.
+void requireDifferentIds(BuildList& list) {
   std::map<std::string, std::size_t> first;
-  for (const BuildRow& row : rows) {
-    if (row.id.empty()) continue;
+  std::erase_if(list.rows, [&](const BuildRow& row) {
+    if (row.id.empty()) return false;
     const auto [other, isNew] = first.emplace(row.id, row.line);
     if (!isNew)
-      faults.push_back(linePrefix(row.line) + "id: " + row.id + " is that of line " +
-                       std::to_string(other->second) + ", too");
-  }
+      list.faults.push_back(
+          {row.line, row.id,
+           "id: " + row.id + " is that of line " + std::to_string(other->second) + ", too"});
+    return !isNew;
+  });
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::vector<std::string>& faults) {
-  std::string text = name + ": " + faults.front();
-  for (std::size_t i = 1; i < std::min(faults.size(), kMostFaultsReported); ++i)
-    text += "\n" + name + ": " + faults[i];
+}  // namespace
+
+void requireNoFaults(std::vector<RowFault> faults, const fs::path& file) {
+  if (faults.empty()) return;
+  std::sort(faults.begin(), faults.end(),
+            [](const RowFault& a, const RowFault& b) { return a.line < b.line; });
+  const std::string name = formats::printable(file.string()) + ": ";
+  std::string text;
+  for (std::size_t i = 0; i < std::min(faults.size(), kMostFaultsReported); ++i)
+    text += (i == 0 ? "" : "\n") + name + linePrefix(faults[i].line) + faults[i].why;
   if (faults.size() > kMostFaultsReported)
     text += "\nand " + std::to_string(faults.size() - kMostFaultsReported) + " more";
   throw invalidInput(text);
 }
 
-}  // namespace
-
-std::vector<BuildRow> readBuildList(const std::string& text, const fs::path& file) {
+BuildList readBuildList(const std::string& text, const fs::path& file) {
   const std::string name = formats::printable(file.string());
   constexpr std::string_view kMark = "\xEF\xBB\xBF";  // spreadsheets write it
   std::vector<CsvRow> table =
       csvRows(text.starts_with(kMark) ? text.substr(kMark.size()) : text, name);
   if (table.empty()) throw invalidInput(name + ": is empty; expected a row of names first");
   const Cells names = namesOf(std::move(table.front()), name);
-  std::vector<BuildRow> rows;
-  std::vector<std::string> faults;
+  BuildList list;
   for (std::size_t i = 1; i < table.size(); ++i) {
     const auto& [line, cells] = table[i];
     if (std::all_of(cells.begin(), cells.end(), [](const auto& c) { return c.empty(); })) continue;
+    BuildRow row;
+    row.line = line;
     try {
-      rows.push_back(parseRow(names, cells, file.parent_path()));
-      rows.back().line = line;
+      parseRow(names, cells, file.parent_path(), row);
+      list.rows.push_back(std::move(row));
     } catch (const Error& error) {
-      faults.push_back(linePrefix(line) + error.what());
+      list.faults.push_back({line, isCaseId(row.id) ? row.id : "", error.what()});
     }
   }
-  requireDifferentIds(rows, faults);
-  if (!faults.empty()) refuse(name, faults);
-  if (rows.empty()) throw invalidInput(name + ": there is no row below the names");
-  return rows;
+  requireDifferentIds(list);
+  if (list.rows.empty() && list.faults.empty())
+    throw invalidInput(name + ": there is no row below the names");
+  return list;
 }
 
 }  // namespace lumen::convert

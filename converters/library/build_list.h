@@ -20,13 +20,28 @@ struct BuildRow {
   std::string about;  ///< the user's statements: JSON, as `lumen library add --about` reads it
 };
 
+/// A row that cannot be made, and why: a fault that is seen before any work.
+struct RowFault {
+  std::size_t line = 0;
+  std::string id;   ///< may be empty
+  std::string why;  ///< one sentence, without the place
+};
+
+struct BuildList {
+  std::vector<BuildRow> rows;
+  std::vector<RowFault> faults;  ///< such rows are not among `rows`
+};
+
 /// Rows of comma-separated values (RFC 4180) in UTF-8, below a row of names: input (or volume),
 /// seeds, id, targets, codes (both with semicolons between), title, description, anatomy,
 /// laterality, modality, synthetic, licence, attribution, doi, origin, consent, deidentification,
 /// and any "--NAME" of lumen convert. Files are relative to `file`'s folder; rows without a text
-/// are passed over. Throws Error(InvalidInput) that names all rows with a fault that can be seen
-/// before any work: a name that no column has, a missing input or file, an id that is none or that
-/// two rows have, a column too many.
-std::vector<BuildRow> readBuildList(const std::string& text, const std::filesystem::path& file);
+/// are passed over. Faults of a row are a missing input or file, an id that is none or that a row
+/// before has, a cell too many, a statement that is none. Throws Error(InvalidInput) for a list
+/// without rows, and for a name that no column has.
+BuildList readBuildList(const std::string& text, const std::filesystem::path& file);
+
+/// Throws Error(InvalidInput) that names the list and all faults, if there are any.
+void requireNoFaults(std::vector<RowFault> faults, const std::filesystem::path& file);
 
 }  // namespace lumen::convert

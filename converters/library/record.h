@@ -22,6 +22,7 @@ struct AnatomyCode {
   std::string system;  ///< "SNOMED CT" or "FMA"
   std::string code;    ///< digits
   std::string name;
+  bool operator==(const AnatomyCode&) const = default;
 };
 
 /// Facts of a case that only people know. All texts are UTF-8 without control characters.
@@ -34,6 +35,7 @@ struct CaseAbout {
   bool synthetic = false;
   std::string licence;  ///< an SPDX expression
   std::string attribution, doi, origin, consent, deidentification;
+  bool operator==(const CaseAbout&) const = default;
 };
 
 /// The extremes of what `lumen measure` finds in a case, by which people search; empty where no place

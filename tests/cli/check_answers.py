@@ -166,6 +166,7 @@ def make_cases(lumen, folder):
         go("convert.schema.json", "convert", "truth.lumen", tree)
         go("info-centerline.schema.json", "info", tree)
     go("convert.schema.json", "convert", "a.swc", "given.lumen")
+    go("library.schema.json", "library", "update", "lib", "two", "--title", "Another title")
     # two vessels whose lumens overlap
     lines = [f"{10 * y + x + 1} 3 {x} {1.2 * y} 0 1 {10 * y + x if x else -1}" for y in (0, 1) for x in range(10)]
     (folder / "two.swc").write_text("\n".join(lines) + "\n")

@@ -127,6 +127,21 @@ def killed_again_and_again(lumen, folder, kills):
         must(contents(folder / "lib") == contents(other / "lib"), "interrupted and undisturbed runs differ")
 
 
+def goes_on_beside_rows_with_faults(lumen, folder):
+    prepare(lumen, folder, 2)
+    (folder / "list.csv").write_text(HEAD + "9.swc,lost,,A,yes,CC0-1.0\n0.swc,tree-0,nowhere,A,yes,CC0-1.0\n1.swc,tree-1,,A,yes,CC0-1.0\n"
+                                     "1.swc,tree-1,,B,yes,CC0-1.0\n")
+    done, rows = built(lumen, folder)
+    must(done.returncode == 3 and not rows and not (folder / "lib.build").exists(), f"not refused as a whole: {done.stdout}")
+    for line in (2, 3, 5): must(f"line {line}: " in done.stderr, f"line {line} is not reported: {done.stderr}")
+    done = run(lumen, "library", "build", folder / "list.csv", folder / "lib", "--json", "--keep-going")
+    answer = json.loads(done.stdout)
+    must(done.returncode == 3 and (answer["made"], answer["failed"]) == (1, 3), f"{done.returncode}, {answer}")
+    must([(row["row"], row["end"]) for row in answer["rows"]] == [(2, "failed"), (3, "failed"), (4, "made"), (5, "failed")], f"{answer['rows']}")
+    must("input: there is no " in answer["rows"][0]["why"] and "nowhere" in answer["rows"][1]["why"], f"why: {answer['rows']}")
+    check(lumen, folder / "lib")
+
+
 def refused(lumen, folder):
     prepare(lumen, folder, 1)
     for text, code, said in (
@@ -149,7 +164,7 @@ def main():
     parser.add_argument("--kills", type=int, default=12)
     options = parser.parse_args()
     lumen = pathlib.Path(options.lumen).resolve()
-    for steps in ((one_bad_row, what_changed_is_made_again, a_folder_of_somebody_stays), (refused,), (lambda l, f: killed_again_and_again(l, f, options.kills),)):
+    for steps in ((one_bad_row, what_changed_is_made_again, a_folder_of_somebody_stays), (refused,), (goes_on_beside_rows_with_faults,), (lambda l, f: killed_again_and_again(l, f, options.kills),)):
         with tempfile.TemporaryDirectory() as folder:
             for step in steps: step(lumen, pathlib.Path(folder))
 

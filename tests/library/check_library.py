@@ -164,6 +164,35 @@ def replacing(place):
     place.run("library", "remove", "lib", "rich", "poor")
 
 
+def updating(place):
+    """Other statements, the same files; the signature goes with a word."""
+    place.run("library", "add", "lib", "tube.lumen", "--id", "told", "--title", "Old", "--doi", "10.1234/x", "--consent", "Given", "--deidentification",
+              "Done", "--no-surface", "--picture", "left", "--report", "--file", "note.txt")
+    place.add("--id", "other")
+    folder, record = place.folder / "lib/data/told", lambda: json.loads((place.folder / "lib/data/told/record.json").read_text())
+    before, inode = record(), (folder / "case.lumen").stat().st_ino
+    (place.folder / "lib/library.json.minisig").write_text("old")
+    done = place.run("library", "update", "lib", "told", "other", "--title", "New", "--doi", "", "--laterality", "left", "--code", "FMA:3947:Internal carotid artery")
+    for word in ("told, version 2", "other, version 2", "library.json.minisig", "lumen library sign"): expect(word in done.stdout, f"update: {done.stdout}")
+    after = record()
+    expect((after["title"], after["doi"], after["laterality"], after["consent"], after["version"]) == ("New", "", "left", "Given", 2), f"update: {after}")
+    expect(after["provenance"] == before["provenance"] and after["figures"] == before["figures"], "an update changes facts of the case")
+    expect((folder / "case.lumen").stat().st_ino == inode, "an update copies files")
+    files = lambda one: {f["path"]: f["sha256"] for f in one["files"]}
+    changed = {path for path in files(before) if files(after).get(path) != files(before)[path]}
+    expect(files(before).keys() == files(after).keys() and changed == {"report.html"}, f"changed files: {changed}")
+    expect("New" in (folder / "report.html").read_text() and "Old" not in (folder / "report.html").read_text(), "the report has the old title")
+    place.valid("after an update")
+    place.run("library", "check", "lib")
+    whole = place.library()["revision"]
+    answer = json.loads(place.run("library", "update", "lib", "told", "--title", "New", "--json").stdout)
+    expect((answer["updated"], answer["revision"], place.library()["revision"]) == ([], whole, whole), f"nothing to change: {answer}")
+    place.refused(2, "expected a statement", "update", "lib", "told")
+    place.refused(2, "no case nobody", "update", "lib", "told", "nobody", "--title", "X")
+    place.refused(3, "consent", "update", "lib", "told", "--consent", "")
+    place.run("library", "remove", "lib", "told", "other")
+
+
 def extracting(place):
     first = place.library()["cases"][0]["id"]
     place.run("library", "extract", "lib", "own", "--case", first)
@@ -291,7 +320,7 @@ def main():
         place.run("phantom", "stenosis", "tube.nrrd", "--seeds", "tube.json", "--quiet")
         place.run("convert", "tube.nrrd", "tube.lumen", "--seeds", "tube.json", "--quiet")
         place.run("track", "tube.nrrd", "tree.lumen", "--seeds", "tube.json", "--quiet")
-        for step in (making, adding, changing, replacing, extracting, leaving, refusing, at_once, checking_meanwhile, sharing_the_lock, crates):
+        for step in (making, adding, changing, replacing, updating, extracting, leaving, refusing, at_once, checking_meanwhile, sharing_the_lock, crates):
             step(place)
     print(f"{len(failures)} failures")
     return 1 if failures else 0

@@ -32,6 +32,10 @@ public:
         "origin, consent, deidentification, and any option of lumen convert");
     table.argument("LIBRARY", &m_library, "Library that lumen library init made");
     addBuildRows(table, m_options);
+    table.flag(
+        "keep-going", m_options.keepGoing,
+        "Make the other rows where some have a fault that is seen before any work, such as a "
+        "missing input; otherwise nothing is made then");
   }
 
   Answer run(Surroundings& around) override {

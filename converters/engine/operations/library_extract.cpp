@@ -46,6 +46,7 @@ public:
     json["origin"] = {{"id", made.origin->id},
                       {"revision", made.origin->revision},
                       {"sha256", made.origin->sha256}};
+    json["updated"] = Json::array();
     return {std::move(json), formats::printable(m_target) + ": " +
                                  counted(made.cases.size(), "case", "cases") + ", " + made.id +
                                  ", from revision " + std::to_string(made.origin->revision) +

@@ -45,6 +45,7 @@ public:
     convert::makeLibrary(m_folder, m_library);
     Json json = librarySummary(convert::openLibrary(m_folder));
     json["gone"] = Json::array();
+    json["updated"] = Json::array();
     json["origin"] = nullptr;
     return {std::move(json),
             formats::printable(m_folder) + ": a library without cases, " + m_library.id + "\n"};

@@ -35,6 +35,7 @@ public:
     Json json = librarySummary(change.library());
     json["gone"] = change.gone();
     json["origin"] = nullptr;
+    json["updated"] = Json::array();
     return {std::move(json), formats::printable(m_library) + ": " +
                                  counted(change.library().cases.size(), "case", "cases") +
                                  " left\n" + goneText(change.gone())};

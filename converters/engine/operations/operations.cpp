@@ -13,10 +13,10 @@ Engine makeEngine() {
     engine.add(make);
 #ifdef LUMEN_WITH_LIBRARY
   for (const auto make :
-       {makeLibraryInitCommand, makeLibraryAddCommand, makeLibraryRemoveCommand,
-        makeLibraryExtractCommand, makeLibraryListCommand, makeLibraryCheckCommand,
-        makeLibrarySignCommand, makeLibraryVerifyCommand, makeLibraryIndexCommand,
-        makeLibraryBuildCommand, makeLibrarySampleCommand})
+       {makeLibraryInitCommand, makeLibraryAddCommand, makeLibraryUpdateCommand,
+        makeLibraryRemoveCommand, makeLibraryExtractCommand, makeLibraryListCommand,
+        makeLibraryCheckCommand, makeLibrarySignCommand, makeLibraryVerifyCommand,
+        makeLibraryIndexCommand, makeLibraryBuildCommand, makeLibrarySampleCommand})
     engine.add(make);
 #endif
   return engine;

@@ -24,6 +24,7 @@ std::unique_ptr<Command> makeReportCommand();
 std::unique_ptr<Command> makePhantomCommand();
 std::unique_ptr<Command> makeLibraryInitCommand();
 std::unique_ptr<Command> makeLibraryAddCommand();
+std::unique_ptr<Command> makeLibraryUpdateCommand();
 std::unique_ptr<Command> makeLibraryRemoveCommand();
 std::unique_ptr<Command> makeLibraryExtractCommand();
 std::unique_ptr<Command> makeLibraryListCommand();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,9 @@ protected:
   void TearDown() override { fs::remove_all(m_folder); }
   [[nodiscard]] fs::path list() const { return m_folder / "list.csv"; }
   [[nodiscard]] std::vector<BuildRow> read(const std::string& text) const {
-    return readBuildList(text, list());
+    BuildList all = readBuildList(text, list());
+    requireNoFaults(all.faults, list());
+    return all.rows;
   }
   /// Text of the refusal after the name of the file.
   [[nodiscard]] std::string refusal(const std::string& text) const {
@@ -93,6 +96,17 @@ TEST_F(BuildListTest, AllFaultsAreReportedAtOnceWithTheirLines) {
       << text;
   EXPECT_NE(text.find("line 5: found 4 cells, expected 3"), std::string::npos) << text;
   EXPECT_NE(text.find("line 7: id: d is that of line 6, too"), std::string::npos) << text;
+}
+
+TEST_F(BuildListTest, RowsWithoutAFaultAreThereBesideThoseWithOne) {
+  const BuildList all =
+      readBuildList("input,id\nmissing.nrrd,a\na.nrrd,b\nb.nrrd,b\nb.nrrd,c\na.nrrd,No\n", list());
+  ASSERT_EQ(all.rows.size(), 2U);
+  EXPECT_EQ(all.rows[0].id, "b");
+  EXPECT_EQ(all.rows[1].id, "c");
+  std::map<std::size_t, std::string> ids;
+  for (const RowFault& fault : all.faults) ids[fault.line] = fault.id;
+  EXPECT_EQ(ids, (std::map<std::size_t, std::string>{{2, "a"}, {4, "b"}, {6, ""}}));
 }
 
 TEST_F(BuildListTest, WhatIsNoListIsRefused) {
