@@ -177,7 +177,7 @@ install_test_packages() {
   # the JSON answers against their schemas, what judges the manual page, and what reads VTP
   packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
   # signatures of libraries
-  packages+=(minisign openssh-client)
+  packages+=(curl minisign openssh-client rclone)
   # the viewer's page, as a person would use it
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing

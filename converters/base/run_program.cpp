@@ -103,6 +103,7 @@ struct StartedProgram {
   char* const* arguments;
   const char* folder;
   std::array<int, 3> streams;  ///< standard input, output, errors
+  std::optional<std::uint64_t> mostFileBytes;
 };
 
 /// Uses only calls that are allowed between fork and exec in a process with several threads.
@@ -112,6 +113,10 @@ struct StartedProgram {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
+  if (child.mostFileBytes) {
+    const rlimit most{*child.mostFileBytes, *child.mostFileBytes};
+    setrlimit(RLIMIT_FSIZE, &most);
+  }
   if (chdir(child.folder) != 0) _exit(kNotStarted);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (child.streams[static_cast<std::size_t>(stream)] >= 0)
@@ -158,9 +163,10 @@ int openInput(const ProgramCall& call) {
   return descriptor;
 }
 
-int openLog(const std::filesystem::path& file) {
+/// `how`: O_APPEND, or O_TRUNC. -1 without a file.
+int openWritten(const std::filesystem::path& file, int how) {
   if (file.empty()) return -1;
-  const int descriptor = open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  const int descriptor = open(file.c_str(), O_WRONLY | how | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) throw failed(file.string() + ": cannot be written");
   return descriptor;
 }
@@ -201,7 +207,8 @@ ProgramResult runProgram(const ProgramCall& call, const Progress& progress) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const Opened input(openInput(call)), log(openLog(call.log));
+  const Opened input(openInput(call)), log(openWritten(call.log, O_APPEND)),
+      written(openWritten(call.output, O_TRUNC));
   Printed output(false), errors(call.asksUser);
   const std::optional<TerminalState> terminal =
       call.asksUser ? std::optional<TerminalState>(std::in_place) : std::nullopt;
@@ -212,8 +219,9 @@ ProgramResult runProgram(const ProgramCall& call, const Progress& progress) {
     runChild({words.front().c_str(),
               pointers.data(),
               call.folder.c_str(),
-              {input.descriptor, output.inner(),
-               log.descriptor >= 0 ? log.descriptor : errors.inner()}});
+              {input.descriptor, written.descriptor >= 0 ? written.descriptor : output.inner(),
+               log.descriptor >= 0 ? log.descriptor : errors.inner()},
+              call.mostFileBytes});
   output.closeInner();
   errors.closeInner();
   const auto [end, code] = outcome(child, latest, output, errors, progress);

@@ -2,6 +2,7 @@
 // Runs installed programs, for work that lumen does not do itself.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -39,7 +40,10 @@ struct ProgramCall {
   /// Its standard input is this process's, and its standard error is shown and kept: it may ask for
   /// a password.
   bool asksUser = false;
-  std::filesystem::path log;  ///< file to which its standard error is appended instead of kept
+  std::filesystem::path log{};     ///< file to which its standard error is appended instead of kept
+  std::filesystem::path output{};  ///< new file for its standard output, which is not kept then
+  /// A file that it writes beyond this size is cut off there: it is refused, or crashes.
+  std::optional<std::uint64_t> mostFileBytes{};
 };
 
 struct ProgramResult {
@@ -50,7 +54,7 @@ struct ProgramResult {
 
 /// Runs a program without a shell until it ends or its time is over; it ends with this process.
 /// Refused: its exit code was not 0. Throws Error(Cancelled), and Error(Failed) if no process can
-/// be started, `input` cannot be read, or `log` cannot be written.
+/// be started, `input` cannot be read, or `log` or `output` cannot be written.
 ProgramResult runProgram(const ProgramCall& call, const Progress& progress);
 
 }  // namespace lumen::convert

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/chunk_info.h"
 
+#include <algorithm>
 #include <array>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "converters/base/error.h"
 #include "formats/case/case_file.h"
+#include "formats/container/bytes.h"
 #include "formats/container/crc32c.h"
 #include "formats/view/case_chunks.h"
 
@@ -26,11 +33,84 @@ std::string remarks(const ChunkInfo& info) {
   };
   add(info.chunk.independent, "independent");
   add(!info.known, "unknown");
-  add(!info.intact, "DAMAGED");
+  add(info.intact == false, "DAMAGED");
+  add(!info.intact, "not read");
   return text;
 }
 
+/// A file in memory, of which only the pages that are looked at are read.
+class Mapping {
+public:
+  explicit Mapping(const std::filesystem::path& file) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat facts {};
+    if (descriptor < 0 || fstat(descriptor, &facts) != 0 || facts.st_size < 0) {
+      if (descriptor >= 0) close(descriptor);
+      throw invalidInput(file.string() + ": cannot be read");
+    }
+    m_size = static_cast<std::size_t>(facts.st_size);
+    if (m_size > 0) m_data = mmap(nullptr, m_size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    close(descriptor);
+    if (m_data == MAP_FAILED) throw invalidInput(file.string() + ": cannot be read");
+  }
+  ~Mapping() {
+    if (m_data != nullptr) munmap(m_data, m_size);
+  }
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
+  [[nodiscard]] std::span<const std::byte> bytes() const {
+    return {static_cast<const std::byte*>(m_data), m_size};
+  }
+
+private:
+  void* m_data = nullptr;
+  std::size_t m_size = 0;
+};
+
+ChunkCounts countsOf(const formats::Container& container) {
+  ChunkCounts counts;
+  for (const formats::Chunk& chunk : container.chunks) {
+    const std::size_t rule = formats::chunkRuleIndex(chunk.type);
+    if (rule >= formats::kChunkRules.size()) continue;
+    const std::uint64_t elements = chunk.rawSize / formats::kChunkRules[rule].stride;
+    if (chunk.type == formats::chunk::kNodeCentre) counts.nodes = elements;
+    if (chunk.type == formats::chunk::kBranchRecords) counts.branches = elements;
+    if (chunk.type == formats::chunk::kPointPosition) counts.points = elements;
+    if (chunk.type == formats::chunk::kModelCentre) counts.blobs = elements;
+  }
+  return counts;
+}
+
+/// `isRead`: chunks are verified.
+FileInfo described(const formats::Container& container, std::uint64_t length, bool isRead) {
+  FileInfo info{container.version, length, countsOf(container), {}};
+  for (const formats::Chunk& chunk : container.chunks) {
+    ChunkInfo entry{
+        chunk, chunk.stored.size(),
+        formats::chunkRuleIndex(chunk.type) < formats::kChunkRules.size(),
+        isRead ? std::optional(static_cast<bool>(formats::verifyChunk(chunk))) : std::nullopt};
+    entry.chunk.stored = {};  // the bytes go with the caller
+    info.chunks.push_back(entry);
+  }
+  return info;
+}
+
 }  // namespace
+
+std::uint64_t tableBytes(std::span<const std::byte> head) {
+  constexpr std::size_t kChunkCountAt = 24;  // in the header
+  if (!formats::hasContainerMagic(head) || head.size() < formats::kHeaderSize) return 0;
+  const auto chunks = formats::loadLittle<std::uint32_t>(head.data() + kChunkCountAt);
+  return formats::kHeaderSize +
+         std::min<std::uint64_t>(chunks, formats::kMaxChunks) * formats::kTableEntrySize;
+}
+
+FileInfo describeChunkTable(const std::filesystem::path& file) {
+  const Mapping mapping(file);
+  const auto container = formats::readContainer(mapping.bytes(), formats::Padding::Skip);
+  if (!container) throw invalidInput(file.string() + ": " + container.error().text());
+  return described(*container, mapping.bytes().size(), false);
+}
 
 FileInfo describeChunks(const std::filesystem::path& file) {
   const auto bytes = formats::readFileBytes(file);
@@ -39,21 +119,17 @@ FileInfo describeChunks(const std::filesystem::path& file) {
     throw unsupported(file.string() + ": --chunks is for .lumen files; JSON has no chunks");
   const auto container = formats::readContainer(*bytes);
   if (!container) throw invalidInput(file.string() + ": " + container.error().text());
-  FileInfo info{container->version, bytes->size(), {}};
-  for (const formats::Chunk& chunk : container->chunks) {
-    ChunkInfo entry{chunk, chunk.stored.size(),
-                    formats::chunkRuleIndex(chunk.type) < formats::kChunkRules.size(),
-                    static_cast<bool>(formats::verifyChunk(chunk))};
-    entry.chunk.stored = {};  // the bytes go with this function
-    info.chunks.push_back(entry);
-  }
-  return info;
+  return described(*container, bytes->size(), true);
 }
 
 Json chunkInfoJson(const FileInfo& info) {
   Json json;
   json["version"] = formats::versionText(info.version);
   json["length"] = info.length;
+  json["counts"] = {{"nodes", info.counts.nodes},
+                    {"branches", info.counts.branches},
+                    {"points", info.counts.points},
+                    {"blobs", info.counts.blobs}};
   json["chunks"] = Json::array();
   for (const ChunkInfo& entry : info.chunks)
     json["chunks"].push_back({{"type", formats::chunkName(entry.chunk.type)},
@@ -66,7 +142,7 @@ Json chunkInfoJson(const FileInfo& info) {
                               {"stored", entry.storedSize},
                               {"raw", entry.chunk.rawSize},
                               {"crc32c", formats::checksumText(entry.chunk.checksum)},
-                              {"intact", entry.intact}});
+                              {"intact", entry.intact ? Json(*entry.intact) : Json(nullptr)}});
   return json;
 }
 
@@ -79,7 +155,10 @@ std::string chunkInfoText(const FileInfo& info) {
                     std::to_string(entry.chunk.rawSize),
                     formats::checksumText(entry.chunk.checksum), remarks(entry)});
   return "version       " + formats::versionText(info.version) + "\nbytes         " +
-         std::to_string(info.length) + "\n\n" + alignColumns(rows);
+         std::to_string(info.length) + "\nnodes         " + std::to_string(info.counts.nodes) +
+         "\nbranches      " + std::to_string(info.counts.branches) + "\npoints        " +
+         std::to_string(info.counts.points) + "\nblobs         " +
+         std::to_string(info.counts.blobs) + "\n\n" + alignColumns(rows);
 }
 
 }  // namespace lumen::engine

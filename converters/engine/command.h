@@ -28,14 +28,18 @@ struct Answer {
 };
 
 class Engine;
+class RemoteInputs;
 
 /// Environment of a command that runs.
 struct Surroundings {
   const Engine& engine;
   Progress& progress;
   const OptionTable* table = nullptr;  ///< rows of the command that runs
-  int threads = 0;                     ///< 0: all cores
-  bool strict = false;                 ///< a warning is an error: Progress::warn() throws
+  RemoteInputs* remote = nullptr;      ///< files elsewhere that the command reads
+  /// Whether addresses may be fetched: only those that a user wrote on a command line.
+  bool mayFetch = true;
+  int threads = 0;      ///< 0: all cores
+  bool strict = false;  ///< a warning is an error: Progress::warn() throws
   /// Called with each file or folder that is going to be written through a temporary one beside it.
   std::function<void(const std::filesystem::path&)> willWrite = [](const auto&) {};
   /// Takes an answer that is due before the command ends.
@@ -53,6 +57,11 @@ public:
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual std::string summary() const = 0;  ///< one line
   [[nodiscard]] virtual std::string example() const = 0;  ///< shell lines for the end of the help
+  /// Names of the rows whose values may be addresses elsewhere (https://...): the engine fetches
+  /// these files, and sets the rows to their names, before the command runs.
+  [[nodiscard]] virtual std::vector<std::string> addressRows() const { return {}; }
+  /// Whether files are fetched, by the engine or by the command itself: the answer lists them.
+  [[nodiscard]] virtual bool fetches() const { return !addressRows().empty(); }
   /// Adds the rows of the command's own options, whose values are stored in this object.
   virtual void addRows(OptionTable& table) = 0;
   /// Does the work after the rows are set. Throws lumen::Error.

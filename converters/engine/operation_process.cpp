@@ -113,6 +113,7 @@ int runOperationFile(const fs::path& file, const Engine& engine, Surroundings& a
   own.threads = around.threads;
   own.strict = around.strict;
   own.willWrite = around.willWrite;
+  own.mayFetch = false;  // a file states the operation, and no person
   const auto leaveEnd = [&](const std::string& error) {
     writeText(Json{{"error", error}, {"warnings", counting.warnings()}}.dump(
                   -1, ' ', false, Json::error_handler_t::replace),

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "converters/base/error.h"
 #include "converters/base/state_folder.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/remote_library.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "formats/container/printable.h"
@@ -44,12 +46,15 @@ public:
     return "  lumen view head.nrrd head.lumen\n"
            "  lumen view ct.nrrd head.lumen mr.nii.gz\n"
            "  lumen view cases/\n"
+           "  lumen view https://example.org/siphons/ --case siphon-01   # fetches this case "
+           "alone\n"
            "  lumen view head.lumen --html head.html\n"
            "It ends with Ctrl-C, or when the last page has been gone for a minute; both are a "
            "normal "
            "end, with exit code 0.";
   }
 
+  [[nodiscard]] bool fetches() const override { return true; }
   void addRows(OptionTable& table) override {
     OptionRow& files = table.argument(
         "FILE", &m_files,
@@ -62,6 +67,10 @@ public:
         "which the page chooses");
     files.isRequired = false;
     files.many();
+    table.add(
+        "case", &m_case, "ID",
+        "The first FILE is a library that lumen library made, or its address: open this case of "
+        "it, which the page saves elsewhere");
     table.flag("no-browser", m_noBrowser, "Print the address only, and open no browser")
         .without("html");
     table.flag("keep", m_keep, "Go on when the last page has been gone for a minute")
@@ -82,6 +91,7 @@ public:
   }
 
   engine::Answer run(engine::Surroundings& around) override {
+    bringHere(around);
     engine::requireInScope(*around.table, {contentOfFiles(), kAnyContent, filesText(), {}},
                            around.progress);
     if (!m_html.empty()) engine::requireWritable(m_html, convert::ContentKind::Other);
@@ -94,6 +104,31 @@ public:
   }
 
 private:
+  /// Fetches files whose addresses are given, and puts the case of a library in its place.
+  void bringHere(const engine::Surroundings& around) {
+    const OptionRow& row = around.table->rows().front();
+    for (std::string& file : m_files) {
+      const bool isLibrary = !m_case.empty() && &file == &m_files.front();
+      std::optional<convert::RemoteAddress> address;
+      if (convert::isRemote(file)) address = around.remote->addressIn(row, file);
+      if (isLibrary)
+        file = engine::caseOfLibrary(file, address, m_case, *around.remote).string();
+      else if (address)
+        file = around.remote->fetch(*address).path.string();
+      else
+        continue;
+      m_readOnly.insert(file);
+    }
+    if (!m_case.empty() && m_files.empty())
+      throw Error(ErrorKind::Usage, "--case needs a library as the first FILE");
+  }
+
+  /// A file's name for people.
+  [[nodiscard]] std::string labelOf(const std::string& file) const {
+    const bool isOfLibrary = !m_case.empty() && file == m_files.front();
+    return isOfLibrary ? m_case + ".lumen" : fs::path(file).filename().string();
+  }
+
   /// Contents of the given files, as far as options depend on them.
   [[nodiscard]] ContentMask contentOfFiles() const {
     ContentMask content = engine::kFittedCase;
@@ -157,10 +192,11 @@ private:
   void openOne(Session& session, const std::string& file, FileRole role,
                engine::Surroundings& around) const {
     const OpenAs as = roleOfFurther(session.now().document, file, role);
-    session.open({file, fs::path(file).filename().string(), false, as}, around.progress);
+    session.open({file, labelOf(file), false, as}, around.progress);
     const engine::FileFormat* format =
         role == FileRole::Case ? &engine::inputFormat(file, "") : nullptr;
-    if (format != nullptr && engine::canWriteCase(*format) && as == OpenAs::Auto)
+    if (format != nullptr && engine::canWriteCase(*format) && as == OpenAs::Auto &&
+        !m_readOnly.contains(file))
       session.saveTo(file);
   }
 
@@ -272,7 +308,8 @@ private:
   }
 
   std::vector<std::string> m_files;
-  std::string m_html;
+  std::string m_html, m_case;
+  std::set<std::string> m_readOnly;  ///< files of others: the page saves elsewhere
   bool m_noBrowser = false, m_keep = false, m_htmlVolume = false, m_htmlPoints = false;
   int m_port = 0;
   SessionOptions m_options;

@@ -133,6 +133,9 @@ public:
     return "  lumen check head.nrrd head.lumen --overlay head.png --mask head-lumen.nrrd";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override {
+    return {"VOLUME", "CASE"};
+  }
   void addRows(OptionTable& table) override {
     table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
     table.argument("CASE", &m_case, "The case that was made from it");

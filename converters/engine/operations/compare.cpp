@@ -54,6 +54,7 @@ public:
     return "  lumen compare fork.lumen fork-truth.lumen --json";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE", "TRUTH"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_case, "The case to judge");
     table.argument("TRUTH", &m_truth, "The true case");

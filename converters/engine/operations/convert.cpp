@@ -12,6 +12,7 @@
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/reachable_answer.h"
+#include "converters/engine/remote_inputs.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/surface_answer.h"
 #include "converters/engine/track_answer.h"
@@ -38,11 +39,14 @@ public:
            "  lumen convert arteries.swc arteries.lumen";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override {
+    return {"INPUT", "seeds", "centerline"};
+  }
   void addRows(OptionTable& table) override {
     table.argument("INPUT", &m_input,
                    "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
                        formatTitles(canReadMesh) + "), centerline (" +
-                       formatTitles(canReadCenterline) + "; also a folder of curves) or case");
+                       formatTitles(canReadCenterline) + "; also a folder of curves) or case; or the address of such a file");
     table.argument("OUTPUT", &m_output,
                    "Case, " + formatEndings(canWriteCase) +
                        "; or mesh, which holds the surface of the " + "vessels and no more, " +
@@ -73,6 +77,7 @@ public:
     around.willWrite(m_output);
 
     formats::Case value = load(from, around);
+    if (from.kind != FormatKind::Case) around.remote->record(value.metadata);
     requirePoints(value, around);
     complete(value, from, to, around);
     around.progress.check();

@@ -74,6 +74,7 @@ public:
            "  lumen export --list";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE"}; }
   void addRows(OptionTable& table) override {
     table.flag("list", m_list, "List the targets, their files, units and frames, and exit");
     for (OptionRow* row :

@@ -23,6 +23,7 @@ public:
     return "  lumen fit tracked.lumen fitted.lumen --accuracy 0.2";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"IN"}; }
   void addRows(OptionTable& table) override {
     table.argument("IN", &m_input, "Case with wall points");
     table.argument("OUT", &m_output,

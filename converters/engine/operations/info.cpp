@@ -10,6 +10,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/mesh_info.h"
 #include "converters/engine/operations/operations.h"
+#include "converters/engine/remote_info.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/surface_answer.h"
 #include "converters/engine/tracking_input.h"
@@ -27,9 +28,11 @@ public:
     return "Print the content of a case, a volume, a mesh or a centerline";
   }
   [[nodiscard]] std::string example() const override {
-    return "  lumen info head.lumen --json | jq .radius_mm";
+    return "  lumen info head.lumen --json | jq .radius_mm\n"
+           "  lumen info https://example.org/head.lumen        # reads the header alone";
   }
 
+  [[nodiscard]] bool fetches() const override { return true; }
   void addRows(OptionTable& table) override {
     table.argument("FILE", &m_input, "Case, volume, mesh or centerline");
     addFormatRow(table, "from", m_from, "FILE");
@@ -50,6 +53,8 @@ public:
   }
 
   Answer run(Surroundings& around) override {
+    if (convert::isRemote(m_input))
+      if (auto answer = bringHere(around)) return *std::move(answer);
     requireInput(m_input, "case, volume, mesh or centerline");
     if (m_chunks) {
       requireInScope(*around.table, {kFittedCase, kAnyContent, m_input, {}}, around.progress);
@@ -75,6 +80,25 @@ public:
   }
 
 private:
+  /// Fetches what is needed of a file elsewhere: of a volume its header, which m_input names then;
+  /// of a case its header, which is the answer; or all of it.
+  std::optional<Answer> bringHere(Surroundings& around) {
+    const convert::RemoteAddress address =
+        around.remote->addressIn(around.table->rows().front(), m_input);
+    const FileFormat& format = inputFormat(address.fileName(), m_from);
+    if (isBinaryCase(format) && !m_surface) {
+      requireInScope(*around.table, {kFittedCase, kAnyContent, address.shown(), {}},
+                     around.progress);
+      const FileInfo info = fetchChunkTable(address, *around.remote);
+      return Answer{chunkInfoJson(info), chunkInfoText(info), 0, true};
+    }
+    const bool isHeadEnough = format.kind == FormatKind::Volume && !m_voxels;
+    m_input = (isHeadEnough ? fetchVolumeHead(address, format, m_volume, *around.remote)
+                            : around.remote->fetch(address).path)
+                  .string();
+    return {};
+  }
+
   [[nodiscard]] convert::MeshFile readMesh(const FileFormat& from) const {
     return from.readScene != nullptr ? from.readScene(m_input, {{}, m_volume.allowDetached})
                                      : from.readMesh(m_input);

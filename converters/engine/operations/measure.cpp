@@ -88,6 +88,9 @@ public:
            "  lumen measure after.lumen --against before.lumen --json";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override {
+    return {"CASE", "against"};
+  }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_cases, "Cases; tables of several name the case in each row").many();
     table.file(

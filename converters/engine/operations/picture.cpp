@@ -78,6 +78,7 @@ public:
            "  lumen picture head.lumen turn.png --turntable 36";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE", "volume"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_input, "Case, with models");
     table.argument("PNG", &m_output, "Picture to write");

@@ -77,6 +77,7 @@ public:
     return "  lumen report head.lumen head.html --volume head.nrrd";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE", "volume"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_case, "Case");
     table.argument("HTML", &m_output, "Page to write: one file, which needs no network");

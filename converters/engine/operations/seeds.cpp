@@ -59,6 +59,7 @@ public:
            "  lumen seeds head.lumen kept.mrk.json        # the seeds that the case holds";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"INPUT", "seeds"}; }
   void addRows(OptionTable& table) override {
     table.argument("INPUT", &m_input, "Volume or case");
     table.argument(

@@ -6,6 +6,7 @@
 #include "converters/engine/hinted_tracking.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/reachable_answer.h"
+#include "converters/engine/remote_inputs.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/track_answer.h"
 #include "converters/engine/tracking_input.h"
@@ -24,6 +25,9 @@ public:
     return "  lumen track head.nrrd head.lumen --seeds head-seeds.json --inlier-rate 0.6";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override {
+    return {"VOLUME", "seeds"};
+  }
   void addRows(OptionTable& table) override {
     table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
     table.argument("OUT", &m_output, "Case to write, " + formatEndings(canWriteCase));
@@ -58,6 +62,7 @@ public:
       nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, around.progress);
     const auto repetition =
         repeatTracks(volume, m_input, seeds, m_track, tracked.result, around.progress);
+    around.remote->record(tracked.result.metadata);
     to.writeCase(tracked.result, m_output, {}, around.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);

@@ -42,6 +42,7 @@ public:
     return "  lumen trim head.lumen flow.lumen --min-radius 0.4 --min-length 2";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_input, "Case");
     table.argument("OUT", &m_output,

@@ -90,6 +90,7 @@ public:
            "  lumen validate head.lumen --surface";
   }
 
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"FILE"}; }
   void addRows(OptionTable& table) override {
     table.argument("FILE", &m_files, "Cases, .lumen or .lumen.json").many();
     table
