@@ -38,6 +38,7 @@ ROOMS = [
     {"judge/compare": [], "judge/check": []},
     {"judge/measure": []},
     {"judge/facts": []},
+    {"judge/gate": []},
     {"draw/raster": [], "draw/overlay": ["draw/raster"], "draw/picture": ["draw/raster"],
      "draw/report": ["draw/overlay", "draw/raster"]},
     {"export/shared": []},

@@ -10,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/recorded_edits.h"
 #include "formats/view/limits.h"
 
 namespace lumen {
@@ -32,11 +33,14 @@ void recordNumbered(formats::Metadata& metadata, const std::string& step,
                     const std::string& sentence) {
   auto& steps = metadata.steps;
   const bool goesOn = !steps.empty() && steps.back().name == step &&
-                      steps.back().parameters.size() < formats::kMaxParameters;
+                      steps.back().parameters.size() + 1 < formats::kMaxParameters;  // room for two
   if (!goesOn) addStep(metadata, {step, "lumen " LUMEN_VERSION, {}});
   auto& done = steps.back().parameters;
   std::string number;
-  for (std::size_t n = done.size() + 1; number.empty() || done.contains(number); ++n)
+  const auto sentences = std::count_if(done.begin(), done.end(),
+                                       [](const auto& one) { return !isRequestName(one.first); });
+  for (auto n = static_cast<std::size_t>(sentences) + 1; number.empty() || done.contains(number);
+       ++n)
     number = paddedNumber(n, 4);
   done[number] = sentence;
 }

@@ -25,8 +25,9 @@ struct Operation {
 /// Result of an operation in a process of its own.
 struct OperationEnd {
   bool isDone = false;
-  int code = 0;       ///< exit code
-  std::string error;  ///< one sentence, if it is not done
+  int code = 0;        ///< exit code
+  std::string error;   ///< one sentence, if it is not done
+  std::string answer;  ///< JSON, as --json prints it; empty if there is none
   std::size_t warnings = 0;
 };
 

@@ -13,6 +13,8 @@
 #include "converters/engine/about_options.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/file_format.h"
+#include "converters/engine/gate_answer.h"
 #include "converters/engine/operation_process.h"
 #include "converters/export/export_case.h"
 #include "converters/library/build.h"
@@ -89,6 +91,8 @@ const char* endName(RowEnd end) {
       return "kept";
     case RowEnd::Failed:
       return "failed";
+    case RowEnd::NeedsPerson:
+      return "needs a person";
   }
   return "";
 }
@@ -98,15 +102,27 @@ std::size_t countRows(const std::vector<RowResult>& results, RowEnd end) {
       results.begin(), results.end(), [end](const RowResult& r) { return r.end == end; }));
 }
 
+/// Whether the row's case is in the library.
+bool isIn(const RowResult& result) {
+  return result.end == RowEnd::Made || result.end == RowEnd::Kept;
+}
+
 Json resultJson(const RowResult& result) {
   Json json{{"row", result.line},          {"id", result.id},
             {"end", endName(result.end)},  {"seconds", jsonNumber(result.seconds)},
             {"warnings", result.warnings}, {"why", nullptr}};
-  if (result.end == RowEnd::Failed) {
+  json["view"] = result.view;
+  if (!isIn(result)) {
     json["why"] = result.why;
     json["code"] = result.code;
   }
   return json;
+}
+
+/// The line below a row's reason: its log, or the command that shows its worst place.
+std::string placeToLook(const RowResult& result) {
+  if (!result.view.empty()) return Lines().add("  " + shellLine(result.view)).text();
+  return result.log.empty() ? "" : Lines().add("  see " + result.log.string()).text();
 }
 
 std::string resultTable(const std::vector<RowResult>& results) {
@@ -116,19 +132,19 @@ std::string resultTable(const std::vector<RowResult>& results) {
                     std::to_string(result.warnings), endName(result.end)});
   std::string text = alignColumns(std::move(rows));
   for (const RowResult& result : results)
-    if (result.end == RowEnd::Failed)
+    if (!isIn(result))
       text +=
           Lines()
               .add("line " + std::to_string(result.line) + " (" + result.id + "): " + result.why)
               .text() +
-          (result.log.empty() ? "" : Lines().add("  see " + result.log.string()).text());
+          placeToLook(result);
   return text;
 }
 
 int exitCodeOf(const std::vector<RowResult>& results) {
   bool isInputAlone = true, isFailed = false;
   for (const RowResult& result : results) {
-    if (result.end != RowEnd::Failed) continue;
+    if (isIn(result)) continue;
     isFailed = true;
     isInputAlone = isInputAlone && result.code == static_cast<int>(ErrorKind::InvalidInput);
   }
@@ -139,14 +155,44 @@ int exitCodeOf(const std::vector<RowResult>& results) {
 Answer makeAnswer(const std::vector<RowResult>& results, const std::string& library) {
   const std::size_t made = countRows(results, RowEnd::Made),
                     kept = countRows(results, RowEnd::Kept),
-                    missing = countRows(results, RowEnd::Failed);
+                    missing = countRows(results, RowEnd::Failed),
+                    waiting = countRows(results, RowEnd::NeedsPerson);
   Json rows = Json::array();
   for (const RowResult& result : results) rows.push_back(resultJson(result));
-  return {Json{{"made", made}, {"kept", kept}, {"failed", missing}, {"rows", rows}},
+  return {Json{{"made", made},
+               {"kept", kept},
+               {"failed", missing},
+               {"needs_person", waiting},
+               {"rows", rows}},
           resultTable(results) + formats::printable(library) + ": " +
               counted(results.size(), "row", "rows") + ": " + std::to_string(made) + " made, " +
-              std::to_string(kept) + " kept, " + std::to_string(missing) + " failed\n",
-          exitCodeOf(results), missing > 0};
+              std::to_string(kept) + " kept, " + std::to_string(missing) + " failed" +
+              (waiting > 0 ? ", " + std::to_string(waiting) + " need a person" : "") + "\n",
+          exitCodeOf(results), missing + waiting > 0};
+}
+
+/// Whether a row is of a volume that shows vessels: no mask, and no labels.
+bool isOfImage(const BuildRow& row) {
+  for (const char* const name : {"--mask", "--label", "--labels"})
+    if (row.options.contains(name)) return false;
+  const auto from = row.options.find("--from");
+  return inputFormat(row.input, from == row.options.end() ? "" : from->second).kind ==
+         FormatKind::Volume;
+}
+
+/// Throws Error(Usage) for a profile that there is not, Error(InvalidInput) for a file that is
+/// none.
+void setGate(const BuildArguments& arguments, const Engine& engine,
+             convert::BuildOptions& options) {
+  options.accepted.insert(arguments.accepted.begin(), arguments.accepted.end());
+  options.isVolume = isOfImage;
+  if (arguments.profile.empty()) return;
+  (void)convert::gateProfile(arguments.profile);
+  const bool isFile = arguments.profile.ends_with(".json");
+  options.profile = isFile ? fs::absolute(arguments.profile).string() : arguments.profile;
+  const BoundCommand check = engine.find("check");
+  for (const OptionRow& row : check.table->rows())
+    if (!row.isArgument) options.checkOptions.insert(row.name);
 }
 
 }  // namespace
@@ -184,6 +230,7 @@ Answer buildLibrary(convert::BuildList rows, const std::string& list, const std:
   options.work = arguments.work.empty() ? folder.parent_path().string() + ".build" : arguments.work;
   options.jobs = arguments.jobs;
   options.day = revisionDay("");
+  setGate(arguments, around.engine, options);
   std::vector<RowResult> results;
   for (const convert::RowFault& fault : rows.faults) {
     results.push_back(resultOf(fault));
@@ -194,7 +241,7 @@ Answer buildLibrary(convert::BuildList rows, const std::string& list, const std:
     results.push_back(std::move(result));
   std::sort(results.begin(), results.end(),
             [](const RowResult& a, const RowResult& b) { return a.line < b.line; });
-  if (countRows(results, RowEnd::Failed) == 0) convert::removeWorkFolder(options.work);
+  if (std::all_of(results.begin(), results.end(), isIn)) convert::removeWorkFolder(options.work);
   return makeAnswer(results, library);
 }
 

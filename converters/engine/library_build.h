@@ -13,8 +13,10 @@ namespace lumen::engine {
 
 struct BuildArguments {
   int jobs = 1;
-  std::string work;        ///< empty: LIBRARY.build
-  bool keepGoing = false;  ///< rows with a fault do not stop the others
+  std::string work;                   ///< empty: LIBRARY.build
+  std::string profile;                ///< of lumen check; empty: cases are not checked
+  std::vector<std::string> accepted;  ///< ids that need no further person
+  bool keepGoing = false;             ///< rows with a fault do not stop the others
 };
 
 void addBuildRows(OptionTable& table, BuildArguments& arguments);

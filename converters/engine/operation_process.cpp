@@ -94,6 +94,7 @@ OperationEnd runInProcess(const Operation& operation, const ProcessOptions& opti
     const convert::JsonPlace json(left);
     end.warnings = static_cast<std::size_t>(json.at("warnings").number());
     if (const std::string& error = json.at("error").text(); !error.empty()) end.error = error;
+    end.answer = json.at("answer").text();
   }
   fs::remove(endFile(file), ignored);
   fs::remove(file, ignored);
@@ -114,17 +115,19 @@ int runOperationFile(const fs::path& file, const Engine& engine, Surroundings& a
   own.strict = around.strict;
   own.willWrite = around.willWrite;
   own.mayFetch = false;  // a file states the operation, and no person
-  const auto leaveEnd = [&](const std::string& error) {
-    writeText(Json{{"error", error}, {"warnings", counting.warnings()}}.dump(
+  const auto leaveEnd = [&](const std::string& error, const std::string& answer) {
+    writeText(Json{{"error", error}, {"warnings", counting.warnings()}, {"answer", answer}}.dump(
                   -1, ' ', false, Json::error_handler_t::replace),
               endFile(file));
   };
   try {
     const Answer answer = engine.run(decoded(convert::JsonPlace(given)), own);
-    leaveEnd("");
+    leaveEnd("", answer.json.is_null()
+                     ? ""
+                     : answer.json.dump(-1, ' ', false, Json::error_handler_t::replace));
     return answer.code;
   } catch (const Error& error) {
-    leaveEnd(error.what());
+    leaveEnd(error.what(), "");
     throw;
   }
 }

@@ -52,12 +52,6 @@ std::vector<double> spacingIn(const std::string& text) {
 
 constexpr NumberRange kPlace{-kLongest, kLongest};
 
-std::string placeFault(const std::string& text) {
-  if (numbersIn(text, kPlace).size() == 3) return {};
-  return "found " + (text.empty() ? "nothing" : text) +
-         ", expected three coordinates with commas between them, each " + kPlace.text();
-}
-
 std::string spacingFault(const std::string& text) {
   if (!spacingIn(text).empty()) return {};
   return "found " + (text.empty() ? "nothing" : text) + ", expected " + kPositive.text() +
@@ -65,6 +59,17 @@ std::string spacingFault(const std::string& text) {
 }
 
 }  // namespace
+
+std::string placeFault(const std::string& text) {
+  if (numbersIn(text, kPlace).size() == 3) return {};
+  return "found " + (text.empty() ? "nothing" : text) +
+         ", expected three coordinates with commas between them, each " + kPlace.text();
+}
+
+Eigen::Vector3d placeIn(const std::string& text) {
+  const std::vector<double> numbers = numbersIn(text, kPlace);
+  return {numbers[0], numbers[1], numbers[2]};
+}
 
 const std::map<std::string, double>& millimetresByUnit() {
   static const std::map<std::string, double> units = {
@@ -103,10 +108,7 @@ convert::SeedReading TrackArguments::reading() const {
 
 std::vector<Eigen::Vector3d> TrackArguments::rootPlaces() const {
   std::vector<Eigen::Vector3d> places;
-  for (const std::string& text : roots) {
-    const std::vector<double> numbers = numbersIn(text, kPlace);
-    places.emplace_back(numbers[0], numbers[1], numbers[2]);
-  }
+  for (const std::string& text : roots) places.push_back(placeIn(text));
   return places;
 }
 

@@ -60,6 +60,11 @@ void addEncodingRows(OptionTable& table, formats::EncodeOptions& encoding);
 void addFormatRow(OptionTable& table, const std::string& name, std::string& value,
                   const std::string& argument);
 
+/// Why a text is no place, three coordinates in mm with commas between them; empty if it is one.
+std::string placeFault(const std::string& text);
+/// The place that a text without such a fault is.
+Eigen::Vector3d placeIn(const std::string& text);
+
 /// mm of the units that --unit and --seeds-unit take.
 const std::map<std::string, double>& millimetresByUnit();
 

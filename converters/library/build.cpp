@@ -15,8 +15,10 @@
 #include <thread>
 #include <utility>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/recorded_edits.h"
 #include "converters/library/build_row.h"
 #include "converters/library/change.h"
 #include "converters/library/library_file.h"
@@ -51,6 +53,26 @@ bool isKept(const fs::path& folder, const LibraryFile& library, const PlannedRow
     return record.provenance.value("recipe_sha256", "") == plan.recipe.all;
   } catch (const Error&) {
     return false;
+  }
+}
+
+/// Whether a case records corrections by hand that can be made again (base/edit_steps.h).
+bool hasCorrections(const CaseRecord& record) {
+  for (const auto& step : record.provenance.value("steps", nlohmann::ordered_json::array()))
+    if (step.value("name", "") == kEditStep)
+      for (const auto& [name, value] : step.at("parameters").items())
+        if (isRequestName(name)) return true;
+  return false;
+}
+
+/// The library's version of a case, if it was corrected by hand.
+fs::path correctedVersion(const fs::path& folder, const LibraryFile& library,
+                          const std::string& id) {
+  if (findCase(library, id) == nullptr) return {};
+  try {
+    return hasCorrections(recordIn(folder, id)) ? folder / kPayload / id / kCaseFile : fs::path();
+  } catch (const Error&) {
+    return {};
   }
 }
 
@@ -110,8 +132,9 @@ private:
       m_results[i].end = RowEnd::Kept;
       return;
     }
+    plan.corrected = correctedVersion(m_folder, m_library, plan.id);
     m_results[i] = makeRow(plan, m_library, m_options, m_progress);
-    if (m_results[i].end == RowEnd::Failed) {
+    if (m_results[i].end != RowEnd::Made) {
       warnOfFailure(m_results[i]);
       return;
     }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,17 @@ struct BuildOptions {
   std::string version;         ///< version of lumen: another one makes every case again
   std::filesystem::path work;  ///< where rows are made; a run continues another's files
   int jobs = 1;                ///< rows at once
-  std::string day;             ///< YYYY-MM-DD: of the revisions that come of it
+  /// Of lumen check: cases of volumes that it does not pass stay out of the library; empty: all go
+  /// in.
+  std::string profile;
+  std::set<std::string>
+      checkOptions;  ///< names of the options of a row that lumen check takes, too
+  std::function<bool(const BuildRow&)> isVolume;  ///< whether the row's case can be checked
+  std::set<std::string> accepted;                 ///< ids of cases that go in whatever the verdict
+  std::string day;                                ///< YYYY-MM-DD: of the revisions that come of it
 };
 
-enum class RowEnd : std::uint8_t { Made, Kept, Failed };
+enum class RowEnd : std::uint8_t { Made, Kept, Failed, NeedsPerson };
 
 /// Outcome of a row.
 struct RowResult {
@@ -35,7 +43,8 @@ struct RowResult {
   int code = 0;     ///< exit code of the command that failed
   std::string why;  ///< its message
   std::size_t warnings = 0;
-  std::filesystem::path log;  ///< standard error of the row's commands, where it failed
+  std::filesystem::path log;      ///< standard error of the row's commands, where it failed
+  std::vector<std::string> view;  ///< words that open the viewer, where a person is needed
 };
 
 /// Makes the folder for work, and marks one that it made, or found empty, as lumen's own. Throws
@@ -47,9 +56,10 @@ void claimWorkFolder(const std::filesystem::path& folder);
 void removeWorkFolder(const std::filesystem::path& folder);
 
 /// Makes every row whose recipe is not that of the case in the library, and puts it there; cases
-/// are put into the library in batches, each atomic. A row that fails is passed over. Results are
-/// in the order of the list. Throws Error(Cancelled), after which the next run uses the rows made
-/// by then; Error(Failed) where neither the library nor the folder for work can be written.
+/// are put into the library in batches, each atomic. A row that fails, or needs a person, is passed
+/// over; the case of the latter waits in the folder for work, where its corrections count. Results
+/// are in the order of the list. Throws Error(Cancelled), after which the next run uses the rows
+/// made by then; Error(Failed) where neither the library nor the folder for work can be written.
 std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows,
                                     const std::filesystem::path& library,
                                     const BuildOptions& options, Progress& progress);

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
+#include "converters/base/json_place.h"
 #include "converters/base/option_name.h"
+#include "converters/base/sha256.h"
 #include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
@@ -38,8 +41,8 @@ public:
       m_result.why = m_plan.folder.string() + ": " + error.message();
       return m_result;
     }
-    const bool isMade = tracked() && hasAbout() && hasLibrary() && hasCase();
-    m_result.end = isMade ? RowEnd::Made : RowEnd::Failed;
+    const bool isMade = tracked() && passes() && hasAbout() && hasLibrary() && hasCase();
+    if (isMade) m_result.end = RowEnd::Made;
     return m_result;
   }
 
@@ -54,7 +57,67 @@ private:
     if (!m_plan.row->seeds.empty())
       convert.with(kOption.seeds.name, fs::absolute(m_plan.row->seeds).string());
     for (const auto& [name, value] : m_plan.row->options) convert.with(name.substr(2), value);
-    return run(convert);
+    if (m_plan.corrected.empty() || !m_options.isVolume(*m_plan.row)) return run(convert);
+    const OperationEnd end =
+        runTimed(convert.with("corrections", fs::absolute(m_plan.corrected).string()));
+    return take(end) && noteLeft(end);
+  }
+
+  [[nodiscard]] fs::path leftFile() const { return m_plan.folder / "corrections-left.txt"; }
+
+  /// Notes corrections that could not be made again, with the digest of the case that lacks them.
+  bool noteLeft(const OperationEnd& end) {
+    if (end.answer.empty()) return true;
+    JsonFile answer(end.answer, "answer of lumen convert");
+    std::string left;
+    for (const JsonPlace& one : JsonPlace(answer).at("corrections").at("left").elements())
+      left += (left.empty() ? "" : "; ") + one.at("sentence").text() + ": " + one.at("why").text();
+    if (left.empty()) return true;
+    const std::string note = digestOfFile(caseFile()).sha256 + "\n" + left;
+    const auto done = formats::writeFileAtomically(std::as_bytes(std::span(note)), leftFile());
+    if (!done) m_result.why = done.error().message;
+    return static_cast<bool>(done);
+  }
+
+  /// Corrections that the case still lacks: nobody has changed it since. Empty if there are none.
+  [[nodiscard]] std::string leftCorrections() const {
+    std::error_code error;
+    if (!fs::exists(leftFile(), error)) return {};
+    const std::string note = readWholeFile(leftFile(), "note");
+    const std::size_t end = note.find('\n');
+    return note.substr(0, end) == digestOfFile(caseFile()).sha256 ? note.substr(end + 1) : "";
+  }
+
+  bool needsPerson(const std::string& why, int code) {
+    m_result.end = RowEnd::NeedsPerson;
+    m_result.code = code;
+    m_result.why = why;
+    return false;
+  }
+
+  /// Whether no correction is left, and the case keeps the thresholds of the profile, if there is
+  /// one and the row is of a volume.
+  bool passes() {
+    const BuildRow& row = *m_plan.row;
+    if (m_options.accepted.contains(m_plan.id)) return true;
+    if (const std::string left = leftCorrections(); !left.empty()) {
+      m_result.view = {"lumen", "view", fs::absolute(row.input).string(), caseFile().string()};
+      return needsPerson("corrections no longer fit: " + left,
+                         static_cast<int>(ErrorKind::InvalidInput));
+    }
+    if (m_options.profile.empty() || !m_options.isVolume(row)) return true;
+    Operation check{"check", {fs::absolute(row.input).string(), caseFile().string()}, {}};
+    check.with("profile", m_options.profile);
+    for (const auto& [name, value] : row.options)
+      if (m_options.checkOptions.contains(name.substr(2))) check.with(name.substr(2), value);
+    const OperationEnd end = runTimed(check);
+    if (end.answer.empty()) return take(end);
+    JsonFile answer(end.answer, "answer of lumen check");
+    const JsonPlace verdict = JsonPlace(answer).at("verdict");
+    if (verdict.at("passes").boolean()) return true;
+    for (const JsonPlace& word : verdict.at("view").elements())
+      m_result.view.push_back(word.text());
+    return needsPerson(verdict.at("sentence").text(), end.code);
   }
 
   bool hasAbout() {
@@ -82,13 +145,19 @@ private:
     return run(add);
   }
 
-  bool run(const Operation& operation) {
+  bool run(const Operation& operation) { return take(runTimed(operation)); }
+
+  OperationEnd runTimed(const Operation& operation) {
     const auto begin = std::chrono::steady_clock::now();
     const OperationEnd end = m_options.run(operation, m_result.log, m_progress);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     m_result.seconds += took.count();
-    m_result.code = end.code;
     m_result.warnings += end.warnings;
+    return end;
+  }
+
+  bool take(const OperationEnd& end) {
+    m_result.code = end.code;
     if (!end.isDone) m_result.why = end.error;
     return end.isDone;
   }

@@ -17,8 +17,9 @@ struct PlannedRow {
   const BuildRow* row = nullptr;
   Recipe recipe;
   std::string id;
-  std::filesystem::path folder;  ///< the tree's, so that another export does not track again
-  std::filesystem::path staged;  ///< a library of this case alone, when it is made
+  std::filesystem::path folder;     ///< the tree's, so that another export does not track again
+  std::filesystem::path staged;     ///< a library of this case alone, when it is made
+  std::filesystem::path corrected;  ///< an earlier version with corrections to make again; or empty
 };
 
 /// Digests of all that the row's case comes from, read whole.

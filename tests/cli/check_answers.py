@@ -101,6 +101,18 @@ def hold_or_silent(name, result, what):
     if result.returncode < 0 or not result.stderr: complain(f"{what}: {result.returncode}, {result.stderr!r}")
 
 
+def edited(lumen, folder, case):
+    """The case with three records of corrections: of a request that fits, of one that does not, and of none."""
+    run(lumen, folder, "convert", case, "plain.lumen.json")
+    value = json.loads((folder / "plain.lumen.json").read_text())
+    label = value["tree"]["branches"][0]["label"]
+    near, far = ({"label": label, "at": at, "radius": 1} for at in (value["tree"]["centre"][0], [900, 0, 0]))
+    request = lambda place: json.dumps(dict(op="rename", branch=place, word="renamed"))
+    value["metadata"]["steps"].append(dict(name="edit", tool="test", parameters={
+        "0001": "renamed it", "0001-request": request(near), "0002": "renamed another", "0002-request": request(far), "0003": "anything"}))
+    return value
+
+
 def make_cases(lumen, folder):
     go = lambda name, *arguments, **more: hold(name, run(lumen, folder, *arguments), " ".join(arguments), **more)
     go("phantom.schema.json", "phantom", "aneurysm", "a.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds", "seeds.json")
@@ -133,6 +145,9 @@ def make_cases(lumen, folder):
     (folder / "fork.json").write_text(json.dumps(dict(fork, branches=fork["branches"][:1])))
     go("convert.schema.json", "convert", "fork.nrrd", "trunk.lumen", "--seeds", "fork.json", "--seeds-only")
     go("check.schema.json", "check", "fork.nrrd", "trunk.lumen")
+    go("check.schema.json", "check", "fork.nrrd", "trunk.lumen", "--profile", "simulator", codes=(3,))
+    (folder / "edited.lumen.json").write_text(json.dumps(edited(lumen, folder, "trunk.lumen")))
+    go("convert.schema.json", "convert", "fork.nrrd", "again.lumen", "--seeds", "fork.json", "--seeds-only", "--corrections", "edited.lumen.json")
     go("trim.schema.json", "trim", "proposed.lumen", "trimmed.lumen", "--min-radius", "0.1")
     for case in ("fitted.lumen", "vessel.lumen"): go("check.schema.json", "check", "a.nrrd", case)
     go("convert.schema.json", "convert", "fork.nrrd", "both.lumen", "--seeds", "both.json")
@@ -151,6 +166,7 @@ def make_cases(lumen, folder):
     go("library-add.schema.json", "library", "add", "lib", "truth.lumen", "--synthetic", "--id", "two")
     go("library-list.schema.json", "library", "list", "lib")
     go("library.schema.json", "library", "extract", "lib", "extract", "--case", "two")
+    go("library.schema.json", "library", "update", "lib", "two", "--title", "Another title")
     go("library.schema.json", "library", "remove", "lib", "two")
     go("completion.schema.json", "completion", "bash")
     hold("version.schema.json", subprocess.run([lumen, "--version", "--json"], capture_output=True, timeout=60), "--version")
@@ -166,7 +182,6 @@ def make_cases(lumen, folder):
         go("convert.schema.json", "convert", "truth.lumen", tree)
         go("info-centerline.schema.json", "info", tree)
     go("convert.schema.json", "convert", "a.swc", "given.lumen")
-    go("library.schema.json", "library", "update", "lib", "two", "--title", "Another title")
     # two vessels whose lumens overlap
     lines = [f"{10 * y + x + 1} 3 {x} {1.2 * y} 0 1 {10 * y + x if x else -1}" for y in (0, 1) for x in range(10)]
     (folder / "two.swc").write_text("\n".join(lines) + "\n")

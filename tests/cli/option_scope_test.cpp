@@ -50,6 +50,7 @@ const std::map<std::string, std::vector<Input>>& specialInputs() {
        {{"apart.nrrd", none, engine::kFileImage},
         {"apart.stl", none, engine::kPlainMesh},
         {"apart-labels.nrrd", mask, engine::kFileLabels}}},
+      {"corrections", {{"tube.nrrd", none, engine::kFileImage}}},
       {"label", {{"apart-labels.nrrd", none, engine::kFileLabels}}},
       {"labels", {{"apart-labels.nrrd", none, engine::kFileLabels}}},
       {"label-map",

@@ -73,6 +73,25 @@ std::string sceneOf(const std::string& folder) {
          folder + "two.stl\"/></Node>\n</Node>\n";
 }
 
+/// The case, in which one node was moved and made wider by hand.
+std::string withCorrection(const std::string& text) {
+  nlohmann::json value = nlohmann::json::parse(text);
+  const nlohmann::json& tree = value["tree"];
+  const std::size_t node = tree["centre"].size() / 2;
+  const nlohmann::json at = tree["centre"][node];
+  const nlohmann::json request = {
+      {"op", "move"},
+      {"node",
+       {{"label", tree["branches"][0]["label"]}, {"at", at}, {"radius", tree["radius"][node]}}},
+      {"position", at},
+      {"radius", 1.3 * tree["radius"][node].get<double>()}};
+  value["metadata"]["steps"].push_back(
+      {{"name", "edit"},
+       {"tool", "test"},
+       {"parameters", {{"0001", "moved a node"}, {"0001-request", request.dump()}}}});
+  return value.dump();
+}
+
 const std::map<std::string, std::string> kSamples = {{"series", "1"},
                                                      {"volume-index", "1"},
                                                      {"crop", "2,29,2,29,2,29"},
@@ -105,6 +124,7 @@ const std::map<std::string, std::string> kSamples = {{"series", "1"},
                                                      {"max-nodes", "1000"},
                                                      {"random-seed", "2"},
                                                      {"repeat", "1"},
+                                                     {"corrections", "corrected.lumen.json"},
                                                      {"centerline", "truth.swc"},
                                                      {"centerline-frame", "ras"},
                                                      {"centerline-unit", "cm"},
@@ -213,6 +233,8 @@ void ScopeTest::makeVolumes() const {
   clicks["branches"].erase(1);
   write("one.json", clicks.dump());
   make({"convert", "tube.nrrd", "case.lumen", "--seeds", "seeds.json"});
+  make({"convert", "case.lumen", "corrected.lumen.json"});
+  write("corrected.lumen.json", withCorrection(read("corrected.lumen.json")));
   make({"convert", "two.nrrd", "two.lumen", "--seeds", "two.json"});
   make({"track", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"});
   make({"check", "tube.nrrd", "case.lumen", "--mask", "labels.nrrd"});

@@ -3,6 +3,7 @@ lumen_test(editing_test
   LIBS lumen_editing lumen_base lumen_geometry lumen_centerline lumen_fitting lumen_phantom
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/edit_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/edit_request_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/find_inlets_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/hints_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/random_edits_test.cpp

@@ -33,6 +33,7 @@ lumen_test(library_site_test
 # Libraries made and changed by the program, read by others; `npm ci` in tests/library for the RO-Crate library.
 python_test(Library.IsMadeChangedAndReadByOthers foreign ${CMAKE_CURRENT_SOURCE_DIR}/library/check_library.py $<TARGET_FILE:lumen>)
 python_test(Library.SurvivesBeingKilledWhileItChanges slow ${CMAKE_CURRENT_SOURCE_DIR}/library/check_kills.py $<TARGET_FILE:lumen>)
+python_test(Library.CasesThatNeedAPersonWait slow ${CMAKE_CURRENT_SOURCE_DIR}/library/check_quality.py $<TARGET_FILE:lumen>)
 python_test(Library.IsBuiltFromAListWhateverHappens slow ${CMAKE_CURRENT_SOURCE_DIR}/library/check_build.py $<TARGET_FILE:lumen>)
 python_test(Library.OfTenSyntheticPatientsIsMadeByOneCommand slow ${CMAKE_CURRENT_SOURCE_DIR}/library/check_sample.py $<TARGET_FILE:lumen>)
 python_test(Library.ThatWasTamperedWithIsRefused foreign ${CMAKE_CURRENT_SOURCE_DIR}/library/tamper.py $<TARGET_FILE:lumen>)

@@ -71,6 +71,12 @@ public:
         "case", &m_case, "ID",
         "The first FILE is a library that lumen library made, or its address: open this case of "
         "it, which the page saves elsewhere");
+    table
+        .add(
+            "at", &m_at, "X,Y,Z",
+            "Place at which the page looks first, mm, LPS [the widest vessel]; a first minus needs "
+            "an equals sign: --at=-3,1,2")
+        .checkedBy(engine::placeFault);
     table.flag("no-browser", m_noBrowser, "Print the address only, and open no browser")
         .without("html");
     table.flag("keep", m_keep, "Go on when the last page has been gone for a minute")
@@ -96,6 +102,7 @@ public:
                            around.progress);
     if (!m_html.empty()) engine::requireWritable(m_html, convert::ContentKind::Other);
     if (const auto folder = stateFolder()) m_options.unnamed = *folder / "lumen";
+    if (!m_at.empty()) m_options.look = engine::placeIn(m_at);
     Session session(m_options);
     if (!openFolder(session)) openFiles(session, around);
     warnOfUnsaved(session, around);
@@ -308,7 +315,7 @@ private:
   }
 
   std::vector<std::string> m_files;
-  std::string m_html, m_case;
+  std::string m_html, m_case, m_at;
   std::set<std::string> m_readOnly;  ///< files of others: the page saves elsewhere
   bool m_noBrowser = false, m_keep = false, m_htmlVolume = false, m_htmlPoints = false;
   int m_port = 0;

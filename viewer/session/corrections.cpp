@@ -1,125 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/corrections.h"
 
-#include <algorithm>
-#include <functional>
-#include <iterator>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "converters/base/error.h"
-#include "converters/stages/editing/wall_edits.h"
-#include "formats/case/enum_names.h"
+#include "converters/stages/editing/edit_request.h"
 
 namespace lumen::viewer {
 
 namespace {
 
-using Edit = std::function<convert::Change(formats::Case&)>;
-
-template <class Choice>
-Choice chosen(const Arguments& request, const char* name, const std::string& second,
-              Choice otherwise, Choice ifSecond) {
-  return request.text(name, "") == second ? ifSecond : otherwise;
-}
-
-convert::Change setKind(formats::Case& value, std::uint32_t branch, const std::string& name) {
-  const auto kind = formats::enumFromName<formats::BranchKind>(formats::kBranchKindNames, name);
-  if (!kind) throw Error(ErrorKind::Usage, "\"kind\" must be vessel or aneurysm");
-  return convert::setKind(value, branch, *kind);
-}
-
-struct NamedEdit {
+/// The name in a request of the argument that a correction calls "word", and the word that differs
+/// from its usual treatment; empty: all words count.
+struct WordArgument {
+  const char* op;
   const char* name;
-  /// The correction with checked arguments.
-  Edit (*edit)(const Arguments& request, const formats::CenterlineTree& tree);
+  const char* other;
 };
+constexpr WordArgument kWords[] = {{"delete", "hanging", "go"},
+                                   {"cut", "rest", "child"},
+                                   {"rename", "label", ""},
+                                   {"kind", "kind", ""}};
 
-std::uint32_t branchIn(const Arguments& request, const formats::CenterlineTree& tree) {
-  return request.index("branch", tree.branches.size());
+std::string wordIn(const std::string& op, const Arguments& request) {
+  for (const WordArgument& word : kWords) {
+    if (op != word.op) continue;
+    if (*word.other == '\0') return request.text(word.name);
+    return request.text(word.name, "") == word.other ? word.other : "";
+  }
+  return {};
 }
 
-std::uint32_t nodeIn(const Arguments& request, const formats::CenterlineTree& tree) {
-  return request.index("node", tree.nodeCount());
+/// The correction with checked arguments.
+convert::EditRequest editRequest(const std::string& op, const std::vector<std::string>& arguments,
+                                 const Arguments& request, const formats::CenterlineTree& tree) {
+  convert::EditRequest edit;
+  edit.op = op;
+  for (const std::string& name : arguments) {
+    if (name == "branch") edit.branch = request.index("branch", tree.branches.size());
+    if (name == "node") edit.node = request.index("node", tree.nodeCount());
+    if (name.starts_with("word")) edit.word = wordIn(op, request);
+    if (name == "position") edit.position = request.position(op == "push" ? "at" : "position");
+    if (name == "by") edit.by = request.position("by");
+    if (name == "radius") edit.radius = request.number("radius");
+    if (name == "reach") edit.reach = request.number("reach");
+  }
+  return edit;
 }
-
-/// A correction of one branch that needs nothing else.
-template <auto function>
-Edit editOfBranch(const Arguments& request, const formats::CenterlineTree& tree) {
-  return [b = branchIn(request, tree)](formats::Case& value) { return function(value, b); };
-}
-
-using Tree = formats::CenterlineTree;
-
-constexpr NamedEdit kEdits[] = {
-    {"delete",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [b = branchIn(request, tree),
-               h = chosen(request, "hanging", "go", convert::Hanging::Stay, convert::Hanging::Go)](
-                  formats::Case& value) { return convert::deleteBranch(value, b, h); };
-     }},
-    {"cut",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [n = nodeIn(request, tree),
-               r = chosen(request, "rest", "child", convert::Rest::OwnTree, convert::Rest::Child)](
-                  formats::Case& value) { return convert::cutBefore(value, n, r); };
-     }},
-    {"join",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [b = branchIn(request, tree), n = nodeIn(request, tree)](formats::Case& value) {
-         return convert::joinBranch(value, b, n);
-       };
-     }},
-    {"merge", editOfBranch<convert::mergeIntoParent>},
-    {"reverse", editOfBranch<convert::reverseBranch>},
-    {"root", editOfBranch<convert::makeRoot>},
-    {"rename",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [b = branchIn(request, tree), label = request.text("label")](formats::Case& value) {
-         return convert::renameBranch(value, b, label);
-       };
-     }},
-    {"move",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [n = nodeIn(request, tree), p = request.position("position"),
-               r = request.number("radius")](formats::Case& value) {
-         return convert::moveNode(value, n, p, r);
-       };
-     }},
-    {"widen",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [n = nodeIn(request, tree), radius = request.number("radius"),
-               reach = request.number("reach")](formats::Case& value) {
-         return convert::widenAround(value, n, radius, reach);
-       };
-     }},
-    {"push",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [n = nodeIn(request, tree),
-               stroke = convert::Stroke{request.position("at"), request.position("by"),
-                                        request.number("radius")}](formats::Case& value) {
-         return convert::pushWall(value, n, stroke);
-       };
-     }},
-    {"nodeAdd",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [n = nodeIn(request, tree)](formats::Case& value) {
-         return convert::addNodeBehind(value, n);
-       };
-     }},
-    {"nodeDelete",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [n = nodeIn(request, tree)](formats::Case& value) {
-         return convert::deleteNode(value, n);
-       };
-     }},
-    {"kind",
-     [](const Arguments& request, const Tree& tree) -> Edit {
-       return [b = branchIn(request, tree), kind = request.text("kind")](formats::Case& value) {
-         return setKind(value, b, kind);
-       };
-     }},
-};
 
 /// A vessel's label before and after; both empty if none is renamed.
 struct Renaming {
@@ -168,15 +98,14 @@ Renaming renamingBy(const Arguments& request, const Document& document) {
 
 std::optional<Correction> correct(const std::string& op, const Arguments& request,
                                   const Document& document) {
-  const auto named = std::find_if(std::begin(kEdits), std::end(kEdits),
-                                  [&op](const NamedEdit& edit) { return edit.name == op; });
-  if (named == std::end(kEdits)) return std::nullopt;
+  const std::vector<std::string>* const arguments = convert::editArguments(op);
+  if (arguments == nullptr) return std::nullopt;
   if (!document.value) throw Error(ErrorKind::Usage, "there is no case to correct");
   const Renaming renaming = op == "rename" ? renamingBy(request, document) : Renaming{};
-  const Edit edit = named->edit(request, document.value->tree);
+  const convert::EditRequest edit = editRequest(op, *arguments, request, document.value->tree);
   Correction correction;
   correction.value = std::make_shared<formats::Case>(*document.value);
-  correction.change = edit(*correction.value);
+  correction.change = convert::applyEdit(*correction.value, edit);
   correction.document = document;
   correction.document.seeds = seedsAfter(document, *correction.value, renaming);
   correction.document.value = correction.value;

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include <Eigen/Core>
 
 #include "converters/engine/stage_options.h"
 
@@ -17,6 +20,8 @@ struct SessionOptions {
   /// Unsaved work of a document without any named file is kept beside this one, which need not
   /// exist.
   std::filesystem::path unnamed = "lumen";
+  /// Where a page looks at first, mm, LPS; none: at the widest vessel.
+  std::optional<Eigen::Vector3d> look;
 };
 
 }  // namespace lumen::viewer

@@ -148,6 +148,8 @@ Json stateJson(const Workspace& workspace) {
   json["work"] = workspace.findings.work(document);
   json["checkIsOld"] = workspace.findings.isCheckOld(document);
   json["figures"] = workspace.findings.figures(document);
+  const auto& look = workspace.options.look;
+  json["look"] = look ? Json({look->x(), look->y(), look->z()}) : Json(nullptr);
   json["measuresAreOld"] = workspace.findings.areMeasuresOld(document);
   return json;
 }

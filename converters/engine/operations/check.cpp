@@ -12,6 +12,7 @@
 #include "converters/engine/answer_text.h"
 #include "converters/engine/check_answer.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/gate_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
@@ -130,12 +131,11 @@ public:
     return "Agreement of a case with its volume: wall, dark lumen, missing vessels";
   }
   [[nodiscard]] std::string example() const override {
-    return "  lumen check head.nrrd head.lumen --overlay head.png --mask head-lumen.nrrd";
+    return "  lumen check head.nrrd head.lumen --overlay head.png --mask head-lumen.nrrd\n"
+           "  lumen check head.nrrd head.lumen --profile simulator   # exit code 3: needs a person";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override {
-    return {"VOLUME", "CASE"};
-  }
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"VOLUME", "CASE"}; }
   void addRows(OptionTable& table) override {
     table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
     table.argument("CASE", &m_case, "The case that was made from it");
@@ -149,10 +149,14 @@ public:
              "Blur of the volume, a standard deviation in mm: it displaces the edges of thin "
              "vessels; 0 takes them as they are seen [what the case records, else 0]")
         .in(NumberRange{0, 1000});
+    table.add("profile", &m_profile, "NAME",
+              "Also judge the case by thresholds, and exit with 3 if it needs a person: " +
+                  profileNames() + ", or a FILE.json of one's own");
     addFormatRow(table, "from", m_from, "VOLUME");
   }
 
   Answer run(Surroundings& around) override {
+    if (!m_profile.empty()) m_gate = convert::gateProfile(m_profile);
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind != FormatKind::Volume)
@@ -184,11 +188,31 @@ public:
     if (!m_overlay.empty())
       writeText(convert::encodePng(convert::drawOverlay(volume, value.tree, result.report)),
                 m_overlay);
-    return {checkJson(result.report, value.tree, source.word()),
-            checkText(result.report, value.tree), 0, true};
+    Answer answer{checkJson(result.report, value.tree, source.word()),
+                  checkText(result.report, value.tree), 0, true};
+    answer.json["verdict"] = nullptr;
+    if (m_gate) addVerdict(value, result.report, answer, around.progress);
+    return answer;
   }
 
 private:
+  static std::string profileNames() {
+    std::string names;
+    for (const convert::GateProfile& profile : convert::gateProfiles())
+      names += (names.empty() ? "" : ", ") + profile.name + " (" + profile.summary + ")";
+    return names;
+  }
+
+  void addVerdict(const formats::Case& value, const convert::CheckReport& report, Answer& answer,
+                  const Progress& progress) const {
+    const convert::GateVerdict verdict =
+        convert::judgeCase(*m_gate, value, report, convert::measureReach(value, progress));
+    const std::vector<std::string> view = viewCommand(verdict, m_input, m_case);
+    answer.json["verdict"] = verdictJson(verdict, value.tree, view);
+    answer.text += verdictText(verdict, value.tree, view);
+    if (!verdict.passes()) answer.code = kInvalidCode;
+  }
+
   /// Refuses outputs that could not be written in the end, or would be lost.
   void checkOutputs(Surroundings& around) const {
     if (!m_mask.empty() && m_mask == m_overlay)
@@ -217,7 +241,8 @@ private:
     }
   }
 
-  std::string m_input, m_case, m_overlay, m_mask, m_from;
+  std::string m_input, m_case, m_overlay, m_mask, m_from, m_profile;
+  std::optional<convert::GateProfile> m_gate;
   std::optional<double> m_pointSpread;
   VolumeArguments m_volume;
 };

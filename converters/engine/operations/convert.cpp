@@ -17,6 +17,7 @@
 #include "converters/engine/surface_answer.h"
 #include "converters/engine/track_answer.h"
 #include "converters/engine/tracking_input.h"
+#include "converters/stages/editing/edit_request.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/surface/patches/cell_size.h"
 #include "formats/container/printable.h"
@@ -40,13 +41,14 @@ public:
   }
 
   [[nodiscard]] std::vector<std::string> addressRows() const override {
-    return {"INPUT", "seeds", "centerline"};
+    return {"INPUT", "seeds", "centerline", "corrections"};
   }
   void addRows(OptionTable& table) override {
     table.argument("INPUT", &m_input,
                    "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
                        formatTitles(canReadMesh) + "), centerline (" +
-                       formatTitles(canReadCenterline) + "; also a folder of curves) or case; or the address of such a file");
+                       formatTitles(canReadCenterline) +
+                       "; also a folder of curves) or case; or the address of such a file");
     table.argument("OUTPUT", &m_output,
                    "Case, " + formatEndings(canWriteCase) +
                        "; or mesh, which holds the surface of the " + "vessels and no more, " +
@@ -58,6 +60,12 @@ public:
     addVolumeRows(table, m_volume);
     addCenterlineRows(table, m_centerline);
     addTrackRows(table, m_track);
+    table
+        .file("corrections", m_corrected,
+              "Make the corrections again that were made by hand in this case of the same volume, "
+              "each "
+              "at its place; those that no longer fit are reported, and the case keeps them")
+        .forInputs(kImage);
     addMeshRows(table, m_mesh);
     addMaskRows(table, m_mask);
     addFitRows(table, m_fit);
@@ -73,6 +81,7 @@ public:
     m_situation = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
     if (from.kind != FormatKind::Case) requireInScope(*around.table, m_situation, around.progress);
     if (from.kind == FormatKind::Volume && !m_track.seeds.empty()) m_seeds = loadSeeds(m_track);
+    if (!m_corrected.empty()) requireInput(m_corrected, "corrected case");
     requireWritable(m_output, contentKind(to));
     around.willWrite(m_output);
 
@@ -122,8 +131,30 @@ private:
     if (!m_mask.labelMap.empty())
       nameByLabelMap(volume, m_input, m_mask, tracked.result, tracked.ends, progress);
     m_repetition = repeatTracks(volume, m_input, m_seeds, m_track, tracked.result, progress);
+    if (!m_corrected.empty()) replay(tracked.result, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);
+  }
+
+  void replay(formats::Case& target, Progress& progress) {
+    m_replayed = convert::replayEdits(readCase(m_corrected), target);
+    for (const convert::LeftEdit& left : m_replayed->left)
+      progress.warn(m_corrected + ": a correction is not made again: " + left.sentence + ": " +
+                    left.why);
+  }
+
+  [[nodiscard]] Json replayedJson() const {
+    if (!m_replayed) return nullptr;
+    Json left = Json::array();
+    for (const convert::LeftEdit& one : m_replayed->left)
+      left.push_back({{"sentence", one.sentence}, {"why", one.why}});
+    return {{"made", m_replayed->made}, {"left", std::move(left)}};
+  }
+
+  [[nodiscard]] std::string replayedLine() const {
+    if (!m_replayed) return {};
+    return counted(m_replayed->made.size(), "correction", "corrections") + " made again, " +
+           std::to_string(m_replayed->left.size()) + " left\n";
   }
 
   [[nodiscard]] formats::Case caseOfLabels(const convert::Volume& volume, Progress& progress) {
@@ -188,12 +219,15 @@ private:
     json["surface"] = surfaceJson(surface, value);
     json["mesh"] = meshFrameJson(m_meshFrame);
     json["repeats"] = repetitionJson(m_repetition, value);
+    json["corrections"] = replayedJson();
     return {withRemarks(std::move(json), m_remarks),
-            caseLine(m_output, value) + meshFrameLine(m_meshFrame) + convert::reachLine(reach) +
-                surfaceLines(surface, value) + repetitionLines(m_repetition) + endLines(m_remarks)};
+            caseLine(m_output, value) + replayedLine() + meshFrameLine(m_meshFrame) +
+                convert::reachLine(reach) + surfaceLines(surface, value) +
+                repetitionLines(m_repetition) + endLines(m_remarks)};
   }
 
-  std::string m_input, m_output, m_from, m_to;
+  std::string m_input, m_output, m_from, m_to, m_corrected;
+  std::optional<convert::ReplayedEdits> m_replayed;
   VolumeArguments m_volume;
   CenterlineArguments m_centerline;
   TrackArguments m_track;

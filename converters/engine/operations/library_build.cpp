@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "converters/base/option_name.h"
+#include "converters/engine/about_options.h"
 #include "converters/engine/operations/operations.h"
 
 namespace lumen::engine {
@@ -32,6 +34,15 @@ public:
         "origin, consent, deidentification, and any option of lumen convert");
     table.argument("LIBRARY", &m_library, "Library that lumen library init made");
     addBuildRows(table, m_options);
+    table.add(
+        "profile", &m_options.profile, "NAME",
+        "Judge the cases of volumes as lumen check --profile does: one that needs a person stays "
+        "out of the library, and its row names the place to look at");
+    table
+        .add("accept", &m_options.accepted, "ID",
+             "A person has looked at this case, and it goes in as it is; may be repeated")
+        .many()
+        .checkedBy(caseIdText());
     table.flag(
         "keep-going", m_options.keepGoing,
         "Make the other rows where some have a fault that is seen before any work, such as a "

@@ -84,14 +84,15 @@ export class Loader {
     );
   }
 
-  /** Once: the crosshair into the middle of what there is, and the projection where there is no case. */
+  /** Once: the crosshair to where the page was sent, or into the middle; the projection where there is no case. */
   private settle(): void {
     const { store, stage } = this.app,
       { tree, volume, state } = store.get();
     if (!this.first || (tree === null && (volume === null || state.hasCase))) return;
     this.first = false;
     store.set({
-      crosshair: tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre(),
+      crosshair:
+        state.look ?? (tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre()),
       cast: tree === null && volume !== null ? "mip" : "off",
     });
     stage.invalidate();

@@ -183,6 +183,8 @@ export interface State {
   /** As `lumen compare` answers, or null. */
   figures: Record<string, unknown> | null;
   formats: string[];
+  /** Where the page looks first; null: at the widest vessel. */
+  look: Vec3 | null;
 }
 
 export const kEmptyState: State = {
@@ -210,6 +212,7 @@ export const kEmptyState: State = {
   check: null,
   work: null,
   checkIsOld: false,
+  look: null,
   measuresAreOld: false,
   figures: null,
   formats: [],

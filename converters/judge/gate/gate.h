@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verdict on a checked case by a profile's thresholds: passed, or a person is needed, and
+// where.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/judge/check/check.h"
+#include "converters/judge/facts/reachable.h"
+#include "converters/judge/gate/gate_profile.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// A measure that does not keep its threshold.
+struct GateFault {
+  Threshold threshold;
+  double found = 0;   ///< NaN: not known, which does not pass
+  double excess = 0;  ///< how far beyond the limit, in units of what the limit leaves; > 0
+};
+
+/// A place for a person to look at.
+struct GatePlace {
+  std::string measure;                                 ///< of the fault that it belongs to
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS
+  std::uint32_t node = 0;                              ///< of the case, the nearest
+};
+
+struct GateVerdict {
+  std::string profile;
+  std::vector<GateFault> faults;   ///< the farthest beyond its limit first
+  std::optional<GatePlace> worst;  ///< of the first fault that has a place
+  [[nodiscard]] bool passes() const { return faults.empty(); }
+};
+
+/// `value` is the case of the report, and valid; `reach` is of it.
+GateVerdict judgeCase(const GateProfile& profile, const formats::Case& value,
+                      const CheckReport& report, const std::optional<Reach>& reach);
+
+}  // namespace lumen::convert
