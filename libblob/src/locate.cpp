@@ -28,7 +28,7 @@ public:
     do {
       addLevel(tree, count);
       count = tree.levels.back().size();
-    } while (count > 1);
+    } while (count > LocateTree::kMostRoots);
     return tree;
   }
 
@@ -75,46 +75,61 @@ private:
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const bool real = first + lane < m_order.size();
       const std::uint32_t node = real ? m_order[first + lane] : BLOB_NOWHERE;
-      for (int axis = 0; axis < 3; ++axis)
-        leaf.centre[axis][lane] = real ? m_nodes[node].centre[axis] : 0.0;
-      const double radius = real ? m_nodes[node].radius() : 0.0;
-      leaf.radius2[lane] = real ? radius * radius : -kInfinity;
+      for (int axis = 0; axis < 3; ++axis)  // centres are floats, stored as doubles
+        leaf.centre[axis][lane] = real ? static_cast<float>(m_nodes[node].centre[axis]) : kFarAway;
+      leaf.radius[lane] = real ? m_nodes[node].radius() : 0.0f;
       leaf.node[lane] = node;
     }
     tree.leaves.push_back(leaf);
   }
 
-  // The box and the greatest r^2 of child c of the level to be added.
-  static void childBounds(const LocateTree& tree, std::size_t c, double* low, double* high,
-                          double& radius2) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const bool leaf = tree.levels.empty();
-      const double r2 = leaf ? tree.leaves[c].radius2[lane] : tree.levels.back()[c].radius2[lane];
-      if (r2 == -kInfinity) continue;
-      radius2 = std::max(radius2, r2);
+  struct Bounds {
+    float low[3] = {kFarAway, kFarAway, kFarAway}, high[3] = {-kFarAway, -kFarAway, -kFarAway};
+    float radius = kNoChild;
+
+    void add(const float* from, const float* to, float greatest) {
       for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], leaf ? tree.leaves[c].centre[axis][lane]
-                                             : tree.levels.back()[c].low[axis][lane]);
-        high[axis] = std::max(high[axis], leaf ? tree.leaves[c].centre[axis][lane]
-                                               : tree.levels.back()[c].high[axis][lane]);
+        low[axis] = std::min(low[axis], from[axis]);
+        high[axis] = std::max(high[axis], to[axis]);
       }
+      radius = std::max(radius, greatest);
     }
+  };
+
+  // The bounds of child c of the level to be added.
+  static Bounds childBounds(const LocateTree& tree, std::size_t c) {
+    Bounds bounds;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      float low[3], high[3];
+      if (tree.levels.empty()) {
+        const LocateLeaf& leaf = tree.leaves[c];
+        if (leaf.node[lane] == BLOB_NOWHERE) continue;
+        for (int axis = 0; axis < 3; ++axis) low[axis] = high[axis] = leaf.centre[axis][lane];
+        bounds.add(low, high, leaf.radius[lane]);
+        continue;
+      }
+      const LocateBlock& block = tree.levels.back()[c];
+      if (block.radius[lane] == kNoChild) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = block.low[axis][lane];
+        high[axis] = block.high[axis][lane];
+      }
+      bounds.add(low, high, block.radius[lane]);
+    }
+    return bounds;
   }
 
   static void addLevel(LocateTree& tree, std::size_t children) {
     std::vector<LocateBlock> level((children + kLanes - 1) / kLanes);
     for (std::size_t c = 0; c < level.size() * kLanes; ++c) {
-      double low[3] = {kInfinity, kInfinity, kInfinity};
-      double high[3] = {-kInfinity, -kInfinity, -kInfinity};
-      double radius2 = -kInfinity;
-      if (c < children) childBounds(tree, c, low, high, radius2);
+      const Bounds bounds = c < children ? childBounds(tree, c) : Bounds{};
       LocateBlock& block = level[c / kLanes];
       const std::size_t lane = c % kLanes;
       for (int axis = 0; axis < 3; ++axis) {
-        block.low[axis][lane] = radius2 == -kInfinity ? 0.0 : low[axis];
-        block.high[axis][lane] = radius2 == -kInfinity ? 0.0 : high[axis];
+        block.low[axis][lane] = bounds.low[axis];
+        block.high[axis][lane] = bounds.high[axis];
       }
-      block.radius2[lane] = radius2;
+      block.radius[lane] = bounds.radius;
     }
     tree.levels.push_back(std::move(level));
   }

@@ -82,21 +82,23 @@ struct Field {
   std::vector<BlobBlock> blocks;
 };
 
-/// A box and a bound on r^2 for eight children of an 8-ary tree over the nodes.
+/// Boxes about the centres of eight children of an 8-ary tree over the nodes, and their greatest radii; a
+/// child that does not exist has a radius of kNoChild.
 struct alignas(64) LocateBlock {
-  double low[3][kLanes], high[3][kLanes], radius2[kLanes];
+  float low[3][kLanes], high[3][kLanes], radius[kLanes];  ///< mm
 };
+/// Eight nodes. Padding is at kFarAway, with a radius of zero.
 struct alignas(64) LocateLeaf {
-  double centre[3][kLanes], radius2[kLanes];
+  float centre[3][kLanes], radius[kLanes];  ///< mm
   std::uint32_t node[kLanes];
 };
+constexpr float kFarAway = 3e18f;  ///< mm, beyond every node, with a square that is finite
+constexpr float kNoChild = -1.0f;
 
-/// Bounds are loosened by more than their rounding, so that an equal power is never pruned.
-constexpr double kLoose = 1e-14;
-
-/// levels.back() holds the root's children; child c of block b of a level is block 8 b + c of the
+/// levels.back() is searched as a whole; child c of block b of a level is block 8 b + c of the
 /// level below, or leaf 8 b + c of the lowest.
 struct LocateTree {
+  static constexpr std::size_t kMostRoots = 4;  ///< blocks of levels.back()
   std::vector<LocateLeaf> leaves;
   std::vector<std::vector<LocateBlock>> levels;
 };

@@ -49,6 +49,35 @@ TEST(BlobLocate, IsTheNodeOfLeastPowerForEverySizeOfTree) {
   }
 }
 
+// Where the search in floats separates few nodes, or none.
+TEST(BlobLocate, IsTheNodeOfLeastPowerFarFromTheOriginAndFromTheTree) {
+  Tree tree = scattered(700, 3);
+  for (auto& centre : tree.centre) centre[0] += 3e5f;
+  for (const blob_simd simd : {BLOB_SIMD_SCALAR, BLOB_SIMD_PORTABLE, BLOB_SIMD_BEST}) {
+    const Model model = tree.build(simd);
+    std::mt19937 random(11);
+    std::normal_distribution<double> u;
+    for (const double reach : {1e-3, 1.0, 30.0, 1e4, 1e7, 1e10, 1e200})
+      for (int n = 0; n < 100; ++n) {
+        const Point p{3e5 + reach * u(random), reach * u(random), reach * u(random)};
+        ASSERT_EQ(blob_cursor_locate(model.get(), p.data()), leastPower(tree, p)) << reach;
+      }
+  }
+}
+
+// Two nodes apart by less than floats of the point resolve.
+TEST(BlobLocate, AlmostEqualNodesAreToldApart) {
+  Tree tree;
+  const double x = 1e4;
+  tree.addNode({x - 1, 0, 0}, 1.0);
+  tree.addNode({x + 1, 0, 0}, 1.0);
+  tree.offset.back() = 0;
+  const Model model = tree.build();
+  EXPECT_EQ(blob_cursor_locate(model.get(), Point{x - 1e-9, 0, 0}.data()), 0U);
+  EXPECT_EQ(blob_cursor_locate(model.get(), Point{x + 1e-9, 0, 0}.data()), 1U);
+  EXPECT_EQ(blob_cursor_locate(model.get(), Point{x, 0, 0}.data()), 0U);
+}
+
 TEST(BlobLocate, AmongEqualNodesTheFirstIsFound) {
   Tree tree;
   for (int i = 0; i < 100; ++i) tree.addNode({1, 2, 3}, 1.0);
