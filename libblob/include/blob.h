@@ -393,13 +393,13 @@ typedef struct blob_nearest_point {
   int converged;    /* 0: the bound on steps was met; `point` is the best so far */
 } blob_nearest_point;
 
-/* Finds the nearest point of the wall: Newton's method on h (see blob_sample.distance) to the wall,
- * then along it until the line to the query point is the normal. The result is a local minimum of
+/* Finds the nearest point of the wall: Newton's method on h (see blob_sample.distance) to the wall
+ * and along it until the line to the query point is the normal. The result is a local minimum of
  * the distance; on the axis of a tube, where a ring of points is equally near, it is one of them.
  * The caller provides flags, a point and its cursor, as for blob_query(); a tolerance in mm
  * (0: 1e-5 of the node's radius); and a bound on evaluations (0: 40).
  * *nearest is the answer; converged = 0 if the bound was met first. Cannot fail.
- * O(max_steps) evaluations, some of them with second derivatives. */
+ * O(max_steps) evaluations, some of them with second derivatives; three for most points. */
 BLOB_API void blob_nearest(const blob_model* model, uint32_t flags, const double point[3],
                            uint32_t* cursor, double tolerance, uint32_t max_steps,
                            blob_nearest_point* nearest) BLOB_NOEXCEPT;

@@ -7,6 +7,7 @@
 #include "formats/field/vector.h"
 #include "hessian.h"
 #include "simd/backend.h"
+#include "wall_step.h"
 
 namespace lumen::blob {
 namespace {
@@ -24,7 +25,8 @@ Vec alongVessel(const blob_model& model, std::uint32_t node) {
   return {1, 0, 0};
 }
 
-// Newton's method to the wall, then along it.
+// Newton's method to the wall and along it at once; where that does not lead on, to the wall after
+// each step along it.
 class NewtonProjection {
 public:
   NewtonProjection(const blob_model& model, std::uint32_t flags, const double* point,
@@ -39,11 +41,20 @@ public:
     m_best.node = node;
   }
 
-  void run(blob_nearest_point& nearest) {
+  // `known`, if not null, is the answer of f at the query point.
+  void run(const blob_sample* known, blob_nearest_point& nearest) {
     Foot foot{m_query, m_best.node, 0};
-    blob_sample first = sample(foot);
+    if (known != nullptr) ++m_steps;
+    blob_sample first = known != nullptr ? *known : sample(foot);
     const bool inside = (first.state & BLOB_INSIDE) != 0;
-    if (inside && leadsAstray(foot, first)) first = leaveAcross(foot);
+    if (m_maxSteps >= kUsualSteps && first.value > kVanished) {
+      Place place = approach(first);
+      if (glide(place, inside, nearest)) return;
+      foot = place.foot;
+      first = place.here;
+    } else if (inside && leadsAstray(foot, first)) {
+      first = leaveAcross(foot);
+    }
     if (project(foot, first)) {
       m_best = foot;
       while (m_steps < m_maxSteps && !m_converged && improve()) {
@@ -60,12 +71,18 @@ private:
   static constexpr int kMaxShortenings = 8;     // halvings of a step along the wall
   static constexpr double kGainShare = 0.1;     // share of the tolerance: least gain of a step
   static constexpr double kStalledGain = 1e-3;  // share of squared distance: converged if stalled
-  static constexpr double kLongestStep = 0.5;   // share of the node's radius
-  static constexpr double kFlat = 0.02;         // least eigenvalue that a step is divided by
-  static constexpr double kLeaveMaximum = 0.1;  // share of the radius: step off a farthest point
   static constexpr double kDeep = 0.5;          // share of the radius: depth about an axis
   static constexpr double kAcross = 0.7;        // share of the radius: step off an axis
   static constexpr std::uint32_t kSides = 4;    // steps that are tried
+
+  static constexpr int kMostGlides = 12;
+  static constexpr double kOffWall = 0.1;  // share of the radius: go to the wall first
+  static constexpr double kSlow = 0.4;     // of the step before: the models disagree
+  static constexpr double kMisjudged =
+      0.3;  // of (off / R)^2: error of a distance this far off the wall
+  static constexpr double kLeastShare = 0.1;   // of a step
+  static constexpr double kShorten = 0.4;      // of a step after which the wall is farther
+  static constexpr double kShortGlide = 0.01;  // share of the radius: a step that keeps the shape
 
   struct Foot {
     Vec at;
@@ -79,6 +96,145 @@ private:
     blob_sample here;
     m_model.backend->queryOne(m_model, m_flags, p, foot.node, here);
     return here;
+  }
+
+  // Whether a place is the nearest point but for the way to the wall, which is so short that it
+  // needs no check.
+  [[nodiscard]] bool isNearest(const WallStep& step, double offWall, double length) const {
+    const double share = m_tolerance / kUsualTolerance;
+    return offWall * offWall <= kGainShare * m_tolerance * share &&
+           step.gain <= kGainShare * m_tolerance * length;
+  }
+
+  // A place about the wall with the answer of f there.
+  struct Place {
+    Foot foot;
+    blob_sample here;
+  };
+
+  // The first place: along the normal of the query point or, where that leads along the vessel,
+  // across.
+  Place approach(const blob_sample& first) {
+    Place place{{m_query, first.node, 0}, first};
+    place.foot.at = m_query - first.distance * normalOf(first);
+    place.here = sample(place.foot);
+    const bool isDeep = (first.state & BLOB_INSIDE) != 0 && first.distance < -kDeep * m_radius;
+    if (!isDeep || place.here.distance >= 0.5 * first.distance) return place;
+    place.foot = {m_query, first.node, 0};
+    const blob_sample across = leaveAcross(place.foot);
+    place.foot.at = place.foot.at - across.distance * normalOf(across);
+    place.here = sample(place.foot);
+    return place;
+  }
+
+  // Goes on from a place by a share of a step.
+  Place goOn(const Place& place, const WallStep& glide, double share) {
+    Place next = place;
+    next.foot.at = place.foot.at + share * glide.step -
+                   (place.here.distance + share * share * glide.sag) * normalOf(place.here);
+    next.here = sample(next.foot);
+    return next;
+  }
+
+  // The wall at a place: by the model of the node alone or, many times slower, as it is.
+  WallShape shapeAt(const Place& place, bool isExact) const {
+    const Vec normal = normalOf(place.here), toQuery = m_query - place.foot.at;
+    WallShape wall{toQuery, normal, dot(toQuery, normal) + place.here.distance, 0, {}};
+    const double p[3] = {place.foot.at.x, place.foot.at.y, place.foot.at.z};
+    if (isExact) {
+      blob_hessian local;
+      evaluateHessian(m_model, m_flags, p, place.foot.node, local);
+      wall.slope = norm(Vec{local.gradient[0], local.gradient[1], local.gradient[2]});
+      std::copy_n(local.hessian, 6, wall.hessian);
+      return wall;
+    }
+    Shape shape;
+    m_model.backend->shape(m_model, p, place.foot.node, shape);
+    wall.slope = norm(Vec{shape.gradient[0], shape.gradient[1], shape.gradient[2]});
+    std::copy_n(shape.hessian, 6, wall.hessian);
+    return wall;
+  }
+
+  // The distance of the query point from the wall about a place, as if the wall were flat there.
+  [[nodiscard]] double lengthAt(const Place& place) const {
+    return norm(m_query - place.foot.at + place.here.distance * normalOf(place.here));
+  }
+
+  // A descent along the wall: the best place so far, the step from there, and its share that is
+  // next.
+  struct Descent {
+    Place place;
+    WallShape wall{};
+    WallStep step{};
+    double share = 1, reached = 0;
+    int steps = 0;
+    bool isHard = false;  // the models of nodes disagree about the wall
+  };
+
+  // Finds the nearest point of the wall by steps to the wall and along it at once; each must
+  // shorten the distance. False if none does: `place` is the best.
+  bool glide(Place& place, bool inside, blob_nearest_point& nearest) {
+    Descent d{place};
+    for (int i = 0; i < kMostGlides; ++i) {
+      if (!(place.here.value > kVanished)) break;
+      if (d.steps > 0 && lengthAt(place) > d.reached) {
+        d.share *= kShorten;
+        d.isHard = true;
+        if (d.share < kLeastShare) break;
+        place = goOn(d.place, d.step, d.share);
+        continue;
+      }
+      d.place = place;
+      if (std::abs(place.here.distance) > kOffWall * m_radius) {
+        place = goOn(place, WallStep{}, 1);
+        continue;
+      }
+      if (stepOn(d)) {
+        report(place, inside, nearest);
+        return true;
+      }
+      place = goOn(place, d.step, 1);
+    }
+    place = d.place;
+    return false;
+  }
+
+  // Finds the next step from the place of a descent; returns whether none is needed.
+  bool stepOn(Descent& d) const {
+    const double off = d.place.here.distance, length = lengthAt(d.place);
+    const double before = d.share < 1 ? 0 : d.step.length;
+    if (d.steps++ == 0 || d.isHard || d.step.length > kShortGlide * m_radius) {
+      d.wall = shapeAt(d.place, d.isHard);
+    } else {
+      d.wall.toQuery = m_query - d.place.foot.at;
+      d.wall.normal = normalOf(d.place.here);
+      d.wall.distance = dot(d.wall.toQuery, d.wall.normal) + off;
+    }
+    d.reached = length + kMisjudged * off * off / m_radius;
+    d.share = 1;
+    if (!(d.wall.slope > 0)) return false;
+    d.step = stepAlongWall(d.wall, {m_radius, m_tolerance});
+    d.isHard = d.isHard || (before > 0 && d.step.length > kSlow * before);
+    return isNearest(d.step, off, length);
+  }
+
+  static Vec normalOf(const blob_sample& sample) {
+    return {sample.normal[0], sample.normal[1], sample.normal[2]};
+  }
+
+  void report(const Place& place, bool inside, blob_nearest_point& nearest) const {
+    const Vec normal = normalOf(place.here), at = place.foot.at - place.here.distance * normal;
+    nearest.point[0] = at.x;
+    nearest.point[1] = at.y;
+    nearest.point[2] = at.z;
+    nearest.normal[0] = normal.x;
+    nearest.normal[1] = normal.y;
+    nearest.normal[2] = normal.z;
+    const double length = norm(m_query - at);
+    nearest.distance = inside ? -length : length;
+    nearest.node = place.foot.node;
+    nearest.steps = m_steps;
+    nearest.converged = 1;
   }
 
   // Whether the normal at a point in the lumen leads along the vessel instead of to the wall. About
@@ -131,9 +287,11 @@ private:
     const Vec gradient{local.gradient[0], local.gradient[1], local.gradient[2]};
     const double slope = norm(gradient);
     if (!(slope > 0)) return false;
-    Vec step = stepAlong(gradient, slope, local.hessian);
+    const Vec toQuery = m_query - m_best.at, normal = (-1.0 / slope) * gradient;
+    WallShape wall{toQuery, normal, dot(toQuery, normal), slope, {}};
+    std::copy_n(local.hessian, 6, wall.hessian);
+    Vec step = stepDownhill(wall, {m_radius, m_tolerance});
     // the decrease of the distance that the step could still give
-    const Vec toQuery = m_query - m_best.at;
     const double gain = 0.5 * dot(toQuery, step);
     m_converged = norm(step) <= m_tolerance || gain <= kGainShare * m_tolerance * m_best.length;
     if (m_converged) return true;
@@ -150,34 +308,6 @@ private:
     // the distance does not decrease in this direction: rounding, or a ring of equally near points
     m_converged = m_steps < m_maxSteps && gain <= kStalledGain * m_best.length * m_best.length;
     return false;
-  }
-
-  // Solves (I + d S) step = tangential part of the vector to the query point, S the shape operator
-  // of the wall and d the distance. Directions in which the foot is a farthest point are followed
-  // downhill.
-  [[nodiscard]] Vec stepAlong(const Vec& gradient, double slope, const double* h) const {
-    const Vec normal = (-1.0 / slope) * gradient;
-    const Vec toQuery = m_query - m_best.at;
-    const double distance = dot(toQuery, normal);
-    const Vec e1 = perpendicular(normal), e2 = cross(normal, e1);
-    const Vec h1 = multiply(h, e1), h2 = multiply(h, e2);
-    const double scale = -distance / slope;
-    const double a = 1.0 + scale * dot(e1, h1), b = scale * dot(e1, h2),
-                 c = 1.0 + scale * dot(e2, h2);
-    const double mean = 0.5 * (a + c), root = std::hypot(0.5 * (a - c), b);
-    const double angle = 0.5 * std::atan2(2.0 * b, a - c);
-    const Vec v1 = std::cos(angle) * e1 + std::sin(angle) * e2;
-    const Vec v2 = std::cos(angle) * e2 - std::sin(angle) * e1;
-    const Vec step = along(v1, toQuery, mean + root) + along(v2, toQuery, mean - root);
-    const double length = norm(step), longest = kLongestStep * m_radius;
-    return length > longest ? (longest / length) * step : step;
-  }
-
-  [[nodiscard]] Vec along(const Vec& direction, const Vec& toQuery, double eigenvalue) const {
-    const double part = dot(direction, toQuery);
-    if (eigenvalue < -kFlat && std::abs(part) < m_tolerance)
-      return (kLeaveMaximum * m_radius) * direction;
-    return (part / std::max(std::abs(eigenvalue), kFlat)) * direction;
   }
 
   void report(bool inside, blob_nearest_point& nearest) {
@@ -206,7 +336,7 @@ private:
 void findNearest(const blob_model& model, std::uint32_t flags, const double* point,
                  std::uint32_t node, double tolerance, std::uint32_t maxSteps,
                  blob_nearest_point& nearest) noexcept {
-  NewtonProjection(model, flags, point, node, tolerance, maxSteps).run(nearest);
+  NewtonProjection(model, flags, point, node, tolerance, maxSteps).run(nullptr, nearest);
 }
 
 void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
@@ -218,7 +348,7 @@ void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
 void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
                   blob_sample& sample) noexcept {
   blob_nearest_point nearest;
-  findNearest(model, flags, point, sample.node, 0, 0, nearest);
+  NewtonProjection(model, flags, point, sample.node, 0, 0).run(&sample, nearest);
   sample.distance = nearest.distance;
   for (int i = 0; i < 3; ++i) sample.normal[i] = nearest.normal[i];
   if (nearest.converged == 0) sample.state |= BLOB_NOT_CONVERGED;

@@ -16,6 +16,12 @@ struct Job {
   bool* inRange;  ///< null, or whether each sample is an answer of f; with samples only
 };
 
+/// Derivatives of f, all times one positive factor: the gradient, and the Hessian as xx, yy, zz, xy,
+/// xz, yz.
+struct Shape {
+  float gradient[3], hessian[6];
+};
+
 /// Functions of a back end. None of them evaluates BLOB_DISTANCE_EXACT: sampleAt() in nearest.h
 /// does.
 struct Backend {
@@ -28,6 +34,8 @@ struct Backend {
   /// Bounds on f in the ball of `radius` mm around a point; radius at most half of the node's.
   void (*bounds)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t node,
                  float radius, float* least, float* greatest);
+  /// Derivatives of the node's own model at a point in range of it.
+  void (*shape)(const blob_model&, const double* point, std::uint32_t node, Shape& shape);
   /// Answers at any point, with the bits of `query`. False if the point is out of range; `sample`
   /// is valid even then.
   bool (*queryOne)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t& node,

@@ -19,6 +19,9 @@ inline F8 constant(const F8&, double value) {
 inline F8 positivePart(F8 v) {
   return max(v, set1(0.0f));
 }
+inline F8 ifPositive(F8 v, F8 value) {
+  return select(less(set1(0.0f), v), value, set1(0.0f));
+}
 
 // exp(x) for -87 < x < 88, to a few units in the last place; S. Moshier, Cephes library, 1989.
 inline F8 exponential(F8 x) {
