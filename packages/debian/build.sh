@@ -34,13 +34,14 @@ profiles=()
 [ -x "$root/packages/python/build.sh" ] || profiles+=(pkg.lumen.nopython)
 [ -z "${LUMEN_SOFA:-}" ] || profiles+=(pkg.lumen.sofa)
 
+commit=$(git -C "$root" rev-parse HEAD)
 work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
 
 # make_source FOLDER: the committed files, the page, and debian/ at the top
 make_source() {
   mkdir -p "$1"
-  git -C "$root" archive HEAD | tar -x -C "$1"
+  git -C "$root" archive "$commit" | tar -x -C "$1"
   mkdir -p "$1/viewer/page/dist"
   cp -r "$page/." "$1/viewer/page/dist"
   cp -r "$1/packages/debian" "$1/debian"
