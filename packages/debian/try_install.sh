@@ -77,6 +77,16 @@ inside 'cd /tmp/demo && cc /examples/make_case.c -o make_case $(pkg-config --cfl
     "add_executable(x /examples/widest_places.cpp)" "target_link_libraries(x PRIVATE lumen::case lumen::blob)" \
     "target_compile_features(x PRIVATE cxx_std_17)" >CMakeLists.txt
   cmake -B build . >cmake.log && cmake --build build >>cmake.log && ./build/x vessels.lumen wide.lumen | tail -3'
+if [ -d "$root/usr/lib/python3/dist-packages/lumen" ]; then
+  inside 'cd /tmp/demo && python3 -c "
+import lumen
+case = lumen.read(\"vessels.lumen\")
+vessel = lumen.blob.Model(case)
+centres = case.tree.centre.astype(float)
+inside = vessel.query(centres, vessel.cursor(centres)).inside
+print(f\"{len(case.tree.branches)} branches in Python, {inside.mean():.0%} of the axes inside of the wall\")
+assert inside.mean() > 0.99"'
+fi
 if [ -e "$root/usr/share/lumen/viewer/page.js" ]; then
   inside 'cd /tmp/demo && lumen view angiogram.nrrd vessels.lumen --html page.html --quiet && ls -l page.html'
 fi
