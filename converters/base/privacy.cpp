@@ -64,14 +64,16 @@ void append(Findings& to, Findings more) {
 }
 
 // Digests and the bytes of other chunks are full of digits and slashes.
-bool isText(const std::string& pointer) {
-  return pointer != "/metadata/source/sha256" && pointer != "/metadata/parentSha256" &&
-         !(pointer.starts_with("/otherChunks/") && pointer.ends_with("/data"));
+bool isText(const std::string& pointer, const std::string& text) {
+  constexpr std::size_t kDigestDigits = 64;
+  const bool isDigest = pointer.ends_with("ha256") && text.size() == kDigestDigits &&
+                        text.find_first_not_of("0123456789abcdef") == std::string::npos;
+  return !isDigest && !(pointer.starts_with("/otherChunks/") && pointer.ends_with("/data"));
 }
 
 // Keys too: users choose the names of parameters and comments.
 void scanJson(const formats::JsonValue& value, const std::string& pointer, Findings& findings) {
-  if (value.text() != nullptr && isText(pointer))
+  if (value.text() != nullptr && isText(pointer, *value.text()))
     append(findings, scanText(*value.text(), pointer));
   for (std::size_t i = 0; i < value.arraySize(); ++i)
     if (!value[i].number()) scanJson(value[i], pointer + "/" + std::to_string(i), findings);

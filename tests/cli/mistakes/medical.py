@@ -105,6 +105,21 @@ def two_series(store):
     folder(store, "two-series", {f"{s}{n}.dcm": dicom(n, f"1.2.3.{s}") for s in (1, 2) for n in range(4)})
 
 
+@fixture("disc/")
+def disc(store):
+    """Two series in folders of their own."""
+    (store.folder / "disc").mkdir()
+    for s in (1, 2): folder(store, f"disc/SE{s}", {f"{n}.dcm": dicom(n, f"1.2.3.{s}") for n in range(4)})
+
+
+@fixture("times.nii")
+def times(store):
+    """Two volumes in one file."""
+    data = store.bytes("tube.nii")
+    head = changed(data[:352], "<5h", 40, 4, *struct.unpack_from("<3h", data, 42), 2)
+    return head + 2 * data[352:]
+
+
 @fixture("gap/")
 def gap(store):
     folder(store, "gap", {f"{n}.dcm": dicom(n) for n in range(8) if n != 3})

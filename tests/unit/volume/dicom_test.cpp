@@ -85,9 +85,10 @@ TEST_F(Dicom, SeriesAreFoundInFoldersBelow) {
   writeSeries("disc/st0/se1/b", other, 4);
   writeSeries("disc/.cache/a", {}, 3);  // not searched: each position would be there twice
   write("disc/DICOMDIR", "no image here");
-  expectRefused(readRefusal(path("disc")),
-                {"2 DICOM series", "1: 1.2.3.1 (3 files, CT, Angio, 4 x 3, in st0/se0)",
-                 "2: 1.2.3.2 (4 files, CT, Angio, 5 x 3, in st0/se1)"});
+  const std::string refused = readRefusal(path("disc"));
+  for (const char* part : {"2 DICOM series", "1: 1.2.3.1 (3 files, CT, Angio, 4 x 3, in st0/se0)",
+                           "2: 1.2.3.2 (4 files, CT, Angio, 5 x 3, in st0/se1)"})
+    EXPECT_NE(refused.find(part), std::string::npos) << part << " is not in " << refused;
   EXPECT_EQ(readQuietly(path("disc"), {"1.2.3.2", {}}).geometry.size, (std::array{5, 3, 4}));
 }
 
