@@ -23,6 +23,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev libbullet-dev python3-vtk9 tetgen
+  ocl-icd-opencl-dev opencl-headers pocl-opencl-icd
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -472,6 +472,26 @@ BLOB_API void blob_capsule_approach(const blob_model* model, uint32_t flags, con
                                     const double to[3], double radius, uint32_t* cursor,
                                     blob_approach* approach) BLOB_NOEXCEPT;
 
+/* ---------------------------------------------------------------- other processors */
+
+/* Packs models into one flat buffer, from which the functions of blob_device.h answer on a graphics
+ * processor. blob_device.h states the layout.
+ * The caller provides `count` models, at least one, and `capacity` bytes at `buffer`, aligned to 4
+ * (64 for fastest access); null if `capacity` is 0.
+ * Returns the bytes that the models take, and writes them if `capacity` suffices. Returns 0 for no
+ * model, for models that take 16 GiB or more, and where memory runs out.
+ * O(bytes). */
+BLOB_API size_t blob_device_pack(const blob_model* const* models, size_t count, void* buffer,
+                                 size_t capacity) BLOB_NOEXCEPT;
+
+/* Checks a buffer of blob_device_pack() that came from elsewhere: the functions of blob_device.h read
+ * nothing outside of a buffer that passes, for any point and cursor.
+ * The caller provides `size` bytes, aligned to 4.
+ * Returns BLOB_OK, or BLOB_ERROR_ARGUMENT (null), _FORMAT (another version, size or layout), _EMPTY,
+ * _LIMIT, _KERNEL, _RANGE (a number that no case has) or _TOPOLOGY (an index without its element).
+ * O(size). */
+BLOB_API blob_status blob_device_check(const void* buffer, size_t size) BLOB_NOEXCEPT;
+
 /* ---------------------------------------------------------------- misuse */
 
 /* Handler of misuse: receives the broken condition and its place in the source. */

@@ -6,6 +6,7 @@ lumen_test(blob_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/closed_form_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/cursor_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/derivative_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/far_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/open_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/robust_test.cpp
@@ -35,4 +36,25 @@ if(NOT LUMEN_SANITIZE)
       -D LIBDIR=${CMAKE_INSTALL_LIBDIR} -D CC=${CMAKE_C_COMPILER}
       -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consume.cmake)
   set_tests_properties(BlobInstall.APlainCProjectUsesIt PROPERTIES LABELS slow)
+endif()
+
+# blob_device.h as other processors compile it: OpenCL C, run on whatever device there is (Debian's pocl makes one
+# of this processor), and CUDA, which clang alone compiles to PTX.
+find_package(OpenCL QUIET)
+if(OpenCL_FOUND AND NOT LUMEN_SANITIZE)
+  add_executable(device_opencl ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_opencl.cpp ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp)
+  target_link_libraries(device_opencl PRIVATE lumen_options lumen::blob_static OpenCL::OpenCL)
+  target_include_directories(device_opencl PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
+  target_compile_definitions(device_opencl PRIVATE CL_TARGET_OPENCL_VERSION=120)
+  add_test(NAME BlobDevice.AnswersOnOpenClAreThoseOfTheLibrary COMMAND device_opencl ${PROJECT_SOURCE_DIR}/libblob)
+  set_tests_properties(BlobDevice.AnswersOnOpenClAreThoseOfTheLibrary PROPERTIES LABELS foreign SKIP_RETURN_CODE 77 TIMEOUT 600)
+elseif(NOT LUMEN_SANITIZE)
+  message(STATUS "OpenCL (ocl-icd-opencl-dev, pocl-opencl-icd) not found: the kernel of libblob/device is not run")
+endif()
+find_program(CLANG_CUDA NAMES clang-14 clang)
+if(CLANG_CUDA AND NOT LUMEN_SANITIZE)
+  add_test(NAME BlobDevice.CudaCompilesToPtxWithoutCallsOfALibrary
+    COMMAND ${CMAKE_COMMAND} -D CLANG=${CLANG_CUDA} -D LIBBLOB=${PROJECT_SOURCE_DIR}/libblob
+      -D PTX=${CMAKE_CURRENT_BINARY_DIR}/query.ptx -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/compile_ptx.cmake)
+  set_tests_properties(BlobDevice.CudaCompilesToPtxWithoutCallsOfALibrary PROPERTIES LABELS quick)
 endif()

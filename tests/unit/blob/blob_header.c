@@ -3,6 +3,8 @@
 /* First, as it must need nothing before it. */
 /* clang-format off */
 #include "blob.h"
+
+#include "blob_device.h"
 /* clang-format on */
 
 #include <stdio.h>

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// blob_query_columns() as a kernel of OpenCL C 1.2: a work item for each tool point. Build it with
+// the folder of blob_device.h as include path.
+#include "blob_device.h"
+
+// `point`: x, y, z of each point, mm. Cursors are read and moved. `answer`: distance in mm and
+// outward normal of each point, in four floats; `value`: f and its gradient, if wanted.
+__kernel void blob_query_points(__global const uint* words, uint vessel, uint flags, uint count,
+                                __global const float* point, __global uint* cursor,
+                                __global float* answer, __global float* value,
+                                __global uint* state) {
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const float at[3] = {point[3 * i], point[3 * i + 1], point[3 * i + 2]};
+  uint node = cursor[i];
+  blob_device_sample sample;
+  blob_device_query(words, vessel, flags, at, &node, &sample);
+  cursor[i] = node;
+  answer[4 * i] = sample.distance;
+  for (int k = 0; k < 3; ++k) answer[4 * i + 1 + k] = sample.normal[k];
+  if (state) state[i] = sample.state;
+  if (!value) return;
+  value[4 * i] = sample.value;
+  for (int k = 0; k < 3; ++k) value[4 * i + 1 + k] = sample.gradient[k];
+}
