@@ -42,7 +42,7 @@ FAULTS = [
           "def.link[i][0] >= count || def.link[i][1] >= count", "def.link[i][0] >= count || def.link[i][0] >= count",
           "blob_test"),
     Fault("a box of nodes knows the radius of its last node only", "libblob/src/locate.cpp",
-          "radius2 = std::max(radius2, r2);", "radius2 = r2;", "blob_test"),
+          "radius = std::max(radius, greatest);", "radius = greatest;", "blob_test"),
     # readers
     Fault("a file's coordinate system overrules --seeds-frame", "converters/io/seeds/seeds_fcsv.cpp",
           'if (key != "coordinatesystem" || m_reading.system) return;', 'if (key != "coordinatesystem") return;',
