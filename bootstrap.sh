@@ -179,6 +179,8 @@ install_test_packages() {
   packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
   # signatures of libraries
   packages+=(curl minisign openssh-client rclone)
+  # cohorts: a Slurm of one machine
+  packages+=(slurm-wlm munge)
   # the viewer's page, as a person would use it
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing

@@ -2,9 +2,14 @@
 #include "converters/engine/library_build.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <thread>
+
+#include <unistd.h>
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
@@ -17,7 +22,6 @@
 #include "converters/engine/gate_answer.h"
 #include "converters/engine/operation_process.h"
 #include "converters/export/export_case.h"
-#include "converters/library/build.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
 #include "formats/container/printable.h"
@@ -55,6 +59,25 @@ void requireAbout(const BuildRow& row, const convert::LibraryFile& library) {
   if (about.title.empty()) throw invalidInput("title: is empty");
   if (const std::string missing = convert::missingStatement(about); !missing.empty())
     throw invalidInput(missing);
+}
+
+/// Machine and process, and the task of Slurm if it is one: "process 12 on a, task 34_5 of Slurm".
+std::string placeOfProcess() {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
+  std::string place = "process " + std::to_string(::getpid()) + " on " + host.data();
+  const auto variable = [](const char* name) -> std::string {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  };
+  const std::string job = variable("SLURM_ARRAY_JOB_ID");
+  if (!job.empty()) place += ", task " + job + "_" + variable("SLURM_ARRAY_TASK_ID") + " of Slurm";
+  return place;
+}
+
+bool hasSlurmOutputs(const fs::path& work) {
+  std::error_code ignored;
+  return fs::exists(work / kSlurmFolder, ignored);
 }
 
 /// Moves rows that would only fail after work to the faults of the list.
@@ -108,9 +131,13 @@ bool isIn(const RowResult& result) {
 }
 
 Json resultJson(const RowResult& result) {
-  Json json{{"row", result.line},          {"id", result.id},
-            {"end", endName(result.end)},  {"seconds", jsonNumber(result.seconds)},
-            {"warnings", result.warnings}, {"why", nullptr}};
+  Json json{{"row", result.line},
+            {"id", result.id},
+            {"end", endName(result.end)},
+            {"seconds", jsonNumber(result.seconds)},
+            {"warnings", result.warnings},
+            {"why", nullptr},
+            {"code", nullptr}};
   json["view"] = result.view;
   if (!isIn(result)) {
     json["why"] = result.why;
@@ -207,14 +234,18 @@ void addBuildRows(OptionTable& table, BuildArguments& arguments) {
       .checkedBy(fileName());
 }
 
-convert::BuildList loadBuildList(const std::string& file) {
-  return convert::readBuildList(readWholeFile(file, "list"), file);
+convert::BuildList loadBuildList(const std::string& file, const std::set<std::size_t>& lines) {
+  return convert::readBuildList(readWholeFile(file, "list"), file, lines);
 }
 
-Answer buildLibrary(convert::BuildList rows, const std::string& list, const std::string& library,
-                    const BuildArguments& arguments, const Surroundings& around) {
-  findFaults(rows, convert::openLibrary(library), around.engine);
+void judgeRows(convert::BuildList& rows, const std::string& list, const std::string& library,
+               const BuildArguments& arguments, const Engine& engine) {
+  findFaults(rows, convert::openLibrary(library), engine);
   if (!arguments.keepGoing) convert::requireNoFaults(rows.faults, list);
+}
+
+convert::BuildOptions buildOptions(const std::string& library, const BuildArguments& arguments,
+                                   const Surroundings& around) {
   const auto cores = std::max(1U, std::thread::hardware_concurrency());
   const int all = around.threads > 0 ? around.threads : static_cast<int>(cores);
   ProcessOptions process;
@@ -226,22 +257,37 @@ Answer buildLibrary(convert::BuildList rows, const std::string& list, const std:
     return runInProcess(operation, process, log, progress);
   };
   options.version = LUMEN_VERSION;
-  const fs::path folder = fs::absolute(library) / "";
-  options.work = arguments.work.empty() ? folder.parent_path().string() + ".build" : arguments.work;
+  const std::string folder = (fs::absolute(library) / "").parent_path().string();
+  options.work = arguments.work.empty() ? folder + ".build" : arguments.work;
   options.jobs = arguments.jobs;
   options.day = revisionDay("");
+  options.phase = arguments.phase;
+  options.isResumed = arguments.isResumed;
+  options.place = placeOfProcess();
   setGate(arguments, around.engine, options);
+  return options;
+}
+
+Answer buildLibrary(convert::BuildList rows, const std::string& list, const std::string& library,
+                    const BuildArguments& arguments, const Surroundings& around) {
+  judgeRows(rows, list, library, arguments, around.engine);
+  const convert::BuildOptions options = buildOptions(library, arguments, around);
   std::vector<RowResult> results;
   for (const convert::RowFault& fault : rows.faults) {
     results.push_back(resultOf(fault));
     around.progress.warn("line " + std::to_string(fault.line) + ": " + fault.why);
   }
-  for (RowResult& result :
-       convert::buildLibrary(rows.rows, folder.parent_path(), options, around.progress))
+  const fs::path folder = (fs::absolute(library) / "").parent_path();
+  for (RowResult& result : convert::buildLibrary(rows.rows, folder, options, around.progress))
     results.push_back(std::move(result));
   std::sort(results.begin(), results.end(),
             [](const RowResult& a, const RowResult& b) { return a.line < b.line; });
-  if (std::all_of(results.begin(), results.end(), isIn)) convert::removeWorkFolder(options.work);
+  // the output of a job that collects lies in the folder for work, and people look at it there
+  const bool isJob =
+      arguments.phase == convert::BuildPhase::Collect && hasSlurmOutputs(options.work);
+  const bool keepsWork = arguments.phase == convert::BuildPhase::Make || isJob;
+  if (!keepsWork && std::all_of(results.begin(), results.end(), isIn))
+    convert::removeWorkFolder(options.work);
   return makeAnswer(results, library);
 }
 

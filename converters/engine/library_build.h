@@ -3,13 +3,18 @@
 // its end.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include "converters/engine/command.h"
+#include "converters/library/build.h"
 #include "converters/library/build_list.h"
 
 namespace lumen::engine {
+
+/// Folder of scripts and outputs of Slurm's jobs, in the folder for work.
+inline constexpr const char* kSlurmFolder = "slurm";
 
 struct BuildArguments {
   int jobs = 1;
@@ -17,12 +22,22 @@ struct BuildArguments {
   std::string profile;                ///< of lumen check; empty: cases are not checked
   std::vector<std::string> accepted;  ///< ids that need no further person
   bool keepGoing = false;             ///< rows with a fault do not stop the others
+  convert::BuildPhase phase = convert::BuildPhase::All;
+  bool isResumed = false;  ///< cases that the library has by their ids stay
 };
 
 void addBuildRows(OptionTable& table, BuildArguments& arguments);
 
 /// Throws Error(InvalidInput) as convert::readBuildList(), and for a file that cannot be read.
-convert::BuildList loadBuildList(const std::string& file);
+convert::BuildList loadBuildList(const std::string& file, const std::set<std::size_t>& lines = {});
+
+/// Moves rows that would only fail after work (targets, options, statements) to the faults of the
+/// list. Throws Error(InvalidInput) that names all faults, unless the arguments keep it going.
+void judgeRows(convert::BuildList& rows, const std::string& list, const std::string& library,
+               const BuildArguments& arguments, const Engine& engine);
+
+convert::BuildOptions buildOptions(const std::string& library, const BuildArguments& arguments,
+                                   const Surroundings& around);
 
 /// Makes the rows and answers with a table of the rows that failed and why. Throws
 /// Error(InvalidInput) for rows that cannot succeed, as far as that is seen before any work, unless

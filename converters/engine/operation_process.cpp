@@ -57,20 +57,18 @@ std::string endText(const convert::ProgramResult& result) {
   }
 }
 
-/// The program that runs, or the script that starts it: a folder that brings its own C library
-/// starts lib/ld-linux*, the loader, by bin/lumen.
-fs::path findProgram() {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
-  if (program.filename().string().starts_with("ld-linux"))
-    return (program.parent_path() / "../bin/lumen").lexically_normal();
-  return program;
-}
-
 convert::JsonFile operationJson(const fs::path& file) {
   return convert::JsonFile(readWholeFile(file, "operation"), file);
 }
 
 }  // namespace
+
+fs::path thisProgram() {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  if (program.filename().string().starts_with("ld-linux"))
+    return (program.parent_path() / "../bin/lumen").lexically_normal();
+  return program;
+}
 
 OperationEnd runInProcess(const Operation& operation, const ProcessOptions& options,
                           const fs::path& log, const Progress& progress) {
@@ -79,7 +77,7 @@ OperationEnd runInProcess(const Operation& operation, const ProcessOptions& opti
   std::error_code ignored;
   fs::remove(endFile(file), ignored);
   convert::ProgramCall call;
-  call.program = findProgram();
+  call.program = thisProgram();
   call.arguments = {kOperationWord, file.string()};
   call.folder = fs::current_path();
   call.seconds = kLongestRun;

@@ -18,6 +18,10 @@ struct ProcessOptions {
 /// The word after which the program is given the file of an operation.
 inline constexpr const char* kOperationWord = "--operation";
 
+/// The program that runs, or the script that starts it: a folder that brings its own C library
+/// starts lib/ld-linux*, the loader, by bin/lumen.
+std::filesystem::path thisProgram();
+
 /// Runs the operation in a new process of this program, which appends its messages to `log`. Throws
 /// Error(Failed) if no process can be started, and Error(Cancelled).
 OperationEnd runInProcess(const Operation& operation, const ProcessOptions& options,

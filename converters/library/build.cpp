@@ -21,8 +21,10 @@
 #include "converters/base/recorded_edits.h"
 #include "converters/library/build_row.h"
 #include "converters/library/change.h"
+#include "converters/library/collect_rows.h"
 #include "converters/library/library_file.h"
-#include "converters/library/record.h"
+#include "converters/library/row_lock.h"
+#include "converters/library/row_note.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -38,23 +40,6 @@ constexpr const char* kMarkText =
     "lumen library build works here, and removes this folder when all is made.\n";
 // a batch waits this multiple of the time that the last one took to put in
 constexpr double kPatience = 20;
-
-CaseRecord recordIn(const fs::path& library, const std::string& id) {
-  const fs::path file = library / kPayload / id / kRecordFile;
-  return readRecord(readWholeFile(file, "record"), file);
-}
-
-/// Whether the library's case is made from the row as it stands. A record that cannot be read is
-/// not.
-bool isKept(const fs::path& folder, const LibraryFile& library, const PlannedRow& plan) {
-  if (findCase(library, plan.id) == nullptr) return false;
-  try {
-    const CaseRecord record = recordIn(folder, plan.id);
-    return record.provenance.value("recipe_sha256", "") == plan.recipe.all;
-  } catch (const Error&) {
-    return false;
-  }
-}
 
 /// Whether a case records corrections by hand that can be made again (base/edit_steps.h).
 bool hasCorrections(const CaseRecord& record) {
@@ -112,8 +97,10 @@ private:
     for (std::size_t i = m_next++; i < m_rows.size() && !m_progress.cancelled(); i = m_next++) {
       try {
         makeOne(i);
+      } catch (const Error& error) {
+        failUnmade(i, error);
       } catch (const std::exception& error) {
-        fail(i, error.what());
+        failUnmade(i, failed(error.what()));
       }
       m_progress.advance();
     }
@@ -125,43 +112,70 @@ private:
   void makeOne(std::size_t i) {
     m_results[i].line = m_rows[i].line;
     m_results[i].id = m_rows[i].id;
-    PlannedRow plan = planRow(m_rows[i], m_library, m_options, m_progress);
-    m_results[i].id = plan.id;
-    requireOwnId(plan);
-    if (isKept(m_folder, m_library, plan)) {
+    if (isResumedRow(m_rows[i], m_library, m_options)) {
       m_results[i].end = RowEnd::Kept;
       return;
     }
-    plan.corrected = correctedVersion(m_folder, m_library, plan.id);
-    m_results[i] = makeRow(plan, m_library, m_options, m_progress);
-    if (m_results[i].end != RowEnd::Made) {
-      warnOfFailure(m_results[i]);
+    PlannedRow plan = planRow(m_rows[i], m_library, m_options, m_progress);
+    m_results[i].id = plan.id;
+    if (const std::size_t first = firstLineOf(plan); first != plan.row->line) {
+      fail(i, invalidInput(inputIsThatOf(first)));
       return;
     }
+    if (isMadeFrom(m_folder, m_library, plan.id, plan.recipe.all)) {
+      m_results[i].end = RowEnd::Kept;
+      leaveNote(i, &plan, RowNote::State::Kept);
+      return;
+    }
+    plan.corrected = correctedVersion(m_folder, m_library, plan.id);
+    makeAlone(i, plan);
+    if (m_results[i].end != RowEnd::Made || m_options.phase != BuildPhase::All) return;
     const std::lock_guard lock(m_mutex);
     m_ready.push_back(std::move(plan));
     m_changed.notify_all();
   }
 
-  /// Rows without an id get one of their input, which two rows may share.
-  void requireOwnId(const PlannedRow& plan) {
+  /// Makes a row while no other process does.
+  void makeAlone(std::size_t i, const PlannedRow& plan) {
+    const RowLock lock(plan.folder, m_progress);
+    leaveNote(i, &plan, RowNote::State::Running);
+    m_results[i] = makeRow(plan, m_library, m_options, m_progress);
+    leaveNote(i, &plan, RowNote::stateOf(m_results[i].end));
+    if (m_results[i].end != RowEnd::Made) warnOfRow(m_progress, m_results[i]);
+  }
+
+  /// The line of the first row with this id.
+  std::size_t firstLineOf(const PlannedRow& plan) {
     const std::lock_guard lock(m_mutex);
-    const auto [first, isNew] = m_ids.emplace(plan.id, plan.row->line);
-    if (!isNew)
-      throw invalidInput("its input is that of line " + std::to_string(first->second) +
-                         ", so it needs an id of its own");
+    return m_ids.emplace(plan.id, plan.row->line).first->second;
   }
 
-  void fail(std::size_t i, const std::string& why) {
+  void leaveNote(std::size_t i, const PlannedRow* plan, RowNote::State state) {
+    RowNote note{state, m_results[i], "", "", "", m_options.place};
+    if (plan != nullptr) {
+      note.recipe = plan->recipe.all;
+      note.folder = plan->folder.filename().string();
+      note.staged = plan->staged.filename().string();
+    }
+    writeNote(m_options.work, noteName(m_rows[i], m_options.version, m_library.licence), note);
+  }
+
+  /// A row that failed before it was begun, or whose notes cannot be written.
+  void failUnmade(std::size_t i, const Error& error) {
+    fail(i, error);
+    if (m_progress.cancelled()) return;
+    try {
+      leaveNote(i, nullptr, RowNote::State::Failed);
+    } catch (const Error& second) {
+      m_progress.detail(second.what());  // the disk is full: the first reason is the row's
+    }
+  }
+
+  void fail(std::size_t i, const Error& error) {
     m_results[i].end = RowEnd::Failed;
-    m_results[i].why = why;
-    m_results[i].code = static_cast<int>(ErrorKind::InvalidInput);
-    if (!m_progress.cancelled()) warnOfFailure(m_results[i]);
-  }
-
-  void warnOfFailure(const RowResult& result) {
-    m_progress.warn("line " + std::to_string(result.line) + " (" + formats::printable(result.id) +
-                    "): " + result.why);
+    m_results[i].why = error.what();
+    m_results[i].code = static_cast<int>(error.kind());
+    if (!m_progress.cancelled()) warnOfRow(m_progress, m_results[i]);
   }
 
   /// Puts batches into the library until nobody works any more.
@@ -231,6 +245,7 @@ void removeWorkFolder(const fs::path& folder) {
 std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows, const fs::path& library,
                                     const BuildOptions& options, Progress& progress) {
   claimWorkFolder(options.work);
+  if (options.phase == BuildPhase::Collect) return collectRows(rows, library, options, progress);
   return LibraryBuild(rows, library, options, progress).run();
 }
 

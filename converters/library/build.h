@@ -3,6 +3,7 @@
 // crashes or runs out of memory costs its own row only.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -14,6 +15,13 @@
 #include "converters/library/build_list.h"
 
 namespace lumen::convert {
+
+/// Parts of a build, which may run on machines of their own.
+enum class BuildPhase : std::uint8_t {
+  All,     ///< make the cases, and put them into the library
+  Make,    ///< leave them in the folder for work
+  Collect  ///< put those that are there into the library, and make none
+};
 
 struct BuildOptions {
   /// Does an operation in a process of its own, which appends its messages to a file.
@@ -30,6 +38,9 @@ struct BuildOptions {
   std::function<bool(const BuildRow&)> isVolume;  ///< whether the row's case can be checked
   std::set<std::string> accepted;                 ///< ids of cases that go in whatever the verdict
   std::string day;                                ///< YYYY-MM-DD: of the revisions that come of it
+  BuildPhase phase = BuildPhase::All;
+  bool isResumed = false;  ///< cases that the library has by their ids stay, whatever their inputs
+  std::string place;       ///< machine, process and task, for notes on rows
 };
 
 enum class RowEnd : std::uint8_t { Made, Kept, Failed, NeedsPerson };
@@ -55,11 +66,12 @@ void claimWorkFolder(const std::filesystem::path& folder);
 /// somebody's, and stays.
 void removeWorkFolder(const std::filesystem::path& folder);
 
-/// Makes every row whose recipe is not that of the case in the library, and puts it there; cases
-/// are put into the library in batches, each atomic. A row that fails, or needs a person, is passed
-/// over; the case of the latter waits in the folder for work, where its corrections count. Results
-/// are in the order of the list. Throws Error(Cancelled), after which the next run uses the rows
-/// made by then; Error(Failed) where neither the library nor the folder for work can be written.
+/// Makes every row whose recipe is not that of the case in the library, and puts it there, as far as
+/// `options.phase` goes; cases are put into the library in batches, each atomic. A row that fails, or
+/// needs a person, is passed over; the case of the latter waits in the folder for work, where its
+/// corrections count. Each row leaves a note in that folder (row_note.h). Results are in the order
+/// of the list. Throws Error(Cancelled), after which the next run uses the rows made by then;
+/// Error(Failed) where neither the library nor the folder for work can be written.
 std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows,
                                     const std::filesystem::path& library,
                                     const BuildOptions& options, Progress& progress);

@@ -179,7 +179,8 @@ void requireNoFaults(std::vector<RowFault> faults, const fs::path& file) {
   throw invalidInput(text);
 }
 
-BuildList readBuildList(const std::string& text, const fs::path& file) {
+BuildList readBuildList(const std::string& text, const fs::path& file,
+                        const std::set<std::size_t>& lines) {
   const std::string name = formats::printable(file.string());
   constexpr std::string_view kMark = "\xEF\xBB\xBF";  // spreadsheets write it
   std::vector<CsvRow> table =
@@ -189,6 +190,7 @@ BuildList readBuildList(const std::string& text, const fs::path& file) {
   BuildList list;
   for (std::size_t i = 1; i < table.size(); ++i) {
     const auto& [line, cells] = table[i];
+    if (!lines.empty() && !lines.contains(line)) continue;
     if (std::all_of(cells.begin(), cells.end(), [](const auto& c) { return c.empty(); })) continue;
     BuildRow row;
     row.line = line;
@@ -200,6 +202,10 @@ BuildList readBuildList(const std::string& text, const fs::path& file) {
     }
   }
   requireDifferentIds(list);
+  for (const std::size_t line : lines)
+    if (std::none_of(table.begin() + 1, table.end(),
+                     [line](const CsvRow& r) { return r.line == line; }))
+      list.faults.push_back({line, "", "no row begins there"});
   if (list.rows.empty() && list.faults.empty())
     throw invalidInput(name + ": there is no row below the names");
   return list;

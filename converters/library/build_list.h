@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,10 @@ struct BuildList {
 /// and any "--NAME" of lumen convert. Files are relative to `file`'s folder; rows without a text
 /// are passed over. Faults of a row are a missing input or file, an id that is none or that a row
 /// before has, a cell too many, a statement that is none. Throws Error(InvalidInput) for a list
-/// without rows, and for a name that no column has.
-BuildList readBuildList(const std::string& text, const std::filesystem::path& file);
+/// without rows, and for a name that no column has. `lines`: where it is not empty, only the rows that
+/// begin on these lines are read; a line on which none begins is a fault.
+BuildList readBuildList(const std::string& text, const std::filesystem::path& file,
+                        const std::set<std::size_t>& lines = {});
 
 /// Throws Error(InvalidInput) that names the list and all faults, if there are any.
 void requireNoFaults(std::vector<RowFault> faults, const std::filesystem::path& file);

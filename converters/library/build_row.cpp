@@ -12,6 +12,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/sha256.h"
 #include "formats/case/atomic_file.h"
+#include "formats/container/printable.h"
 
 namespace lumen::convert {
 
@@ -136,7 +137,7 @@ private:
   }
 
   bool hasCase() {
-    if (isStaged(m_plan)) return true;
+    if (isStaged(m_plan.staged, m_plan.id)) return true;
     Operation add{"library add", {m_plan.staged.string(), caseFile().string()}, {}};
     add.with(kOption.id.name, m_plan.id)
         .with("about", aboutFile().string())
@@ -183,10 +184,37 @@ PlannedRow planRow(const BuildRow& row, const LibraryFile& library, const BuildO
   return plan;
 }
 
-bool isStaged(const PlannedRow& plan) {
+bool isStaged(const fs::path& staged, const std::string& id) {
   std::error_code ignored;
-  return fs::exists(plan.staged / kLibraryFile, ignored) &&
-         findCase(openLibrary(plan.staged), plan.id) != nullptr;
+  return fs::exists(staged / kLibraryFile, ignored) && findCase(openLibrary(staged), id) != nullptr;
+}
+
+CaseRecord recordIn(const fs::path& library, const std::string& id) {
+  const fs::path file = library / kPayload / id / kRecordFile;
+  return readRecord(readWholeFile(file, "record"), file);
+}
+
+bool isMadeFrom(const fs::path& folder, const LibraryFile& library, const std::string& id,
+                const std::string& recipe) {
+  if (recipe.empty() || findCase(library, id) == nullptr) return false;
+  try {
+    return recordIn(folder, id).provenance.value("recipe_sha256", "") == recipe;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool isResumedRow(const BuildRow& row, const LibraryFile& library, const BuildOptions& options) {
+  return options.isResumed && !row.id.empty() && findCase(library, row.id) != nullptr;
+}
+
+std::string inputIsThatOf(std::size_t line) {
+  return "its input is that of line " + std::to_string(line) + ", so it needs an id of its own";
+}
+
+void warnOfRow(Progress& progress, const RowResult& result) {
+  progress.warn("line " + std::to_string(result.line) + " (" + formats::printable(result.id) +
+                "): " + result.why);
 }
 
 RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One row of a list, made in a folder of its own. Private to the sources of build.
+// One row of a list, made in a folder of its own. Private to the sources of build, row_state and
+// collect_rows.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "converters/library/build.h"
 #include "converters/library/library_file.h"
 #include "converters/library/recipe.h"
+#include "converters/library/record.h"
 
 namespace lumen::convert {
 
@@ -26,8 +28,24 @@ struct PlannedRow {
 PlannedRow planRow(const BuildRow& row, const LibraryFile& library, const BuildOptions& options,
                    const Progress& progress);
 
-/// Whether `staged` is complete.
-bool isStaged(const PlannedRow& plan);
+/// Whether `staged` is a complete library with the case `id`.
+bool isStaged(const std::filesystem::path& staged, const std::string& id);
+
+/// The record of a case in a library. Throws Error(InvalidInput) if it cannot be read.
+CaseRecord recordIn(const std::filesystem::path& library, const std::string& id);
+
+/// Whether the library in `folder` has the case `id`, made from the recipe. A record that cannot be
+/// read is not.
+bool isMadeFrom(const std::filesystem::path& folder, const LibraryFile& library,
+                const std::string& id, const std::string& recipe);
+
+/// Whether the row stays as it is because the run is resumed and the library has its id.
+bool isResumedRow(const BuildRow& row, const LibraryFile& library, const BuildOptions& options);
+
+/// Rows without an id get one of their input, which two rows may share: the reason why one fails.
+std::string inputIsThatOf(std::size_t line);
+
+void warnOfRow(Progress& progress, const RowResult& result);
 
 /// Runs lumen until `staged` is complete; continues with the files that are there. Throws
 /// Error(Cancelled); any other failure is in the result.

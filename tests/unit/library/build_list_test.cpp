@@ -127,4 +127,17 @@ TEST_F(BuildListTest, WhatIsNoListIsRefused) {
             std::string::npos);
 }
 
+TEST_F(BuildListTest, RowsOfSomeLinesAreReadAlone) {
+  const std::string text = "input,id\na.nrrd,a\nmissing.nrrd,NO\nb.nrrd,b\n";
+  const BuildList one = readBuildList(text, list(), {4});
+  ASSERT_EQ(one.rows.size(), 1U);
+  EXPECT_TRUE(one.faults.empty());
+  EXPECT_EQ(one.rows.front().id, "b");
+  EXPECT_EQ(one.rows.front().line, 4U);
+  const BuildList none = readBuildList(text, list(), {2, 9});
+  ASSERT_EQ(none.faults.size(), 1U);
+  EXPECT_EQ(none.faults.front().line, 9U);
+  EXPECT_EQ(none.faults.front().why, "no row begins there");
+}
+
 }  // namespace lumen::convert
