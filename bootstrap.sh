@@ -202,6 +202,7 @@ run_tests() {
   install_from_npm tests/gltf "The glTF validator"
   install_from_npm tests/mujoco "MuJoCo"
   install_from_npm tests/library "The RO-Crate library"
+  install_from_npm tests/pipelines "The BIDS validator"
   run_ctest
 }
 

@@ -13,8 +13,11 @@ import json, os, pathlib, re, shutil, subprocess, sys, tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCHEMAS = {f"share/lumen/{p.relative_to(ROOT / 'spec')}" for p in (ROOT / "spec/schema").glob("*.json")}
 ANSWERS = {f"share/lumen/schema/{p.relative_to(ROOT / 'spec')}" for p in (ROOT / "spec/answers").iterdir()}
-EXPECTED = SCHEMAS | ANSWERS | {
-    "bin/lumen", "share/man/man1/lumen.1", "share/bash-completion/completions/lumen",
+PIPELINES = ROOT / "converters/pipelines"
+WORKFLOW = {f"share/lumen/pipelines/{p.relative_to(PIPELINES)}" for part in ("bids/lumen_bids",)
+            for p in (PIPELINES / part).rglob("*") if p.is_file() and p.suffix != ".pyc"}
+EXPECTED = SCHEMAS | ANSWERS | WORKFLOW | {
+    "bin/lumen", "bin/lumen-bids", "share/man/man1/lumen.1", "share/bash-completion/completions/lumen",
     *(f"share/doc/lumen/{name}" for name in ("LICENSE", "THIRD_PARTY.md", "CITATION.cff")),
     *(f"share/doc/lumen/spec/{name}" for name in ("lumen.md", "seeds.md", "errors.md", "coverage.md", "schema", "answers")),
     *(f"share/doc/lumen/spec/figures/{p.name}" for p in (ROOT / "spec/figures").glob("*.svg"))}
@@ -49,6 +52,15 @@ def check_program(lumen, work):
     check(made.returncode == 0 and json.loads(made.stdout)["seeds"] == 1, f"the installed program: {made}")
     made = run(lumen, "convert", "t.nrrd", "t.glb", "--seeds", "s.json", cwd=work)
     check(made.returncode == 0 and (work / "t.glb").stat().st_size > 1000, f"the installed program: {made}")
+
+
+def check_pipelines(prefix, work):
+    """lumen-bids finds its modules and the program beside it."""
+    (work / "raw/sub-01/anat").mkdir(parents=True)
+    (work / "raw/dataset_description.json").write_text('{"Name": "Synthetic", "BIDSVersion": "1.8.0"}')
+    run(prefix / "bin/lumen", "phantom", "tube", "raw/sub-01/anat/sub-01_angio.nii.gz", "--size", "32", "--quiet", cwd=work)
+    made = run(prefix / "bin/lumen-bids", "raw", "out", "list", cwd=work)
+    check(made.returncode == 0 and (work / "out/volumes.csv").is_file(), f"the installed lumen-bids: {made}")
 
 
 def check_libraries(lumen, notices):
@@ -137,6 +149,7 @@ def main():
         for file in manifest: pathlib.Path(file).unlink() if file else None
         check(not files_below(work / "first"), f"the manifest leaves {files_below(work / 'first')}")
         check_program(prefix / "bin/lumen", work)
+        check_pipelines(prefix, work)
         check_libraries(prefix / "bin/lumen", prefix / "share/doc/lumen/THIRD_PARTY.md")
         check_manual(prefix)
         check_completion(prefix / "share/bash-completion/completions/lumen")
