@@ -33,8 +33,10 @@ file(CREATE_LINK ${up}/answers ${CMAKE_CURRENT_BINARY_DIR}/answers SYMBOLIC)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/schema ${CMAKE_CURRENT_BINARY_DIR}/answers
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen)
 
-# lumen-bids, which runs lumen; Python's standard library is all that it needs
+# lumen-bids and the workflow of Snakemake, which run lumen; Python's standard library is all that lumen-bids needs
 set(pipelines ${PROJECT_SOURCE_DIR}/converters/pipelines)
 install(PROGRAMS ${pipelines}/bids/lumen-bids DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lumen)
 install(DIRECTORY ${pipelines}/bids/lumen_bids DESTINATION ${CMAKE_INSTALL_DATADIR}/lumen/pipelines/bids COMPONENT lumen
   FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ${pipelines}/snakemake DESTINATION ${CMAKE_INSTALL_DATADIR}/lumen/pipelines COMPONENT lumen
+  USE_SOURCE_PERMISSIONS PATTERN "__pycache__" EXCLUDE)

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCHEMAS = {f"share/lumen/{p.relative_to(ROOT / 'spec')}" for p in (ROOT / "spec/schema").glob("*.json")}
 ANSWERS = {f"share/lumen/schema/{p.relative_to(ROOT / 'spec')}" for p in (ROOT / "spec/answers").iterdir()}
 PIPELINES = ROOT / "converters/pipelines"
-WORKFLOW = {f"share/lumen/pipelines/{p.relative_to(PIPELINES)}" for part in ("bids/lumen_bids",)
+WORKFLOW = {f"share/lumen/pipelines/{p.relative_to(PIPELINES)}" for part in ("bids/lumen_bids", "snakemake")
             for p in (PIPELINES / part).rglob("*") if p.is_file() and p.suffix != ".pyc"}
 EXPECTED = SCHEMAS | ANSWERS | WORKFLOW | {
     "bin/lumen", "bin/lumen-bids", "share/man/man1/lumen.1", "share/bash-completion/completions/lumen",
