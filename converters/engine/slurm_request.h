@@ -12,8 +12,9 @@ struct SlurmRequest {
   int minutes = 0;  ///< on one core
 };
 
-/// What the row's input asks for, by the header of a volume, and by the size of another file. An
-/// input that cannot be read asks for the least; the row fails with the reason when it is made.
+/// Memory and time that the row's input asks for, by the header of a volume, and by the size of
+/// another file. An input that cannot be read asks for the least; the row fails with the reason when
+/// it is made.
 SlurmRequest requestOf(const convert::BuildRow& row, const Progress& progress);
 
 /// A request that is enough for `voxels`, which measured runs give with room to spare.

@@ -30,8 +30,8 @@ struct BuildOptions {
   std::string version;         ///< version of lumen: another one makes every case again
   std::filesystem::path work;  ///< where rows are made; a run continues another's files
   int jobs = 1;                ///< rows at once
-  /// Of lumen check: cases of volumes that it does not pass stay out of the library; empty: all go
-  /// in.
+  /// Profile of lumen check: cases of volumes that it does not pass stay out of the library; empty:
+  /// all go in.
   std::string profile;
   std::set<std::string>
       checkOptions;  ///< names of the options of a row that lumen check takes, too

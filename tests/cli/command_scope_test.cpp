@@ -311,7 +311,7 @@ protected:
     fs::copy_file("tube.nrrd", "volume");
     write("header/vessels-only.scn",
           "<Node name=\"root\"><MeshSTLLoader filename=\"../plain.stl\"/></Node>\n");
-    write("about.json", "{\"title\": \"About\"}");
+    write("about.json", "{\"title\": \"About\", \"description\": \"A tube to try\"}");
     make({"convert", "case.lumen", "person.lumen.json"});
     std::string text = read("person.lumen.json");
     const std::string label = "\"label\": \"root\"";

@@ -19,7 +19,7 @@ struct HttpAnswer {
   int status = 0;                       ///< 0: no answer came
   std::optional<std::uint64_t> length;  ///< bytes that this answer announces
   std::optional<ContentRange> range;    ///< none is there, or one that makes no sense
-  /// What shows that a later answer is about the same version of the file: a strong entity tag, or
+  /// Mark by which a later answer is about the same version of the file: a strong entity tag, or
   /// else the time of the last change; empty if neither is there.
   std::string version;
 };

@@ -12,11 +12,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kVoidRadii = 3;       // of both ends together: no longer gap is bridged unseen
+constexpr double kVoidRadii = 3;     // of both ends together: no longer gap is bridged unseen
 constexpr double kVoidAhead = 0.85;  // of an end and the line to the other
 constexpr double kVoidFacing = 0.8;  // of both ends: a vessel may bend within the gap
-constexpr double kVoidRatio = 1.25;    // of the radii on both sides
-constexpr double kLongRadii = 8;       // a tree that is shorter than that has no sure direction
+constexpr double kVoidRatio = 1.25;  // of the radii on both sides
+constexpr double kLongRadii = 8;     // a tree that is shorter than that has no sure direction
 
 struct FreeEnd {
   std::uint32_t node = 0, tree = 0;
