@@ -23,7 +23,6 @@ packages=(
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev libbullet-dev python3-vtk9 tetgen
-  ocl-icd-opencl-dev opencl-headers pocl-opencl-icd
 )
 
 say() { printf '\n== %s\n' "$*"; }
@@ -181,6 +180,8 @@ install_test_packages() {
   packages+=(curl minisign openssh-client rclone)
   # cohorts: a Slurm of one machine
   packages+=(slurm-wlm munge)
+  # the query on a flat buffer, on the processor by pocl
+  packages+=(ocl-icd-opencl-dev opencl-headers pocl-opencl-icd)
   # the viewer's page, as a person would use it
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
