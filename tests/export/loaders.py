@@ -208,7 +208,8 @@ def read_print(folder):
     found.faults += lib3mf_faults(folder / "wall.3mf") + lib3mf_faults(folder / "core.3mf")
     for name in ("wall.stl", "core.stl"):
         if not shutil.which("admesh"): return None, "admesh is not here"
-        said = subprocess.run(["admesh", str(folder / name)], capture_output=True, text=True).stdout
+        # admesh prints the header of a binary STL with bytes that follow it
+        said = subprocess.run(["admesh", str(folder / name)], capture_output=True, text=True, errors="replace").stdout
         for words in ("Total disconnected facets", "Degenerate facets", "Backwards edges", "Facets reversed"):
             count = re.search(words + r"\s*:\s*(\d+)", said)
             if count is None or int(count[1]) != 0: found.faults.append(f"admesh of {name}: {words} {count and count[1]}")
