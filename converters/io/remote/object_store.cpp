@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/io/remote/object_store.h"
 
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned kLongestCopy = 7 * 24 * 3600;  // s
+constexpr const char* kEnv = "/usr/bin/env";      // runs rclone without a variable
 
 /// BUCKET and KEY.
 std::pair<std::string, std::string> partsOf(const RemoteAddress& address) {
@@ -45,6 +47,18 @@ ProgramCall callOf(const fs::path& program, std::vector<std::string> arguments,
   return call;
 }
 
+/// A call of rclone, whose client of S3 refuses certificates that AWS_CA_BUNDLE states: it gets them
+/// as an option.
+ProgramCall callOfRclone(const fs::path& rclone, const std::vector<std::string>& words,
+                         const fs::path& output, std::uint64_t mostBytes) {
+  constexpr const char* kBundle = "AWS_CA_BUNDLE";
+  std::vector<std::string> arguments = {"-u", kBundle, rclone.string()};
+  if (const char* file = std::getenv(kBundle); file != nullptr && *file != '\0')
+    arguments.insert(arguments.end(), {"--ca-cert", file});
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  return callOf(kEnv, std::move(arguments), output, mostBytes);
+}
+
 std::string lastLine(const std::string& text) {
   const std::string all = trimmed(text);
   return formats::printable(all.substr(all.rfind('\n') + 1));
@@ -53,7 +67,7 @@ std::string lastLine(const std::string& text) {
 void runStore(const ProgramCall& call, const RemoteAddress& address, const Progress& progress) {
   const ProgramResult result = runProgram(call, progress);
   if (result.end == ProgramEnd::Done) return;
-  const std::string name = call.program.filename().string();
+  const std::string name = call.program == kEnv ? "rclone" : call.program.filename().string();
   const std::string why =
       result.end == ProgramEnd::Refused ? lastLine(result.errors) : "it crashed";
   throw remoteError(ErrorKind::Failed, address, name + " cannot fetch it: " + why);
@@ -70,13 +84,14 @@ RemoteHead headByRclone(const fs::path& rclone, const RemoteAddress& address, st
                         const Progress& progress) {
   const fs::path facts = output.string() + ".facts";
   ProgramCall call =
-      callOf(rclone, {"lsjson", "--stat", pathForRclone(address)}, output, options.mostBytes);
+      callOfRclone(rclone, {"lsjson", "--stat", pathForRclone(address)}, output, options.mostBytes);
   call.output = facts;
   runStore(call, address, progress);
   JsonFile json(readWholeFile(facts, "answer of rclone", kMostText), facts);
   RemoteHead head;
   head.whole = static_cast<std::uint64_t>(JsonPlace(json).at("Size").number());
-  call.arguments = {"cat", "--count", std::to_string(count), pathForRclone(address)};
+  call = callOfRclone(rclone, {"cat", "--count", std::to_string(count), pathForRclone(address)},
+                      output, options.mostBytes);
   call.output = output;
   runStore(call, address, progress);
   head.bytes = readWholeFile(output, "part of an object", count);
@@ -114,8 +129,8 @@ RemoteHead headByAws(const fs::path& aws, const RemoteAddress& address, std::uin
 void fetchObject(const RemoteAddress& address, const fs::path& output, const RemoteOptions& options,
                  const Progress& progress) {
   if (const auto rclone = installedProgram("rclone"))
-    return runStore(callOf(*rclone, {"copyto", pathForRclone(address), output.string()}, output,
-                           options.mostBytes),
+    return runStore(callOfRclone(*rclone, {"copyto", pathForRclone(address), output.string()},
+                                 output, options.mostBytes),
                     address, progress);
   if (const auto aws = installedProgram("aws"))
     return runStore(callOf(*aws, {"s3", "cp", "--only-show-errors", address.text, output.string()},
