@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A web server on the loopback interface with faults, which the first part of a path names; it keeps a log of all requests."""
-import email.utils, hashlib, http.server, pathlib, threading, time
+import email.utils, hashlib, http.server, pathlib, threading, time, urllib.parse
 
 # Faults: cut (the first answer for a file breaks off in the middle), noranges (each answer is whole), norangescut (both), wrongrange
 # (continuations state another range), short (less than stated, and no more), slow (a piece every 20 ms), busy (twice 503), altered (one
@@ -17,7 +17,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
     def answer(self, sends):
         server, path = self.server, self.path.split("?")[0]
-        _, fault, name = path.split("/", 2)
+        _, fault, *name = path.split("/", 2)
+        name = name[0] if name else ""
+        if not name: return self.list_objects(sends)
         count = server.seen[path] = server.seen.get(path, 0) + 1
         entry = {"path": path, "query": self.path[len(path):], "range": self.headers.get("Range"), "sent": 0}
         server.log.append(entry)
@@ -30,6 +32,17 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if fault == "page": data = b"<!DOCTYPE html><html>please log in</html>"
         if fault == "altered": data = data[:len(data) // 2] + bytes([data[len(data) // 2] ^ 1]) + data[len(data) // 2 + 1:]
         self.send_file(data, fault, count, entry, sends)
+
+    def list_objects(self, sends):
+        """Answers what rclone asks of a bucket: the objects of a prefix."""
+        asked = urllib.parse.parse_qs(urllib.parse.urlsplit(self.path).query)
+        files = [f for f in self.server.root.iterdir() if f.is_file() and f.name.startswith(asked.get("prefix", [""])[0])]
+        objects = "".join(f"<Contents><Key>{f.name}</Key><LastModified>1970-01-01T00:00:00.000Z</LastModified><ETag>&quot;0&quot;</ETag>"
+                          f"<Size>{f.stat().st_size}</Size></Contents>" for f in files)
+        text = (f'<?xml version="1.0"?><ListBucketResult><KeyCount>{len(files)}</KeyCount><IsTruncated>false</IsTruncated>{objects}'
+                "</ListBucketResult>").encode()
+        self.head(200, {"Content-Type": "application/xml", "Content-Length": len(text)})
+        if sends: self.wfile.write(text)
 
     def send_file(self, data, fault, count, entry, sends):
         fields = {"ETag": f'"{hashlib.md5(data).hexdigest()}"', "Last-Modified": email.utils.formatdate(0, usegmt=True)}

@@ -128,10 +128,15 @@ RemoteHead headByAws(const fs::path& aws, const RemoteAddress& address, std::uin
 
 void fetchObject(const RemoteAddress& address, const fs::path& output, const RemoteOptions& options,
                  const Progress& progress) {
-  if (const auto rclone = installedProgram("rclone"))
-    return runStore(callOfRclone(*rclone, {"copyto", pathForRclone(address), output.string()},
-                                 output, options.mostBytes),
-                    address, progress);
+  if (const auto rclone = installedProgram("rclone")) {
+    runStore(callOfRclone(*rclone, {"copyto", pathForRclone(address), output.string()}, output,
+                          options.mostBytes),
+             address, progress);
+    // rclone copies what is not there as a folder without files
+    if (!fs::exists(output))
+      throw remoteError(ErrorKind::Failed, address, "there is no such object");
+    return;
+  }
   if (const auto aws = installedProgram("aws"))
     return runStore(callOf(*aws, {"s3", "cp", "--only-show-errors", address.text, output.string()},
                            output, options.mostBytes),
