@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// measured: docs/cohorts.md, "What a row asks for": with twice the memory, ten times the time
+// measured: docs/cohorts.md, "Memory and time of a row": with twice the memory, ten times the time
 constexpr double kBaseMegabytes = 500, kBytesPerVoxel = 16;
 constexpr double kBaseMinutes = 10, kMicrosecondsPerVoxel = 6;
 

@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 
-# Memory and time by voxels, measured: docs/cohorts.md, "What a row asks for". One step of a row
+# Memory and time by voxels, measured: docs/cohorts.md, "Memory and time of a row". One step of a row
 # needs less than the whole row, for which `lumen library build --slurm` asks.
 BASE_MEGABYTES, BYTES_PER_VOXEL = 500, 16
 BASE_MINUTES, MICROSECONDS_PER_VOXEL = 10, 6
@@ -30,7 +30,7 @@ def refuse(message):
 
 
 class Digests:
-    """What is known of files, which are read again only where size, time or inode is another."""
+    """Known digests of files, which are read again only where size, time or inode is another."""
 
     def __init__(self, file):
         self.file = pathlib.Path(file)
@@ -140,7 +140,7 @@ class Rows:
         return hashlib.sha256(text.encode()).hexdigest()
 
     def voxels(self, name):
-        """Of the row's volume, by its header; 0 for another input, or one that is no good."""
+        """Voxels of the row's volume, by its header; 0 for another input, or one that cannot be read."""
         key = "voxels of " + self.recipes[name]
         if key not in self.digests.known:
             try:
