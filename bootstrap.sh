@@ -180,8 +180,8 @@ install_test_packages() {
   packages+=(curl minisign openssh-client rclone)
   # cohorts: a Slurm of one machine
   packages+=(slurm-wlm munge)
-  # the query on a flat buffer, on the processor by pocl
-  packages+=(ocl-icd-opencl-dev opencl-headers pocl-opencl-icd)
+  # the query on a flat buffer, on the processor by pocl, and its translations
+  packages+=(ocl-icd-opencl-dev opencl-headers pocl-opencl-icd python3-pycparser)
   # the viewer's page, as a person would use it
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing

@@ -55,7 +55,7 @@ BLOB_DEVICE_FN float blob_device_step(float s) {
 
 /* Nodes that blend, and the sums over them that libblob/src/simd/blend.h explains. */
 typedef struct blob_device_mixture {
-  blob_device_word active[BLOB_DEVICE_MOST_ACTIVE];
+  blob_device_word nodes[BLOB_DEVICE_MOST_ACTIVE];
   int count, is_empty;
   float weight[4], excess[4], field[4];
   float f0, shift, radius;
@@ -64,17 +64,20 @@ typedef struct blob_device_mixture {
 BLOB_DEVICE_FN void blob_device_add_active(blob_device_mixture* sum, blob_device_word k) {
   int i;
   for (i = 0; i < sum->count; ++i)
-    if (sum->active[i] == k) return;
-  if (sum->count < BLOB_DEVICE_MOST_ACTIVE) sum->active[sum->count++] = k;
+    if (sum->nodes[i] == k) return;
+  if (sum->count < BLOB_DEVICE_MOST_ACTIVE) {
+    sum->nodes[sum->count] = k;
+    sum->count += 1;
+  }
 }
 
 BLOB_DEVICE_FN int blob_device_is_neighbour(const blob_device_vessel* v, blob_device_word node,
                                             blob_device_word k) {
   blob_device_words record = v->words + v->nodes + BLOB_DEVICE_NODE_WORDS * node;
-  blob_device_words e = v->words + v->neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS * record[10] + 5;
-  blob_device_word left = record[11];
-  for (; left != 0; --left, e += BLOB_DEVICE_NEIGHBOUR_WORDS)
-    if (*e == k) return 1;
+  blob_device_words first = v->words + v->neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS * record[10];
+  blob_device_word e;
+  for (e = 0; e < record[11]; ++e)
+    if (first[BLOB_DEVICE_NEIGHBOUR_WORDS * e + 5] == k) return 1;
   return 0;
 }
 
@@ -98,7 +101,7 @@ BLOB_DEVICE_FN float blob_device_weigh(const blob_device_vessel* v, blob_device_
     for (i = 0; i < 3; ++i)
       gradient[i] +=
           (15.0f * ((1.0f - s) * (1.0f - s))) * inverse_tau / sp * blob_device_float(k[i]);
-    if (index == sum->active[0] || !blob_device_is_neighbour(v, sum->active[0], k[5]))
+    if (index == sum->nodes[0] || !blob_device_is_neighbour(v, sum->nodes[0], k[5]))
       blob_device_add_active(sum, k[5]);
   }
   for (i = 0; i < 3; ++i) gradient[i] *= u;
@@ -136,11 +139,13 @@ BLOB_DEVICE_FN void blob_device_add(const blob_device_vessel* v, const blob_devi
     }
   }
   above = of_own * own->field[0] - sum->f0;
-  for (i = 0; i < 4; ++i) {
-    const float weight = i == 0 ? u : gradient[i - 1];
-    sum->weight[i] += weight;
-    sum->excess[i] += above * weight;
-    sum->field[i] += u * (of_own * own->field[i]);
+  sum->weight[0] += u;
+  sum->excess[0] += above * u;
+  sum->field[0] += u * (of_own * own->field[0]);
+  for (i = 0; i < 3; ++i) {
+    sum->weight[i + 1] += gradient[i];
+    sum->excess[i + 1] += above * gradient[i];
+    sum->field[i + 1] += u * (of_own * own->field[i + 1]);
   }
   sum->radius += u * own->radius;
 }
@@ -154,12 +159,12 @@ BLOB_DEVICE_FN void blob_device_blend(const blob_device_vessel* v, const float* 
   for (i = 0; i < 4; ++i) sum.weight[i] = sum.excess[i] = sum.field[i] = 0;
   sum.radius = sum.f0 = sum.shift = 0;
   sum.is_empty = 1;
-  sum.active[0] = start;
+  sum.nodes[0] = start;
   sum.count = 1;
   for (n = 0; n < sum.count; ++n) {
     const int before = sum.count;
-    const blob_device_node node = blob_device_at(v, sum.active[n], point);
-    const float u = blob_device_weigh(v, sum.active[n], &node, &sum, gradient);
+    const blob_device_node node = blob_device_at(v, sum.nodes[n], point);
+    const float u = blob_device_weigh(v, sum.nodes[n], &node, &sum, gradient);
     if (u > 0) {
       const blob_device_lane own = n == 0 ? *lane : blob_device_evaluate(v, &node);
       blob_device_add(v, &own, u, gradient, &sum);

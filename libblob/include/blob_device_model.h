@@ -184,8 +184,8 @@ BLOB_DEVICE_FN float blob_device_difference(const blob_device_node* node, blob_d
 
 /* Walks to the neighbour of least power while that falls: blob_cursor_follow(). */
 BLOB_DEVICE_FN blob_device_word blob_device_follow(const blob_device_vessel* v, const float* point,
-                                                   blob_device_word node) {
-  blob_device_word before = node;
+                                                   blob_device_word start) {
+  blob_device_word before = start, node = start;
   int step;
   for (step = 0; step < 256; ++step) {
     const blob_device_node here = blob_device_at(v, node, point);
@@ -266,7 +266,7 @@ BLOB_DEVICE_FN float blob_device_square(blob_device_words blob, const float* at,
 BLOB_DEVICE_FN blob_device_lane blob_device_evaluate(const blob_device_vessel* v,
                                                      const blob_device_node* node) {
   const blob_device_word count = node->record[9];
-  blob_device_words blob = v->words + v->blobs + BLOB_DEVICE_BLOB_WORDS * node->record[8];
+  blob_device_words first = v->words + v->blobs + BLOB_DEVICE_BLOB_WORDS * node->record[8];
   blob_device_lane lane;
   blob_device_word j;
   float at[3], d[3];
@@ -277,13 +277,14 @@ BLOB_DEVICE_FN blob_device_lane blob_device_evaluate(const blob_device_vessel* v
   for (i = 0; i < 4; ++i) lane.field[i] = 0;
   if (v->phi == 1 && count > 0) {
     lane.shift = 3e38f;
-    for (j = 0; j < count; ++j)
-      lane.shift =
-          blob_device_lesser(blob_device_float(blob[BLOB_DEVICE_BLOB_WORDS * j + 3]) *
-                                 blob_device_square(blob + BLOB_DEVICE_BLOB_WORDS * j, at, d),
-                             lane.shift);
+    for (j = 0; j < count; ++j) {
+      blob_device_words blob = first + BLOB_DEVICE_BLOB_WORDS * j;
+      lane.shift = blob_device_lesser(blob_device_float(blob[3]) * blob_device_square(blob, at, d),
+                                      lane.shift);
+    }
   }
-  for (j = 0; j < count; ++j, blob += BLOB_DEVICE_BLOB_WORDS) {
+  for (j = 0; j < count; ++j) {
+    blob_device_words blob = first + BLOB_DEVICE_BLOB_WORDS * j;
     const float a = blob_device_float(blob[3]);
     float slope, u = a * blob_device_square(blob, at, d);
     u = v->phi == 1 ? blob_device_greater(u - lane.shift, 0.0f) : u;

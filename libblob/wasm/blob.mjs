@@ -59,6 +59,20 @@ export class Blob {
     if (status !== 0) throw Object.assign(new Error(`libblob: ${why}`), { status });
     return new Model(this, handle);
   }
+  /** Models as one buffer of words, from which gpu.mjs answers on a graphics processor; blob_device.h states the layout.
+   * @param {Model[]} models at least one @returns {Uint32Array} */
+  pack(models) {
+    const handles = this.allocate(4 * models.length);
+    models.forEach((model, i) => this.view.setUint32(handles + 4 * i, model.handle, true));
+    const size = this.exports.blob_device_pack(handles, models.length, 0, 0);
+    if (size === 0) throw new RangeError("libblob: no model to pack, or no memory");
+    const buffer = this.allocate(size), written = this.exports.blob_device_pack(handles, models.length, buffer, size);
+    const words = new Uint32Array(this.exports.memory.buffer.slice(buffer, buffer + size));
+    this.exports.free(buffer);
+    this.exports.free(handles);
+    if (written !== size) throw new RangeError(`libblob: no memory for ${size} bytes`);
+    return words;
+  }
 }
 
 /** A vessel tree. Call close() when done. */

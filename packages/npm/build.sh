@@ -16,7 +16,12 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cp -r "$root/packages/npm/blob" "$root/packages/npm/viewer" "$work/"
-cp "$root/libblob/wasm/blob.mjs" "$work/blob/"
+cp "$root/libblob/wasm/blob.mjs" "$root/libblob/wasm/gpu.mjs" "$root/libblob/device/query.wgsl" "$work/blob/"
+{ # as a module, because bundlers differ in how they import texts; the shader has neither ` nor ${ nor a backslash
+  echo "// SPDX-License-Identifier: Apache-2.0"
+  echo "/** The text of query.wgsl. */"
+  printf 'export const shader = `%s\n`;\n' "$(cat "$root/libblob/device/query.wgsl")"
+} >"$work/blob/query_wgsl.mjs"
 for package in blob viewer; do
   cp "$root/LICENSE" "$root/THIRD_PARTY.md" "$work/$package/"
   install -m 644 "$wasm" "$work/$package/"
@@ -25,7 +30,7 @@ done
 # types from the JSDoc of the wrapper
 cat >"$work/tsconfig.json" <<'JSON'
 {"compilerOptions": {"allowJs": true, "declaration": true, "emitDeclarationOnly": true, "target": "es2022", "module": "nodenext",
-  "lib": ["es2022", "dom"], "types": []}, "files": ["blob/blob.mjs"]}
+  "lib": ["es2022", "dom"], "types": []}, "files": ["blob/blob.mjs", "blob/webgpu.mjs"]}
 JSON
 "$page/node_modules/.bin/tsc" -p "$work/tsconfig.json"
 

@@ -51,6 +51,8 @@ if(OpenCL_FOUND AND NOT LUMEN_SANITIZE)
 elseif(NOT LUMEN_SANITIZE)
   message(STATUS "OpenCL (ocl-icd-opencl-dev, pocl-opencl-icd) not found: the kernel of libblob/device is not run")
 endif()
+# query.wgsl and the text for Warp are what the header gives (python3-pycparser).
+python_test(BlobDevice.TranslationsAreThoseOfTheHeader quick ${PROJECT_SOURCE_DIR}/libblob/device/translate/translate.py --check)
 find_program(CLANG_CUDA NAMES clang-14 clang)
 if(CLANG_CUDA AND NOT LUMEN_SANITIZE)
   add_test(NAME BlobDevice.CudaCompilesToPtxWithoutCallsOfALibrary

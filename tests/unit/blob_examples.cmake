@@ -45,6 +45,19 @@ if(TARGET blob_wasm AND NODE)
     FIXTURES_REQUIRED "blob_kissing;blob_queries")
 endif()
 
+# query.wgsl in Chromium; a Gaussian case, because that kernel has code of its own.
+if(TARGET blob_wasm AND NODE AND NOT LUMEN_SANITIZE)
+  add_test(NAME BlobExamples.Makes_kissing_gaussian
+    COMMAND ${CMAKE_COMMAND} -D LUMEN=$<TARGET_FILE:lumen> -D NAME=kissing -D KERNEL=gaussian -D FOLDER=${models}
+      -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/make_model.cmake)
+  set_tests_properties(BlobExamples.Makes_kissing_gaussian PROPERTIES LABELS slow FIXTURES_SETUP blob_gaussian)
+  add_test(NAME BlobDevice.AnswersOnWebGpuAreThoseOfTheLibrary
+    COMMAND ${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_webgpu.mjs ${PROJECT_SOURCE_DIR}/libblob ${wasm}
+      ${models}/kissing.lumen ${models}/bifurcation.lumen ${models}/kissing_gaussian.lumen)
+  set_tests_properties(BlobDevice.AnswersOnWebGpuAreThoseOfTheLibrary PROPERTIES LABELS foreign SKIP_RETURN_CODE 77 TIMEOUT 600
+    FIXTURES_REQUIRED "blob_kissing;blob_bifurcation;blob_gaussian")
+endif()
+
 if(HAS_NUMPY AND NOT LUMEN_SANITIZE)
   python_test(Python.UnitTests foreign
     -W error -m unittest discover -s ${PROJECT_SOURCE_DIR}/libblob/python/tests)

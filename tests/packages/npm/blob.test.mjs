@@ -2,7 +2,7 @@
 // @lumen/blob in Node, in its threads, in a page, in a worker of the page, and as TypeScript sees it.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { copyFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { startBrowser } from "../../../viewer/page/people/browser.mjs";
@@ -52,6 +52,13 @@ else new Worker(new URL(import.meta.url), { argv: [process.argv[2]] }).once("mes
   near(ofThread, distances, "a thread of Node");
 });
 
+test("the module of WebGPU has the text of the shader", t => {
+  const { folder } = installed(t);
+  writeFileSync(join(folder, "text.mjs"), 'import { shader } from "@lumen/blob/webgpu";\nprocess.stdout.write(shader);\n');
+  const text = execFileSync(process.execPath, ["text.mjs"], { cwd: folder, encoding: "utf8" });
+  assert.equal(text, readFileSync(join(kRoot, "libblob/device/query.wgsl"), "utf8"));
+});
+
 test("TypeScript knows the types, and refuses a wrong one", t => {
   const { folder } = installed(t),
     tsc = join(kRoot, "viewer/page/node_modules/.bin/tsc"),
@@ -61,18 +68,22 @@ test("TypeScript knows the types, and refuses a wrong one", t => {
       writeFileSync(join(folder, "tsconfig.json"), JSON.stringify({ compilerOptions, files: [name] }));
       return () => execFileSync(tsc, ["-p", "."], { cwd: folder, encoding: "utf8", stdio: "pipe" });
     };
-  const head = 'import { loadBlob, Flags, type Model } from "@lumen/blob";\nimport { LumenCase } from "@lumen/viewer";\n';
+  const head = 'import { loadBlob, Flags, type Model } from "@lumen/blob";\nimport { gpuVessels, shader } from "@lumen/blob/webgpu";\nimport { LumenCase } from "@lumen/viewer";\n';
   const right = check(
     "good.ts",
     `${head}const model: Model = (await loadBlob()).open(new Uint8Array(3));
 const batch = model.batch(2);
 batch.query(Flags.LOCAL);
 const distance: number = batch.sample(0).distance + model.describe().isoLevel;
+const cloud = gpuVessels(null, [model]).batch(3);
+cloud.points.set(new Float32Array(9));
+const near: Promise<void> = cloud.query(Flags.LOCAL, 0);
+const text: string = shader + cloud.distances()[0] + String(near);
 const element: LumenCase = document.createElement("lumen-case");
-element.src = String(distance);\n`,
+element.src = text + String(distance);\n`,
   );
   right();
-  assert.throws(check("bad.ts", `${head}const text: string = (await loadBlob()).open(new Uint8Array(3)).batch(2).distances();\nvoid LumenCase;\n`));
+  assert.throws(check("bad.ts", `${head}const text: string = (await loadBlob()).open(new Uint8Array(3)).batch(2).distances();\nvoid [LumenCase, gpuVessels, shader];\n`));
 });
 
 test("a page and its worker have the same answers", async t => {

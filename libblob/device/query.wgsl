@@ -1,0 +1,563 @@
+// SPDX-License-Identifier: Apache-2.0
+// libblob's query in WGSL, and blob_query_points(): an invocation for each tool point. Generated
+// from blob_device.h and blob_device_model.h, which explain each function and the buffer, by
+// libblob/device/translate/translate.py; change those.
+//
+// A pointer of C into the buffer is the index of a word here: words is that of the buffer's first
+// word, 0 unless other data lie before it. Outputs are pointers to variables of a function. Points
+// are finite: WGSL promises nothing for NaN and infinities.
+
+@group(0) @binding(0) var<storage, read> blob_device_buffer: array<u32>;
+
+const BLOB_DEVICE_MAGIC: u32 = 0x5642424cu;
+const BLOB_DEVICE_VERSION: u32 = 1u;
+const BLOB_DEVICE_HEADER_WORDS: u32 = 4u;
+const BLOB_DEVICE_VESSEL_WORDS: u32 = 8u;
+const BLOB_DEVICE_NODE_WORDS: u32 = 12u;
+const BLOB_DEVICE_NEIGHBOUR_WORDS: u32 = 6u;
+const BLOB_DEVICE_BLOB_WORDS: u32 = 5u;
+const BLOB_DEVICE_ALIGN_WORDS: u32 = 16u;
+const BLOB_DEVICE_BLENDED: u32 = 0u;
+const BLOB_DEVICE_LOCAL: u32 = 1u;
+const BLOB_DEVICE_HOLD: u32 = 4u;
+const BLOB_DEVICE_INSIDE: u32 = 1u;
+const BLOB_DEVICE_NOWHERE: u32 = 0xffffffffu;
+const BLOB_DEVICE_MOST_ACTIVE: i32 = 24;
+
+struct blob_device_sample {
+  value: f32,
+  gradient: array<f32, 3>,
+  distance: f32,
+  normal: array<f32, 3>,
+  node: u32,
+  state: u32,
+}
+
+struct blob_device_vessel {
+  words: u32,
+  phi: u32,
+  node_count: u32,
+  nodes: u32,
+  neighbours: u32,
+  blobs: u32,
+  level: f32,
+  transformed_level: f32,
+}
+
+struct blob_device_node {
+  record: u32,
+  neighbour: u32,
+  neighbours: u32,
+  x: array<f32, 3>,
+}
+
+struct blob_device_lane {
+  field: array<f32, 4>,
+  shift: f32,
+  radius: f32,
+}
+
+struct blob_device_mixture {
+  nodes: array<u32, BLOB_DEVICE_MOST_ACTIVE>,
+  count: i32,
+  is_empty: i32,
+  weight: array<f32, 4>,
+  excess: array<f32, 4>,
+  field: array<f32, 4>,
+  f0: f32,
+  shift: f32,
+  radius: f32,
+}
+
+fn blob_device_lesser(a: f32, b: f32) -> f32 {
+  return select(b, a, a < b);
+}
+
+fn blob_device_greater(a: f32, b: f32) -> f32 {
+  return select(b, a, b < a);
+}
+
+fn blob_device_norm(v: array<f32, 3>) -> f32 {
+  return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+fn blob_device_exp(unbounded: f32) -> f32 {
+  let x: f32 = select(select(unbounded, 88.0f, unbounded > 88.0f), -87.0f, unbounded < -87.0f);
+  let n: i32 = i32(x * 1.44269504f + select(0.5f, -0.5f, x < 0.0f));
+  let r: f32 = x - f32(n) * 0.693359375f - f32(n) * -2.12194440e-4f;
+  var p: f32 = 1.9875691500e-4f;
+  var power: u32;
+  p = p * r + 1.3981999507e-3f;
+  p = p * r + 8.3334519073e-3f;
+  p = p * r + 4.1665795894e-2f;
+  p = p * r + 1.6666665459e-1f;
+  p = p * r + 5.0000001201e-1f;
+  power = u32(n + 127) << 23u;
+  return (p * (r * r) + (r + 1.0f)) * bitcast<f32>(power);
+}
+
+fn blob_device_log(x: f32) -> f32 {
+  var bits: u32;
+  var exponent: i32;
+  var m: f32;
+  var p: f32;
+  var e: f32;
+  var square: f32;
+  bits = bitcast<u32>(x);
+  exponent = i32(bits >> 23u) - 126;
+  bits = (bits & 0x007fffffu) | 0x3f000000u;
+  m = bitcast<f32>(bits);
+  if (m < 0.70710678f) {
+    exponent -= 1;
+    m = m + m;
+  }
+  m -= 1.0f;
+  p = 7.0376836292e-2f;
+  p = p * m + -1.1514610310e-1f;
+  p = p * m + 1.1676998740e-1f;
+  p = p * m + -1.2420140846e-1f;
+  p = p * m + 1.4249322787e-1f;
+  p = p * m + -1.6668057665e-1f;
+  p = p * m + 2.0000714765e-1f;
+  p = p * m + -2.4999993993e-1f;
+  p = p * m + 3.3333331174e-1f;
+  e = f32(exponent);
+  square = m * m;
+  return m + (m * square * p + e * -2.12194440e-4f - 0.5f * square) + e * 0.693359375f;
+}
+
+fn blob_device_open(words: u32, index: u32) -> blob_device_vessel {
+  let at: u32 = BLOB_DEVICE_HEADER_WORDS + BLOB_DEVICE_VESSEL_WORDS * index;
+  var v: blob_device_vessel;
+  v.words = words;
+  v.phi = blob_device_buffer[words + at];
+  v.node_count = blob_device_buffer[words + (at + 1u)];
+  v.nodes = blob_device_buffer[words + (at + 2u)];
+  v.neighbours = blob_device_buffer[words + (at + 3u)];
+  v.blobs = blob_device_buffer[words + (at + 4u)];
+  v.level = bitcast<f32>(blob_device_buffer[words + (at + 5u)]);
+  v.transformed_level = bitcast<f32>(blob_device_buffer[words + (at + 6u)]);
+  return v;
+}
+
+fn blob_device_at(v: blob_device_vessel, index: u32, point: array<f32, 3>) -> blob_device_node {
+  var node: blob_device_node;
+  var square: f32;
+  node.record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index;
+  for (var i: i32 = 0; i < 3; i += 1) {
+    node.x[i] = point[i] - bitcast<f32>(blob_device_buffer[node.record + u32(i)]);
+  }
+  square = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2];
+  node.neighbours = blob_device_buffer[node.record + 11u];
+  if (node.neighbours > 8u && square < bitcast<f32>(blob_device_buffer[node.record + 7u])) {
+    node.neighbours = 8u;
+  }
+  node.neighbour = v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
+      blob_device_buffer[node.record + 10u];
+  return node;
+}
+
+fn blob_device_difference(node: blob_device_node, e: u32) -> f32 {
+  let k: u32 = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e;
+  return bitcast<f32>(blob_device_buffer[k]) * node.x[0] + bitcast<f32>(blob_device_buffer[k + 1u])
+      * node.x[1] + bitcast<f32>(blob_device_buffer[k + 2u]) * node.x[2] +
+      bitcast<f32>(blob_device_buffer[k + 3u]);
+}
+
+fn blob_device_follow(v: blob_device_vessel, point: array<f32, 3>, start: u32) -> u32 {
+  var before: u32 = start;
+  var node: u32 = start;
+  for (var step: i32 = 0; step < 256; step += 1) {
+    let here: blob_device_node = blob_device_at(v, node, point);
+    var next: u32 = node;
+    var least: f32 = 0.0f;
+    for (var e: u32 = 0u; e < here.neighbours; e += 1u) {
+      let difference: f32 = blob_device_difference(here, e);
+      let k: u32 = blob_device_buffer[here.neighbour + (BLOB_DEVICE_NEIGHBOUR_WORDS * e + 5u)];
+      if (difference < least || ((difference == least && next != node) && k < next)) {
+        least = difference;
+        next = k;
+      }
+    }
+    if (next == node || next == before) {
+      break;
+    }
+    before = node;
+    node = next;
+  }
+  return node;
+}
+
+fn blob_device_locate(v: blob_device_vessel, point: array<f32, 3>) -> u32 {
+  var best: u32 = 0u;
+  var least: f32 = 3e38f;
+  for (var i: u32 = 0u; i < v.node_count; i += 1u) {
+    let node: blob_device_node = blob_device_at(v, i, point);
+    let r: f32 = bitcast<f32>(blob_device_buffer[node.record + 3u]);
+    let power: f32 = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2] - r * r;
+    if (power < least) {
+      least = power;
+      best = i;
+    }
+  }
+  return best;
+}
+
+fn blob_device_term(phi: u32, u: f32, a: f32, w: f32, slope: ptr<function, f32>) -> f32 {
+  var q: f32;
+  var value: f32;
+  if (phi == 0u) {
+    q = 1.0f / (1.0f + u);
+    value = w * (q * q);
+    (*slope) = -4.0f * a * (value * q);
+    return value;
+  }
+  if (phi == 1u) {
+    value = w * blob_device_exp(-u);
+    (*slope) = -2.0f * a * value;
+    return value;
+  }
+  q = blob_device_greater(1.0f - u, 0.0f);
+  if (phi == 2u) {
+    (*slope) = -4.0f * a * (w * q);
+    return w * (q * q);
+  }
+  (*slope) = -2.0f / 9.0f * a * (w * q) * (10.0f + 12.0f * q);
+  return w * (q * q) * (5.0f + 4.0f * q) * (1.0f / 9.0f);
+}
+
+fn blob_device_square(blob: u32, at: array<f32, 3>, d: ptr<function, array<f32, 3>>) -> f32 {
+  for (var i: i32 = 0; i < 3; i += 1) {
+    (*d)[i] = at[i] - bitcast<f32>(blob_device_buffer[blob + u32(i)]);
+  }
+  return (*d)[0] * (*d)[0] + (*d)[1] * (*d)[1] + (*d)[2] * (*d)[2];
+}
+
+fn blob_device_evaluate(v: blob_device_vessel, node: blob_device_node) -> blob_device_lane {
+  let count: u32 = blob_device_buffer[node.record + 9u];
+  let first: u32 = v.words + v.blobs + BLOB_DEVICE_BLOB_WORDS *
+      blob_device_buffer[node.record + 8u];
+  var lane: blob_device_lane;
+  var at: array<f32, 3>;
+  var d: array<f32, 3>;
+  lane.shift = 0.0f;
+  lane.radius = bitcast<f32>(blob_device_buffer[node.record + 3u]);
+  for (var i: i32 = 0; i < 3; i += 1) {
+    at[i] = node.x[i] + bitcast<f32>(blob_device_buffer[node.record + u32(4 + i)]);
+  }
+  for (var i: i32 = 0; i < 4; i += 1) {
+    lane.field[i] = 0.0f;
+  }
+  if (v.phi == 1u && count > 0u) {
+    lane.shift = 3e38f;
+    for (var j: u32 = 0u; j < count; j += 1u) {
+      let blob: u32 = first + BLOB_DEVICE_BLOB_WORDS * j;
+      lane.shift = blob_device_lesser(bitcast<f32>(blob_device_buffer[blob + 3u]) *
+          blob_device_square(blob, at, &d), lane.shift);
+    }
+  }
+  for (var j: u32 = 0u; j < count; j += 1u) {
+    let blob: u32 = first + BLOB_DEVICE_BLOB_WORDS * j;
+    let a: f32 = bitcast<f32>(blob_device_buffer[blob + 3u]);
+    var slope: f32;
+    var u: f32 = a * blob_device_square(blob, at, &d);
+    u = select(u, blob_device_greater(u - lane.shift, 0.0f), v.phi == 1u);
+    lane.field[0] += blob_device_term(v.phi, u, a, bitcast<f32>(blob_device_buffer[blob + 4u]),
+        &slope);
+    for (var i: i32 = 0; i < 3; i += 1) {
+      lane.field[1 + i] += slope * d[i];
+    }
+  }
+  return lane;
+}
+
+fn blob_device_step(s: f32) -> f32 {
+  return (6.0f * s - 15.0f) * s + 10.0f;
+}
+
+fn blob_device_add_active(sum: ptr<function, blob_device_mixture>, k: u32) {
+  for (var i: i32 = 0; i < (*sum).count; i += 1) {
+    if ((*sum).nodes[i] == k) {
+      return;
+    }
+  }
+  if ((*sum).count < BLOB_DEVICE_MOST_ACTIVE) {
+    (*sum).nodes[(*sum).count] = k;
+    (*sum).count += 1;
+  }
+}
+
+fn blob_device_is_neighbour(v: blob_device_vessel, node: u32, k: u32) -> i32 {
+  let record: u32 = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * node;
+  let first: u32 = v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
+      blob_device_buffer[record + 10u];
+  for (var e: u32 = 0u; e < blob_device_buffer[record + 11u]; e += 1u) {
+    if (blob_device_buffer[first + (BLOB_DEVICE_NEIGHBOUR_WORDS * e + 5u)] == k) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node, sum: ptr<function,
+    blob_device_mixture>, gradient: ptr<function, array<f32, 3>>) -> f32 {
+  var u: f32 = 1.0f;
+  for (var i: i32 = 0; i < 3; i += 1) {
+    (*gradient)[i] = 0.0f;
+  }
+  for (var e: u32 = 0u; e < node.neighbours; e += 1u) {
+    let k: u32 = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e;
+    let inverse_tau: f32 = bitcast<f32>(blob_device_buffer[k + 4u]);
+    let t: f32 = blob_device_difference(node, e) * inverse_tau;
+    let s: f32 = 0.5f + 0.5f * t;
+    let sp: f32 = s * blob_device_step(s);
+    if (!(t < 1.0f)) {
+      continue;
+    }
+    u = select(u * (s * s * sp), 0.0f, t < -1.0f || s <= 0.0f);
+    if (!(u > 1e-20f)) {
+      return 0.0f;
+    }
+    for (var i: i32 = 0; i < 3; i += 1) {
+      (*gradient)[i] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
+          bitcast<f32>(blob_device_buffer[k + u32(i)]);
+    }
+    if (index == (*sum).nodes[0] || blob_device_is_neighbour(v, (*sum).nodes[0],
+        blob_device_buffer[k + 5u]) == 0) {
+      blob_device_add_active(sum, blob_device_buffer[k + 5u]);
+    }
+  }
+  for (var i: i32 = 0; i < 3; i += 1) {
+    (*gradient)[i] *= u;
+  }
+  return u;
+}
+
+fn blob_device_share_shift(first: ptr<function, f32>, second: f32, of_first: ptr<function, f32>,
+    of_second: ptr<function, f32>) {
+  let difference: f32 = (*first) - second;
+  (*of_first) = 1.0f;
+  (*of_second) = 1.0f;
+  if (difference <= 60.0f) {
+    (*of_second) = blob_device_exp(difference);
+  } else {
+    (*first) = second;
+    (*of_first) = blob_device_exp(-difference);
+  }
+}
+
+fn blob_device_add(v: blob_device_vessel, own: blob_device_lane, u: f32, gradient: array<f32, 3>,
+    sum: ptr<function, blob_device_mixture>) {
+  var of_sum: f32 = 1.0f;
+  var of_own: f32 = 1.0f;
+  var above: f32;
+  if ((*sum).is_empty != 0) {
+    (*sum).is_empty = 0;
+    (*sum).f0 = own.field[0];
+    (*sum).shift = own.shift;
+  } else if (v.phi == 1u) {
+    var copy_1 = (*sum).shift;
+    blob_device_share_shift(&copy_1, own.shift, &of_sum, &of_own);
+    (*sum).shift = copy_1;
+    (*sum).f0 *= of_sum;
+    for (var i: i32 = 0; i < 4; i += 1) {
+      (*sum).excess[i] *= of_sum;
+      (*sum).field[i] *= of_sum;
+    }
+  }
+  above = of_own * own.field[0] - (*sum).f0;
+  (*sum).weight[0] += u;
+  (*sum).excess[0] += above * u;
+  (*sum).field[0] += u * (of_own * own.field[0]);
+  for (var i: i32 = 0; i < 3; i += 1) {
+    (*sum).weight[i + 1] += gradient[i];
+    (*sum).excess[i + 1] += above * gradient[i];
+    (*sum).field[i + 1] += u * (of_own * own.field[i + 1]);
+  }
+  (*sum).radius += u * own.radius;
+}
+
+fn blob_device_blend(v: blob_device_vessel, point: array<f32, 3>, start: u32, lane: ptr<function,
+    blob_device_lane>) {
+  var sum: blob_device_mixture;
+  var gradient: array<f32, 3>;
+  var inverse: f32;
+  var excess: f32;
+  for (var i: i32 = 0; i < 4; i += 1) {
+    sum.field[i] = 0.0f;
+    sum.excess[i] = 0.0f;
+    sum.weight[i] = 0.0f;
+  }
+  sum.shift = 0.0f;
+  sum.f0 = 0.0f;
+  sum.radius = 0.0f;
+  sum.is_empty = 1;
+  sum.nodes[0] = start;
+  sum.count = 1;
+  for (var n: i32 = 0; n < sum.count; n += 1) {
+    let before: i32 = sum.count;
+    let node: blob_device_node = blob_device_at(v, sum.nodes[n], point);
+    let u: f32 = blob_device_weigh(v, sum.nodes[n], node, &sum, &gradient);
+    if (u > 0.0f) {
+      var own: blob_device_lane;
+      if (n == 0) {
+        own = (*lane);
+      } else {
+        own = blob_device_evaluate(v, node);
+      }
+      blob_device_add(v, own, u, gradient, &sum);
+    } else {
+      sum.count = before;
+    }
+  }
+  if (sum.is_empty != 0) {
+    return;
+  }
+  inverse = 1.0f / sum.weight[0];
+  excess = sum.excess[0] * inverse;
+  (*lane).field[0] = sum.f0 + excess;
+  for (var i: i32 = 1; i < 4; i += 1) {
+    (*lane).field[i] = (sum.field[i] + (sum.excess[i] - excess * sum.weight[i])) * inverse;
+  }
+  (*lane).shift = sum.shift;
+  (*lane).radius = sum.radius * inverse;
+}
+
+fn blob_device_level(phi: u32, f: f32, shift: f32, relative: f32, slope: ptr<function, f32>) -> f32
+    {
+  var h: f32;
+  if (phi == 1u) {
+    (*slope) = relative;
+    return shift - blob_device_log(f);
+  }
+  h = select(0.0f - sqrt(f), sqrt(1.0f / f), phi == 0u);
+  (*slope) = select(-0.5f, 0.5f, phi == 0u) * h * relative;
+  return h;
+}
+
+fn blob_device_wall(difference: f32, slope: f32, radius: f32, inside: i32) -> f32 {
+  let d: f32 = select(difference, -difference, difference < 0.0f);
+  let gr: f32 = slope * radius;
+  let s: f32 = sqrt(d * d + gr * gr);
+  let t: f32 = gr + s;
+  if (!(d > 0.0f)) {
+    return 0.0f;
+  }
+  return d * (t + d) * select(1.0f, -radius, inside != 0) / (t * select(slope, d + s, inside != 0));
+}
+
+fn blob_device_finish(v: blob_device_vessel, lane: blob_device_lane, at: array<f32, 3>,
+    sample: ptr<function, blob_device_sample>) {
+  let f: f32 = lane.field[0];
+  let inverse_f: f32 = 1.0f / f;
+  let to_centre: f32 = blob_device_norm(at);
+  let scale: f32 = select(select(blob_device_exp(-lane.shift), 0.0f, lane.shift > 87.0f), 1.0f,
+      v.phi != 1u);
+  var e: array<f32, 3>;
+  var length: f32;
+  var h: f32;
+  var slope: f32;
+  var inside: i32;
+  (*sample).value = f * scale;
+  for (var i: i32 = 0; i < 3; i += 1) {
+    e[i] = lane.field[1 + i] * inverse_f;
+    (*sample).gradient[i] = lane.field[1 + i] * scale;
+  }
+  inside = select(0, 1, (*sample).value > v.level);
+  length = blob_device_norm(e);
+  h = blob_device_level(v.phi, f, lane.shift, length, &slope);
+  (*sample).distance = blob_device_wall(v.transformed_level - h, slope, lane.radius, inside);
+  if (inside == 0) {
+    (*sample).distance = blob_device_lesser((*sample).distance, to_centre + lane.radius);
+    if (!(f > 1e-20f)) {
+      (*sample).distance = blob_device_greater(to_centre - lane.radius, 0.0f);
+      for (var i: i32 = 0; i < 3; i += 1) {
+        e[i] = -at[i];
+      }
+      length = to_centre;
+    }
+  }
+  for (var i: i32 = 0; i < 3; i += 1) {
+    (*sample).normal[i] = select(0.0f, e[i] * (-1.0f / length), length > 0.0f);
+  }
+  (*sample).state = select(0u, BLOB_DEVICE_INSIDE, inside != 0);
+}
+
+fn blob_device_query(words: u32, vessel: u32, flags: u32, point: array<f32, 3>,
+    cursor: ptr<function, u32>, sample: ptr<function, blob_device_sample>) {
+  let v: blob_device_vessel = blob_device_open(words, vessel);
+  var node: blob_device_node;
+  var lane: blob_device_lane;
+  var in_range: i32 = 1;
+  if ((*cursor) >= v.node_count) {
+    (*cursor) = blob_device_locate(v, point);
+  }
+  node = blob_device_at(v, (*cursor), point);
+  for (var i: i32 = 0; i < 3; i += 1) {
+    in_range = select(0, 1, (in_range != 0 && node.x[i] <= 1e9f) && node.x[i] >= -1e9f);
+  }
+  if (in_range == 0) {
+    let length: f32 = blob_device_norm(node.x);
+    (*sample).value = select(select(length, 0.0f, length > 0.0f), 0.0f, length - length == 0.0f);
+    (*sample).distance = length - bitcast<f32>(blob_device_buffer[node.record + 3u]);
+    for (var i: i32 = 0; i < 3; i += 1) {
+      (*sample).gradient[i] = (*sample).value;
+      (*sample).normal[i] = select((*sample).value, node.x[i] / length, length > 0.0f && length <=
+          3e38f);
+    }
+    (*sample).node = (*cursor);
+    (*sample).state = 0u;
+    return;
+  }
+  if ((flags & BLOB_DEVICE_HOLD) == 0u) {
+    (*cursor) = blob_device_follow(v, point, (*cursor));
+    node = blob_device_at(v, (*cursor), point);
+  }
+  lane = blob_device_evaluate(v, node);
+  if ((flags & BLOB_DEVICE_LOCAL) == 0u) {
+    for (var e: u32 = 0u; e < node.neighbours; e += 1u) {
+      if (blob_device_difference(node, e) * bitcast<f32>(blob_device_buffer[node.neighbour +
+          (BLOB_DEVICE_NEIGHBOUR_WORDS * e + 4u)]) < 1.0f) {
+        blob_device_blend(v, point, (*cursor), &lane);
+        break;
+      }
+    }
+  }
+  blob_device_finish(v, lane, node.x, sample);
+  (*sample).node = (*cursor);
+}
+
+// ---------------------------------------------------------------- a kernel
+
+// Of a dispatch; groups_x is its number of workgroups along x.
+struct blob_query_batch {
+  vessel: u32,
+  flags: u32,
+  count: u32,
+  groups_x: u32,
+}
+
+// point: x, y, z of each point, mm. Cursors are read and moved. answer: distance in mm and
+// outward normal; value: f and its gradient; state: BLOB_DEVICE_INSIDE or 0.
+@group(0) @binding(1) var<uniform> blob_batch: blob_query_batch;
+@group(0) @binding(2) var<storage, read> blob_point: array<f32>;
+@group(0) @binding(3) var<storage, read_write> blob_cursor: array<u32>;
+@group(0) @binding(4) var<storage, read_write> blob_answer: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> blob_value: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> blob_state: array<u32>;
+
+@compute @workgroup_size(64)
+fn blob_query_points(@builtin(global_invocation_id) id: vec3<u32>) {
+  let i = id.y * blob_batch.groups_x * 64u + id.x;
+  if (i >= blob_batch.count) {
+    return;
+  }
+  let at = array<f32, 3>(blob_point[3u * i], blob_point[3u * i + 1u], blob_point[3u * i + 2u]);
+  var node = blob_cursor[i];
+  var s: blob_device_sample;
+  blob_device_query(0u, blob_batch.vessel, blob_batch.flags, at, &node, &s);
+  blob_cursor[i] = node;
+  blob_answer[i] = vec4<f32>(s.distance, s.normal[0], s.normal[1], s.normal[2]);
+  blob_value[i] = vec4<f32>(s.value, s.gradient[0], s.gradient[1], s.gradient[2]);
+  blob_state[i] = s.state;
+}
