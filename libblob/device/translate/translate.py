@@ -13,9 +13,11 @@ SKIPPED = 77
 def texts():
     """The text of each file by its path."""
     from c_query import Query
+    from warp_text import Warp
     from wgsl import Wgsl
     query = Query()
-    return {ROOT / "libblob/device/query.wgsl": Wgsl(query).text()}
+    return {ROOT / "libblob/device/query.wgsl": Wgsl(query).text(),
+            ROOT / "libblob/device/query_warp.py": Warp(query).text()}
 
 
 def main():

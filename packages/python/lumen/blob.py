@@ -15,17 +15,40 @@ from __future__ import annotations
 
 import os
 
+import numpy as np
+
 from . import _lumen
 from ._case import Case
-from ._lumen import Answer, Approaches, Cursor, Hits, Nearest
+from ._lumen import Answer, Approaches, Cursor, Hessian, Hits, Nearest
 
-__all__ = ["Answer", "Approaches", "BLENDED", "Cursor", "DISTANCE_EXACT", "HOLD", "Hits", "LOCAL",
-           "Model", "Nearest"]
+__all__ = ["Answer", "Approaches", "BLENDED", "Cursor", "DISTANCE_EXACT", "HOLD", "Hessian", "Hits",
+           "LOCAL", "Model", "Nearest", "check_packed", "pack"]
 
 BLENDED = 0  #: the wall of the case: models of neighbours blend
 LOCAL = 1  #: the model of the cursor's node answers alone, the fastest
 DISTANCE_EXACT = 2  #: distance and normal refer to the nearest point of the wall
 HOLD = 4  #: cursors do not move
+
+
+def pack(models) -> np.ndarray:
+    """One flat buffer of models, from which libblob's header blob_device.h answers on any processor.
+
+    Parameters
+    ----------
+    models : Model or sequence of Model
+        At least one; vessel i of the buffer is model i.
+
+    Returns
+    -------
+    (n,) uint32, which needs no pointer: upload it, or write it by tofile()
+    """
+    return _lumen.pack([models] if isinstance(models, _lumen.Model) else list(models))
+
+
+def check_packed(words) -> None:
+    """Raises lumen.Error unless `words`, (n,) uint32, is a whole buffer of pack(). A query of a buffer
+    that passes reads nothing outside of it."""
+    _lumen.check_packed(np.ascontiguousarray(words, np.uint32))
 
 
 class Model(_lumen.Model):

@@ -6,7 +6,9 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "formats/case/case_file.h"
@@ -22,6 +24,7 @@ namespace lumen::python {
 namespace {
 
 using Samples = Records<blob_sample>;
+using Hessians = Records<blob_hessian>;
 using NearestPoints = Records<blob_nearest_point>;
 using Hits = Records<blob_hit>;
 using Approaches = Records<blob_approach>;
@@ -119,6 +122,15 @@ std::unique_ptr<Records<Record>> forEach(const PackedPoints& points, CursorObjec
   return records;
 }
 
+std::unique_ptr<Hessians> hessian(const ModelObject& self, const py::object& points,
+                                  CursorObject* cursor, std::uint32_t flags) {
+  const PackedPoints packed(points, "points");
+  return forEach<blob_hessian>(
+      packed, cursor, [&](std::size_t, const double* point, std::uint32_t* node, auto* out) {
+        blob_query_hessian(self.model.get(), flags, point, node, out);
+      });
+}
+
 std::unique_ptr<NearestPoints> nearest(const ModelObject& self, const py::object& points,
                                        CursorObject* cursor, std::uint32_t flags, double tolerance,
                                        std::uint32_t maxSteps) {
@@ -204,6 +216,11 @@ void addAnswers(py::module_& module) {
              column("normal", &blob_sample::normal), column("node", &blob_sample::node));
   addTruth(answer, "inside", &blob_sample::state, BLOB_INSIDE);
   addTruth(answer, "not_converged", &blob_sample::state, BLOB_NOT_CONVERGED);
+  py::class_<Hessians> hessians(module, "Hessian");
+  addColumns(hessians, column("value", &blob_hessian::value),
+             column("gradient", &blob_hessian::gradient), column("hessian", &blob_hessian::hessian),
+             column("mean_curvature", &blob_hessian::mean_curvature),
+             column("gaussian_curvature", &blob_hessian::gaussian_curvature));
   py::class_<NearestPoints> points(module, "Nearest");
   addColumns(points, column("point", &blob_nearest_point::point),
              column("normal", &blob_nearest_point::normal),
@@ -240,6 +257,7 @@ void addQueries(py::class_<ModelObject, SharedModel>& model) {
   const auto tolerance = py::arg("tolerance") = 0.0;
   const auto steps = py::arg("max_steps") = 0u;
   model.def("query", &query, py::arg("points"), cursor, flags, py::arg("out") = py::none());
+  model.def("hessian", &hessian, py::arg("points"), cursor, flags);
   model.def("nearest", &nearest, py::arg("points"), cursor, flags, tolerance, steps);
   model.def("segment_hits", &segmentHits, py::arg("starts"), py::arg("ends"), cursor, flags,
             tolerance, steps);
@@ -263,6 +281,29 @@ void addFacts(py::class_<ModelObject, SharedModel>& model) {
   });
 }
 
+using Words = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
+
+/// Models as the words of one buffer (blob_device.h). Raises ValueError without a model and for
+/// models of 16 GiB or more, MemoryError without memory.
+Words packed(const std::vector<SharedModel>& models) {
+  std::vector<const blob_model*> pointers;
+  for (const SharedModel& model : models) pointers.push_back(model->model.get());
+  const std::size_t size = blob_device_pack(pointers.data(), pointers.size(), nullptr, 0);
+  if (size == 0) throw py::value_error("models: expected at least one, and less than 16 GiB");
+  Words words(static_cast<py::ssize_t>(size / sizeof(std::uint32_t)));
+  if (blob_device_pack(pointers.data(), pointers.size(), words.mutable_data(), size) != size)
+    throw std::bad_alloc();
+  return words;
+}
+
+/// Raises lumen.Error for words that are no buffer of pack().
+void checkPacked(const Words& words) {
+  const auto size = static_cast<std::size_t>(words.size()) * sizeof(std::uint32_t);
+  const blob_status status = blob_device_check(words.data(), size);
+  if (status != BLOB_OK)
+    raise(invalidInput(std::string("packed models: ") + blob_status_text(status)), "");
+}
+
 }  // namespace
 
 void addBlob(py::module_& module) {
@@ -274,6 +315,8 @@ void addBlob(py::module_& module) {
   addQueries(model);
   addFacts(model);
   model.attr("__module__") = "lumen.blob";
+  module.def("pack", &packed, py::arg("models"));
+  module.def("check_packed", &checkPacked, py::arg("words"));
 }
 
 }  // namespace lumen::python

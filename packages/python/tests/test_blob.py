@@ -43,6 +43,27 @@ class BlobTest(unittest.TestCase):
         length = np.linalg.norm(answer.gradient, axis=1, keepdims=True)
         np.testing.assert_allclose(answer.normal, -answer.gradient / length, atol=1e-6)
 
+    def test_the_hessian_is_that_of_differences_of_the_gradient(self):
+        cursor = self.model.cursor(self.points)
+        flags = blob.LOCAL | blob.HOLD
+        answer = self.model.hessian(self.points, cursor.copy(), flags)
+        xx, yy, zz, xy, xz, yz = answer.hessian.T
+        for axis, row in enumerate(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))):
+            step = 1e-4 * np.eye(3)[axis]
+            ahead, behind = (self.model.hessian(self.points + s * step, cursor.copy(), flags).gradient for s in (1, -1))
+            np.testing.assert_allclose((ahead - behind) / 2e-4, np.stack(row, axis=1), atol=1e-4)
+        np.testing.assert_allclose(answer.value, self.model.query(self.points, cursor, flags).value, atol=1e-6)
+        self.assertEqual(self.model.hessian(self.points[0]).hessian.shape, (6,))
+
+    def test_models_are_packed_into_words_that_pass_the_check(self):
+        one, two = blob.pack(self.model), blob.pack([self.model, self.model])
+        self.assertEqual((one.dtype, one[3], two[3], one[2]), (np.uint32, 1, 2, len(one)))
+        blob.check_packed(two)
+        with self.assertRaisesRegex(lumen.Error, "packed models"):
+            blob.check_packed(two[:-1])
+        with self.assertRaisesRegex(ValueError, "at least one"):
+            blob.pack([])
+
     def test_all_layouts_give_the_same_bits(self):
         expected = self.model.query(self.points).distance
         layouts = (np.asfortranarray(self.points), np.repeat(self.points, 2, axis=0)[::2],

@@ -12,9 +12,9 @@ try:
 except ImportError:
     mypy = None
 
-# Modules that are not for users, aliases of types, classes that users do not make, pybind11's metaclass.
+# Modules that are not for users or need packages that are not here, aliases of types, classes that users do not make, pybind11's metaclass.
 EXPECTED = re.compile(r"lumen\._|lumen\.(blob\.)?(Floats|PathLike|Report|Seeds|VolumeLike|Doubles|Nodes|Truth) is not present"
-                      r"|.*metaclass differs|lumen\.(blob\.)?(Case|Mesh|Models|Points|Tree|Answer|Approaches|Hits|Nearest)"
+                      r"|lumen\.(torch|warp) failed to import|.*metaclass differs|lumen\.(blob\.)?(Case|Mesh|Models|Points|Tree|Answer|Approaches|Hessian|Hits|Nearest)"
                       r"\.__init__ is inconsistent")
 PROGRAM = """
 import lumen

@@ -1,0 +1,570 @@
+# SPDX-License-Identifier: Apache-2.0
+"""libblob's query for NVIDIA Warp, and blob_query_points(), a thread for each tool point.
+
+Generated from blob_device.h and blob_device_model.h, which explain each function and the buffer, by
+libblob/device/translate/translate.py; change those. A pointer of C into the buffer is the index of a
+word here: `words` is that of the buffer's first word, 0 unless other data lie before it. Functions
+return what C writes through pointers, after their result. Needs wp.where and wp.cast (Warp 1.7).
+"""
+import warp as wp
+
+# as the library rounds: no multiplication and addition become one; nothing is differentiated
+wp.set_module_options({"fuse_fp": False, "enable_backward": False})
+
+BLOB_DEVICE_MAGIC = wp.constant(wp.uint32(0x5642424c))
+BLOB_DEVICE_VERSION = wp.constant(wp.uint32(1))
+BLOB_DEVICE_HEADER_WORDS = wp.constant(wp.uint32(4))
+BLOB_DEVICE_VESSEL_WORDS = wp.constant(wp.uint32(8))
+BLOB_DEVICE_NODE_WORDS = wp.constant(wp.uint32(12))
+BLOB_DEVICE_NEIGHBOUR_WORDS = wp.constant(wp.uint32(6))
+BLOB_DEVICE_BLOB_WORDS = wp.constant(wp.uint32(5))
+BLOB_DEVICE_ALIGN_WORDS = wp.constant(wp.uint32(16))
+BLOB_DEVICE_BLENDED = wp.constant(wp.uint32(0))
+BLOB_DEVICE_LOCAL = wp.constant(wp.uint32(1))
+BLOB_DEVICE_HOLD = wp.constant(wp.uint32(4))
+BLOB_DEVICE_INSIDE = wp.constant(wp.uint32(1))
+BLOB_DEVICE_NOWHERE = wp.constant(wp.uint32(0xffffffff))
+BLOB_DEVICE_MOST_ACTIVE = wp.constant(24)
+
+blob_device_nodes = wp.types.vector(length=24, dtype=wp.uint32)
+
+
+@wp.struct
+class blob_device_sample:
+    value: wp.float32
+    gradient: wp.vec3
+    distance: wp.float32
+    normal: wp.vec3
+    node: wp.uint32
+    state: wp.uint32
+
+
+@wp.struct
+class blob_device_vessel:
+    words: wp.uint32
+    phi: wp.uint32
+    node_count: wp.uint32
+    nodes: wp.uint32
+    neighbours: wp.uint32
+    blobs: wp.uint32
+    level: wp.float32
+    transformed_level: wp.float32
+
+
+@wp.struct
+class blob_device_node:
+    record: wp.uint32
+    neighbour: wp.uint32
+    neighbours: wp.uint32
+    x: wp.vec3
+
+
+@wp.struct
+class blob_device_lane:
+    field: wp.vec4
+    shift: wp.float32
+    radius: wp.float32
+
+
+@wp.struct
+class blob_device_mixture:
+    nodes: blob_device_nodes
+    count: wp.int32
+    is_empty: wp.int32
+    weight: wp.vec4
+    excess: wp.vec4
+    field: wp.vec4
+    f0: wp.float32
+    shift: wp.float32
+    radius: wp.float32
+
+
+@wp.func
+def blob_device_load(buffer: wp.array(dtype=wp.uint32), index: wp.uint32):
+    return buffer[wp.int32(index)]
+
+
+@wp.func
+def blob_device_number(buffer: wp.array(dtype=wp.uint32), index: wp.uint32):
+    return wp.cast(buffer[wp.int32(index)], wp.float32)
+
+
+@wp.func
+def blob_device_lesser(a: wp.float32, b: wp.float32):
+    return wp.where(a < b, a, b)
+
+
+@wp.func
+def blob_device_greater(a: wp.float32, b: wp.float32):
+    return wp.where(b < a, a, b)
+
+
+@wp.func
+def blob_device_norm(v: wp.vec3):
+    return wp.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+
+
+@wp.func
+def blob_device_exp(unbounded: wp.float32):
+    x = wp.where(unbounded < -87.0, -87.0, wp.where(unbounded > 88.0, 88.0, unbounded))
+    n = wp.int32(x * 1.44269504 + wp.where(x < 0.0, -0.5, 0.5))
+    r = x - wp.float32(n) * 0.693359375 - wp.float32(n) * -2.12194440e-4
+    p = wp.float32(1.9875691500e-4)
+    power = wp.uint32(0)
+    p = p * r + 1.3981999507e-3
+    p = p * r + 8.3334519073e-3
+    p = p * r + 4.1665795894e-2
+    p = p * r + 1.6666665459e-1
+    p = p * r + 5.0000001201e-1
+    power = wp.uint32(n + 127) << wp.uint32(23)
+    return (p * (r * r) + (r + 1.0)) * wp.cast(power, wp.float32)
+
+
+@wp.func
+def blob_device_log(x: wp.float32):
+    bits = wp.uint32(0)
+    exponent = wp.int32(0)
+    m = wp.float32(0.0)
+    p = wp.float32(0.0)
+    e = wp.float32(0.0)
+    square = wp.float32(0.0)
+    bits = wp.cast(x, wp.uint32)
+    exponent = wp.int32(bits >> wp.uint32(23)) - 126
+    bits = (bits & wp.uint32(0x007fffff)) | wp.uint32(0x3f000000)
+    m = wp.cast(bits, wp.float32)
+    if m < 0.70710678:
+        exponent -= 1
+        m = m + m
+    m -= 1.0
+    p = wp.float32(7.0376836292e-2)
+    p = p * m + -1.1514610310e-1
+    p = p * m + 1.1676998740e-1
+    p = p * m + -1.2420140846e-1
+    p = p * m + 1.4249322787e-1
+    p = p * m + -1.6668057665e-1
+    p = p * m + 2.0000714765e-1
+    p = p * m + -2.4999993993e-1
+    p = p * m + 3.3333331174e-1
+    e = wp.float32(exponent)
+    square = m * m
+    return m + (m * square * p + e * -2.12194440e-4 - 0.5 * square) + e * 0.693359375
+
+
+@wp.func
+def blob_device_open(buffer: wp.array(dtype=wp.uint32), words: wp.uint32, index: wp.uint32):
+    at = BLOB_DEVICE_HEADER_WORDS + BLOB_DEVICE_VESSEL_WORDS * index
+    v = blob_device_vessel()
+    v.words = words
+    v.phi = blob_device_load(buffer, words + at)
+    v.node_count = blob_device_load(buffer, words + (at + wp.uint32(1)))
+    v.nodes = blob_device_load(buffer, words + (at + wp.uint32(2)))
+    v.neighbours = blob_device_load(buffer, words + (at + wp.uint32(3)))
+    v.blobs = blob_device_load(buffer, words + (at + wp.uint32(4)))
+    v.level = blob_device_number(buffer, words + (at + wp.uint32(5)))
+    v.transformed_level = blob_device_number(buffer, words + (at + wp.uint32(6)))
+    return v
+
+
+@wp.func
+def blob_device_at(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, index: wp.uint32,
+        point: wp.vec3):
+    node = blob_device_node()
+    square = wp.float32(0.0)
+    node.record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index
+    for i in range(3):
+        node.x[i] = point[i] - blob_device_number(buffer, node.record + wp.uint32(i))
+    square = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2]
+    node.neighbours = blob_device_load(buffer, node.record + wp.uint32(11))
+    if node.neighbours > wp.uint32(8) and square < blob_device_number(buffer, node.record +
+            wp.uint32(7)):
+        node.neighbours = wp.uint32(8)
+    node.neighbour = (v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
+            blob_device_load(buffer, node.record + wp.uint32(10)))
+    return node
+
+
+@wp.func
+def blob_device_difference(buffer: wp.array(dtype=wp.uint32), node: blob_device_node, e: wp.uint32):
+    k = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e
+    return (blob_device_number(buffer, k) * node.x[0] + blob_device_number(buffer, k + wp.uint32(1))
+            * node.x[1] + blob_device_number(buffer, k + wp.uint32(2)) * node.x[2] +
+            blob_device_number(buffer, k + wp.uint32(3)))
+
+
+@wp.func
+def blob_device_follow(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, point: wp.vec3,
+        start: wp.uint32):
+    before = start
+    node = start
+    for step in range(256):
+        here = blob_device_at(buffer, v, node, point)
+        next = node
+        least = wp.float32(0.0)
+        for index_2 in range(wp.int32(here.neighbours)):
+            e = wp.uint32(index_2)
+            difference = blob_device_difference(buffer, here, e)
+            k = blob_device_load(buffer, here.neighbour +
+                    (BLOB_DEVICE_NEIGHBOUR_WORDS * e + wp.uint32(5)))
+            if difference < least or ((difference == least and next != node) and k < next):
+                least = difference
+                next = k
+        if next == node or next == before:
+            break
+        before = node
+        node = next
+    return node
+
+
+@wp.func
+def blob_device_locate(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, point: wp.vec3):
+    best = wp.uint32(0)
+    least = wp.float32(3e38)
+    for index_1 in range(wp.int32(v.node_count)):
+        i = wp.uint32(index_1)
+        node = blob_device_at(buffer, v, i, point)
+        r = blob_device_number(buffer, node.record + wp.uint32(3))
+        power = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2] - r * r
+        if power < least:
+            least = power
+            best = i
+    return best
+
+
+@wp.func
+def blob_device_term(phi: wp.uint32, u: wp.float32, a: wp.float32, w: wp.float32,
+        slope: wp.float32):
+    q = wp.float32(0.0)
+    value = wp.float32(0.0)
+    if phi == wp.uint32(0):
+        q = 1.0 / (1.0 + u)
+        value = w * (q * q)
+        slope = -4.0 * a * (value * q)
+        return value, slope
+    if phi == wp.uint32(1):
+        value = w * blob_device_exp(-u)
+        slope = -2.0 * a * value
+        return value, slope
+    q = blob_device_greater(1.0 - u, 0.0)
+    if phi == wp.uint32(2):
+        slope = -4.0 * a * (w * q)
+        return w * (q * q), slope
+    slope = -2.0 / 9.0 * a * (w * q) * (10.0 + 12.0 * q)
+    return w * (q * q) * (5.0 + 4.0 * q) * (1.0 / 9.0), slope
+
+
+@wp.func
+def blob_device_square(buffer: wp.array(dtype=wp.uint32), blob: wp.uint32, at: wp.vec3, d: wp.vec3):
+    for i in range(3):
+        d[i] = at[i] - blob_device_number(buffer, blob + wp.uint32(i))
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2], d
+
+
+@wp.func
+def blob_device_evaluate(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        node: blob_device_node):
+    count = blob_device_load(buffer, node.record + wp.uint32(9))
+    first = (v.words + v.blobs + BLOB_DEVICE_BLOB_WORDS *
+            blob_device_load(buffer, node.record + wp.uint32(8)))
+    lane = blob_device_lane()
+    at = wp.vec3()
+    d = wp.vec3()
+    lane.shift = wp.float32(0.0)
+    lane.radius = blob_device_number(buffer, node.record + wp.uint32(3))
+    for i in range(3):
+        at[i] = node.x[i] + blob_device_number(buffer, node.record + wp.uint32(4 + i))
+    for i in range(4):
+        lane.field[i] = wp.float32(0.0)
+    if v.phi == wp.uint32(1) and count > wp.uint32(0):
+        lane.shift = wp.float32(3e38)
+        for index_1 in range(wp.int32(count)):
+            j = wp.uint32(index_1)
+            blob = first + BLOB_DEVICE_BLOB_WORDS * j
+            result_2, d = blob_device_square(buffer, blob, at, d)
+            lane.shift = blob_device_lesser(blob_device_number(buffer, blob + wp.uint32(3)) *
+                    result_2, lane.shift)
+    for index_4 in range(wp.int32(count)):
+        j = wp.uint32(index_4)
+        blob = first + BLOB_DEVICE_BLOB_WORDS * j
+        a = blob_device_number(buffer, blob + wp.uint32(3))
+        slope = wp.float32(0.0)
+        result_5, d = blob_device_square(buffer, blob, at, d)
+        u = a * result_5
+        u = wp.where(v.phi == wp.uint32(1), blob_device_greater(u - lane.shift, 0.0), u)
+        result_7, slope = blob_device_term(v.phi, u, a,
+                blob_device_number(buffer, blob + wp.uint32(4)), slope)
+        lane.field[0] += result_7
+        for i in range(3):
+            lane.field[1 + i] += slope * d[i]
+    return lane
+
+
+@wp.func
+def blob_device_step(s: wp.float32):
+    return (6.0 * s - 15.0) * s + 10.0
+
+
+@wp.func
+def blob_device_add_active(sum: blob_device_mixture, k: wp.uint32):
+    for i in range(sum.count):
+        if sum.nodes[i] == k:
+            return sum
+    if sum.count < BLOB_DEVICE_MOST_ACTIVE:
+        sum.nodes[sum.count] = k
+        sum.count += 1
+    return sum
+
+
+@wp.func
+def blob_device_is_neighbour(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        node: wp.uint32, k: wp.uint32):
+    record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * node
+    first = (v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
+            blob_device_load(buffer, record + wp.uint32(10)))
+    for index_1 in range(wp.int32(blob_device_load(buffer, record + wp.uint32(11)))):
+        e = wp.uint32(index_1)
+        if blob_device_load(buffer, first + (BLOB_DEVICE_NEIGHBOUR_WORDS * e + wp.uint32(5))) == k:
+            return wp.int32(1)
+    return wp.int32(0)
+
+
+@wp.func
+def blob_device_weigh(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, index: wp.uint32,
+        node: blob_device_node, sum: blob_device_mixture, gradient: wp.vec3):
+    u = wp.float32(1.0)
+    for i in range(3):
+        gradient[i] = wp.float32(0.0)
+    for index_1 in range(wp.int32(node.neighbours)):
+        e = wp.uint32(index_1)
+        k = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e
+        inverse_tau = blob_device_number(buffer, k + wp.uint32(4))
+        t = blob_device_difference(buffer, node, e) * inverse_tau
+        s = 0.5 + 0.5 * t
+        sp = s * blob_device_step(s)
+        if not (t < 1.0):
+            continue
+        u = wp.where(t < -1.0 or s <= 0.0, 0.0, u * (s * s * sp))
+        if not (u > 1e-20):
+            return wp.float32(0.0), sum, gradient
+        for i in range(3):
+            gradient[i] += (15.0 * ((1.0 - s) * (1.0 - s)) * inverse_tau / sp *
+                    blob_device_number(buffer, k + wp.uint32(i)))
+        if index == sum.nodes[0] or blob_device_is_neighbour(buffer, v, sum.nodes[0],
+                blob_device_load(buffer, k + wp.uint32(5))) == 0:
+            sum = blob_device_add_active(sum, blob_device_load(buffer, k + wp.uint32(5)))
+    for i in range(3):
+        gradient[i] *= u
+    return u, sum, gradient
+
+
+@wp.func
+def blob_device_share_shift(first: wp.float32, second: wp.float32, of_first: wp.float32,
+        of_second: wp.float32):
+    difference = first - second
+    of_first = wp.float32(1.0)
+    of_second = wp.float32(1.0)
+    if difference <= 60.0:
+        of_second = blob_device_exp(difference)
+    else:
+        first = second
+        of_first = blob_device_exp(-difference)
+    return first, of_first, of_second
+
+
+@wp.func
+def blob_device_add(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, own: blob_device_lane,
+        u: wp.float32, gradient: wp.vec3, sum: blob_device_mixture):
+    of_sum = wp.float32(1.0)
+    of_own = wp.float32(1.0)
+    above = wp.float32(0.0)
+    if sum.is_empty != 0:
+        sum.is_empty = wp.int32(0)
+        sum.f0 = own.field[0]
+        sum.shift = own.shift
+    elif v.phi == wp.uint32(1):
+        copy_1, of_sum, of_own = blob_device_share_shift(sum.shift, own.shift, of_sum, of_own)
+        sum.shift = copy_1
+        sum.f0 *= of_sum
+        for i in range(4):
+            sum.excess[i] *= of_sum
+            sum.field[i] *= of_sum
+    above = of_own * own.field[0] - sum.f0
+    sum.weight[0] += u
+    sum.excess[0] += above * u
+    sum.field[0] += u * (of_own * own.field[0])
+    for i in range(3):
+        sum.weight[i + 1] += gradient[i]
+        sum.excess[i + 1] += above * gradient[i]
+        sum.field[i + 1] += u * (of_own * own.field[i + 1])
+    sum.radius += u * own.radius
+    return sum
+
+
+@wp.func
+def blob_device_blend(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, point: wp.vec3,
+        start: wp.uint32, lane: blob_device_lane):
+    sum = blob_device_mixture()
+    gradient = wp.vec3()
+    inverse = wp.float32(0.0)
+    excess = wp.float32(0.0)
+    for i in range(4):
+        sum.field[i] = wp.float32(0.0)
+        sum.excess[i] = wp.float32(0.0)
+        sum.weight[i] = wp.float32(0.0)
+    sum.shift = wp.float32(0.0)
+    sum.f0 = wp.float32(0.0)
+    sum.radius = wp.float32(0.0)
+    sum.is_empty = wp.int32(1)
+    sum.nodes[0] = start
+    sum.count = wp.int32(1)
+    n = wp.int32(0)
+    while n < sum.count:
+        before = sum.count
+        node = blob_device_at(buffer, v, sum.nodes[n], point)
+        result_2, sum, gradient = blob_device_weigh(buffer, v, sum.nodes[n], node, sum, gradient)
+        u = result_2
+        if u > 0.0:
+            own = blob_device_lane()
+            if n == 0:
+                own = lane
+            else:
+                own = blob_device_evaluate(buffer, v, node)
+            sum = blob_device_add(buffer, v, own, u, gradient, sum)
+        else:
+            sum.count = before
+        n += 1
+    if sum.is_empty != 0:
+        return lane
+    inverse = 1.0 / sum.weight[0]
+    excess = sum.excess[0] * inverse
+    lane.field[0] = sum.f0 + excess
+    for i in range(1, 4):
+        lane.field[i] = (sum.field[i] + (sum.excess[i] - excess * sum.weight[i])) * inverse
+    lane.shift = sum.shift
+    lane.radius = sum.radius * inverse
+    return lane
+
+
+@wp.func
+def blob_device_level(phi: wp.uint32, f: wp.float32, shift: wp.float32, relative: wp.float32,
+        slope: wp.float32):
+    h = wp.float32(0.0)
+    if phi == wp.uint32(1):
+        slope = relative
+        return shift - blob_device_log(f), slope
+    h = wp.where(phi == wp.uint32(0), wp.sqrt(1.0 / f), 0.0 - wp.sqrt(f))
+    slope = wp.where(phi == wp.uint32(0), 0.5, -0.5) * h * relative
+    return h, slope
+
+
+@wp.func
+def blob_device_wall(difference: wp.float32, slope: wp.float32, radius: wp.float32,
+        inside: wp.int32):
+    d = wp.where(difference < 0.0, -difference, difference)
+    gr = slope * radius
+    s = wp.sqrt(d * d + gr * gr)
+    t = gr + s
+    if not (d > 0.0):
+        return wp.float32(0.0)
+    return (d * (t + d) * wp.where(inside != 0, -radius, 1.0) /
+            (t * wp.where(inside != 0, d + s, slope)))
+
+
+@wp.func
+def blob_device_finish(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        lane: blob_device_lane, at: wp.vec3, sample: blob_device_sample):
+    f = lane.field[0]
+    inverse_f = 1.0 / f
+    to_centre = blob_device_norm(at)
+    scale = wp.where(v.phi != wp.uint32(1), 1.0, wp.where(lane.shift > 87.0, 0.0,
+            blob_device_exp(-lane.shift)))
+    e = wp.vec3()
+    length = wp.float32(0.0)
+    h = wp.float32(0.0)
+    slope = wp.float32(0.0)
+    inside = wp.int32(0)
+    sample.value = f * scale
+    for i in range(3):
+        e[i] = lane.field[1 + i] * inverse_f
+        sample.gradient[i] = lane.field[1 + i] * scale
+    inside = wp.where(sample.value > v.level, 1, 0)
+    length = blob_device_norm(e)
+    result_4, slope = blob_device_level(v.phi, f, lane.shift, length, slope)
+    h = result_4
+    sample.distance = blob_device_wall(v.transformed_level - h, slope, lane.radius, inside)
+    if inside == 0:
+        sample.distance = blob_device_lesser(sample.distance, to_centre + lane.radius)
+        if not (f > 1e-20):
+            sample.distance = blob_device_greater(to_centre - lane.radius, 0.0)
+            for i in range(3):
+                e[i] = -at[i]
+            length = to_centre
+    for i in range(3):
+        sample.normal[i] = wp.where(length > 0.0, e[i] * (-1.0 / length), 0.0)
+    sample.state = wp.where(inside != 0, BLOB_DEVICE_INSIDE, wp.uint32(0))
+    return sample
+
+
+@wp.func
+def blob_device_query(buffer: wp.array(dtype=wp.uint32), words: wp.uint32, vessel: wp.uint32,
+        flags: wp.uint32, point: wp.vec3, cursor: wp.uint32, sample: blob_device_sample):
+    v = blob_device_open(buffer, words, vessel)
+    node = blob_device_node()
+    lane = blob_device_lane()
+    in_range = wp.int32(1)
+    if cursor >= v.node_count:
+        cursor = blob_device_locate(buffer, v, point)
+    node = blob_device_at(buffer, v, cursor, point)
+    for i in range(3):
+        in_range = wp.where((in_range != 0 and node.x[i] <= 1e9) and node.x[i] >= -1e9, 1, 0)
+    if in_range == 0:
+        length = blob_device_norm(node.x)
+        sample.value = wp.where(length - length == 0.0, 0.0, wp.where(length > 0.0, 0.0, length))
+        sample.distance = length - blob_device_number(buffer, node.record + wp.uint32(3))
+        for i in range(3):
+            sample.gradient[i] = sample.value
+            sample.normal[i] = wp.where(length > 0.0 and length <= 3e38, node.x[i] / length,
+                    sample.value)
+        sample.node = cursor
+        sample.state = wp.uint32(0)
+        return cursor, sample
+    if (flags & BLOB_DEVICE_HOLD) == wp.uint32(0):
+        cursor = blob_device_follow(buffer, v, point, cursor)
+        node = blob_device_at(buffer, v, cursor, point)
+    lane = blob_device_evaluate(buffer, v, node)
+    if (flags & BLOB_DEVICE_LOCAL) == wp.uint32(0):
+        for index_8 in range(wp.int32(node.neighbours)):
+            e = wp.uint32(index_8)
+            if blob_device_difference(buffer, node, e) * blob_device_number(buffer, node.neighbour +
+                    (BLOB_DEVICE_NEIGHBOUR_WORDS * e + wp.uint32(4))) < 1.0:
+                lane = blob_device_blend(buffer, v, point, cursor, lane)
+                break
+    sample = blob_device_finish(buffer, v, lane, node.x, sample)
+    sample.node = cursor
+    return cursor, sample
+
+
+@wp.kernel
+def blob_query_points(
+    buffer: wp.array(dtype=wp.uint32),
+    vessel: wp.uint32,
+    flags: wp.uint32,
+    point: wp.array(dtype=wp.vec3),
+    cursor: wp.array(dtype=wp.uint32),
+    distance: wp.array(dtype=wp.float32),
+    normal: wp.array(dtype=wp.vec3),
+    value: wp.array(dtype=wp.float32),
+    gradient: wp.array(dtype=wp.vec3),
+    state: wp.array(dtype=wp.uint32),
+):
+    """Points, mm; cursors are read and moved. Answers: distance in mm and outward normal, f and its
+    gradient, BLOB_DEVICE_INSIDE or 0."""
+    i = wp.tid()
+    sample = blob_device_sample()
+    node = cursor[i]
+    node, sample = blob_device_query(buffer, wp.uint32(0), vessel, flags, point[i], node, sample)
+    cursor[i] = node
+    distance[i] = sample.distance
+    normal[i] = sample.normal
+    value[i] = sample.value
+    gradient[i] = sample.gradient
+    state[i] = sample.state
