@@ -8,6 +8,11 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component blob)
+foreach(file query.cl query.cu query.wgsl query_warp.py)
+  if(NOT EXISTS ${WORK}/prefix/share/libblob/${file})
+    message(FATAL_ERROR "share/libblob/${file} is not installed")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build -D CMAKE_PREFIX_PATH=${WORK}/prefix
   -D CMAKE_C_COMPILER=${CC})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
