@@ -124,6 +124,7 @@ def main():
         for file in sorted(package.iterdir()):
             if file.suffix in (".py", ".pyi", ".so", ".typed"):
                 shutil.copyfile(file, tree / "lumen" / file.name)
+        shutil.copytree(package / "device", tree / "lumen/device")
         module, = (tree / "lumen").glob("_lumen.*.so")
         python = re.search(r"cpython-3(\d+)", module.name)[1]
         copies, needed = bundle(module, tree / "lumen.libs")

@@ -2,7 +2,7 @@
 if(NOT TARGET lumen_python OR NOT HAS_NUMPY)
   return()
 endif()
-foreach(part case operations blob torch warp stubs notebook)
+foreach(part case operations blob opencl torch warp stubs notebook)
   python_test(PythonPackage.${part} foreign -W error::ResourceWarning -m unittest test_${part})
   set_tests_properties(PythonPackage.${part} PROPERTIES
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/packages/python/tests

@@ -14,6 +14,7 @@ defines each number.
 from __future__ import annotations
 
 import os
+import pathlib
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from ._case import Case
 from ._lumen import Answer, Approaches, Cursor, Hessian, Hits, Nearest
 
 __all__ = ["Answer", "Approaches", "BLENDED", "Cursor", "DISTANCE_EXACT", "HOLD", "Hessian", "Hits",
-           "LOCAL", "Model", "Nearest", "check_packed", "pack"]
+           "LOCAL", "Model", "Nearest", "check_packed", "device_sources", "pack"]
 
 BLENDED = 0  #: the wall of the case: models of neighbours blend
 LOCAL = 1  #: the model of the cursor's node answers alone, the fastest
@@ -49,6 +50,12 @@ def check_packed(words) -> None:
     """Raises lumen.Error unless `words`, (n,) uint32, is a whole buffer of pack(). A query of a buffer
     that passes reads nothing outside of it."""
     _lumen.check_packed(np.ascontiguousarray(words, np.uint32))
+
+
+def device_sources() -> pathlib.Path:
+    """The folder with the query of a packed buffer as sources: blob_device.h and blob_device_model.h, which
+    query.cl (OpenCL) and query.cu (CUDA) include, and query.wgsl (WebGPU)."""
+    return pathlib.Path(__file__).resolve().parent / "device"
 
 
 class Model(_lumen.Model):
