@@ -144,9 +144,9 @@ fn blob_device_at(v: blob_device_vessel, index: u32, point: array<f32, 3>) -> bl
   var node: blob_device_node;
   var square: f32;
   node.record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index;
-  for (var i: i32 = 0; i < 3; i += 1) {
-    node.x[i] = point[i] - bitcast<f32>(blob_device_buffer[node.record + u32(i)]);
-  }
+  node.x[0] = point[0] - bitcast<f32>(blob_device_buffer[node.record]);
+  node.x[1] = point[1] - bitcast<f32>(blob_device_buffer[node.record + 1u]);
+  node.x[2] = point[2] - bitcast<f32>(blob_device_buffer[node.record + 2u]);
   square = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2];
   node.neighbours = blob_device_buffer[node.record + 11u];
   if (node.neighbours > 8u && square < bitcast<f32>(blob_device_buffer[node.record + 7u])) {
@@ -227,9 +227,9 @@ fn blob_device_term(phi: u32, u: f32, a: f32, w: f32, slope: ptr<function, f32>)
 }
 
 fn blob_device_square(blob: u32, at: array<f32, 3>, d: ptr<function, array<f32, 3>>) -> f32 {
-  for (var i: i32 = 0; i < 3; i += 1) {
-    (*d)[i] = at[i] - bitcast<f32>(blob_device_buffer[blob + u32(i)]);
-  }
+  (*d)[0] = at[0] - bitcast<f32>(blob_device_buffer[blob]);
+  (*d)[1] = at[1] - bitcast<f32>(blob_device_buffer[blob + 1u]);
+  (*d)[2] = at[2] - bitcast<f32>(blob_device_buffer[blob + 2u]);
   return (*d)[0] * (*d)[0] + (*d)[1] * (*d)[1] + (*d)[2] * (*d)[2];
 }
 
@@ -242,12 +242,13 @@ fn blob_device_evaluate(v: blob_device_vessel, node: blob_device_node) -> blob_d
   var d: array<f32, 3>;
   lane.shift = 0.0f;
   lane.radius = bitcast<f32>(blob_device_buffer[node.record + 3u]);
-  for (var i: i32 = 0; i < 3; i += 1) {
-    at[i] = node.x[i] + bitcast<f32>(blob_device_buffer[node.record + u32(4 + i)]);
-  }
-  for (var i: i32 = 0; i < 4; i += 1) {
-    lane.field[i] = 0.0f;
-  }
+  at[0] = node.x[0] + bitcast<f32>(blob_device_buffer[node.record + 4u]);
+  at[1] = node.x[1] + bitcast<f32>(blob_device_buffer[node.record + 5u]);
+  at[2] = node.x[2] + bitcast<f32>(blob_device_buffer[node.record + 6u]);
+  lane.field[0] = 0.0f;
+  lane.field[1] = 0.0f;
+  lane.field[2] = 0.0f;
+  lane.field[3] = 0.0f;
   if (v.phi == 1u && count > 0u) {
     lane.shift = 3e38f;
     for (var j: u32 = 0u; j < count; j += 1u) {
@@ -264,9 +265,9 @@ fn blob_device_evaluate(v: blob_device_vessel, node: blob_device_node) -> blob_d
     u = select(u, blob_device_greater(u - lane.shift, 0.0f), v.phi == 1u);
     lane.field[0] += blob_device_term(v.phi, u, a, bitcast<f32>(blob_device_buffer[blob + 4u]),
         &slope);
-    for (var i: i32 = 0; i < 3; i += 1) {
-      lane.field[1 + i] += slope * d[i];
-    }
+    lane.field[1] += slope * d[0];
+    lane.field[2] += slope * d[1];
+    lane.field[3] += slope * d[2];
   }
   return lane;
 }
@@ -302,9 +303,9 @@ fn blob_device_is_neighbour(v: blob_device_vessel, node: u32, k: u32) -> i32 {
 fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node, sum: ptr<function,
     blob_device_mixture>, gradient: ptr<function, array<f32, 3>>) -> f32 {
   var u: f32 = 1.0f;
-  for (var i: i32 = 0; i < 3; i += 1) {
-    (*gradient)[i] = 0.0f;
-  }
+  (*gradient)[0] = 0.0f;
+  (*gradient)[1] = 0.0f;
+  (*gradient)[2] = 0.0f;
   for (var e: u32 = 0u; e < node.neighbours; e += 1u) {
     let k: u32 = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e;
     let inverse_tau: f32 = bitcast<f32>(blob_device_buffer[k + 4u]);
@@ -318,18 +319,20 @@ fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node, 
     if (!(u > 1e-20f)) {
       return 0.0f;
     }
-    for (var i: i32 = 0; i < 3; i += 1) {
-      (*gradient)[i] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
-          bitcast<f32>(blob_device_buffer[k + u32(i)]);
-    }
+    (*gradient)[0] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
+        bitcast<f32>(blob_device_buffer[k]);
+    (*gradient)[1] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
+        bitcast<f32>(blob_device_buffer[k + 1u]);
+    (*gradient)[2] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
+        bitcast<f32>(blob_device_buffer[k + 2u]);
     if (index == (*sum).nodes[0] || blob_device_is_neighbour(v, (*sum).nodes[0],
         blob_device_buffer[k + 5u]) == 0) {
       blob_device_add_active(sum, blob_device_buffer[k + 5u]);
     }
   }
-  for (var i: i32 = 0; i < 3; i += 1) {
-    (*gradient)[i] *= u;
-  }
+  (*gradient)[0] *= u;
+  (*gradient)[1] *= u;
+  (*gradient)[2] *= u;
   return u;
 }
 
@@ -360,20 +363,28 @@ fn blob_device_add(v: blob_device_vessel, own: blob_device_lane, u: f32, gradien
     blob_device_share_shift(&copy_1, own.shift, &of_sum, &of_own);
     (*sum).shift = copy_1;
     (*sum).f0 *= of_sum;
-    for (var i: i32 = 0; i < 4; i += 1) {
-      (*sum).excess[i] *= of_sum;
-      (*sum).field[i] *= of_sum;
-    }
+    (*sum).excess[0] *= of_sum;
+    (*sum).field[0] *= of_sum;
+    (*sum).excess[1] *= of_sum;
+    (*sum).field[1] *= of_sum;
+    (*sum).excess[2] *= of_sum;
+    (*sum).field[2] *= of_sum;
+    (*sum).excess[3] *= of_sum;
+    (*sum).field[3] *= of_sum;
   }
   above = of_own * own.field[0] - (*sum).f0;
   (*sum).weight[0] += u;
   (*sum).excess[0] += above * u;
   (*sum).field[0] += u * (of_own * own.field[0]);
-  for (var i: i32 = 0; i < 3; i += 1) {
-    (*sum).weight[i + 1] += gradient[i];
-    (*sum).excess[i + 1] += above * gradient[i];
-    (*sum).field[i + 1] += u * (of_own * own.field[i + 1]);
-  }
+  (*sum).weight[1] += gradient[0];
+  (*sum).excess[1] += above * gradient[0];
+  (*sum).field[1] += u * (of_own * own.field[1]);
+  (*sum).weight[2] += gradient[1];
+  (*sum).excess[2] += above * gradient[1];
+  (*sum).field[2] += u * (of_own * own.field[2]);
+  (*sum).weight[3] += gradient[2];
+  (*sum).excess[3] += above * gradient[2];
+  (*sum).field[3] += u * (of_own * own.field[3]);
   (*sum).radius += u * own.radius;
 }
 
@@ -383,11 +394,18 @@ fn blob_device_blend(v: blob_device_vessel, point: array<f32, 3>, start: u32, la
   var gradient: array<f32, 3>;
   var inverse: f32;
   var excess: f32;
-  for (var i: i32 = 0; i < 4; i += 1) {
-    sum.field[i] = 0.0f;
-    sum.excess[i] = 0.0f;
-    sum.weight[i] = 0.0f;
-  }
+  sum.field[0] = 0.0f;
+  sum.excess[0] = 0.0f;
+  sum.weight[0] = 0.0f;
+  sum.field[1] = 0.0f;
+  sum.excess[1] = 0.0f;
+  sum.weight[1] = 0.0f;
+  sum.field[2] = 0.0f;
+  sum.excess[2] = 0.0f;
+  sum.weight[2] = 0.0f;
+  sum.field[3] = 0.0f;
+  sum.excess[3] = 0.0f;
+  sum.weight[3] = 0.0f;
   sum.shift = 0.0f;
   sum.f0 = 0.0f;
   sum.radius = 0.0f;
@@ -416,9 +434,9 @@ fn blob_device_blend(v: blob_device_vessel, point: array<f32, 3>, start: u32, la
   inverse = 1.0f / sum.weight[0];
   excess = sum.excess[0] * inverse;
   (*lane).field[0] = sum.f0 + excess;
-  for (var i: i32 = 1; i < 4; i += 1) {
-    (*lane).field[i] = (sum.field[i] + (sum.excess[i] - excess * sum.weight[i])) * inverse;
-  }
+  (*lane).field[1] = (sum.field[1] + (sum.excess[1] - excess * sum.weight[1])) * inverse;
+  (*lane).field[2] = (sum.field[2] + (sum.excess[2] - excess * sum.weight[2])) * inverse;
+  (*lane).field[3] = (sum.field[3] + (sum.excess[3] - excess * sum.weight[3])) * inverse;
   (*lane).shift = sum.shift;
   (*lane).radius = sum.radius * inverse;
 }
@@ -459,10 +477,12 @@ fn blob_device_finish(v: blob_device_vessel, lane: blob_device_lane, at: array<f
   var slope: f32;
   var inside: i32;
   (*sample).value = f * scale;
-  for (var i: i32 = 0; i < 3; i += 1) {
-    e[i] = lane.field[1 + i] * inverse_f;
-    (*sample).gradient[i] = lane.field[1 + i] * scale;
-  }
+  e[0] = lane.field[1] * inverse_f;
+  (*sample).gradient[0] = lane.field[1] * scale;
+  e[1] = lane.field[2] * inverse_f;
+  (*sample).gradient[1] = lane.field[2] * scale;
+  e[2] = lane.field[3] * inverse_f;
+  (*sample).gradient[2] = lane.field[3] * scale;
   inside = select(0, 1, (*sample).value > v.level);
   length = blob_device_norm(e);
   h = blob_device_level(v.phi, f, lane.shift, length, &slope);
@@ -471,15 +491,15 @@ fn blob_device_finish(v: blob_device_vessel, lane: blob_device_lane, at: array<f
     (*sample).distance = blob_device_lesser((*sample).distance, to_centre + lane.radius);
     if (!(f > 1e-20f)) {
       (*sample).distance = blob_device_greater(to_centre - lane.radius, 0.0f);
-      for (var i: i32 = 0; i < 3; i += 1) {
-        e[i] = -at[i];
-      }
+      e[0] = -at[0];
+      e[1] = -at[1];
+      e[2] = -at[2];
       length = to_centre;
     }
   }
-  for (var i: i32 = 0; i < 3; i += 1) {
-    (*sample).normal[i] = select(0.0f, e[i] * (-1.0f / length), length > 0.0f);
-  }
+  (*sample).normal[0] = select(0.0f, e[0] * (-1.0f / length), length > 0.0f);
+  (*sample).normal[1] = select(0.0f, e[1] * (-1.0f / length), length > 0.0f);
+  (*sample).normal[2] = select(0.0f, e[2] * (-1.0f / length), length > 0.0f);
   (*sample).state = select(0u, BLOB_DEVICE_INSIDE, inside != 0);
 }
 
@@ -493,18 +513,22 @@ fn blob_device_query(words: u32, vessel: u32, flags: u32, point: array<f32, 3>,
     (*cursor) = blob_device_locate(v, point);
   }
   node = blob_device_at(v, (*cursor), point);
-  for (var i: i32 = 0; i < 3; i += 1) {
-    in_range = select(0, 1, (in_range != 0 && node.x[i] <= 1e9f) && node.x[i] >= -1e9f);
-  }
+  in_range = select(0, 1, (in_range != 0 && node.x[0] <= 1e9f) && node.x[0] >= -1e9f);
+  in_range = select(0, 1, (in_range != 0 && node.x[1] <= 1e9f) && node.x[1] >= -1e9f);
+  in_range = select(0, 1, (in_range != 0 && node.x[2] <= 1e9f) && node.x[2] >= -1e9f);
   if (in_range == 0) {
     let length: f32 = blob_device_norm(node.x);
     (*sample).value = select(select(length, 0.0f, length > 0.0f), 0.0f, length - length == 0.0f);
     (*sample).distance = length - bitcast<f32>(blob_device_buffer[node.record + 3u]);
-    for (var i: i32 = 0; i < 3; i += 1) {
-      (*sample).gradient[i] = (*sample).value;
-      (*sample).normal[i] = select((*sample).value, node.x[i] / length, length > 0.0f && length <=
-          3e38f);
-    }
+    (*sample).gradient[0] = (*sample).value;
+    (*sample).normal[0] = select((*sample).value, node.x[0] / length, length > 0.0f && length <=
+        3e38f);
+    (*sample).gradient[1] = (*sample).value;
+    (*sample).normal[1] = select((*sample).value, node.x[1] / length, length > 0.0f && length <=
+        3e38f);
+    (*sample).gradient[2] = (*sample).value;
+    (*sample).normal[2] = select((*sample).value, node.x[2] / length, length > 0.0f && length <=
+        3e38f);
     (*sample).node = (*cursor);
     (*sample).state = 0u;
     return;

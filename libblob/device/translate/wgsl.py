@@ -5,6 +5,7 @@ from pycparser import c_ast
 from c_query import Expression
 from writer import Writer
 
+MOST_WRITTEN_OUT = 4  # turns of a loop
 TYPES = {"float": "f32", "int": "i32", "word": "u32", "words": "u32", "bits": "u32", "bool": "bool"}
 
 HEAD = """\
@@ -169,6 +170,13 @@ class Wgsl(Writer):
         self.line("}")
 
     def count(self, counter, kind, start, bound, body):
+        """A loop over elements of an array is written out: some implementations index values by constants alone."""
+        if isinstance(bound, c_ast.Constant) and int(bound.value) <= MOST_WRITTEN_OUT:
+            for value in range(int(start), int(bound.value)):
+                self.known[counter] = value
+                self.statements(body)
+            del self.known[counter]
+            return
         self.line(f"for (var {counter}: {self.type(kind)} = {start}; {counter} < {self.value(bound, kind)}; "
                   f"{counter} += {self.literal(1, kind)}) {{")
         self.block(body)

@@ -14,6 +14,7 @@ class Writer:
     def __init__(self, query):
         self.query, self.lines, self.depth = query, [], 0
         self.variables, self.outputs, self.counters = {}, [], set()
+        self.known = {}  # the value of a counter whose loop is written out
         self.temporaries = 0
 
     # ------------------------------------------------------------ lines
@@ -118,6 +119,8 @@ class Writer:
         if node.name in self.query.constants:
             text = self.query.constants[node.name]
             return Expression(node.name, "word") if text.endswith("u") else Expression(node.name, "int")
+        if node.name in self.known:
+            return self.integer(self.known[node.name])
         kind = self.variables[node.name]
         if kind == BITS:
             raise ValueError("a union is used by its members alone")
@@ -134,9 +137,8 @@ class Writer:
     def of_arrayref(self, node):
         e = self.expression(node.name)
         if e.type == "words":
-            index = self.settled(self.converted(self.expression(node.subscript), "word"))
-            is_first = node.subscript.__class__ is c_ast.Constant and node.subscript.value == "0"
-            place = e if is_first else self.joined("+", e, index, "words")
+            index = self.expression(node.subscript)
+            place = e if index.literal == 0 else self.joined("+", e, self.converted(index, "word"), "words")
             return Expression(self.loaded(place.text), "word")
         index = self.settled(self.expression(node.subscript))
         return Expression(f"{e.text}[{index.text}]", e.type[1])
@@ -163,8 +165,8 @@ class Writer:
             return self.compared(node.op, a, b)
         if node.op in ("<<", ">>"):
             return self.joined(node.op, a, self.converted(b, "word"), a.type)
-        if a.literal is not None and b.literal is not None:
-            raise ValueError("an operation on two integer literals")
+        if a.literal is not None and b.literal is not None and node.op == "+":
+            return self.integer(a.literal + b.literal)
         a, b, kind = self.common(a, b)
         return self.joined(node.op, self.settled(a), self.settled(b), kind)
 
