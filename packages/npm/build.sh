@@ -16,7 +16,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cp -r "$root/packages/npm/blob" "$root/packages/npm/viewer" "$work/"
-cp "$root/libblob/wasm/blob.mjs" "$root/libblob/wasm/gpu.mjs" "$root/libblob/device/query.wgsl" "$work/blob/"
+cp "$root/libblob/wasm/blob.mjs" "$root/libblob/wasm/gpu.mjs" "$work/blob/"
 { # as a module, because bundlers differ in how they import texts; the shader has neither ` nor ${ nor a backslash
   echo "// SPDX-License-Identifier: Apache-2.0"
   echo "/** The text of query.wgsl. */"
