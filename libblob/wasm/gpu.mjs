@@ -14,13 +14,17 @@ export class GpuVessels {
    * @param {string} shader text of query.wgsl
    * @param {Uint32Array} words of Blob.pack(); throws a RangeError where they exceed the device's largest binding */
   constructor(device, shader, words) {
-    if (words.byteLength > device.limits.maxStorageBufferBindingSize)
-      throw new RangeError(`libblob: ${words.byteLength} bytes of vessels exceed the ${device.limits.maxStorageBufferBindingSize} that the device binds`);
+    const most = device.limits.maxStorageBufferBindingSize;
+    if (words.byteLength > most)
+      throw new RangeError(`libblob: ${words.byteLength} bytes of vessels exceed the ${most} that the device binds`);
     this.device = device;
+    /** Number of vessels. */
+    this.count = words[3];
     this.buffer = device.createBuffer({ size: words.byteLength, usage: kStorage | kCopyTarget });
     device.queue.writeBuffer(this.buffer, 0, words);
     const module = device.createShaderModule({ label: "libblob", code: shader });
-    this.pipeline = device.createComputePipeline({ label: "libblob", layout: "auto", compute: { module, entryPoint: "blob_query_points" } });
+    const compute = { module, entryPoint: "blob_query_points" };
+    this.pipeline = device.createComputePipeline({ label: "libblob", layout: "auto", compute });
   }
   /** Room for `count` points, at least one, and their answers, to be kept and used in every step. @param {number} count */
   batch(count) { return new GpuBatch(this, count); }
@@ -54,8 +58,10 @@ export class GpuBatch {
       entries: buffers.map((buffer, binding) => ({ binding, resource: { buffer } })) });
   }
   /** Sends points and cursors, and starts the shader; the answers stay in the device's buffers. The vessel is its index in
-   * the buffer. @param {number} [flags] LOCAL and HOLD of Flags @param {number} [vessel] */
+   * the buffer; throws a RangeError for none. @param {number} [flags] LOCAL and HOLD of Flags @param {number} [vessel] */
   dispatch(flags = 0, vessel = 0) {
+    const { count } = this.vessels;
+    if (!(vessel >= 0 && vessel < count)) throw new RangeError(`libblob: found vessel ${vessel}, expected less than ${count}`);
     const { device, pipeline } = this.vessels, groups = Math.ceil(this.count / kGroup), along = Math.min(groups, kMostGroups);
     device.queue.writeBuffer(this.uniform, 0, new Uint32Array([vessel, flags, this.count, along]));
     device.queue.writeBuffer(this.pointBuffer, 0, this.points);
@@ -67,7 +73,8 @@ export class GpuBatch {
     pass.end();
     device.queue.submit([encoder.finish()]);
   }
-  /** Asks for all points and reads the answers; rejects where the device is lost. One query of a batch runs at a time.
+  /** Asks for all points and reads the answers; rejects as dispatch() throws, and where the device is lost. One query of a
+   * batch runs at a time.
    * @param {number} [flags] LOCAL and HOLD of Flags @param {number} [vessel] its index in the buffer */
   async query(flags = 0, vessel = 0) {
     this.dispatch(flags, vessel);

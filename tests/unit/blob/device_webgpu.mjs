@@ -72,7 +72,8 @@ async function compare({ name, count, flags, near }) {
   here.cursors.set(there.cursors);
   here.query(flags);
   await there.query(flags, 1);
-  const result = { same: 0, leaks: 0, inside: 0, distance: 0, normal: 0, value: 0, mistake: globalThis.mistake };
+  const refused = await there.query(flags, 2).then(() => false, error => error instanceof RangeError);
+  const result = { refused, same: 0, leaks: 0, inside: 0, distance: 0, normal: 0, value: 0, mistake: globalThis.mistake };
   for (let i = 0; i < count; ++i) {
     const a = here.sample(i), b = there.sample(i);
     result.inside += Number(a.inside);
@@ -119,7 +120,7 @@ try {
         );
         if (r.mistake) console.log(r.mistake);
         const agree = r.same >= kSameNode * kPoints && r.leaks === 0 && r.distance <= kDistance && r.normal <= 1e-4 && r.value <= kDistance;
-        failed ||= !agree || r.mistake !== undefined || r.inside < kPoints / 20 || r.inside > 0.95 * kPoints;
+        failed ||= !agree || !r.refused || r.mistake !== undefined || r.inside < kPoints / 20 || r.inside > 0.95 * kPoints;
       }
 } finally {
   await browser.close();
