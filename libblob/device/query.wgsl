@@ -553,7 +553,7 @@ fn blob_device_query(words: u32, vessel: u32, flags: u32, point: array<f32, 3>,
 
 // ---------------------------------------------------------------- a kernel
 
-// Of a dispatch; groups_x is its number of workgroups along x.
+// Arguments of a dispatch; groups_x is the number of its workgroups along x.
 struct blob_query_batch {
   vessel: u32,
   flags: u32,

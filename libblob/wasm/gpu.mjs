@@ -49,7 +49,7 @@ export class GpuBatch {
     const { device } = vessels, make = (/** @type {number} */ size, /** @type {number} */ usage) => device.createBuffer({ size, usage });
     this.uniform = make(16, kUniform | kCopyTarget);
     this.pointBuffer = make(12 * count, kStorage | kCopyTarget);
-    /** What the shader writes: buffers of the device, with the array that each is read into. */
+    /** Outputs of the shader: buffers of the device, with the array that each is read into. */
     this.outputs = [this.cursors, this.answers, this.values, this.states].map(array => (
       { array, buffer: make(array.byteLength, kStorage | kCopySource | kCopyTarget) }));
     this.copy = make(this.outputs.reduce((sum, o) => sum + o.array.byteLength, 0), kMapRead | kCopyTarget);

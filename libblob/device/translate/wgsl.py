@@ -24,7 +24,7 @@ HEAD = """\
 TAIL = """
 // ---------------------------------------------------------------- a kernel
 
-// Of a dispatch; groups_x is its number of workgroups along x.
+// Arguments of a dispatch; groups_x is the number of its workgroups along x.
 struct blob_query_batch {
   vessel: u32,
   flags: u32,
