@@ -32,7 +32,7 @@ ROOMS = [
     {"voxels": []},
     {"io/content": [], "io/remote": [], "io/vtk": [], "io/volume": [], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
      "io/centerline": ["io/seeds", "io/vtk", "io/volume"]},
-    {"stages/finding": [], "stages/tracking": [], "stages/fitting": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
+    {"stages/finding": [], "stages/tracking": [], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
      "stages/surface": [], "stages/surface/patches": ["stages/surface"],
      "stages/trees_from_surfaces": ["stages/repair"], "stages/phantom": []},
     {"judge/compare": [], "judge/check": []},

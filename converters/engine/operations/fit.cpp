@@ -2,12 +2,17 @@
 // lumen fit: blobby models for a tracked case.
 #include "converters/stages/fitting/fit.h"
 
+#include "converters/base/shown_text.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/reachable_answer.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
+#include "converters/engine/tracking_input.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/judge/facts/check_facts.h"
+#include "converters/stages/fitting/image/fit_to_image.h"
 
 namespace lumen::engine {
 
@@ -20,16 +25,24 @@ public:
     return "Fit blobby models to the wall points of a tracked case";
   }
   [[nodiscard]] std::string example() const override {
-    return "  lumen fit tracked.lumen fitted.lumen --accuracy 0.2";
+    return "  lumen fit tracked.lumen fitted.lumen --accuracy 0.2\n"
+           "  lumen fit head.lumen head-image.lumen --image head.nrrd   # thin or noisy vessels";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"IN"}; }
+  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"IN", "image"}; }
   void addRows(OptionTable& table) override {
     table.argument("IN", &m_input, "Case with wall points");
     table.argument("OUT", &m_output,
                    "Case to write, " + formatEndings(canWriteCase) + "; may be IN");
     addFitRows(table, m_fit);
     addFormatRow(table, "to", m_to, "OUT");
+    table.file("image", m_image,
+               "First move the wall points of vessels, and their centres and radii, to where the "
+               "blurred image of the vessels is most like this volume: the one that the case was "
+               "tracked in");
+    addFormatRow(table, "from", m_from, "the image");
+    table.find("from")->onlyWith("image");
+    addVolumeRows(table, m_volume, "image");
   }
 
   Answer run(Surroundings& around) override {
@@ -40,22 +53,59 @@ public:
     requireWritable(m_output, convert::ContentKind::Case);
     around.willWrite(m_output);
 
+    const FileFormat* from = m_image.empty() ? nullptr : &imageFormat();
     formats::Case value = readParentCase(m_input);
     if (!value.points)
       throw invalidInput(m_input +
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
+    std::optional<convert::ImageFitReport> image;
+    if (from != nullptr) image = fitToImage(value, *from, around.progress);
     convert::fit(value, m_fit, around.progress);
     const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
     convert::warnOfClosed(reach, around.progress);
     to.writeCase(value, m_output, {}, around.progress);
     Json json = caseSummary(value);
     json["reachable"] = reachJson(reach);
-    return {std::move(json), caseLine(m_output, value) + convert::reachLine(reach)};
+    json["image"] = nullptr;
+    if (image)
+      json["image"] = {
+          {"nodes", image->nodes}, {"kept", image->kept}, {"blur_mm", jsonNumber(image->blur)}};
+    return {std::move(json), (image ? imageLine(*image) : "") + caseLine(m_output, value) +
+                                 convert::reachLine(reach)};
   }
 
 private:
-  std::string m_input, m_output, m_to;
+  [[nodiscard]] const FileFormat& imageFormat() const {
+    requireInput(m_image, "volume");
+    const FileFormat& from = inputFormat(m_image, m_from);
+    if (from.kind != FormatKind::Volume)
+      throw unsupported(m_image + ": this is no volume; expected the one that " + m_input +
+                        " was tracked in");
+    return from;
+  }
+
+  [[nodiscard]] convert::ImageFitReport fitToImage(formats::Case& value, const FileFormat& from,
+                                                   Progress& progress) const {
+    const convert::Volume volume = loadVolume(m_image, from, m_volume, progress);
+    const auto source = convert::sourceRelation(convert::describeSource(volume), value.metadata);
+    if (const auto text = source.warning(m_image)) progress.warn(m_input + ": " + *text);
+    try {
+      return convert::fitToImage(value, volume, convert::recordedImageFit(value, volume), progress);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::InvalidInput) throw;
+      throw invalidInput(m_input + " and " + m_image + ": " + error.what());
+    }
+  }
+
+  [[nodiscard]] std::string imageLine(const convert::ImageFitReport& report) const {
+    return formats::printable(m_image) + ": " + counted(report.nodes, "node", "nodes") +
+           " fitted to the image, " + std::to_string(report.kept) + " left as they were; blur " +
+           fixedText(report.blur, 3) + " mm\n";
+  }
+
+  std::string m_input, m_output, m_to, m_image, m_from;
+  VolumeArguments m_volume;
   convert::FitOptions m_fit;
 };
 
