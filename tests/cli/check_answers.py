@@ -127,6 +127,7 @@ def make_cases(lumen, folder):
     vessel["points"] = vessel["points"][:1] + [[2.0, 2.0, 2.0]]
     (folder / "astray.json").write_text(json.dumps(dict(seeds, branches=seeds["branches"] + [air])))
     go("track.schema.json", "track", "a.nrrd", "tracked.lumen", "--seeds", "astray.json")
+    go("fit.schema.json", "fit", "tracked.lumen", "image.lumen", "--image", "a.nrrd")
     go("fit.schema.json", "fit", "tracked.lumen", "fitted.lumen")
     go("trim.schema.json", "trim", "fitted.lumen", "trimmed.lumen", "--min-length", "1")
     go("convert.schema.json", "convert", "a.nrrd", "made.lumen.json", "--seeds", "astray.json")

@@ -2,19 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Walls of models that were fitted to wall points, and to the volume's intensities, beside the truth.
 
-  image_fits.py DATA FOLDER LUMEN [SEEDS]
+  image_fits.py DATA FOLDER LUMEN [SEEDS [NAME ...]]
 
 Draws phantoms with SEEDS (5) noise seeds each, converts them by their seeds (`lumen convert --seeds-only`), fits the cases
 to the volume (`lumen fit --image`), and measures both surfaces: thin vessels of 0.6 to 1.5 voxels beside a trunk, two that
 touch, a stenosis of 70 %, and noise of 15 %. The surface is that of `lumen convert --patches`, on which each vessel has its
 own wall; a vertex's error is its distance from the round cones of its own true branch, outward. Vertices near forks and
 ends are left out. The radius error of a place is the mean error around it. Then come the real volumes of DATA, which have no
-truth: the walls' offsets by `lumen check`. Writes FOLDER/image_fits.md and prints it. (`python3-numpy`)"""
+truth: the walls' offsets by `lumen check`. NAME: thin, touching, stenosis, fork, helix or real; all without one. Writes
+FOLDER/image_fits.md and prints it. (`python3-numpy`)"""
 import json
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy
@@ -220,15 +220,15 @@ def figures(name, stem, lumen, case):
         wall = mean[:, 1] + numpy.interp(mean[:, 0] + 0.5 * BIN, arc, radius) / VOXEL
         return {"stenosis: least radius, error in %": 100 * (wall.min() / (radius.min() / VOXEL) - 1),
                 "stenosis: wall error, RMS": rms(error)}
-    return {f"{name}: wall error, RMS": rms(error), f"{name}: wall error, 90 %": float(numpy.percentile(numpy.abs(error), 90))}
+    return {f"{name}, noise 15 %: wall error, RMS": rms(error), f"{name}, noise 15 %: 90 %": float(numpy.percentile(numpy.abs(error), 90))}
 
 
 PHANTOMS = {
     "thin": thin_phantom,
     "touching": lambda *a: named_phantom("kissing", 0.05, *a),
     "stenosis": narrow_phantom,
-    "noise 15 %, fork": lambda *a: named_phantom("bifurcation", 0.15, *a),
-    "noise 15 %, helix": lambda *a: named_phantom("helix", 0.15, *a),
+    "fork": lambda *a: named_phantom("bifurcation", 0.15, *a),
+    "helix": lambda *a: named_phantom("helix", 0.15, *a),
 }
 
 
@@ -236,9 +236,11 @@ def table(head, rows):
     return "".join("| " + " | ".join(str(cell) for cell in row) + " |\n" for row in [head, ["---"] + ["--:"] * (len(head) - 1), *rows])
 
 
-def phantoms(folder, lumen, count):
+def phantoms(folder, lumen, count, names):
     values, seconds = {}, [0.0, 0.0]
     for name, make in PHANTOMS.items():
+        if name not in names:
+            continue
         for number in range(1, count + 1):
             stem = make(folder, lumen, number)
             volume, points, image = stem.with_suffix(".nrrd"), stem.with_suffix(".points.lumen"), stem.with_suffix(".image.lumen")
@@ -273,12 +275,17 @@ def real(data, folder, lumen):
 
 
 def main():
-    if len(sys.argv) not in (4, 5):
+    if len(sys.argv) < 4:
         sys.exit(__doc__)
     data, folder, lumen = map(Path, sys.argv[1:4])
+    count = int(sys.argv[4]) if len(sys.argv) > 4 else 5
+    names = sys.argv[5:] or [*PHANTOMS, "real"]
     folder.mkdir(parents=True, exist_ok=True)
-    text = "# Fits to wall points, and to intensities\n\n" + phantoms(folder, lumen, int(sys.argv[4]) if len(sys.argv) > 4 else 5)
-    text += real(data, folder, lumen)
+    text = "# Fits to wall points, and to intensities\n\n"
+    if set(names) & set(PHANTOMS):
+        text += phantoms(folder, lumen, count, names)
+    if "real" in names:
+        text += real(data, folder, lumen)
     (folder / "image_fits.md").write_text(text)
     print(text)
 

@@ -41,6 +41,9 @@ constexpr double kCalm = 0.05, kStretchPower = 2.0 / 5, kMostStretch = 2;
 /// this share of the old radius and a blur, its radius is known to this share, and is at most this
 /// many times the old one.
 constexpr double kFaint = 0.3, kMovedShare = 0.6, kUncertain = 0.4, kSwollen = 2.0;
+/// The widest vessel that is fitted, in voxels: rays see the walls of wider ones as well, and all
+/// voxels around a node are visited.
+constexpr double kWidestVoxels = 64;
 /// The share of the wall that must be closed.
 constexpr double kClosedShare = 0.5;
 /// Rings of wall points at these shares of half the height, and the spacing of points in a ring.
@@ -82,7 +85,7 @@ bool ImageFit::isNarrow(double radius) const {
 }
 
 /// Nodes of vessels that were measured, and bridged ones between two of these in one branch; but
-/// none whose wall was changed by hand, and none whose centre lies in a vessel that it is joined to.
+/// none whose wall was changed by hand, none that was given, and none whose centre lies in a vessel that it is joined to.
 void ImageFit::chooseNodes() {
   const formats::CenterlineTree& tree = m_case.tree;
   const auto origins = formats::readNodeOrigins(m_case);
@@ -103,7 +106,8 @@ void ImageFit::chooseNodes() {
     while (first < end && !isMeasured(first)) ++first;
     while (end > first && !isMeasured(end - 1)) --end;
     for (std::uint32_t i = first; i < end; ++i)
-      if (!edited[i] && origins[i] != formats::NodeOrigin::Given && !isInside(i))
+      if (!edited[i] && double{tree.radius[i]} < kWidestVoxels * m_sections.voxel() &&
+          origins[i] != formats::NodeOrigin::Given && !isInside(i))
         m_due.push_back(i);
   }
 }

@@ -100,8 +100,10 @@ void Sections::place(std::uint32_t node) {
   if (before < node && node < behind) {
     const Vector3d from = s.origin - toEigen(tree.centre[before]),
                    on = toEigen(tree.centre[behind]) - s.origin;
-    s.axis = (toEigen(tree.centre[behind]) - toEigen(tree.centre[before])).normalized();
-    curvature = 2 / (from.norm() + on.norm()) * (on.normalized() - from.normalized());
+    const Vector3d chord = from + on;
+    if (chord.squaredNorm() > 0) s.axis = chord.normalized();
+    curvature =
+        2 / std::max(from.norm() + on.norm(), m_voxel) * (on.normalized() - from.normalized());
   }
   std::tie(s.u, s.v) = planeBasis(s.axis);
   s.bend = s.inPlane(curvature);

@@ -77,12 +77,16 @@ class Rows:
         self.files = ["case.lumen", "check.json", "case.glb", "report.html",
                       *(f"export-{target}" for target in config["export"])]
         self.version = json.loads(self.ask("--version", "--json"))["version"]
-        self.fit_options = set(re.findall(r"--([a-z][a-z-]*)", self.ask("fit", "--help")))
+        # what both take, such as --spacing, is for the volume that is tracked
+        self.fit_options = self.options_of("fit") - self.options_of("track")
         self.digests = Digests(pathlib.Path(self.folder) / "digests.json")
         self.recipes = {name: self.make_recipe(name) for name in self.ids}
         for name in self.ids:
             self.voxels(name)
         self.digests.keep()
+
+    def options_of(self, command):
+        return set(re.findall(r"--([a-z][a-z-]*)", self.ask(command, "--help")))
 
     def ask(self, *words):
         try:
