@@ -133,7 +133,7 @@ def truth_of(stem):
 def patches(lumen, case):
     """The vertices of each branch's wall."""
     mesh = case.with_suffix(".obj")
-    run(lumen, "convert", case, mesh, "--patches", "--cell", VOXEL / 2)
+    run(lumen, "convert", case, mesh, "--patches")
     points, groups = [], []
     for line in mesh.read_text().splitlines():
         word = line.split()
