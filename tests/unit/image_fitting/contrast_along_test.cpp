@@ -19,8 +19,12 @@ formats::CenterlineTree forked() {
     tree.parent.push_back(i == 0 ? 10 : 19 + i);
     tree.branch.push_back(1);
   }
-  tree.branches = {{"root", formats::BranchKind::Vessel, formats::kNoParent, 0, 20},
-                   {"child", formats::BranchKind::Vessel, 10, 20, 20}};
+  tree.branches.resize(2);
+  tree.branches[0].label = "root";
+  tree.branches[0].nodeCount = 20;
+  tree.branches[1].label = "child";
+  tree.branches[1].parentNode = 10;
+  tree.branches[1].firstNode = tree.branches[1].nodeCount = 20;
   return tree;
 }
 
