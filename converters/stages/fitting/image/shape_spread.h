@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much the shapes of sections differ within a case (docs/method.md, section 2.11).
+// Differences between the shapes of sections within a case (docs/method.md, section 2.11).
 #pragma once
 
 #include <cstdint>
