@@ -8,9 +8,10 @@ Draws phantoms with SEEDS (5) noise seeds each, converts them by their seeds (`l
 to the volume (`lumen fit --image`), and measures both surfaces: thin vessels of 0.6 to 1.5 voxels beside a trunk, two that
 touch, a stenosis of 70 %, and noise of 15 %. The surface is that of `lumen convert --patches`, on which each vessel has its
 own wall; a vertex's error is its distance from the round cones of its own true branch, outward. Vertices near forks and
-ends are left out. The radius error of a place is the mean error around it. Then come the real volumes of DATA, which have no
-truth: the walls' offsets by `lumen check`. NAME: thin, touching, stenosis, fork, helix or real; all without one. Writes
-FOLDER/image_fits.md and prints it. (`python3-numpy`)"""
+ends are left out. The radius error of a place is the mean error around it. *intervals* counts how many radii lie within 1.96 of the
+standard deviations that the fit states (LUMEN_image.deviation). Then come the real volumes of DATA, which have no
+truth: the walls' offsets by `lumen check`. NAME: thin, touching, stenosis, fork, helix, intervals or real; all without one. Writes
+FOLDER/image_fits.md and prints it. (`python3-numpy`, `python3-scipy`)"""
 import json
 import os
 import subprocess
@@ -18,6 +19,7 @@ import sys
 from pathlib import Path
 
 import numpy
+from scipy.spatial import cKDTree
 
 CLICKS = Path(__file__).resolve().parents[2] / "data"
 REAL = [("3DRA", "aneurism-3dra.nrrd", "aneurism-3dra"), ("aorta", "aorta/aorta.mha", "aorta"), ("fistula", "avf/avf.nii", "avf")]
@@ -254,6 +256,29 @@ def phantoms(folder, lumen, count, names):
             f"\nProcessor seconds: {seconds[0]:.1f} for the conversions, {seconds[1]:.1f} for the fits to the image.\n\n")
 
 
+def intervals(folder, lumen, count):
+    """How often the truth lies in an interval of 95 %: the radii of nodes against those of the nearest true ones."""
+    rows = []
+    for name in ("tube", "helix", "bifurcation", "kissing"):
+        for noise in (0.05, 0.15):
+            errors_in_deviations = []
+            for number in range(1, count + 1):
+                stem = named_phantom(name, noise, folder, lumen, number)
+                volume, case, fitted = stem.with_suffix(".nrrd"), stem.with_suffix(".points.lumen"), stem.with_suffix(".image.lumen.json")
+                run(lumen, "convert", volume, case, "--seeds", stem.with_suffix(".json"), "--seeds-only")
+                run(lumen, "fit", case, fitted, "--image", volume)
+                twin, truth = json.loads(fitted.read_text()), json.loads(stem.with_suffix(".truth.lumen.json").read_text())["tree"]
+                deviation = numpy.array(twin["nodeArrays"]["LUMEN_image.deviation"])
+                away, nearest = cKDTree(truth["centre"]).query(twin["tree"]["centre"])
+                radius = numpy.array(truth["radius"])[nearest]
+                known = (deviation > 0) & (away < 0.5 * radius)
+                errors_in_deviations.extend((numpy.array(twin["tree"]["radius"]) - radius)[known] / deviation[known])
+            size = numpy.abs(errors_in_deviations)
+            rows.append([name, f"{100 * noise:.0f} %", len(size), f"{100 * (size < 1.96).mean():.1f} %", f"{numpy.median(errors_in_deviations):+.2f}"])
+    return (f"Radii within 1.96 standard deviations of the truth, {count} noise seeds each.\n\n" +
+            table(["phantom", "noise", "nodes", "in the interval", "median error in deviations"], rows) + "\n")
+
+
 def real(data, folder, lumen):
     rows = []
     for name, file, clicks in REAL:
@@ -279,11 +304,13 @@ def main():
         sys.exit(__doc__)
     data, folder, lumen = map(Path, sys.argv[1:4])
     count = int(sys.argv[4]) if len(sys.argv) > 4 else 5
-    names = sys.argv[5:] or [*PHANTOMS, "real"]
+    names = sys.argv[5:] or [*PHANTOMS, "intervals", "real"]
     folder.mkdir(parents=True, exist_ok=True)
     text = "# Fits to wall points, and to intensities\n\n"
     if set(names) & set(PHANTOMS):
         text += phantoms(folder, lumen, count, names)
+    if "intervals" in names:
+        text += intervals(folder, lumen, count)
     if "real" in names:
         text += real(data, folder, lumen)
     (folder / "image_fits.md").write_text(text)

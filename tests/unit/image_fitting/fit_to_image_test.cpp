@@ -78,6 +78,35 @@ TEST(FitToImage, RecordsItsStep) {
   EXPECT_EQ(std::get<double>(step.parameters.at("blur")), report.blur);
 }
 
+// errors of the radii of a tube, in their standard deviations
+TEST(FitToImage, StatesHowWellRadiiAreKnown) {
+  Tracked tracked = trackPhantom("tube", 0.15);
+  const ImageFitReport report = fitImage(tracked.value, tracked.phantom.volume);
+  fitImage(tracked.value, tracked.phantom.volume);  // replaces the array
+  ASSERT_EQ(std::count(tracked.value.metadata.extensionsUsed.begin(),
+                       tracked.value.metadata.extensionsUsed.end(), "LUMEN_image"),
+            1);
+  const auto& arrays = tracked.value.nodeArrays;
+  const auto array = std::find_if(arrays.begin(), arrays.end(), [](const formats::NodeArray& a) {
+    return a.name == "LUMEN_image.deviation";
+  });
+  ASSERT_NE(array, arrays.end());
+  EXPECT_EQ(array->unit, "mm");
+  const auto& deviation = std::get<std::vector<float>>(array->values);
+  ASSERT_EQ(deviation.size(), tracked.value.tree.nodeCount());
+  std::vector<double> shares;
+  const double truth = double{tracked.phantom.truth.tree.radius[0]};
+  for (std::size_t i = 0; i < deviation.size(); ++i)
+    if (deviation[i] > 0)
+      shares.push_back(std::abs(double{tracked.value.tree.radius[i]} - truth) /
+                       double{deviation[i]});
+  EXPECT_GT(shares.size(), report.nodes / 2);
+  std::sort(shares.begin(), shares.end());
+  // the normal distribution has its median of sizes at .67, and 1.96 at 95 %
+  EXPECT_GT(shares[shares.size() / 2], 0.2);
+  EXPECT_LT(shares[shares.size() / 2], 1.5);
+}
+
 TEST(FitToImage, GivesTheSameBitsWithOneThread) {
   Tracked tracked = trackPhantom("kissing", 0.05);
   formats::Case other = tracked.value;

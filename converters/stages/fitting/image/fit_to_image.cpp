@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/fitting/image/fit_to_image.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,12 +23,24 @@ namespace {
 /// scanner of half a voxel.
 constexpr double kUsualBlur = 0.6;
 
+constexpr const char* kImageExtension = "LUMEN_image";
+constexpr const char* kDeviationArray = "LUMEN_image.deviation";
+
 /// The section's place and size, as the tree states them.
 void moveNode(formats::CenterlineTree& tree, std::uint32_t node,
               const fitting::NodeSection& section) {
   const fitting::Outline& o = section.outline;
   tree.centre[node] = toVec3f(section.origin + o.centre.x() * section.u + o.centre.y() * section.v);
   tree.radius[node] = static_cast<float>(std::sqrt(o.area() / std::numbers::pi));
+}
+
+/// Replaces the node array of a case by standard deviations of radii, mm; 0 where none is known.
+void setDeviations(formats::Case& value, std::vector<float> deviations) {
+  auto& used = value.metadata.extensionsUsed;
+  std::erase_if(value.nodeArrays, [](const auto& array) { return array.name == kDeviationArray; });
+  std::erase(used, kImageExtension);
+  used.emplace_back(kImageExtension);
+  value.nodeArrays.push_back({kDeviationArray, 1, "mm", std::move(deviations)});
 }
 
 }  // namespace
@@ -53,6 +67,7 @@ ImageFitReport fitToImage(formats::Case& target, const Volume& volume,
   auto origins = formats::readNodeOrigins(target);
   formats::PointSets points;
   points.offset.push_back(0);
+  std::vector<float> deviations(tree.nodeCount(), 0.0F);
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
     std::vector<formats::Vec3f> wall;
     if (fit.isFitted(i)) wall = fit.wallPoints(i);
@@ -62,6 +77,7 @@ ImageFitReport fitToImage(formats::Case& target, const Volume& volume,
     } else {
       moveNode(tree, i, fit.section(i));
       origins[i] = formats::NodeOrigin::Measured;
+      deviations[i] = static_cast<float>(fit.deviation(i));
       ++report.nodes;
     }
     points.position.insert(points.position.end(), wall.begin(), wall.end());
@@ -71,6 +87,7 @@ ImageFitReport fitToImage(formats::Case& target, const Volume& volume,
   target.points = std::move(points);
   target.metadata.pointQuantisation.reset();
   formats::setNodeOrigins(target, origins);
+  setDeviations(target, std::move(deviations));
   target.metadata.steps.push_back({"fit-image",
                                    "lumen " LUMEN_VERSION,
                                    {{"blur", report.blur}, {kOption.dark.name, options.dark}}});

@@ -26,7 +26,8 @@ struct ImageFitReport {
 ImageFitOptions recordedImageFit(const formats::Case& value, const Volume& volume);
 
 /// Replaces the wall points of the nodes of vessels, their centres and radii by those of the
-/// cross-sections whose blurred images differ least from the volume, and appends the step
+/// cross-sections whose blurred images differ least from the volume, gives each node the standard
+/// deviation of its radius (LUMEN_image.deviation of spec/lumen.md), and appends the step
 /// "fit-image". Nodes keep theirs in forks, in aneurysms, where a person changed the wall, and where
 /// the volume does not determine them. Bridged nodes between measured ones become measured. Models
 /// stay as they are: fit() comes next. The result does not depend on the number of threads. Throws

@@ -26,6 +26,8 @@ public:
   [[nodiscard]] double blur() const { return m_sections.blur(); }
   [[nodiscard]] bool isFitted(std::uint32_t node) const { return m_fits[node].isValid; }
   [[nodiscard]] const NodeSection& section(std::uint32_t node) const { return m_sections[node]; }
+  /// Standard deviation of a fitted node's radius, mm.
+  [[nodiscard]] double deviation(std::uint32_t node) const { return m_fits[node].radius.deviation; }
   /// Points on the wall of a fitted node, mm, LPS, in rings; none where it is open. Empty if less
   /// than half of it is closed.
   [[nodiscard]] std::vector<formats::Vec3f> wallPoints(std::uint32_t node) const;
