@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/surface/box_set.h"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
+
+#include "converters/geometry/box_tree_walk.h"
 
 namespace lumen::convert {
 
@@ -23,22 +23,7 @@ BoxSet::BoxSet(std::vector<Box3d> boxes) : m_boxes(std::move(boxes)) {
 }
 
 bool BoxSet::meets(const Box3d& box) const {
-  if (m_boxes.empty()) return false;
-  std::array<std::uint32_t, BoxTree<double>::kDeepest> stack{};
-  std::size_t depth = 1;
-  while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
-    const auto& node = m_tree.node(i);
-    if (!node.box.meets(box)) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.at;
-      stack[depth++] = i + 1;
-      continue;
-    }
-    for (std::uint32_t k = node.at; k < node.at + node.count; ++k)
-      if (m_boxes[m_tree.items()[k]].meets(box)) return true;
-  }
-  return false;
+  return anyItemNear(m_tree, box, [&](std::uint32_t i) { return m_boxes[i].meets(box); });
 }
 
 }  // namespace lumen::convert

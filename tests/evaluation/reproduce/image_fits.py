@@ -169,7 +169,7 @@ def from_axis(points, branch):
 
 
 def errors(walls, truth):
-    """Of each true branch: errors, places and gaps to another vessel's wall, voxels, of the vertices of its wall."""
+    """The vertices of each true branch's wall: their errors, places, and gaps to another vessel's wall, in voxels."""
     owner = {}
     for wall in walls:
         found = [numpy.median(numpy.abs(from_axis(wall, branch)[0])) for branch in truth]

@@ -2,7 +2,6 @@
 #include "converters/stages/fitting/image/sections.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <variant>
 
 #include "converters/base/vectors.h"
+#include "converters/geometry/box_tree_walk.h"
 
 namespace lumen::convert::fitting {
 namespace {
@@ -137,28 +137,15 @@ std::vector<Sections::Other> Sections::others(std::uint32_t node) const {
   box.add(s.origin, reach);
   const std::vector<std::uint32_t> joined = m_neighbours.within(node, kJoinedEdges);
   std::vector<Other> found;
-  std::array<std::uint32_t, BoxTree<double>::kDeepest> stack{};
-  std::size_t pending = 1;
-  while (pending > 0) {
-    const std::uint32_t at = stack[--pending];
-    const auto& part = m_balls.node(at);
-    if (!part.box.meets(box)) continue;
-    if (part.count == 0) {
-      stack[pending++] = part.at;
-      stack[pending++] = at + 1;
-      continue;
-    }
-    for (std::uint32_t k = part.at; k < part.at + part.count; ++k) {
-      const std::uint32_t other = m_balls.items()[k];
-      if (tree.branch[other] == tree.branch[node] &&
-          std::abs(m_arc[other] - m_arc[node]) < 2 * half + kOtherRadii * s.outline.radius)
-        continue;
-      const NodeSection& o = m_sections[other];
-      if ((o.origin - s.origin).norm() < reach + o.outline.radius)
-        found.push_back(
-            {other, std::find(joined.begin(), joined.end(), other) != joined.end(), {}});
-    }
-  }
+  anyItemNear(m_balls, box, [&](std::uint32_t other) {
+    if (tree.branch[other] == tree.branch[node] &&
+        std::abs(m_arc[other] - m_arc[node]) < 2 * half + kOtherRadii * s.outline.radius)
+      return false;
+    const NodeSection& o = m_sections[other];
+    if ((o.origin - s.origin).norm() < reach + o.outline.radius)
+      found.push_back({other, std::find(joined.begin(), joined.end(), other) != joined.end(), {}});
+    return false;
+  });
   std::sort(found.begin(), found.end(),
             [](const Other& a, const Other& b) { return a.node < b.node; });
   return found;

@@ -24,7 +24,6 @@ struct NodeSection {
   double low = 0, high = 0;  ///< heights of the voxels that count, mm
   Eigen::Vector2d bend;      ///< the curvature of the axis by the nodes around, 1/mm
   bool isSac = false;        ///< of an aneurysm: no section
-  bool isDue = false;        ///< to be fitted
   double contrast = 0;       ///< 0: unknown
 
   [[nodiscard]] Eigen::Vector2d inPlane(const Eigen::Vector3d& offset) const {
@@ -42,7 +41,6 @@ public:
   /// finest axis of the volume, mm. The arguments must outlive the object.
   Sections(const formats::Case& value, const Volume& volume, bool dark, double blur);
 
-  [[nodiscard]] std::size_t size() const { return m_sections.size(); }
   [[nodiscard]] const NodeSection& operator[](std::uint32_t node) const { return m_sections[node]; }
   [[nodiscard]] NodeSection& operator[](std::uint32_t node) { return m_sections[node]; }
   [[nodiscard]] double voxel() const { return m_voxel; }
