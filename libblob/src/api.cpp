@@ -12,8 +12,10 @@
 #include "build_model.h"
 #include "check_definition.h"
 #include "columns.h"
+#include "construct.h"
 #include "hessian.h"
 #include "locate.h"
+#include "misuse.h"
 #include "nearest.h"
 #include "open_case.h"
 #include "segment.h"
@@ -27,46 +29,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kOpenCookie = 0x626c6f31U, kModelCookie = 0x626c6f32U;
 
 std::atomic<blob_misuse_handler> g_misuseHandler{nullptr};
-
-[[maybe_unused]] void reportMisuse(const char* condition, const char* file, int line) noexcept {
-  if (const blob_misuse_handler handler = g_misuseHandler.load())
-    handler(condition, file, line);
-  else
-    std::abort();
-}
-
-#ifdef NDEBUG
-#define BLOB_REQUIRE(condition) static_cast<void>(0)
-#else
-#define BLOB_REQUIRE(condition) \
-  ((condition) ? static_cast<void>(0) : reportMisuse(#condition, __FILE__, __LINE__))
-#endif
-
-// Runs a construction; only memory can fail.
-template <class Construct>
-blob_status construct(blob_model** model, Construct run) noexcept {
-  if (model == nullptr) return BLOB_ERROR_ARGUMENT;
-  *model = nullptr;
-#ifdef __cpp_exceptions
-  try {
-    return run();
-  } catch (...) {
-    return BLOB_ERROR_MEMORY;
-  }
-#else
-  return run();  // WebAssembly traps when memory runs out
-#endif
-}
-
-// Finds the node of a query; false for a point that cannot be evaluated.
-bool enter(const blob_model& model, std::uint32_t flags, const double* point, std::uint32_t* cursor,
-           std::uint32_t& node) noexcept {
-  node = cursor != nullptr ? *cursor : BLOB_NOWHERE;
-  if (!isFinitePoint(point)) return false;
-  node = nodeFor(model, flags, point, node);
-  if (cursor != nullptr) *cursor = node;
-  return isInRange(model.nodes[node], point);
-}
 
 blob_columns packedColumns(std::size_t count, const double (*points)[3],
                            std::uint32_t* cursors) noexcept {
@@ -141,6 +103,13 @@ void fill(double* values, int count, double value) noexcept {
 }
 
 }  // namespace
+
+void lumen::blob::reportMisuse(const char* condition, const char* file, int line) noexcept {
+  if (const blob_misuse_handler handler = g_misuseHandler.load())
+    handler(condition, file, line);
+  else
+    std::abort();
+}
 
 extern "C" {
 
@@ -313,7 +282,7 @@ int blob_inside(const blob_model* model, uint32_t flags, const double point[3],
                 uint32_t* cursor) noexcept {
   BLOB_REQUIRE(model != nullptr && point != nullptr);
   std::uint32_t node;
-  if (!enter(*model, flags, point, cursor, node)) return 0;
+  if (!findQueryNode(*model, flags, point, cursor, node)) return 0;
   return model->backend->inside(*model, flags, point, node) ? 1 : 0;
 }
 
@@ -321,7 +290,7 @@ void blob_nearest(const blob_model* model, uint32_t flags, const double point[3]
                   double tolerance, uint32_t max_steps, blob_nearest_point* nearest) noexcept {
   BLOB_REQUIRE(model != nullptr && point != nullptr && nearest != nullptr);
   std::uint32_t node;
-  if (enter(*model, flags, point, cursor, node)) {
+  if (findQueryNode(*model, flags, point, cursor, node)) {
     findNearest(*model, flags, point, node, tolerance, max_steps, *nearest);
     return;
   }
@@ -340,7 +309,7 @@ void blob_query_hessian(const blob_model* model, uint32_t flags, const double po
                         uint32_t* cursor, blob_hessian* hessian) noexcept {
   BLOB_REQUIRE(model != nullptr && point != nullptr && hessian != nullptr);
   std::uint32_t node;
-  if (enter(*model, flags, point, cursor, node)) {
+  if (findQueryNode(*model, flags, point, cursor, node)) {
     evaluateHessian(*model, flags, point, node, *hessian);
     return;
   }
@@ -358,7 +327,7 @@ void blob_segment_hit(const blob_model* model, uint32_t flags, const double from
   BLOB_REQUIRE(model != nullptr && from != nullptr && to != nullptr && hit != nullptr);
   *hit = {};
   std::uint32_t node;
-  const bool inRange = enter(*model, flags, from, cursor, node);
+  const bool inRange = findQueryNode(*model, flags, from, cursor, node);
   if (inRange && isFinitePoint(to)) {
     findHit(*model, flags, from, to, node, tolerance, max_steps, *hit);
     return;
@@ -374,7 +343,7 @@ void blob_capsule_approach(const blob_model* model, uint32_t flags, const double
                            blob_approach* approach) noexcept {
   BLOB_REQUIRE(model != nullptr && from != nullptr && to != nullptr && approach != nullptr);
   std::uint32_t node;
-  const bool inRange = enter(*model, flags, from, cursor, node);
+  const bool inRange = findQueryNode(*model, flags, from, cursor, node);
   *approach = {};
   if (inRange && isFinitePoint(to)) {
     findDeepest(*model, flags, from, to, node, *approach);

@@ -13,6 +13,55 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+struct Bounds {
+  float low[3] = {kFarAway, kFarAway, kFarAway}, high[3] = {-kFarAway, -kFarAway, -kFarAway};
+  float radius = kNoChild;
+
+  void add(const float* from, const float* to, float greatest) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], from[axis]);
+      high[axis] = std::max(high[axis], to[axis]);
+    }
+    radius = std::max(radius, greatest);
+  }
+};
+
+Bounds boundsOf(const LocateLeaf& leaf) {
+  Bounds bounds;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (leaf.node[lane] == BLOB_NOWHERE) continue;
+    const float at[3] = {leaf.centre[0][lane], leaf.centre[1][lane], leaf.centre[2][lane]};
+    bounds.add(at, at, leaf.radius[lane]);
+  }
+  return bounds;
+}
+
+Bounds boundsOf(const LocateBlock& block) {
+  Bounds bounds;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (block.radius[lane] == kNoChild) continue;
+    const float low[3] = {block.low[0][lane], block.low[1][lane], block.low[2][lane]};
+    const float high[3] = {block.high[0][lane], block.high[1][lane], block.high[2][lane]};
+    bounds.add(low, high, block.radius[lane]);
+  }
+  return bounds;
+}
+
+// The bounds of child c of a level.
+Bounds childBounds(const LocateTree& tree, std::size_t level, std::size_t c) {
+  return level == 0 ? boundsOf(tree.leaves[c]) : boundsOf(tree.levels[level - 1][c]);
+}
+
+void setChild(const Bounds& bounds, std::size_t c, std::vector<LocateBlock>& level) {
+  LocateBlock& block = level[c / kLanes];
+  const std::size_t lane = c % kLanes;
+  for (int axis = 0; axis < 3; ++axis) {
+    block.low[axis][lane] = bounds.low[axis];
+    block.high[axis][lane] = bounds.high[axis];
+  }
+  block.radius[lane] = bounds.radius;
+}
+
 class LocateTreeBuilder {
 public:
   explicit LocateTreeBuilder(const std::vector<NodeRecord>& nodes)
@@ -83,54 +132,10 @@ private:
     tree.leaves.push_back(leaf);
   }
 
-  struct Bounds {
-    float low[3] = {kFarAway, kFarAway, kFarAway}, high[3] = {-kFarAway, -kFarAway, -kFarAway};
-    float radius = kNoChild;
-
-    void add(const float* from, const float* to, float greatest) {
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], from[axis]);
-        high[axis] = std::max(high[axis], to[axis]);
-      }
-      radius = std::max(radius, greatest);
-    }
-  };
-
-  // The bounds of child c of the level to be added.
-  static Bounds childBounds(const LocateTree& tree, std::size_t c) {
-    Bounds bounds;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      float low[3], high[3];
-      if (tree.levels.empty()) {
-        const LocateLeaf& leaf = tree.leaves[c];
-        if (leaf.node[lane] == BLOB_NOWHERE) continue;
-        for (int axis = 0; axis < 3; ++axis) low[axis] = high[axis] = leaf.centre[axis][lane];
-        bounds.add(low, high, leaf.radius[lane]);
-        continue;
-      }
-      const LocateBlock& block = tree.levels.back()[c];
-      if (block.radius[lane] == kNoChild) continue;
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = block.low[axis][lane];
-        high[axis] = block.high[axis][lane];
-      }
-      bounds.add(low, high, block.radius[lane]);
-    }
-    return bounds;
-  }
-
   static void addLevel(LocateTree& tree, std::size_t children) {
     std::vector<LocateBlock> level((children + kLanes - 1) / kLanes);
-    for (std::size_t c = 0; c < level.size() * kLanes; ++c) {
-      const Bounds bounds = c < children ? childBounds(tree, c) : Bounds{};
-      LocateBlock& block = level[c / kLanes];
-      const std::size_t lane = c % kLanes;
-      for (int axis = 0; axis < 3; ++axis) {
-        block.low[axis][lane] = bounds.low[axis];
-        block.high[axis][lane] = bounds.high[axis];
-      }
-      block.radius[lane] = bounds.radius;
-    }
+    for (std::size_t c = 0; c < level.size() * kLanes; ++c)
+      setChild(c < children ? childBounds(tree, tree.levels.size(), c) : Bounds{}, c, level);
     tree.levels.push_back(std::move(level));
   }
 
@@ -144,6 +149,19 @@ LocateTree buildLocateTree(const std::vector<NodeRecord>& nodes) {
   return LocateTreeBuilder(nodes).build();
 }
 
+std::vector<std::uint32_t> findLeafSlots(const LocateTree& tree, std::size_t nodeCount) {
+  std::vector<std::uint32_t> slot(nodeCount);
+  for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf)
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      if (const std::uint32_t node = tree.leaves[leaf].node[lane]; node != BLOB_NOWHERE)
+        slot[node] = static_cast<std::uint32_t>(leaf * kLanes + lane);
+  return slot;
+}
+
+void refitChild(LocateTree& tree, std::size_t level, std::size_t child) noexcept {
+  setChild(childBounds(tree, level, child), child, tree.levels[level]);
+}
+
 std::uint32_t locateNode(const blob_model& model, const double* point) noexcept {
   return model.backend->locate(model, point);
 }
@@ -153,6 +171,15 @@ std::uint32_t nodeFor(const blob_model& model, std::uint32_t flags, const double
   const std::uint32_t node = cursor < model.nodes.size() ? cursor : locateNode(model, point);
   if ((flags & BLOB_HOLD) != 0 || !isInRange(model.nodes[node], point)) return node;
   return model.backend->follow(model, point, node);
+}
+
+bool findQueryNode(const blob_model& model, std::uint32_t flags, const double* point,
+                   std::uint32_t* cursor, std::uint32_t& node) noexcept {
+  node = cursor != nullptr ? *cursor : BLOB_NOWHERE;
+  if (!isFinitePoint(point)) return false;
+  node = nodeFor(model, flags, point, node);
+  if (cursor != nullptr) *cursor = node;
+  return isInRange(model.nodes[node], point);
 }
 
 }  // namespace lumen::blob

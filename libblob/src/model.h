@@ -2,6 +2,7 @@
 // The arrays of a blob_model, laid out for queries and never changed after construction.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -113,9 +114,12 @@ struct blob_model {
   lumen::blob::Field field;
   lumen::blob::LocateTree locate;
   std::vector<std::int32_t> parent;
+  std::vector<std::array<std::uint32_t, 2>> links;  ///< edges besides those to parents
+  std::vector<std::uint32_t> lender;  ///< the node whose blobs answer, or BLOB_NOWHERE
   std::size_t blobCount = 0;
   double low[3]{}, high[3]{};            ///< box of the nodes' balls, mm
   double reachLow[3]{}, reachHigh[3]{};  ///< a box that holds every wall, mm
   blob_simd simd = BLOB_SIMD_SCALAR;
   const lumen::blob::Backend* backend = nullptr;
+  bool isPosed = false;  ///< owned by a blob_pose
 };

@@ -2,6 +2,7 @@ lumen_test(blob_test
   LABELS memory threads
   LIBS lumen_options lumen::blob_static lumen_case
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/allocations.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/batch_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/closed_form_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/cursor_test.cpp
@@ -9,6 +10,7 @@ lumen_test(blob_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/far_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/open_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/pose_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/robust_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/seam_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp

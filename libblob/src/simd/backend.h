@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "model.h"
+#include "pose.h"
 
 namespace lumen::blob {
 
@@ -42,6 +43,12 @@ struct Backend {
                    blob_sample& sample);
   /// Answers at any points.
   void (*query)(const blob_model&, std::uint32_t flags, const Job&);
+  /// Writes the blobs, centres and radii of posed nodes.
+  void (*placeBlobs)(blob_pose&, const std::uint32_t* nodes, std::size_t count);
+  /// Writes the neighbours of nodes, whose centres, radii and spacings are those of the pose.
+  void (*placeNeighbours)(blob_pose&, const std::uint32_t* nodes, std::size_t count);
+  /// The greatest strain of edges, which are indices into pose.edgeReference.
+  float (*greatestStrain)(const blob_pose&, const std::uint32_t* edges, std::size_t count);
 };
 
 /// A back end; null where the build lacks it.

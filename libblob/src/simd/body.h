@@ -13,5 +13,6 @@
 #include "simd/wall_distance.h"
 #include "simd/blend_group.h"
 #include "simd/batch.h"
+#include "simd/pose_nodes.h"
 #include "simd/entry.h"
 // clang-format on

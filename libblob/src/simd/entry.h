@@ -160,8 +160,9 @@ inline void queryColumns(const blob_model& model, std::uint32_t flags, const Job
 }
 
 template <class K>
-constexpr Backend kBackend{&locateLeast,  &followCursor,  &isInside<K>,    &boundField<K>,
-                           &findShape<K>, &queryPoint<K>, &queryColumns<K>};
+constexpr Backend kBackend{&locateLeast,     &followCursor,  &isInside<K>,     &boundField<K>,
+                           &findShape<K>,    &queryPoint<K>, &queryColumns<K>, &placeBlobs,
+                           &placeNeighbours, &greatestStrain};
 
 struct ChooseBackend {
   template <class K>

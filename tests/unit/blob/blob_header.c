@@ -5,6 +5,7 @@
 #include "blob.h"
 
 #include "blob_device.h"
+#include "blob_pose.h"
 /* clang-format on */
 
 #include <stdio.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -8,29 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "allocations.h"
 #include "blob.h"
 #include "tree.h"
-
-// The calls to malloc and free below are one pair; gcc sees only half of it at a time.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-#endif
-
-namespace {
-std::size_t g_allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace lumen::blob::test {
 namespace {
@@ -149,16 +128,16 @@ TEST(BlobRobust, QueriesDoNotAllocate) {
   const Model model = fork(0.5, 0.03).build();
   const std::vector<Point> at(20, Point{1, 0.3, 0});
   std::vector<blob_sample> samples(at.size());
-  const std::size_t before = g_allocations;
+  const std::size_t before = countAllocations();
   for (int n = 0; n < 50; ++n) {
     const Point p{0.1 * n - 3, 0.02 * n, 0.5};
     queryAll(model, p, {3, 2, 0}, BLOB_NOWHERE);
   }
   blob_query_many(model.get(), BLOB_DISTANCE_EXACT, at.size(),
                   reinterpret_cast<const double(*)[3]>(at.data()), nullptr, samples.data());
-  EXPECT_EQ(g_allocations, before);
+  EXPECT_EQ(countAllocations(), before);
   ::operator delete(::operator new(1));  // the counter counts
-  EXPECT_EQ(g_allocations, before + 1);
+  EXPECT_EQ(countAllocations(), before + 1);
 }
 
 TEST(BlobDegenerate, AModelWithoutAnyBlobIsOutsideEverywhere) {

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C boundary of poses.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "answer.h"
+#include "construct.h"
+#include "locate.h"
+#include "misuse.h"
+#include "pose.h"
+#include "simd/backend.h"
+#include "weights.h"
+
+namespace {
+
+using namespace lumen::blob;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t kPoseCookie = 0x626c6f33U;
+constexpr double kFarthestCentre = 1e6;
+
+// The index of the i-th of the nodes that a caller lists; null: all from 0.
+std::uint32_t indexAt(const std::uint32_t* nodes, std::size_t i) noexcept {
+  return nodes != nullptr ? nodes[i] : static_cast<std::uint32_t>(i);
+}
+
+bool areNodes(const blob_pose& pose, std::size_t count, const std::uint32_t* nodes) noexcept {
+  if (nodes == nullptr) return count <= pose.pose.size();
+  return std::all_of(nodes, nodes + count,
+                     [&pose](std::uint32_t i) { return i < pose.pose.size(); });
+}
+
+// Moves the nodes that changed, and reports the strain at them.
+blob_status finishChange(blob_pose& pose, blob_pose_change* report) noexcept {
+  moveNodes(pose);
+  blob_pose_change change{strainOfChange(pose), 0, 0};
+  change.stale = change.strain > pose.strainLimit;
+  blob_status status = BLOB_OK;
+  if (change.stale != 0 && pose.renews) {
+    status = blob_pose_renew(&pose);
+    change.renewed = status == BLOB_OK;
+    change.stale = status != BLOB_OK;
+  }
+  if (report != nullptr) *report = change;
+  return status;
+}
+
+// The nodes of a list, and, where directions depend on centres, those at the other ends of their edges.
+void collectChanged(blob_pose& pose, std::size_t count, const std::uint32_t* nodes,
+                    bool withEdges) noexcept {
+  pose.changed.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t node = indexAt(nodes, i);
+    pose.changed.add(node);
+    if (!withEdges) continue;
+    for (std::uint32_t e = pose.edges.offset[node]; e < pose.edges.offset[node + 1]; ++e)
+      pose.changed.add(pose.edges.node[e]);
+  }
+}
+
+bool areInReach(std::size_t count, const double (*centres)[3]) noexcept {
+  for (std::size_t i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(centres[i][axis]) <= kFarthestCentre)) return false;
+  return true;
+}
+
+}  // namespace
+
+extern "C" {
+
+blob_pose_def blob_pose_def_default(void) noexcept {
+  return {0.25, 1, kPoseCookie};
+}
+
+blob_status blob_pose_create(const blob_model* rest, const blob_pose_def* def,
+                             blob_pose** pose) noexcept {
+  const blob_pose_def used = def != nullptr ? *def : blob_pose_def_default();
+  return construct(pose, [&] {
+    if (rest == nullptr || rest->isPosed || used.cookie != kPoseCookie || !(used.strain_limit > 0))
+      return BLOB_ERROR_ARGUMENT;
+    *pose = makePose(*rest, used).release();
+    return BLOB_OK;
+  });
+}
+
+void blob_pose_close(blob_pose* pose) noexcept {
+  delete pose;
+}
+
+const blob_model* blob_pose_model(const blob_pose* pose) noexcept {
+  BLOB_REQUIRE(pose != nullptr);
+  return &pose->model;
+}
+
+blob_status blob_pose_set(blob_pose* pose, size_t count, const uint32_t* nodes,
+                          const blob_transform* transforms, blob_pose_change* change) noexcept {
+  BLOB_REQUIRE(pose != nullptr && (transforms != nullptr || count == 0));
+  if (!areNodes(*pose, count, nodes)) return BLOB_ERROR_TOPOLOGY;
+  if (!std::all_of(transforms, transforms + count, &isTransform)) return BLOB_ERROR_RANGE;
+  for (std::size_t i = 0; i < count; ++i) pose->pose[indexAt(nodes, i)] = poseOf(transforms[i]);
+  collectChanged(*pose, count, nodes, false);
+  return finishChange(*pose, change);
+}
+
+blob_status blob_pose_set_centres(blob_pose* pose, size_t count, const uint32_t* nodes,
+                                  const double (*centres)[3], blob_pose_change* change) noexcept {
+  BLOB_REQUIRE(pose != nullptr && (centres != nullptr || count == 0));
+  if (!areNodes(*pose, count, nodes)) return BLOB_ERROR_TOPOLOGY;
+  if (!areInReach(count, centres)) return BLOB_ERROR_RANGE;
+  for (std::size_t i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const float x = static_cast<float>(centres[i][axis]);
+      const std::uint32_t node = indexAt(nodes, i);
+      pose->pose[node].centre[axis] = pose->place[node].number[axis] = x;
+    }
+  collectChanged(*pose, count, nodes, true);
+  for (const std::uint32_t node : pose->changed.list())
+    pose->pose[node].rotation = rotationFromCentres(*pose, node);
+  return finishChange(*pose, change);
+}
+
+blob_transform blob_pose_node(const blob_pose* pose, uint32_t node) noexcept {
+  BLOB_REQUIRE(pose != nullptr);
+  if (node >= pose->pose.size()) return {{kNan, kNan, kNan}, {kNan, kNan, kNan, kNan}, kNan};
+  return transformOf(pose->pose[node]);
+}
+
+double blob_pose_strain(const blob_pose* pose) noexcept {
+  BLOB_REQUIRE(pose != nullptr);
+  constexpr std::uint32_t kMost = 64;
+  float greatest = 0;
+  std::uint32_t edges[kMost];
+  const std::uint32_t count = static_cast<std::uint32_t>(pose->edgeReference.size());
+  for (std::uint32_t first = 0; first < count; first += kMost) {
+    const std::uint32_t most = std::min(kMost, count - first);
+    std::iota(edges, edges + most, first);
+    greatest = std::max(greatest, pose->model.backend->greatestStrain(*pose, edges, most));
+  }
+  return greatest;
+}
+
+blob_status blob_pose_renew(blob_pose* pose) noexcept {
+  BLOB_REQUIRE(pose != nullptr);
+  return withinMemory([pose] {
+    renewNeighbours(*pose);
+    return BLOB_OK;
+  });
+}
+
+blob_transform blob_transform_between(const blob_transform* from, const blob_transform* to,
+                                      double fraction) noexcept {
+  BLOB_REQUIRE(from != nullptr && to != nullptr);
+  const auto rotation = [](const blob_transform& t) {
+    return normalised({t.rotation[0], t.rotation[1], t.rotation[2], t.rotation[3]});
+  };
+  blob_transform result;
+  for (int axis = 0; axis < 3; ++axis)
+    result.centre[axis] = from->centre[axis] + fraction * (to->centre[axis] - from->centre[axis]);
+  const Quaternion q = between(rotation(*from), rotation(*to), fraction);
+  const double parts[4] = {q.x, q.y, q.z, q.w};
+  std::copy_n(parts, 4, result.rotation);
+  result.factor = from->factor + fraction * (to->factor - from->factor);
+  return result;
+}
+
+blob_status blob_pose_blend(blob_pose* pose, const blob_pose* from, const blob_pose* to,
+                            double fraction, blob_pose_change* change) noexcept {
+  BLOB_REQUIRE(pose != nullptr && from != nullptr && to != nullptr);
+  if (from->rest != pose->rest || to->rest != pose->rest) return BLOB_ERROR_ARGUMENT;
+  for (std::size_t i = 0; i < pose->pose.size(); ++i) {
+    const blob_transform a = transformOf(from->pose[i]), b = transformOf(to->pose[i]);
+    const blob_transform mixed = blob_transform_between(&a, &b, fraction);
+    if (!isTransform(mixed)) return BLOB_ERROR_RANGE;
+    pose->given[i] = poseOf(mixed);
+  }
+  std::copy(pose->given.begin(), pose->given.end(), pose->pose.begin());
+  collectChanged(*pose, pose->pose.size(), nullptr, false);
+  return finishChange(*pose, change);
+}
+
+size_t blob_query_weights(const blob_model* model, uint32_t flags, const double point[3],
+                          uint32_t* cursor, uint32_t* nodes, double* weights,
+                          size_t capacity) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr);
+  BLOB_REQUIRE((nodes != nullptr && weights != nullptr) || capacity == 0);
+  std::uint32_t node;
+  if (!findQueryNode(*model, flags, point, cursor, node)) return 0;
+  const NodeWeights found = weighNodes(*model, flags, point, node);
+  for (std::size_t i = 0; i < std::min<std::size_t>(found.count, capacity); ++i) {
+    nodes[i] = found.node[i];
+    weights[i] = found.weight[i];
+  }
+  return found.count;
+}
+
+void blob_pose_velocity(const blob_pose* pose, const blob_pose* before, double seconds,
+                        uint32_t flags, const double point[3], uint32_t* cursor,
+                        double velocity[3]) noexcept {
+  BLOB_REQUIRE(pose != nullptr && before != nullptr && point != nullptr && velocity != nullptr);
+  BLOB_REQUIRE(pose->rest == before->rest);
+  std::uint32_t node;
+  std::fill_n(velocity, 3, kNan);
+  if (!isFinitePoint(point)) return;
+  std::fill_n(velocity, 3, 0.0);
+  if (!findQueryNode(pose->model, flags, point, cursor, node)) return;
+  const NodeWeights found = weighNodes(pose->model, flags, point, node);
+  for (unsigned i = 0; i < found.count; ++i) {
+    const lumen::field::Vec moved = displacementOf(*pose, *before, found.node[i], point);
+    const double share = found.weight[i] / seconds;
+    velocity[0] += share * moved.x;
+    velocity[1] += share * moved.y;
+    velocity[2] += share * moved.z;
+  }
+}
+
+}  // extern "C"

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "weights.h"
+
+#include "nodes_in_doubles.h"
+
+namespace lumen::blob {
+
+NodeWeights weighNodes(const blob_model& model, std::uint32_t flags, const double* point,
+                       std::uint32_t node) noexcept {
+  NodeWeights found;
+  double sum = 0;
+  if ((flags & BLOB_LOCAL) == 0) {
+    const NodesInDoubles nodes(model);
+    field::visitActiveNodes(node, [&](std::uint32_t k, field::ActiveNodes& active) {
+      const double weight = field::blendWeight<1>(nodes, k, point, active).value;
+      if (!(weight > 0)) return false;
+      found.node[found.count] = k;
+      found.weight[found.count++] = weight;
+      sum += weight;
+      return true;
+    });
+  }
+  if (found.count == 0) {
+    found.count = 1;
+    found.node[0] = node;
+    found.weight[0] = sum = 1;
+  }
+  for (unsigned i = 0; i < found.count; ++i) found.weight[i] /= sum;
+  return found;
+}
+
+field::Vec displacementOf(const blob_pose& pose, const blob_pose& before, std::uint32_t node,
+                          const double* point) noexcept {
+  const NodePose &now = pose.pose[node], &then = before.pose[node];
+  const field::Vec x{point[0] - now.centre[0], point[1] - now.centre[1], point[2] - now.centre[2]};
+  // relative to the centres, so that small steps keep their digits
+  const field::Vec rest = (1.0 / now.factor) * rotate(conjugate(now.rotation), x);
+  const field::Vec was = then.factor * rotate(then.rotation, rest);
+  const field::Vec centre{now.centre[0] - then.centre[0], now.centre[1] - then.centre[1],
+                          now.centre[2] - then.centre[2]};
+  return centre + (x - was);
+}
+
+}  // namespace lumen::blob
