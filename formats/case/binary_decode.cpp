@@ -7,6 +7,7 @@
 
 #include "formats/case/chunk_codec.h"
 #include "formats/case/metadata_json.h"
+#include "formats/case/motion.h"
 #include "formats/case/validate.h"
 #include "formats/container/bytes.h"
 #include "formats/view/limits.h"
@@ -127,6 +128,7 @@ Case caseOf(const CaseView& view, const CaseChunks& chunks, MetadataDocument&& d
   if (view.hasPoints)
     value.points = PointSets{copied(view.pointOffset), copied(view.pointPosition)};
   if (view.models) value.models = modelsOf(*view.models);
+  if (view.motion) value.motion = motionOf(*view.motion);
   for (const Chunk& chunk : chunks.others) value.otherChunks.push_back(otherChunk(chunk));
   return value;
 }

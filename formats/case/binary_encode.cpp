@@ -8,6 +8,7 @@
 #include "formats/case/case_as_view.h"
 #include "formats/case/chunk_codec.h"
 #include "formats/case/metadata_json.h"
+#include "formats/case/motion.h"
 #include "formats/container/bytes.h"
 #include "formats/view/case_chunks.h"
 
@@ -81,6 +82,24 @@ Bytes packedArray(const NodeArray& array) {
   return packedIntegers(std::get<2>(array.values));
 }
 
+Bytes packedMotion(const Motion& motion) {
+  Bytes bytes;
+  bytes.reserve(kMotionHeadSize + 8 * motion.time.size() + 4 * motion.node.size() +
+                kPoseSize * motion.pose.size());
+  appendLittle(bytes, static_cast<std::uint32_t>(motion.time.size()));
+  appendLittle(bytes, static_cast<std::uint32_t>(motion.node.size()));
+  appendLittle(bytes, canonical(motion.period));
+  for (const double time : motion.time) appendLittle(bytes, canonical(time));
+  for (const std::uint32_t node : motion.node) appendLittle(bytes, node);
+  for (const Pose& pose : motion.pose) {
+    for (const float value : {pose.centre.x, pose.centre.y, pose.centre.z})
+      appendLittle(bytes, canonical(value));
+    for (const float value : pose.rotation) appendLittle(bytes, canonical(value));
+    appendLittle(bytes, canonical(pose.factor));
+  }
+  return bytes;
+}
+
 class ChunkWriter {
 public:
   explicit ChunkWriter(const EncodeOptions& options) : m_options(options) {}
@@ -124,7 +143,9 @@ public:
     m_chunks.push_back(std::move(source));
   }
 
-  [[nodiscard]] Bytes file() const { return writeContainer(m_chunks); }
+  [[nodiscard]] Bytes file(FormatVersion version) const {
+    return writeContainer(m_chunks, version);
+  }
 
 private:
   EncodeOptions m_options;
@@ -169,8 +190,9 @@ std::vector<std::byte> encodeBinary(const Case& value, const EncodeOptions& opti
   }
   if (value.models) addModels(chunks, *value.models);
   for (const NodeArray& array : value.nodeArrays) chunks.add(chunk::kNodeArray, packedArray(array));
+  if (value.motion) chunks.add(chunk::kMotion, packedMotion(*value.motion));
   for (const OtherChunk& other : value.otherChunks) chunks.addOther(other);
-  return chunks.file();
+  return chunks.file(versionOf(value));
 }
 
 void quantisePoints(Case& value, int bits) {

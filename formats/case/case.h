@@ -90,6 +90,25 @@ struct BlobbyModels {
   friend bool operator==(const BlobbyModels&, const BlobbyModels&) = default;
 };
 
+/// Place of a node at a time: a point X of the node at rest is carried to
+/// centre + factor * R (X - its centre at rest), R being the matrix of `rotation`.
+struct Pose {
+  Vec3f centre;                               ///< mm, LPS
+  std::array<float, 4> rotation{0, 0, 0, 1};  ///< unit quaternion x, y, z, w
+  float factor = 1;                           ///< > 0, of the radius
+  friend bool operator==(const Pose&, const Pose&) = default;
+};
+
+/// Poses of some nodes over time; all other nodes rest. The pose of node[n] at time[t] is
+/// pose[t * node.size() + n].
+struct Motion {
+  std::vector<double> time;  ///< s, ascending, at least one
+  double period = 0;         ///< s; longer than from the first time to the last, or 0: not periodic
+  std::vector<std::uint32_t> node;  ///< node indices, ascending
+  std::vector<Pose> pose;
+  friend bool operator==(const Motion&, const Motion&) = default;
+};
+
 /// Geometry of the volume that a case was made from.
 struct SourceVolume {
   std::array<std::uint32_t, 3> size{};  ///< voxels along i, j, k
@@ -155,6 +174,7 @@ struct Case {
   CenterlineTree tree;
   std::optional<PointSets> points;
   std::optional<BlobbyModels> models;
+  std::optional<Motion> motion;
   std::vector<NodeArray> nodeArrays;
   std::vector<OtherChunk> otherChunks;
   friend bool operator==(const Case&, const Case&) = default;

@@ -23,6 +23,15 @@ float storedRate(const Branch& branch) {
   return branch.meanInlierRate && rate == kNoRate ? std::nextafter(rate, -2.0f) : rate;
 }
 
+static_assert(sizeof(Pose) == sizeof(PoseRecord) && alignof(Pose) == alignof(PoseRecord));
+
+MotionView motionView(const Motion& motion) {
+  return {motion.period,
+          motion.time,
+          motion.node,
+          {reinterpret_cast<const PoseRecord*>(motion.pose.data()), motion.pose.size()}};
+}
+
 ModelView modelView(const BlobbyModels& models) {
   return {static_cast<std::uint8_t>(models.kernel),
           models.kernelParameter,
@@ -81,6 +90,7 @@ CaseAsView::CaseAsView(const Case& value)
     m_view.pointPosition = vectors(value.points->position);
   }
   if (value.models) m_view.models = modelView(*value.models);
+  if (value.motion) m_view.motion = motionView(*value.motion);
 }
 
 }  // namespace lumen::formats

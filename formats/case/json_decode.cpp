@@ -7,7 +7,9 @@
 #include "formats/case/base64.h"
 #include "formats/case/json_document.h"
 #include "formats/case/json_fields.h"
+#include "formats/case/json_motion.h"
 #include "formats/case/metadata_json.h"
+#include "formats/case/motion.h"
 #include "formats/case/validate.h"
 #include "formats/view/case_chunks.h"
 #include "formats/view/limits.h"
@@ -20,6 +22,7 @@ struct Parts {
   Case value;
   PointSets points;
   BlobbyModels models;
+  MotionRows motion;
   ArraySlots slots;
 };
 
@@ -33,17 +36,7 @@ void addSlots(Parts& parts) {
       {"/points/offset", {&parts.points.offset}}, {"/points/position", {&parts.points.position}},
       {"/models/offset", {&parts.models.offset}}, {"/models/centre", {&parts.models.centre}},
       {"/models/width", {&parts.models.width}}};
-}
-
-void requireArrays(const ArraySlots& slots, std::initializer_list<std::string> pointers,
-                   JsonReadState& state) {
-  for (const std::string& pointer : pointers)
-    if (!slots.byPointer.find(pointer)->second.seen) {
-      const std::size_t slash = pointer.rfind('/');
-      const std::string key = pointer.substr(slash + 1);
-      state.fail(ErrorCode::JsonKeyMissing, pointer.substr(0, slash),
-                 "the object has no \"" + key + "\"", {{"key", key}});
-    }
+  addMotionSlots(parts.motion, parts.slots);
 }
 
 Branch readBranch(JsonValue value, const std::string& place, JsonReadState& state) {
@@ -242,11 +235,14 @@ void readCase(JsonFields& fields, Parts& parts, JsonReadState& state) {
     readModels(*found, parts.slots, parts.models, state);
     value.models = std::move(parts.models);
   }
+  if (const auto found = fields.find("motion"))
+    value.motion = readMotion(*found, parts.slots, parts.motion, state);
   if (const auto found = fields.find("nodeArrays"))
     if (!found->isObject()) state.wrongType("/nodeArrays", *found, "an object");
   readNodeArrays(parts, state);
   if (const auto found = fields.find("otherChunks"))
     readOtherChunks(*found, value.otherChunks, state);
+  takeMotion(value, state.issues);
   fields.finish();
 }
 

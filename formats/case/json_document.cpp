@@ -61,10 +61,7 @@ public:
 
   bool endArray() override {
     if (!m_array) return close();
-    if (m_component < 0) {
-      m_array.reset();
-      return true;
-    }
+    if (m_component < 0) return m_row ? leaveRow() : leaveArray();
     if (m_component != vectorSize())
       return fail(ErrorCode::JsonType, "expected an array of " + std::to_string(vectorSize()));
     m_component = -1;
@@ -100,6 +97,7 @@ private:
           : &level == &m_levels.back() ? std::to_string(size)
                                        : std::to_string(size - 1));
     }
+    if (m_row) add(std::to_string(*m_row));
     if (m_array) add(std::to_string(m_index));
     if (m_component >= 0) add(std::to_string(m_component));
     return pointer;
@@ -126,6 +124,8 @@ private:
   // Numbers per element of the long array; 0 if elements are no arrays of their own.
   [[nodiscard]] int vectorSize() const {
     if (std::holds_alternative<std::vector<Vec3f>*>(*m_array)) return 3;
+    if (const auto* rows = std::get_if<PoseRows*>(&*m_array))
+      return (*rows)->width > 1 ? (*rows)->width : 0;
     return std::holds_alternative<PairArray>(*m_array) ? 2 : 0;
   }
 
@@ -162,12 +162,28 @@ private:
     return true;
   }
 
+  bool leaveArray() {
+    m_array.reset();
+    return true;
+  }
+
+  bool leaveRow() {
+    PoseRows& rows = *std::get<PoseRows*>(*m_array);
+    rows.rowEnd.push_back(rows.values.size());
+    m_index = *std::exchange(m_row, std::nullopt) + 1;
+    return true;
+  }
+
   bool startVector() {
+    if (std::holds_alternative<PoseRows*>(*m_array) && !m_row) {
+      m_row = std::exchange(m_index, 0);
+      return true;
+    }
     if (vectorSize() == 0 || m_component >= 0) return wrongType("an array", "a number");
     if (const auto* vectors = std::get_if<std::vector<Vec3f>*>(&*m_array))
       (*vectors)->emplace_back();
-    else
-      std::get<PairArray>(*m_array)->emplace_back();
+    else if (const auto* pairs = std::get_if<PairArray>(&*m_array))
+      (*pairs)->emplace_back();
     m_component = 0;
     return true;
   }
@@ -182,6 +198,8 @@ private:
     if (auto* values = std::get_if<NumberTexts*>(&*m_array)) return addTo(**values, text, whole);
     if (auto* floats = std::get_if<std::vector<float>*>(&*m_array)) return addTo(**floats, text);
     if (auto* vectors = std::get_if<std::vector<Vec3f>*>(&*m_array)) return addTo(**vectors, text);
+    if (auto* rows = std::get_if<PoseRows*>(&*m_array)) return addTo(**rows, text);
+    if (auto* reals = std::get_if<std::vector<double>*>(&*m_array)) return addTo(**reals, text);
     if (!whole) return wrongType(std::string(text.substr(0, 40)), "an integer");
     if (auto* integers = std::get_if<std::vector<std::int32_t>*>(&*m_array))
       return addTo(**integers, text);
@@ -212,6 +230,27 @@ private:
     Vec3f& vector = to.back();
     (m_component == 0 ? vector.x : m_component == 1 ? vector.y : vector.z) = *value;
     ++m_component;
+    return true;
+  }
+
+  bool addTo(std::vector<double>& to, std::string_view text) {
+    const auto value = doubleFromText(text);
+    if (!value) return outOfRange(text, "a number that rounds to an f64");
+    to.push_back(*value);
+    ++m_index;
+    return true;
+  }
+
+  bool addTo(PoseRows& to, std::string_view text) {
+    if (!m_row) return wrongType("a number", "an array for each time");
+    if (to.width > 1 && !checkComponent()) return false;
+    const auto value = parseFloat(text);
+    if (!value) return false;
+    to.values.push_back(*value);
+    if (to.width > 1)
+      ++m_component;
+    else
+      ++m_index;
     return true;
   }
 
@@ -252,9 +291,10 @@ private:
                 {{"found", found}, {"expected", expected}});
   }
 
-  void outOfRange(std::string_view text, const std::string& expected) {
+  bool outOfRange(std::string_view text, const std::string& expected) {
     const std::string found(text.substr(0, 40));
-    fail(ErrorCode::NumberRange, "found " + found + ", expected " + expected, {{"found", found}});
+    return fail(ErrorCode::NumberRange, "found " + found + ", expected " + expected,
+                {{"found", found}});
   }
 
   std::size_t m_byteOffset;
@@ -264,6 +304,7 @@ private:
   std::vector<Level> m_levels;
   ArraySlot m_nodeArray{};             // the slot of the node array being read
   std::optional<NumberArray> m_array;  // the long array being read
+  std::optional<std::size_t> m_row;    // row being read in it, if it has rows
   std::size_t m_index = 0;             // index of the element being read in it
   int m_component = -1;                // component of the vector being read; -1 outside of one
   std::optional<Issue> m_error;

@@ -26,10 +26,19 @@ struct NumberTexts {
   void add(std::string_view text, bool whole);
 };
 
+/// A row of numbers, or of arrays of `width` numbers if that is more than 1, for each time of a
+/// motion.
+struct PoseRows {
+  int width = 1;
+  std::vector<float> values;        ///< of all rows
+  std::vector<std::size_t> rowEnd;  ///< end of each row in `values`
+};
+
 /// Target of the numbers of one long array, which bypass the tree of values.
 using NumberArray =
     std::variant<std::vector<Vec3f>*, std::vector<float>*, NumberTexts*, std::vector<std::int32_t>*,
-                 std::vector<std::uint32_t>*, std::vector<std::array<std::uint32_t, 2>>*>;
+                 std::vector<std::uint32_t>*, std::vector<std::array<std::uint32_t, 2>>*,
+                 std::vector<double>*, PoseRows*>;
 
 /// The long arrays two levels below the root, by JSON pointer ("/tree/centre"). `seen` is set for
 /// those that the text has.

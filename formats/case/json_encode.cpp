@@ -7,6 +7,7 @@
 #include "formats/case/enum_names.h"
 #include "formats/case/json_writer.h"
 #include "formats/case/metadata_json.h"
+#include "formats/case/motion.h"
 #include "formats/container/container.h"
 
 namespace lumen::formats {
@@ -115,6 +116,35 @@ void writeModels(JsonWriter& json, const BlobbyModels& models) {
   writeArray(json, "offset", models.offset);
   writeArray(json, "centre", models.centre);
   writeArray(json, "width", models.width);
+  json.end();
+}
+
+// A row for each time, of the values that `part` takes from poses.
+template <class Part>
+void writePoses(JsonWriter& json, std::string_view name, const Motion& motion, Part part) {
+  using Value = decltype(part(motion.pose.front()));
+  json.key(name);
+  json.beginArray();
+  const std::size_t nodes = motion.node.size();
+  std::vector<Value> row(nodes);
+  for (std::size_t t = 0; t < motion.time.size(); ++t) {
+    for (std::size_t n = 0; n < nodes; ++n) row[n] = part(motion.pose[t * nodes + n]);
+    json.array(std::span<const Value>(row));
+  }
+  json.end();
+}
+
+void writeMotion(JsonWriter& json, const Motion& motion) {
+  json.beginObject();
+  if (motion.period != 0) {
+    json.key("period");
+    json.real(motion.period);
+  }
+  writeArray(json, "time", motion.time);
+  writeArray(json, "node", motion.node);
+  writePoses(json, "centre", motion, [](const Pose& pose) { return pose.centre; });
+  writePoses(json, "rotation", motion, [](const Pose& pose) { return pose.rotation; });
+  writePoses(json, "factor", motion, [](const Pose& pose) { return pose.factor; });
   json.end();
 }
 
@@ -236,7 +266,7 @@ std::string encodeJson(const Case& value) {
   json.key("format");
   json.text("lumen");
   json.key("version");
-  json.text(versionText(kFormatVersion));
+  json.text(versionText(versionOf(value)));
   json.key("minimumReader");
   json.text(versionText(kMinimumReader));
   json.key("metadata");
@@ -250,6 +280,10 @@ std::string encodeJson(const Case& value) {
   if (value.models) {
     json.key("models");
     writeModels(json, *value.models);
+  }
+  if (value.motion) {
+    json.key("motion");
+    writeMotion(json, *value.motion);
   }
   if (!value.nodeArrays.empty()) {
     json.key("nodeArrays");

@@ -93,4 +93,15 @@ void JsonFields::finish() {
   }
 }
 
+void requireArrays(const ArraySlots& slots, std::initializer_list<std::string> pointers,
+                   JsonReadState& state) {
+  for (const std::string& pointer : pointers)
+    if (!slots.byPointer.find(pointer)->second.seen) {
+      const std::size_t slash = pointer.rfind('/');
+      const std::string key = pointer.substr(slash + 1);
+      state.fail(ErrorCode::JsonKeyMissing, pointer.substr(0, slash),
+                 "the object has no \"" + key + "\"", {{"key", key}});
+    }
+}
+
 }  // namespace lumen::formats

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "formats/case/enum_names.h"
+#include "formats/case/json_document.h"
 #include "formats/case/json_place.h"
 #include "formats/container/issue.h"
 #include "formats/view/text_rules.h"
@@ -101,5 +103,9 @@ private:
   JsonReadState& m_state;
   std::vector<std::string_view> m_known;
 };
+
+/// Reports each of the long arrays that the text lacks.
+void requireArrays(const ArraySlots& slots, std::initializer_list<std::string> pointers,
+                   JsonReadState& state);
 
 }  // namespace lumen::formats

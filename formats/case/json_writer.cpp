@@ -28,6 +28,14 @@ void appendVector(std::string& text, const Vec3f& v) {
   text += ']';
 }
 
+void appendQuaternion(std::string& text, const std::array<float, 4>& q) {
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    text += i == 0 ? '[' : ',';
+    appendFloat(text, q[i]);
+  }
+  text += ']';
+}
+
 void appendPair(std::string& text, const std::array<std::uint32_t, 2>& pair) {
   text += '[';
   appendNumber(text, pair[0]);
@@ -180,6 +188,9 @@ void JsonWriter::array(std::span<const std::uint32_t> values) {
 }
 void JsonWriter::array(std::span<const std::array<std::uint32_t, 2>> values) {
   wrapped(values, appendPair);
+}
+void JsonWriter::array(std::span<const std::array<float, 4>> values) {
+  wrapped(values, appendQuaternion);
 }
 
 void JsonWriter::array(std::span<const double> values) {

@@ -40,6 +40,7 @@ public:
   void array(std::span<const std::int32_t> values);
   void array(std::span<const std::uint32_t> values);
   void array(std::span<const std::array<std::uint32_t, 2>> values);
+  void array(std::span<const std::array<float, 4>> values);
   void array(std::span<const double> values);  ///< on one line
 
   /// The text so far, which is complete once every begin has its end.

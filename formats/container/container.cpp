@@ -273,12 +273,12 @@ void storeEntry(std::byte* to, const ChunkSource& chunk, std::uint64_t offset) {
 }
 
 // The header of a file whose table is in place.
-void storeHeader(std::span<std::byte> file, std::size_t chunkCount) {
+void storeHeader(std::span<std::byte> file, std::size_t chunkCount, FormatVersion version) {
   std::byte* to = file.data();
   for (const unsigned char c : kMagic) *to++ = static_cast<std::byte>(c);
   to = file.data();
-  storeLittle(to + 10, kFormatVersion.major);
-  storeLittle(to + 11, kFormatVersion.minor);
+  storeLittle(to + 10, version.major);
+  storeLittle(to + 11, version.minor);
   storeLittle(to + 12, kMinimumReader.major);
   storeLittle(to + 13, kMinimumReader.minor);
   storeLittle(to + 14, static_cast<std::uint16_t>(kHeaderSize));
@@ -345,7 +345,7 @@ Status verifyChunk(const Chunk& chunk) {
   return {};
 }
 
-std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks) {
+std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks, FormatVersion version) {
   std::uint64_t end = kHeaderSize + chunks.size() * kTableEntrySize;
   std::uint64_t length = end;
   for (const ChunkSource& chunk : chunks) length += alignUp(chunk.bytes.size());
@@ -358,7 +358,7 @@ std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks) {
     end += alignUp(chunk.bytes.size());
     entry += kTableEntrySize;
   }
-  storeHeader(file, chunks.size());
+  storeHeader(file, chunks.size(), version);
   return file;
 }
 

@@ -20,8 +20,12 @@ struct FormatVersion {
   friend auto operator<=>(const FormatVersion&, const FormatVersion&) = default;
 };
 
-/// Version that this code writes, and the newest that it reads in full.
-constexpr FormatVersion kFormatVersion{1, 1};
+/// The newest version that this code reads in full.
+constexpr FormatVersion kFormatVersion{1, 2};
+
+/// Version of a file that has nothing of a newer one; a case with a motion is one of version 1.2.
+constexpr FormatVersion kPlainVersion{1, 1};
+constexpr FormatVersion kMotionVersion{1, 2};
 
 /// Oldest reader that understands every file that this code writes.
 constexpr FormatVersion kMinimumReader{1, 0};
@@ -103,6 +107,7 @@ struct ChunkSource {
 };
 
 /// The file that holds `chunks` in that order. At most kMaxChunks.
-std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks);
+std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks,
+                                      FormatVersion version = kPlainVersion);
 
 }  // namespace lumen::formats

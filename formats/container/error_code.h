@@ -79,6 +79,11 @@ enum class ErrorCode : std::uint16_t {
   IsoLevel = 427,
   WidthRange = 428,
   LabelOffset = 431,
+  MotionTime = 432,
+  MotionPeriod = 433,
+  MotionNode = 434,
+  MotionRotation = 435,
+  MotionFactor = 436,
   // provenance and extensions
   VoxelSize = 501,
   SourceSize = 502,

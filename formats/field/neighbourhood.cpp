@@ -186,11 +186,15 @@ std::vector<double> measureSpacings(const TreeView& tree, const Neighbourhood& e
 
 double blendingWidth(const TreeView& tree, std::uint32_t i, std::uint32_t k, bool isEdge,
                      double spacing) {
+  return blendingWidth(squareOf(tree, i, k), std::min(tree.radius[i], tree.radius[k]), isEdge,
+                       spacing);
+}
+
+double blendingWidth(double square, double smallerRadius, bool isEdge, double spacing) {
   constexpr double kShare = 0.6;
   constexpr double kLeastShare = 1e-3;  // of a radius squared: nodes in one place share evenly
-  const double radius = std::min(tree.radius[i], tree.radius[k]), square = squareOf(tree, i, k);
   const double width = isEdge ? kShare * square : std::min(0.5 * square, kShare * spacing);
-  return std::max(width, kLeastShare * radius * radius);
+  return std::max(width, kLeastShare * smallerRadius * smallerRadius);
 }
 
 std::vector<std::uint32_t> findLenders(const Neighbourhood& edges, const std::uint32_t* offset) {

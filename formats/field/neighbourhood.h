@@ -32,6 +32,8 @@ std::vector<double> measureSpacings(const TreeView& tree, const Neighbourhood& e
 /// tie. `spacing`: the pair's mean.
 double blendingWidth(const TreeView& tree, std::uint32_t i, std::uint32_t k, bool isEdge,
                      double spacing);
+/// The width of a pair from the square of its distance, mm^2, and the smaller of its radii, mm.
+double blendingWidth(double square, double smallerRadius, bool isEdge, double spacing);
 
 /// Neighbours of all nodes: the edges; nodes two edges apart; and nodes a short path apart along
 /// the tree whose balls overlap and whose cells meet or nearly meet, although others lie between:

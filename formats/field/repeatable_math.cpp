@@ -38,4 +38,21 @@ double repeatableLog(double x) {
   return k * kLn2High + (2.0 * s + (2.0 * s * series + k * kLn2Low));
 }
 
+double repeatableSine(double x) {
+  // Taylor: the first term left out is below 1e-17 of the sum
+  const double x2 = x * x;
+  double series = 1.0;
+  for (int n = 22; n >= 2; n -= 2) series = 1.0 - x2 / (n * (n + 1)) * series;
+  return x * series;
+}
+
+double repeatableArctangent(double t) {
+  // two halvings of the angle: tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)) < 0.2
+  for (int i = 0; i < 2; ++i) t = t / (1.0 + std::sqrt(1.0 + t * t));
+  const double t2 = t * t;
+  double series = 0.0;  // Taylor: the first term left out is below 1e-19
+  for (int n = 25; n >= 1; n -= 2) series = 1.0 / n - t2 * series;
+  return 4.0 * t * series;
+}
+
 }  // namespace lumen::field

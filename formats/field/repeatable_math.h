@@ -20,6 +20,12 @@ double repeatableExp(double x);
 /// The natural logarithm of x > 0, to about one unit in the last place.
 double repeatableLog(double x);
 
+/// sin(x) for 0 <= x <= pi / 2, to about one unit in the last place.
+double repeatableSine(double x);
+
+/// The angle whose tangent is t, for 0 <= t <= 1, to about one unit in the last place.
+double repeatableArctangent(double t);
+
 /// exp(-t) for t >= 0 to a relative 1e-15, and exp(-700) beyond t = 700: without branches or calls,
 /// so that loops over it vectorise.
 [[gnu::always_inline]] inline double expOfMinus(double t) {

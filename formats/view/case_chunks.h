@@ -34,6 +34,8 @@ inline constexpr ChunkType kModelCentre = chunkType("MCEN");     ///< f32[3] per
 inline constexpr ChunkType kModelWidth = chunkType("MWID");      ///< f32 per blob
 /// The values of one node array; occurs once for each that the metadata describes, in that order.
 inline constexpr ChunkType kNodeArray = chunkType("NARR");
+/// Poses of nodes over time: kMotionHeadSize bytes, times, nodes, and kPoseSize bytes per pose.
+inline constexpr ChunkType kMotion = chunkType("MOVE");
 /// Seeds, as a text of the seeds format (spec/lumen.md, "Seeds"). The model holds it as it holds
 /// chunks of unknown types, so that a program without seeds keeps it.
 inline constexpr ChunkType kSeeds = chunkType("SEED");
@@ -41,6 +43,8 @@ inline constexpr ChunkType kSeeds = chunkType("SEED");
 
 inline constexpr std::size_t kBranchRecordSize = 24;
 inline constexpr std::size_t kKernelRecordSize = 24;
+inline constexpr std::size_t kMotionHeadSize = 16;
+inline constexpr std::size_t kPoseSize = 32;
 
 /// The mean inlier rate of a branch that has none.
 inline constexpr float kNoRate = -1.0f;
@@ -54,7 +58,7 @@ struct ChunkRule {
   std::uint8_t stride;  ///< bytes of an element; 1 for text
 };
 
-inline constexpr std::array<ChunkRule, 18> kChunkRules = {{
+inline constexpr std::array<ChunkRule, 19> kChunkRules = {{
     {chunk::kMetadata, true, ChunkNeed::Always, 1},
     {chunk::kNodeCentre, true, ChunkNeed::Always, 12},
     {chunk::kNodeDirection, true, ChunkNeed::Always, 12},
@@ -73,6 +77,7 @@ inline constexpr std::array<ChunkRule, 18> kChunkRules = {{
     {chunk::kModelCentre, false, ChunkNeed::Models, 12},
     {chunk::kModelWidth, false, ChunkNeed::Models, 4},
     {chunk::kNodeArray, false, ChunkNeed::Repeated, 4},
+    {chunk::kMotion, false, ChunkNeed::Alone, 4},
 }};
 
 /// The place of `type` in kChunkRules; the number of rules if this version does not know it.

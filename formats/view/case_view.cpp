@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "formats/container/bytes.h"
+#include "formats/view/limits.h"
 #include "formats/view/model_rules.h"
 
 namespace lumen::formats {
@@ -102,6 +103,12 @@ void readModels(SpanReader& reader, const CaseChunks& chunks, ModelView& models)
                  models.centre.size() * sizeof(float));
 }
 
+// Size of the chunk of a motion by the counts in its head; nothing if these exceed their limits.
+std::optional<std::uint64_t> motionSize(std::uint64_t times, std::uint64_t nodes) {
+  if (times > kMaxTimes || times * nodes > kMaxPoses) return std::nullopt;
+  return kMotionHeadSize + 8 * times + 4 * nodes + kPoseSize * times * nodes;
+}
+
 std::string_view textOf(const Chunk& chunk) {
   return {reinterpret_cast<const char*>(chunk.stored.data()), chunk.stored.size()};
 }
@@ -187,6 +194,35 @@ std::string_view CaseView::label(const BranchView& branch) const {
   return branchLabels.substr(branch.labelOffset, branch.labelSize);
 }
 
+MotionView viewMotion(const Chunk& chunk, IssueList& issues) {
+  MotionView motion;
+  const std::uint64_t found = chunk.stored.size();
+  if (found < kMotionHeadSize) {
+    issues.add(sizeIssue(chunk, kMotionHeadSize));
+    return motion;
+  }
+  ByteCursor cursor(chunk.stored);
+  const std::uint64_t times = cursor.read<std::uint32_t>(), nodes = cursor.read<std::uint32_t>();
+  const auto period = cursor.read<double>();
+  const auto size = motionSize(times, nodes);
+  if (!size) {
+    Issue issue = times > kMaxTimes
+                      ? limitIssue(ErrorCode::Limit, "/motion/time", times, kMaxTimes)
+                      : limitIssue(ErrorCode::Limit, "/motion/centre", times * nodes, kMaxPoses);
+    issue.offset = chunk.offset;
+    issues.add(std::move(issue));
+  } else if (found != *size) {
+    issues.add(sizeIssue(chunk, *size));
+  } else {
+    const std::byte* at = chunk.stored.data() + kMotionHeadSize;
+    motion.period = period;
+    motion.time = {reinterpret_cast<const double*>(at), times};
+    motion.node = {reinterpret_cast<const std::uint32_t*>(at + 8 * times), nodes};
+    motion.pose = {reinterpret_cast<const PoseRecord*>(at + 8 * times + 4 * nodes), times * nodes};
+  }
+  return motion;
+}
+
 CaseView assembleView(const CaseChunks& chunks, Verify verify, IssueList& issues) {
   CaseView view;
   const std::size_t nodeCount = chunks.at(chunk::kNodeCentre).stored.size() / sizeof(Float3);
@@ -211,6 +247,7 @@ CaseView assembleView(const CaseChunks& chunks, Verify verify, IssueList& issues
   reader.any(chunk::kPointPosition, view.pointPosition);
   if (chunks.find(chunk::kModelKernel) != nullptr)
     readModels(reader, chunks, view.models.emplace());
+  if (const Chunk* motion = chunks.find(chunk::kMotion)) view.motion = viewMotion(*motion, issues);
   view.metadata = textOf(chunks.at(chunk::kMetadata));
   for (const Chunk& chunk : chunks.nodeArrays) view.nodeArrays.push_back(chunk.stored);
   return view;

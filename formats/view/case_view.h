@@ -26,6 +26,17 @@ struct ModelView {
   std::span<const float> width;           ///< mm
 };
 
+/// A pose in a file: centre x, y, z (mm); rotation x, y, z, w; factor.
+using PoseRecord = std::array<float, 8>;
+
+/// The motion of some nodes; see Motion in formats/case/case.h.
+struct MotionView {
+  double period = 0;                    ///< s; 0: not periodic
+  std::span<const double> time;         ///< s
+  std::span<const std::uint32_t> node;  ///< moving nodes
+  std::span<const PoseRecord> pose;     ///< time by time, one per moving node
+};
+
 /// The record of one branch in a file.
 struct BranchView {
   std::uint32_t firstNode = 0, nodeCount = 0;
@@ -52,6 +63,7 @@ struct CaseView {
   std::span<const std::uint32_t> pointOffset;  ///< one per node, and one more
   std::span<const Float3> pointPosition;
   std::optional<ModelView> models;
+  std::optional<MotionView> motion;
   std::vector<std::span<const std::byte>> nodeArrays;  ///< as the metadata describes them
 
   [[nodiscard]] std::size_t nodeCount() const { return nodeCentre.size(); }
@@ -71,6 +83,10 @@ enum class Verify : std::uint8_t { Structure, All };
 /// and outlive the view. A chunk that is stored encoded cannot be viewed: CHUNK_ENCODING names it.
 /// Time and memory do not depend on the number of nodes for Verify::Structure.
 Expected<CaseView> viewCase(std::span<const std::byte> bytes, Verify verify);
+
+/// The motion in the decoded bytes of its chunk, which start at a multiple of 8 in memory. Reports
+/// a size that is not that of its counts, and counts beyond their limits; the view is empty then.
+MotionView viewMotion(const Chunk& chunk, IssueList& issues);
 
 /// The view of chunks that hold no encoded bytes, and whose group of required ones is complete.
 /// Reports sizes that do not fit, labels that do not fill their chunk, and reserved bytes; the view

@@ -234,6 +234,7 @@ void checkModelRules(const CaseView& view, IssueList& issues) {
   checkLinkRules(view, issues);
   if (view.hasPoints) checkPointRules(view, issues);
   if (view.models) checkBlobRules(*view.models, view.nodeCount(), issues);
+  if (view.motion) checkMotionRules(view, issues);
 }
 
 }  // namespace lumen::formats

@@ -34,6 +34,7 @@ std::optional<std::uint64_t> findByteOffset(const std::string& pointer, const Ca
 void checkTreeRules(const CaseView& view, IssueList& issues);
 void checkBranchRules(const CaseView& view, IssueList& issues);
 void checkLinkRules(const CaseView& view, IssueList& issues);
+void checkMotionRules(const CaseView& view, IssueList& issues);
 void checkOffsets(std::span<const std::uint32_t> offset, std::size_t nodeCount,
                   std::size_t elements, const std::string& pointer, IssueList& issues);
 

@@ -36,6 +36,7 @@ constexpr auto kPlaces = std::to_array<PlacedArray>({
     {"/models/offset", chunk::kModelOffset, 0},
     {"/models/centre", chunk::kModelCentre, 0},
     {"/models/width", chunk::kModelWidth, 0},
+    {"/motion", chunk::kMotion, 0},
 });
 
 struct PlacedField {
@@ -73,6 +74,39 @@ std::uint64_t branchFieldOffset(const Chunk& records, std::uint64_t recordAt, st
   return records.offset + recordAt;
 }
 
+struct PoseField {
+  std::string_view key;
+  std::uint64_t offset;  ///< in a pose
+};
+constexpr auto kPoseFields =
+    std::to_array<PoseField>({{"/centre", 0}, {"/rotation", 12}, {"/factor", 28}});
+
+// The offset of a value of the motion; `rest` is its pointer behind "/motion".
+std::uint64_t motionOffset(const Chunk& chunk, std::string_view rest) {
+  if (chunk.encoding != 0 || chunk.stored.size() < kMotionHeadSize) return chunk.offset;
+  const std::uint64_t times = loadLittle<std::uint32_t>(chunk.stored.data());
+  const std::uint64_t nodes = loadLittle<std::uint32_t>(chunk.stored.data() + 4);
+  const auto indexAfter = [&rest](std::string_view key) {
+    rest.remove_prefix(key.size());
+    return takeIndex(rest);
+  };
+  if (rest.starts_with("/period")) return chunk.offset + 8;
+  if (rest.starts_with("/time")) {
+    const auto index = indexAfter("/time");
+    return chunk.offset + (index ? kMotionHeadSize + 8 * *index : 0);
+  }
+  const std::uint64_t nodesAt = chunk.offset + kMotionHeadSize + 8 * times;
+  if (rest.starts_with("/node")) return nodesAt + 4 * indexAfter("/node").value_or(0);
+  for (const PoseField& field : kPoseFields) {
+    if (!rest.starts_with(field.key)) continue;
+    const std::uint64_t time = indexAfter(field.key).value_or(0);
+    const std::uint64_t node = takeIndex(rest).value_or(0);
+    const std::uint64_t component = takeIndex(rest).value_or(0);
+    return nodesAt + 4 * nodes + kPoseSize * (time * nodes + node) + field.offset + 4 * component;
+  }
+  return chunk.offset;
+}
+
 }  // namespace
 
 std::optional<std::uint64_t> findByteOffset(const std::string& pointer, const CaseChunks& chunks) {
@@ -84,6 +118,7 @@ std::optional<std::uint64_t> findByteOffset(const std::string& pointer, const Ca
   if (chunk == nullptr) return std::nullopt;
   if (chunk->encoding != 0 || place->type == chunk::kMetadata) return chunk->offset;
   std::string_view rest = std::string_view(pointer).substr(place->pointer.size());
+  if (place->type == chunk::kMotion) return motionOffset(*chunk, rest);
   const std::uint64_t stride = kChunkRules[chunkRuleIndex(place->type)].stride;
   const auto index = takeIndex(rest);
   if (!index) return chunk->offset + place->offset;

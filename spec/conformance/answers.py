@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The expected answers, from the definitions of ../lumen.md: exact fractions throughout, but for square roots and exp, which
-have 60 digits. Gradients are differentiated along with the values, so no formula of a gradient is used."""
-import decimal, itertools
+have 60 digits. Rotations between two times are found by halving arcs, so questions there are at shares k / 2^n. Gradients are differentiated along with the values, so no formula of a gradient is used."""
+import copy, decimal, itertools
 from fractions import Fraction
 
 UNDECIDED = Fraction(1, 10 ** 6)  # what a question or a pair of nodes must not depend on, in shares of what is compared
@@ -89,15 +89,69 @@ def psi(t):
     return s * s * s * (6 * s * s - 15 * s + 10)
 
 
-class Answers:
-    """A case, all of whose numbers are fractions: centre, radius, parent, links; and models, or None."""
+def unit(q):
+    length = root(sum(x * x for x in q))
+    return [x / length for x in q]
 
-    def __init__(self, tree, models):
+
+def half_way(p, q):
+    """The middle of the shorter arc between two unit quaternions."""
+    if dot(p, q) < 0: q = scaled(-1, q)
+    return unit([a + b for a, b in zip(p, q)])
+
+
+def arc(p, q, share):
+    """The unit quaternion at a share of the shorter arc."""
+    p, q = unit(p), unit(q)
+    for _ in range(12):
+        if share == 0: return p
+        if share == 1: return q
+        middle, first = half_way(p, q), share < Fraction(1, 2)
+        p, q, share = (p, middle, 2 * share) if first else (middle, q, 2 * share - 1)
+    raise Undecided("the share of the time between two poses is not k / 2^n")
+
+
+def matrix(q):
+    x, y, z, w = q
+    return [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+
+
+class Motion:
+    def __init__(self, values):
+        self.__dict__.update(values)
+
+    def instant(self, time):
+        """The times around one, and the share of the way between them."""
+        first, last, end = self.time[0], self.time[-1], len(self.time) - 1
+        if self.period:
+            time = first + (time - first) % self.period
+            if time >= last: return end, 0, (time - last) / (first + self.period - last)
+        if time <= first: return 0, 0, Fraction(0)
+        if time >= last: return end, end, Fraction(0)
+        i = max(i for i, t in enumerate(self.time) if t <= time)
+        return i, i + 1, (time - self.time[i]) / (self.time[i + 1] - self.time[i])
+
+    def poses(self, time):
+        """Centre, matrix and factor by moving node."""
+        i, k, u = self.instant(time)
+        def between(a, b): return (1 - u) * a + u * b
+        return {node: ([between(a, b) for a, b in zip(self.centre[i][n], self.centre[k][n])],
+                       matrix(arc(self.rotation[i][n], self.rotation[k][n], u)), between(self.factor[i][n], self.factor[k][n]))
+                for n, node in enumerate(self.node)}
+
+
+class Answers:
+    """A case, all of whose numbers are fractions: centre, radius, parent, links; models and a motion, or None."""
+
+    def __init__(self, tree, models, motion=None):
+        self.rest, self.poses, self.motion = tree["centre"], {}, motion and Motion(motion)
         self.centre, self.radius, self.models = tree["centre"], tree["radius"], models
         self.nodes = range(len(self.radius))
         pairs = [(i, p) for i, p in enumerate(tree["parent"]) if p >= 0] + tree["links"]
         self.edges = [{b if a == i else a for a, b in pairs if i in (a, b)} for i in self.nodes]
-        self.longest = [max((self.square(i, j) for j in self.edges[i]), default=0) for i in self.nodes]
+        self.longest = self.spacings()
         self.ways = [self.ways_from(i) for i in self.nodes]
         self.near = [set() for _ in self.nodes]
         for i in self.nodes:
@@ -105,6 +159,18 @@ class Answers:
                 if k != i and self.are_neighbours(way):
                     self.near[i].add(k)
                     self.near[k].add(i)
+
+    def spacings(self):
+        return [max((self.square(i, j) for j in self.edges[i]), default=0) for i in self.nodes]
+
+    def at(self, time):
+        """The posed case: its neighbours are those at rest."""
+        out = copy.copy(self)
+        out.poses = self.motion.poses(Fraction(float(time)))
+        out.centre = [out.poses[i][0] if i in out.poses else self.centre[i] for i in self.nodes]
+        out.radius = [out.poses[i][2] * self.radius[i] if i in out.poses else self.radius[i] for i in self.nodes]
+        out.longest = out.spacings()
+        return out
 
     # the tree ----------------------------------------------------------------------------------------------------------
 
@@ -180,6 +246,10 @@ class Answers:
     def local(self, node, point):
         m, total, lender = self.models, Jet(0), self.lender(node)
         if lender is None: return total
+        if lender in self.poses:
+            centre, turn, factor = self.poses[lender]
+            moved = minus(point, centre)
+            point = [self.rest[lender][i] + sum(turn[k][i] * moved[k] for k in range(3)) / factor for i in range(3)]
         for j in range(m["offset"][lender], m["offset"][lender + 1]):
             d, w = minus(point, m["centre"][j]), m["width"][j]
             total += w * phi(m["kernel"], m["kernelParameter"], dot(d, d) / (w * w))
@@ -225,7 +295,8 @@ class Answers:
         if abs(field.value - level) < CLOSE * max(1, level): raise Undecided(f"inside at {float(field.value)}")
         return {"value": float(field.value), "gradient": [float(s) for s in field.slope], "inside": field.value > level}
 
-    def answer(self, point, current=None):
+    def answer(self, point, current=None, time=None):
+        if time is not None: return self.at(time).answer(point, current)
         power = [self.power(i, point) for i in self.nodes]
         node = self.least(self.nodes, power) if current is None else self.follow(current, power)
         out = {"node": node, "power": float(power[node])}

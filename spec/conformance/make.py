@@ -17,7 +17,7 @@ KINDS = ["vessel", "aneurysm"]
 STOPS = ["unknown", "no-valid-cylinder", "turned-back", "left-volume", "met-branch", "end-of-seeds", "step-limit"]
 KERNELS = ["cauchy", "gaussian", "quartic", "soft-object"]
 CRITICAL = ["META", "NCEN", "NDIR", "NRAD", "NHEI", "NPAR", "NBRA", "BREC", "BLAB", "LINK"]
-GROUPS = {"tree/inlierRate": ["NINL"], "nodeArrays": ["NARR"], "points": ["POFF", "PPOS"],
+GROUPS = {"tree/inlierRate": ["NINL"], "nodeArrays": ["NARR"], "motion": ["MOVE"], "points": ["POFF", "PPOS"],
           "models": ["MKER", "MOFF", "MCEN", "MWID"]}
 HEADER = {"signature": (0, "10s"), "version": (10, "BB"), "minimumReader": (12, "BB"), "headerSize": (14, "H"),
           "length": (16, "Q"), "count": (24, "I"), "tableCrc": (28, "I"), "reserved": (32, "28s"), "headerCrc": (60, "I")}
@@ -118,6 +118,15 @@ def model_chunks(m):
             chunk("MCEN", f32(flat(m["centre"]))), chunk("MWID", f32(m["width"]))]
 
 
+def motion_chunk(m):
+    times, nodes = m["time"], m["node"]
+    body = struct.pack("<IId", len(times), len(nodes), float(m.get("period", 0)))
+    body += struct.pack(f"<{len(times)}d", *map(float, times)) + integers("I", nodes)
+    for row in zip(m["centre"], m["rotation"], m["factor"]):
+        body += b"".join(f32([*centre, *rotation, factor]) for centre, rotation, factor in zip(*row))
+    return chunk("MOVE", body)
+
+
 def chunks_of(case):
     """The chunks of a canonical file of a case in its JSON encoding."""
     t = case["tree"]
@@ -143,6 +152,8 @@ def chunks_of(case):
     for a in case["metadata"].get("nodeArrays", ()):
         values = case["nodeArrays"][a["name"]]
         out.append(chunk("NARR", f32(values) if a["type"] == "f32" else integers(a["type"][0].replace("u", "I"), values)))
+    if "motion" in case:
+        out.append(motion_chunk(case["motion"]))
     for o in case.get("otherChunks", ()):
         out.append(chunk(o["type"], base64.b64decode(o["data"]), version=int(o["version"]), flags=2 if o["independent"] else 0,
                          encoding=int(o["encoding"]), raw=int(o["rawSize"]) if "rawSize" in o else None))
@@ -283,10 +294,11 @@ def made(recipe):
             assert data.count(bytes.fromhex(old)) >= 1
             data = data.replace(bytes.fromhex(old), bytes.fromhex(new), 1)
         return data
-    chunks = chunks_of(parse(base.with_suffix(".lumen.json").read_text()))
+    case = parse(base.with_suffix(".lumen.json").read_text())
+    chunks = chunks_of(case)
     for change in recipe.get("chunks", ()):
         change_chunks(chunks, *change)
-    file = layout(chunks, recipe.get("versions", [1, 1, 1, 0]))
+    file = layout(chunks, recipe.get("versions", [1, 2 if "motion" in case else 1, 1, 0]))
     for change in recipe.get("bytes", ()):
         change_bytes(file, *change)
     return bytes(file)
@@ -310,21 +322,29 @@ def vectors(rows):
     return [[exact(x) for x in row] for row in rows]
 
 
+def motion_of(m):
+    return m and {
+        "time": [Fraction(float(x)) for x in m["time"]], "period": Fraction(float(m.get("period", 0))),
+        "node": list(map(int, m["node"])), "centre": list(map(vectors, m["centre"])), "rotation": list(map(vectors, m["rotation"])),
+        "factor": [list(map(exact, row)) for row in m["factor"]]}
+
+
 def answers_of(case):
     """Answers to the questions of a case in its JSON encoding."""
     t, m = case["tree"], case.get("models")
     tree = {"centre": vectors(t["centre"]), "radius": list(map(exact, t["radius"])), "parent": list(map(int, t["parent"])),
             "links": [(int(a), int(b)) for a, b in t.get("links", ())]}
-    return Answers(tree, m and {
+    models = m and {
         "kernel": m["kernel"], "kernelParameter": Fraction(float(m["kernelParameter"])), "isoLevel": Fraction(float(m["isoLevel"])),
-        "offset": list(map(int, m["offset"])), "centre": vectors(m["centre"]), "width": list(map(exact, m["width"]))})
+        "offset": list(map(int, m["offset"])), "centre": vectors(m["centre"]), "width": list(map(exact, m["width"]))}
+    return Answers(tree, models, motion_of(case.get("motion")))
 
 
 def answered(name, case, questions):
     if not questions: return []
     try:
         answers = answers_of(case)
-        return [{**q, **answers.answer([Fraction(float(x)) for x in q["point"]], q.get("current"))} for q in questions]
+        return [{**q, **answers.answer([Fraction(float(x)) for x in q["point"]], q.get("current"), q.get("time"))} for q in questions]
     except Undecided as error:
         raise SystemExit(f"{name}: rounding would decide {error}")
 

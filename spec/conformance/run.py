@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a reader of lumen cases over the conformance set: see README.md.
 
-run.py --reader "CMD" [--lacks zstd] [--lacks draco] [--exact] [--queries-only] [--tolerance 1e-6] [--only TEXT]
+run.py --reader "CMD" [--lacks zstd] [--lacks draco] [--lacks motion] [--exact] [--queries-only] [--tolerance 1e-6] [--only TEXT]
 
 Exit status: 0 all as expected, 1 not."""
 import argparse, concurrent.futures, copy, json, os, pathlib, resource, shlex, subprocess, sys
@@ -12,7 +12,7 @@ import make
 HERE = pathlib.Path(__file__).resolve().parent
 OPTIONAL = ("links", "otherChunks", "nodeArrays", "extensionsUsed", "extensionsRequired", "unit")  # where empty is absent
 NOT_COMPARED = ("format", "version", "minimumReader")
-INTEGERS = ("branches", "parent", "branch", "links", "offset", "otherChunks")  # of these keys, numbers are integers
+INTEGERS = ("branches", "parent", "branch", "links", "offset", "otherChunks", "node")  # of these keys, numbers are integers
 
 
 def same_number(a, b, path, integer_arrays):
@@ -21,7 +21,7 @@ def same_number(a, b, path, integer_arrays):
     else: whole = path[-1] != "meanInlierRate" and any(key in path for key in INTEGERS)
     if path[:1] == ("metadata",) and not set(a + b) & set(".eE") or whole:
         return int(a) == int(b)
-    if path[:1] == ("metadata",) or path[-1] in ("kernelParameter", "isoLevel"):
+    if path[:1] == ("metadata",) or path[-1] in ("kernelParameter", "isoLevel", "period") or "time" in path:
         return float(a) == float(b)
     return make.f32_bits(a) == make.f32_bits(b)
 
@@ -107,7 +107,8 @@ def other_case(expected, found, left_out):
 def check_valid(options, file):
     stem = file.name.split(".")[0]
     about = json.loads((file.parent / f"{stem}.queries.json").read_text())
-    questions = [{key: q[key] for key in ("point", "current") if key in q} for q in about["queries"]]
+    if "motion" in options.lacks: about["queries"] = [q for q in about["queries"] if "time" not in q]
+    questions = [{key: q[key] for key in ("point", "current", "time") if key in q} for q in about["queries"]]
     out = call(options.reader, file, questions)
     if isinstance(out, str): return out
     expected = make.parse((file.parent / f"{stem}.lumen.json").read_text())
@@ -163,7 +164,7 @@ def check_hostile(options, file):
 def main():
     parser = argparse.ArgumentParser(description="Runs a reader over the conformance set; see README.md.")
     parser.add_argument("--reader", required=True, type=shlex.split, help="command, to which the name of a file is added; {python} is the Python that runs this")
-    parser.add_argument("--lacks", action="append", default=[], choices=["zstd", "draco"], help="encodings that the reader does not have")
+    parser.add_argument("--lacks", action="append", default=[], choices=["zstd", "draco", "motion"], help="encodings that the reader does not have; motion: it answers of the case at rest alone")
     parser.add_argument("--exact", action="store_true", help="places must be those of the reports")
     parser.add_argument("--queries-only", action="store_true", help="the reader answers queries and gives no case; binary files only")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="of the numbers in answers; 1e-5 for a reader that computes with f32")

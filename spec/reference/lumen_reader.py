@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A basic reader of lumen cases, written from spec/lumen.md and spec/schema alone. Without zstd and Draco, it refuses critical
 chunks in them and ignores groups of others. Called as spec/conformance/README.md says: lumen_reader.py FILE < questions.json"""
-import base64, functools, json, math, pathlib, re, struct, sys
+import base64, copy, functools, json, math, pathlib, re, struct, sys
 from fractions import Fraction
 
-INF, VERSION, CRITICAL = math.inf, [1, 1], "META NCEN NDIR NRAD NHEI NPAR NBRA BREC BLAB LINK".split()
-GROUPS = ("NINL",), ("NARR",), ("POFF", "PPOS"), ("MKER", "MOFF", "MCEN", "MWID")
+INF, VERSION, CRITICAL = math.inf, [1, 2], "META NCEN NDIR NRAD NHEI NPAR NBRA BREC BLAB LINK".split()
+GROUPS = ("NINL",), ("NARR",), ("MOVE",), ("POFF", "PPOS"), ("MKER", "MOFF", "MCEN", "MWID")
 KNOWN, KERNELS, KINDS = CRITICAL + list(sum(GROUPS, ())), ["cauchy", "gaussian", "quartic", "soft-object"], ["vessel", "aneurysm"]
 STOPS = "unknown no-valid-cylinder turned-back left-volume met-branch end-of-seeds step-limit".split()
 ARRAYS = [word.split(":") for word in (  # part of the case, key, chunk, components, type
@@ -18,7 +18,7 @@ CODES = {key: word.split(":")[0] for word in (  # of a value that is not among t
     "JSON_CHUNK_DATA:data ISO_LEVEL:isoLevel WIDTH_RANGE:width VOXEL_SIZE:voxelSize SOURCE_SIZE:size SOURCE_SPACING:spacing "
     "SOURCE_SHA256:sha256 PARENT_SHA256:parentSha256 POINT_QUANTISATION:bits,step RANDOM_SEED:random-seed NODE_BRANCH:branch "
     "EXTENSION_NAME:extensionsUsed,extensionsRequired NODE_ARRAY_NAME:name NODE_ARRAY_COMPONENTS:components NODE_PARENT:parent "
-    "BRANCH_PARENT:parentNode BRANCH_RANGE:firstNode,nodeCount LINK_NODE:links").split() for key in word.split(":")[1].split(",")}
+    "MOTION_PERIOD:period MOTION_NODE:node MOTION_FACTOR:factor BRANCH_PARENT:parentNode BRANCH_RANGE:firstNode,nodeCount LINK_NODE:links").split() for key in word.split(":")[1].split(",")}
 class Refused(Exception): pass
 class Decimal(str): pass  # a number in JSON that is no integer, until its type is known
 TYPES = {"object": (dict,), "array": (list,), "string": (str,), "boolean": (bool,), "integer": (int,), "number": (int, float, Decimal)}
@@ -76,7 +76,7 @@ def conform(v, s, at, newer, key=""):  # v, of which the schema s must be true, 
                     v in s.get("enum", [s.get("const", v)]) and re.search(s.get("pattern", ""), v)})
     elif kind != "boolean" and not at.startswith("/nodeArrays"):  # of those, the type is known later
         whole, low, high = type(v) is int and s.get("type") != "number", s.get("minimum", -INF), s.get("maximum", INF)
-        if not whole: v = real(v, not at.startswith("/metadata") and key not in ("kernelParameter", "isoLevel"), at)
+        if not whole: v = real(v, not at.startswith("/metadata") and key not in ("kernelParameter", "isoLevel", "time", "period"), at)
         need(at, NUMBER_RANGE=not whole or -2**63 <= v < (2**64 if key == "rawSize" else 2**63) and (v >= 0 or low < 0 or code[:3] in ("RAN", "POI")))
         need(at, **{"NUMBER_RANGE" if high == 65535 else code: low <= v <= high and v > s.get("exclusiveMinimum", -INF)})
     return v
@@ -84,6 +84,12 @@ def check_case(m, lacking=()):
     need("", JSON_TYPE=type(m) is dict)
     version, reader = ([int(x) for x in re.findall("[0-9]{1,3}", str(m.get(k, "1.0")))] for k in ("version", "minimumReader"))
     need("", VERSION=reader <= min(version, VERSION))
+    others = m.get("otherChunks", []) if type(m.get("otherChunks", [])) is list else []
+    left = [o for o in others if type(o) is dict and o.get("type") == "MOVE"]  # by a program that did not know it
+    if len(left) == 1 and "motion" not in m and left[0].get("version") == 1 and left[0].get("encoding") == 0:
+        others.remove(left[0])
+        try: m["motion"] = read_motion("/otherChunks", base64.b64decode(left[0].get("data", "")))
+        except (Refused, ValueError): need("/otherChunks", JSON_CHUNK_DATA=False)
     m = conform(m, {"$ref": "case.schema.json"}, "", version > VERSION)
     t, values, end = m["tree"], m.get("nodeArrays", {}), 0
     n, labels = len(t["centre"]), [b["label"] for b in t["branches"]]
@@ -124,9 +130,30 @@ def check_case(m, lacking=()):
              ARRAY_LENGTH=len(g.get("width", g[items])) == count and len(offset) == n + 1)
         for i in range(n): need(f"/{part}/offset/{i + 1}", OFFSET_START=offset[0] == 0, OFFSET_ORDER=offset[i] <= offset[i + 1])
         need(f"/{part}/offset", OFFSET_END=offset[n] == count)
+    if "motion" in m: check_motion(m["motion"], n)
     return need("/otherChunks", JSON_CHUNK_DATA=all(
         o["type"] not in KNOWN and ("rawSize" in o) == (o["encoding"] > 0) and (
             o["encoding"] not in (1, 2) or o["rawSize"] <= 256 * len(base64.b64decode(o["data"]))) for o in m.get("otherChunks", ()))) or m
+
+def check_motion(g, n):
+    times, nodes = g["time"], g["node"]
+    need("/motion/time", MOTION_TIME=times and all(a < b for a, b in zip(times, times[1:])), LIMIT=len(times) * len(nodes) <= 2 ** 26)
+    need("/motion/period", MOTION_PERIOD=g.get("period", INF) > times[-1] - times[0])
+    for i, node in enumerate(nodes): need(f"/motion/node/{i}", MOTION_NODE=(i == 0 or nodes[i - 1] < node) and node < n)
+    for key in ("centre", "rotation", "factor"):
+        need(f"/motion/{key}", ARRAY_LENGTH=len(g[key]) == len(times) and all(len(row) == len(nodes) for row in g[key]))
+    for t, row in enumerate(g["rotation"]):
+        for i, q in enumerate(row): need(f"/motion/rotation/{t}/{i}", MOTION_ROTATION=abs(math.hypot(*q) - 1) <= 0.001)
+def read_motion(at, body):
+    need(at, CHUNK_LENGTH=len(body) >= 16)
+    count, moving, period = struct.unpack_from("<IId", body)
+    need(at, LIMIT=count <= 4096 and count * moving <= 2 ** 26, MOTION_PERIOD=not period < 0)
+    need(at, CHUNK_LENGTH=len(body) == 16 + 8 * count + 4 * moving + 32 * count * moving)
+    poses = list(struct.iter_unpack("<8f", body[16 + 8 * count + 4 * moving:]))
+    rows = [poses[t * moving:(t + 1) * moving] for t in range(count)]
+    return {"time": [*struct.unpack_from(f"<{count}d", body, 16)], "node": [*struct.unpack_from(f"<{moving}I", body, 16 + 8 * count)],
+            **({"period": period} if period else {}), "centre": [[list(p[:3]) for p in row] for row in rows],
+            "rotation": [[list(p[3:7]) for p in row] for row in rows], "factor": [[p[7] for p in row] for row in rows]}
 
 def read_binary(data):
     need(0, MAGIC=data[:10] == b"\x8cLUMEN\r\n\x1a\n"[:len(data)], TRUNCATED=len(data) >= 64)
@@ -150,7 +177,7 @@ def read_binary(data):
                              "data": base64.b64encode(body).decode(), **({"rawSize": raw} if encoding else {})})
         if known and encoding: lacking.update(*(g for g in GROUPS if name in g))
     need(end - 1, TRAILING_BYTES=-(-end // 64) * 64 >= length, TRUNCATED=-(-end // 64) * 64 <= length, CHUNK_PADDING=not any(data[end:]))
-    need("file", CHUNK_MISSING=set(CRITICAL[:9]) <= set(chunks) and all(len(chunks.keys() & g) in (0, len(g)) for g in GROUPS[2:]))
+    need("file", CHUNK_MISSING=set(CRITICAL[:9]) <= set(chunks) and all(len(chunks.keys() & g) in (0, len(g)) for g in GROUPS[3:]))
     chunks = {name: found for name, found in chunks.items() if name not in lacking}
     m = dict(format="lumen", version="%d.%d" % (*v[:2],), minimumReader="%d.%d" % (*v[2:],), otherChunks=others, tree={"branches": []}, nodeArrays={})
     ((meta_at, meta), (labels_at, labels), (records_at, records)), end = (chunks[k][0] for k in ("META", "BLAB", "BREC")), 0
@@ -162,6 +189,7 @@ def read_binary(data):
     for at, body in chunks.get("MKER", ()):
         need(at, CHUNK_LENGTH=len(body) == 24, ENUM_VALUE=body[:1] < b"\4", CHUNK_FIELD=not any(body[1:8]))
         m["models"] |= zip(("kernel", "kernelParameter", "isoLevel"), (KERNELS[body[0]], *struct.unpack("<dd", body[8:])))
+    for at, body in chunks.get("MOVE", ()): m["motion"] = read_motion(at, body)
     need(records_at, CHUNK_LENGTH=len(records) % 24 == 0)
     for first, count, parent, start, size, kind, stop, rate in struct.iter_unpack("<IIiIHBBf", records):
         need(records_at, LABEL_OFFSET=start == end, CHUNK_LENGTH=end + size <= len(labels), ENUM_VALUE=kind < 2 and stop < 7)
@@ -196,6 +224,32 @@ def psi(t):
     s = min((1 + t) / 2, 1)
     return s ** 3 * (6 * s * s - 15 * s + 10), 15 * s * s * (1 - s) ** 2
 
+# poses, from "Motion" ---------------------------------------------------------------------------------------------------------
+
+def turned(q, v):
+    twice = [2 * x for x in cross(q[:3], v)]
+    return [a + q[3] * b + c for a, b, c in zip(v, twice, cross(q[:3], twice))]
+def unit(q): return [x / math.hypot(*q) for x in q]
+def slerp(a, b, u):
+    a, b = unit(a), unit(b)
+    if dot(a, b) < 0: b = [-x for x in b]
+    theta = 2 * math.atan2(math.dist(a, b), math.hypot(*(x + y for x, y in zip(a, b))))
+    return [(math.sin((1 - u) * theta) * x + math.sin(u * theta) * y) / math.sin(theta) for x, y in zip(a, b)] if theta else a
+def instant(g, t):
+    """Two of a motion's times, and the share of the way between them."""
+    times, period = g["time"], g.get("period", 0)
+    if period: t = times[0] + (t - times[0]) % period
+    if t >= times[-1]: return len(times) - 1, 0, (t - times[-1]) / (times[0] + period - times[-1]) if period else 0
+    later = next(i for i, x in enumerate(times) if x > t)
+    return (later - 1, later, (t - times[later - 1]) / (times[later] - times[later - 1])) if later else (0, 0, 0)
+def poses_at(g, t):
+    """By moving node: centre, rotation and factor at a time."""
+    i, k, u = instant(g, t)
+    def mixed(a, b): return (1 - u) * a + u * b
+    return {node: ([mixed(a, b) for a, b in zip(g["centre"][i][n], g["centre"][k][n])],
+                   slerp(g["rotation"][i][n], g["rotation"][k][n], u), mixed(g["factor"][i][n], g["factor"][k][n]))
+            for n, node in enumerate(g["node"])}
+
 class Case:
     """The tree, with the neighbours of every node, and the models if there are any."""
 
@@ -207,7 +261,8 @@ class Case:
             if k >= 0:
                 self.edges[i].add(k)
                 self.edges[k].add(i)
-        self.longest = [max((self.distance(i, k) ** 2 for k in self.edges[i]), default=0) for i in range(self.count)]
+        self.motion, self.poses, self.rest = m.get("motion"), {}, self.centre
+        self.longest = self.spacings()
         self.near = [set() for _ in range(self.count)]
         for i in range(self.count):
             for way, length in self.ways(i):
@@ -215,6 +270,15 @@ class Case:
                     self.near[way[0]].add(way[-1])
                     self.near[way[-1]].add(way[0])
 
+    def spacings(self): return [max((self.distance(i, k) ** 2 for k in self.edges[i]), default=0) for i in range(self.count)]
+    def at(self, time):
+        """The posed case, whose neighbours are those at rest."""
+        out = copy.copy(self)
+        out.poses = poses_at(self.motion, time)
+        out.centre = [out.poses[i][0] if i in out.poses else c for i, c in enumerate(self.centre)]
+        out.radius = [out.poses[i][2] * r if i in out.poses else r for i, r in enumerate(self.radius)]
+        out.longest = out.spacings()
+        return out
     def distance(self, i, k): return math.dist(self.centre[i], self.centre[k])
     def power(self, i, p): return math.dist(p, self.centre[i]) ** 2 - self.radius[i] ** 2
 
@@ -279,11 +343,13 @@ class Case:
     def local(self, node, p):
         """Value and gradient of the local field."""
         g, node, value, gradient = self.models, self.lender(node), 0.0, [0.0] * 3
+        centre, q, s = self.poses.get(node, ((0, 0, 0), (0, 0, 0, 1), 1))
+        if node in self.poses: p = add_scaled(self.rest[node], 1 / s, turned([-q[0], -q[1], -q[2], q[3]], sub(p, centre)))
         for j in range(g["offset"][node], g["offset"][node + 1]) if node is not None else ():
             d, w = sub(p, g["centre"][j]), g["width"][j]
             phi, slope = kernel(g["kernel"], g["kernelParameter"], dot(d, d) / w ** 2)
             value, gradient = value + w * phi, add_scaled(gradient, 2 * slope / w, d)
-        return value, gradient
+        return value, [x / s for x in turned(q, gradient)]
 
     def weight(self, k, p):
         """The weight of a node, its gradient, and the neighbours that it does not beat by tau."""
@@ -315,6 +381,7 @@ class Case:
 
     def answer(self, question):
         p = question["point"]
+        if "time" in question: self = self.at(question["time"])
         if "current" in question: node = self.follow(question["current"], p)
         else: node = min(range(self.count), key=lambda i: (self.power(i, p), i))
         out = {"node": node, "power": self.power(node, p)}

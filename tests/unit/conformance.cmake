@@ -22,7 +22,7 @@ python_test(Conformance.OfTheReferenceReaderHolds slow
   ${conformance}/run.py --lacks zstd --lacks draco
   --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
 # libblob answers queries, has neither decoder, and computes with floats
-set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco)
+set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco --lacks motion)
 python_test(Conformance.OfLibblobHolds quick ${queries_only} --reader $<TARGET_FILE:blob_reader>)
 python_test(Conformance.OfLibblobInDoublesHolds quick
   ${queries_only} --reader "$<TARGET_FILE:blob_reader> --doubles")

@@ -16,6 +16,7 @@ lumen_test(formats_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_text_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/places_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/memory_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/motion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/node_origin_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/printable_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/reachability_test.cpp

@@ -10,12 +10,15 @@
 
 #include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
+#include "formats/case/motion.h"
+#include "formats/field/posed_field.h"
 
 namespace {
 
 using namespace lumen::formats;
 using lumen::field::BlendedField;
 using lumen::field::Jet;
+using lumen::field::PosedField;
 using lumen::field::Vec;
 using nlohmann::json;
 
@@ -34,20 +37,35 @@ BlendedField fieldOf(const Case& value) {
   return {treeViewOf(value.tree), modelsViewOf(none)};
 }
 
-json fieldAnswer(const BlendedField& field, const Jet<1>& f) {
-  return {{"value", f.value}, {"gradient", f.gradient}, {"inside", f.value > field.level()}};
+json fieldAnswer(double level, const Jet<1>& f) {
+  return {{"value", f.value}, {"gradient", f.gradient}, {"inside", f.value > level}};
+}
+
+/// The answer at a time, from the posed field.
+json answerAt(const Case& value, const BlendedField& rest, const Vec& p, const json& question) {
+  const PosedField field(rest, treeViewOf(value.tree),
+                         posesAt(value.tree, *value.motion, question["time"].get<double>()));
+  const std::uint32_t node = question.contains("current")
+                                 ? field.follow(p, question["current"].get<std::uint32_t>())
+                                 : field.locate(p);
+  json out = {{"node", node}, {"power", field.power(p, node)}};
+  if (!value.models) return out;
+  out.update(fieldAnswer(field.level(), field.local(p, node)));
+  out["blended"] = fieldAnswer(field.level(), field.blended(p, node));
+  return out;
 }
 
 json answer(const Case& value, const BlendedField& field, const json& question) {
   const auto xyz = question.at("point").get<std::vector<double>>();
   const Vec p{xyz.at(0), xyz.at(1), xyz.at(2)};
+  if (question.contains("time")) return answerAt(value, field, p, question);
   const std::uint32_t node = question.contains("current")
                                  ? field.follow(p, question["current"].get<std::uint32_t>())
                                  : field.locate(p);
   json out = {{"node", node}, {"power", power(value.tree, node, p)}};
   if (!value.models) return out;
-  out.update(fieldAnswer(field, field.local(p, node)));
-  out["blended"] = fieldAnswer(field, field.blended(p, node));
+  out.update(fieldAnswer(field.level(), field.local(p, node)));
+  out["blended"] = fieldAnswer(field.level(), field.blended(p, node));
   return out;
 }
 

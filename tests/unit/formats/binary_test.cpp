@@ -251,7 +251,7 @@ TEST(Binary, IgnoresUnknownMetadataOfANewerMinorVersionOnly) {
   EXPECT_EQ(codeOf(decodeBinary(tampered(renameVoxelSize))), "JSON_KEY_UNKNOWN");
   const auto newer = decodeBinary(tampered([&](Bytes& f) {
     renameVoxelSize(f);
-    f[11] = std::byte{2};  // version 1.2, readable from 1.0 on
+    f[11] = std::byte{3};  // version 1.3, readable from 1.0 on
   }));
   ASSERT_TRUE(newer) << newer.error().text();
   EXPECT_FALSE(newer->metadata.voxelSize.has_value());

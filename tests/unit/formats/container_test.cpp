@@ -213,7 +213,7 @@ TEST(Container, FindsWrongHeaderAndTableChecksums) {
 // spec: M44
 TEST(Container, IgnoresReservedBytesOfANewerMinorVersion) {
   Bytes file = twoChunks();
-  file[11] = std::byte{2};   // version 1.2, readable from 1.0 on
+  file[11] = std::byte{3};   // version 1.3, readable from 1.0 on
   file[40] = std::byte{5};   // reserved in the header
   file[100] = std::byte{5};  // reserved in an entry
   test::resign(file);

@@ -152,7 +152,7 @@ TEST(Json, IgnoresKeysThatStartWithX) {
 TEST(Json, IgnoresUnknownKeysOfANewerMinorVersionOnly) {
   std::string text = replaced("\"tree\": {", "\"links\": [], \"tree\": {");
   EXPECT_EQ(codeOf(decodeJson(text)), "JSON_KEY_UNKNOWN");
-  text.replace(text.find("\"1.1\""), 5, "\"1.2\"");
+  text.replace(text.find("\"1.1\""), 5, "\"1.3\"");
   EXPECT_EQ(codeOf(decodeJson(text)), "OK");
 }
 

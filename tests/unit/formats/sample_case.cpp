@@ -90,6 +90,24 @@ Case fullCase() {
   return value;
 }
 
+Case movingCase() {
+  Case value = richCase();
+  Motion& motion = value.motion.emplace();
+  motion.time = {0.1, 0.25, 0.7};
+  motion.period = 0.9;
+  motion.node = {1, 2, 5};
+  for (int t = 0; t < 3; ++t)
+    for (const std::uint32_t node : motion.node) {
+      Pose pose;
+      pose.centre = value.tree.centre[node];
+      pose.centre.x += 0.25f * static_cast<float>(t);
+      if (t == 1) pose.rotation = {0.6f, 0, 0, 0.8f};
+      pose.factor = 1.0f + 0.125f * static_cast<float>(t);
+      motion.pose.push_back(pose);
+    }
+  return value;
+}
+
 Case longCase(std::size_t nodes, std::size_t pointsPerNode, std::size_t blobsPerNode) {
   Case value;
   value.points.emplace().offset = {0};

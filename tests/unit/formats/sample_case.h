@@ -25,6 +25,9 @@ Case richCase();
 /// quantised points, two node arrays of an extension, and two chunks of others.
 Case fullCase();
 
+/// The rich case with a periodic motion of nodes 1, 2 and 5 at three times.
+Case movingCase();
+
 /// A straight case of `nodes` nodes with so many points and blobs each, for the benchmark.
 Case longCase(std::size_t nodes, std::size_t pointsPerNode, std::size_t blobsPerNode);
 

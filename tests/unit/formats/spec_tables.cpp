@@ -18,9 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, 13> kSchemas = {
-    "case", "metadata", "source", "point-quantisation", "node-array", "step", "tree", "branch",
-    "link", "points",   "models", "other-chunk",        "vector"};
+constexpr std::array<const char*, 15> kSchemas = {
+    "case",        "metadata", "source",    "point-quantisation",
+    "node-array",  "step",     "tree",      "branch",
+    "link",        "points",   "models",    "motion",
+    "other-chunk", "vector",   "quaternion"};
 
 constexpr const char* kBegin = "<!-- properties: begin -->\n";
 constexpr const char* kEnd = "<!-- properties: end -->";

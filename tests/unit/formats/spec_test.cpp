@@ -103,6 +103,8 @@ TEST(Specification, StatesTheLimitsOfTheCode) {
       {"| chunks in a file | ", kMaxChunks},
       {"| parameters of a step | ", kMaxParameters},
       {"| links | ", kMaxLinks},
+      {"| times of a motion | ", kMaxTimes},
+      {"| poses: times by moving nodes | ", kMaxPoses},
       {"| extensions used | ", kMaxExtensions},
       {"| node arrays | ", kMaxNodeArrays},
       {"| components of a node array | ", kMaxComponents},

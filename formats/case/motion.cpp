@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/case/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/case/chunk_codec.h"
+#include "formats/field/repeatable_math.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::formats {
+
+using field::NodePose;
+using field::Quaternion;
+
+namespace {
+
+field::Vec vec(const Vec3f& v) {
+  return {v.x, v.y, v.z};
+}
+
+Quaternion unit(Quaternion q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (double& x : q) x /= length;
+  return q;
+}
+
+NodePose valueOf(const Pose& pose) {
+  const auto& q = pose.rotation;
+  return {vec(pose.centre), unit({q[0], q[1], q[2], q[3]}), pose.factor};
+}
+
+// The motion of a chunk in version 1, or nothing.
+std::optional<Motion> motionOfChunk(const OtherChunk& other, IssueList& faults) {
+  if (other.version != 1) return std::nullopt;
+  Chunk chunk;
+  chunk.type = chunk::kMotion;
+  chunk.encoding = other.encoding;
+  chunk.rawSize = other.rawSize;
+  chunk.stored = other.bytes;
+  std::vector<std::byte> raw = other.bytes;
+  if (other.encoding != 0) {
+    if (other.rawSize > kMaxExpansion * other.bytes.size()) return std::nullopt;
+    auto decoded = decodeChunk(chunk, faults);
+    if (!decoded) return std::nullopt;
+    raw = *std::move(decoded);
+  }
+  chunk.stored = raw;
+  const MotionView view = viewMotion(chunk, faults);
+  return faults.failed() ? std::nullopt : std::optional(motionOf(view));
+}
+
+// Half the angle of the rotation from one unit quaternion to another that is not opposite, along
+// the shorter arc; W. Kahan, "How futile are mindless assessments of roundoff in floating-point
+// computation?", 2006, section 12: exact for small angles and for large ones.
+double halfAngle(const Quaternion& a, const Quaternion& b) {
+  double difference = 0, sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    difference += (b[i] - a[i]) * (b[i] - a[i]);
+    sum += (b[i] + a[i]) * (b[i] + a[i]);
+  }
+  return 2.0 * field::repeatableArctangent(std::sqrt(difference) / std::sqrt(sum));
+}
+
+double product(const Quaternion& a, const Quaternion& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+Quaternion opposite(const Quaternion& q) {
+  return {-q[0], -q[1], -q[2], -q[3]};
+}
+
+// Two of a motion's times, and the share of the way from the first to the second.
+struct Instant {
+  std::size_t from = 0, to = 0;
+  double share = 0;
+};
+
+Instant instantOf(const Motion& motion, double time) {
+  const std::vector<double>& times = motion.time;
+  const std::size_t last = times.size() - 1;
+  if (motion.period > 0) {
+    const double passed = time - times.front();
+    const double within = passed - motion.period * std::floor(passed / motion.period);
+    time = times.front() + (within < motion.period ? std::max(within, 0.0) : 0.0);
+    if (time >= times.back()) {
+      const double rest = times.front() + motion.period - times.back();
+      return {last, 0, std::min((time - times.back()) / rest, 1.0)};
+    }
+  }
+  if (time <= times.front()) return {0, 0, 0};
+  if (time >= times.back()) return {last, last, 0};
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  const auto to = static_cast<std::size_t>(after - times.begin());
+  return {to - 1, to, (time - times[to - 1]) / (times[to] - times[to - 1])};
+}
+
+double between(double a, double b, double u) {
+  return (1.0 - u) * a + u * b;
+}
+
+NodePose interpolated(const Pose& from, const Pose& to, double u) {
+  const NodePose a = valueOf(from), b = valueOf(to);
+  return {(1.0 - u) * a.centre + u * b.centre, slerp(a.rotation, b.rotation, u),
+          between(a.factor, b.factor, u)};
+}
+
+std::vector<NodePose> posesOf(const CenterlineTree& tree, const Motion& motion,
+                               const Instant& instant) {
+  std::vector<NodePose> poses(tree.nodeCount());
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].centre = vec(tree.centre[i]);
+  const std::size_t nodes = motion.node.size();
+  for (std::size_t n = 0; n < nodes; ++n)
+    poses[motion.node[n]] =
+        interpolated(motion.pose[instant.from * nodes + n], motion.pose[instant.to * nodes + n],
+                     instant.share);
+  return poses;
+}
+
+// Strain of the edge from `i` to `k`, from the frame of `i`.
+double strainOf(const CenterlineTree& tree, const std::vector<NodePose>& poses, std::size_t i,
+                std::size_t k) {
+  const field::Vec rest = vec(tree.centre[k]) - vec(tree.centre[i]);
+  const double length = field::norm(rest);
+  if (!(length > 0)) return 0;
+  const field::Vec moved = (1.0 / poses[i].factor) * rotatedBack(poses[i].rotation,
+                                                               poses[k].centre - poses[i].centre);
+  const double angle = angleBetween(poses[i].rotation, poses[k].rotation);
+  const double radius = std::max(tree.radius[i], tree.radius[k]);
+  return (field::norm(moved - rest) + radius * angle) / length;
+}
+
+double greatestStrain(const CenterlineTree& tree, const std::vector<NodePose>& poses) {
+  double greatest = 0;
+  const auto add = [&](std::size_t i, std::size_t k) {
+    greatest = std::max({greatest, strainOf(tree, poses, i, k), strainOf(tree, poses, k, i)});
+  };
+  for (std::size_t i = 0; i < tree.nodeCount(); ++i)
+    if (tree.parent[i] >= 0) add(static_cast<std::size_t>(tree.parent[i]), i);
+  for (const auto& [a, b] : tree.links) add(a, b);
+  return greatest;
+}
+
+}  // namespace
+
+FormatVersion versionOf(const Case& value) {
+  return value.motion ? kMotionVersion : kPlainVersion;
+}
+
+Motion motionOf(const MotionView& view) {
+  Motion motion{{view.time.begin(), view.time.end()},
+                view.period,
+                {view.node.begin(), view.node.end()},
+                {}};
+  motion.pose.reserve(view.pose.size());
+  for (const PoseRecord& p : view.pose)
+    motion.pose.push_back({{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}, p[7]});
+  return motion;
+}
+
+void takeMotion(Case& value, IssueList& issues) {
+  const auto found =
+      std::find_if(value.otherChunks.begin(), value.otherChunks.end(),
+                   [](const OtherChunk& other) { return other.type == chunkName(chunk::kMotion); });
+  if (found == value.otherChunks.end() || value.motion) return;
+  IssueList faults(1, IssueList::Keep::Errors);
+  value.motion = motionOfChunk(*found, faults);
+  if (!value.motion) {
+    const auto index = static_cast<std::size_t>(found - value.otherChunks.begin());
+    return issues.add(pointerIssue(ErrorCode::JsonChunkData, at("/otherChunks", index),
+                                   "the motion cannot be read",
+                                   {{"chunk", chunkName(chunk::kMotion)}}));
+  }
+  value.otherChunks.erase(found);
+}
+
+std::vector<NodePose> posesAt(const CenterlineTree& tree, const Motion& motion, double time) {
+  return posesOf(tree, motion, instantOf(motion, time));
+}
+
+Quaternion slerp(const Quaternion& a, Quaternion b, double u) {
+  if (product(a, b) < 0) b = opposite(b);
+  const double angle = halfAngle(a, b);
+  const double sine = field::repeatableSine(angle);
+  if (!(sine > 0) || u <= 0) return u < 0.5 ? a : b;
+  if (u >= 1) return b;
+  const double from = field::repeatableSine((1.0 - u) * angle) / sine;
+  const double to = field::repeatableSine(u * angle) / sine;
+  Quaternion q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = from * a[i] + to * b[i];
+  return unit(q);
+}
+
+double angleBetween(const Quaternion& a, const Quaternion& b) {
+  return 2.0 * halfAngle(a, product(a, b) < 0 ? opposite(b) : b);
+}
+
+MotionFigures motionFigures(const CenterlineTree& tree, const Motion& motion) {
+  MotionFigures figures;
+  for (std::size_t t = 0; t < motion.time.size(); ++t) {
+    const std::vector<NodePose> poses = posesOf(tree, motion, {t, t, 0});
+    for (const std::uint32_t node : motion.node)
+      figures.displacement = std::max(figures.displacement,
+                                      field::norm(poses[node].centre - vec(tree.centre[node])));
+    figures.strain = std::max(figures.strain, greatestStrain(tree, poses));
+  }
+  return figures;
+}
+
+void keepMotionOf(std::optional<Motion>& motion, const std::vector<bool>& stays,
+                  const std::vector<std::uint32_t>& newIndex) {
+  if (!motion) return;
+  std::vector<std::size_t> kept;
+  for (std::size_t n = 0; n < motion->node.size(); ++n)
+    if (stays[motion->node[n]]) kept.push_back(n);
+  std::sort(kept.begin(), kept.end(), [&](std::size_t a, std::size_t b) {
+    return newIndex[motion->node[a]] < newIndex[motion->node[b]];
+  });
+  if (kept.empty()) return motion.reset();
+  Motion out{motion->time, motion->period, {}, {}};
+  for (const std::size_t n : kept) out.node.push_back(newIndex[motion->node[n]]);
+  for (std::size_t t = 0; t < motion->time.size(); ++t)
+    for (const std::size_t n : kept) out.pose.push_back(motion->pose[t * motion->node.size() + n]);
+  *motion = std::move(out);
+}
+
+}  // namespace lumen::formats

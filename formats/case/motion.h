@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Poses of nodes at any time, and how far a motion bends its tree; see spec/lumen.md, "Motion".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "formats/case/case.h"
+#include "formats/field/pose.h"
+#include "formats/view/case_view.h"
+
+namespace lumen::formats {
+
+/// Version of a file that holds `value`.
+FormatVersion versionOf(const Case& value);
+
+/// The motion of a file.
+Motion motionOf(const MotionView& view);
+
+/// Turns the chunk of a motion that a program of version 1.1, which did not know it, left among the
+/// other chunks into the motion, unless there is one. Reports JSON_CHUNK_DATA for one that cannot
+/// be read.
+void takeMotion(Case& value, IssueList& issues);
+
+/// Poses of all nodes at a time (s): those of the motion, and of the others the pose at rest.
+std::vector<field::NodePose> posesAt(const CenterlineTree& tree, const Motion& motion, double time);
+
+/// Rotation from `a` to `b` along the shorter arc, at the share `u` of it, 0 to 1.
+field::Quaternion slerp(const field::Quaternion& a, field::Quaternion b, double u);
+
+/// Angle in radians, 0 to pi, of the rotation that leads from `a` to `b`.
+double angleBetween(const field::Quaternion& a, const field::Quaternion& b);
+
+/// Figures of a motion over all of its times.
+struct MotionFigures {
+  double displacement = 0;  ///< mm: longest distance of a node's centre from its centre at rest
+  double strain = 0;        ///< greatest strain of an edge, as the specification defines it
+};
+MotionFigures motionFigures(const CenterlineTree& tree, const Motion& motion);
+
+/// Drops the motion of nodes that do not stay, and renames the others: newIndex[i] is the index of
+/// node i afterwards. A motion without nodes is dropped.
+void keepMotionOf(std::optional<Motion>& motion, const std::vector<bool>& stays,
+                  const std::vector<std::uint32_t>& newIndex);
+
+}  // namespace lumen::formats
