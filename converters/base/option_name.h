@@ -79,6 +79,11 @@ struct OptionNames {
   OptionName noise{"noise"};
   OptionName bias{"bias"};
   OptionName psf{"psf"};
+  OptionName motion{"motion"};
+  OptionName phases{"phases"};
+  // lumen motion
+  OptionName period{"period"};
+  OptionName times{"times"};
   // lumen validate
   OptionName privacy{"privacy"};
   // libraries

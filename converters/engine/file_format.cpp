@@ -359,4 +359,14 @@ const FileFormat& volumeOutputFormat(const fs::path& path, const std::string& wh
                     formatEndings(canWriteVolume));
 }
 
+std::string numberedName(const std::string& path, const FileFormat& format, std::size_t number) {
+  constexpr std::size_t kDigits = 2;
+  std::size_t end = path.size();
+  for (const std::string_view ending : format.endings)
+    if (path.size() > ending.size() &&
+        lowerCase(path.substr(path.size() - ending.size())) == ending)
+      end = std::min(end, path.size() - ending.size());
+  return path.substr(0, end) + "-" + paddedNumber(number, kDigits) + path.substr(end);
+}
+
 }  // namespace lumen::engine

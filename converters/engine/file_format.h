@@ -98,4 +98,7 @@ const FileFormat& caseOutputFormat(const std::filesystem::path& path, std::strin
                                    const std::string& what);
 const FileFormat& volumeOutputFormat(const std::filesystem::path& path, const std::string& what);
 
+/// A name of this format with a number of at least two digits before its ending: "beat-03.nii.gz".
+std::string numberedName(const std::string& path, const FileFormat& format, std::size_t number);
+
 }  // namespace lumen::engine

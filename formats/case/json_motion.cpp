@@ -53,10 +53,10 @@ Motion readMotion(JsonValue value, const ArraySlots& slots, MotionRows& rows,
     if (motion.period == 0)  // which a text leaves out
       state.issues.add(foundIssue(ErrorCode::MotionPeriod, "/motion/period", "0", "more than 0"));
   }
-  requireArrays(slots,
-                {"/motion/time", "/motion/node", "/motion/centre", "/motion/rotation",
-                 "/motion/factor"},
-                state);
+  requireArrays(
+      slots,
+      {"/motion/time", "/motion/node", "/motion/centre", "/motion/rotation", "/motion/factor"},
+      state);
   fields.finish();
   if (state.issues.failed()) return motion;
   if (!checkRows(rows.centre, rows, "/motion/centre", state) ||

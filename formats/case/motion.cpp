@@ -106,14 +106,13 @@ NodePose interpolated(const Pose& from, const Pose& to, double u) {
 }
 
 std::vector<NodePose> posesOf(const CenterlineTree& tree, const Motion& motion,
-                               const Instant& instant) {
+                              const Instant& instant) {
   std::vector<NodePose> poses(tree.nodeCount());
   for (std::size_t i = 0; i < poses.size(); ++i) poses[i].centre = vec(tree.centre[i]);
   const std::size_t nodes = motion.node.size();
   for (std::size_t n = 0; n < nodes; ++n)
-    poses[motion.node[n]] =
-        interpolated(motion.pose[instant.from * nodes + n], motion.pose[instant.to * nodes + n],
-                     instant.share);
+    poses[motion.node[n]] = interpolated(motion.pose[instant.from * nodes + n],
+                                         motion.pose[instant.to * nodes + n], instant.share);
   return poses;
 }
 
@@ -123,8 +122,8 @@ double strainOf(const CenterlineTree& tree, const std::vector<NodePose>& poses, 
   const field::Vec rest = vec(tree.centre[k]) - vec(tree.centre[i]);
   const double length = field::norm(rest);
   if (!(length > 0)) return 0;
-  const field::Vec moved = (1.0 / poses[i].factor) * rotatedBack(poses[i].rotation,
-                                                               poses[k].centre - poses[i].centre);
+  const field::Vec moved =
+      (1.0 / poses[i].factor) * rotatedBack(poses[i].rotation, poses[k].centre - poses[i].centre);
   const double angle = angleBetween(poses[i].rotation, poses[k].rotation);
   const double radius = std::max(tree.radius[i], tree.radius[k]);
   return (field::norm(moved - rest) + radius * angle) / length;
@@ -148,10 +147,8 @@ FormatVersion versionOf(const Case& value) {
 }
 
 Motion motionOf(const MotionView& view) {
-  Motion motion{{view.time.begin(), view.time.end()},
-                view.period,
-                {view.node.begin(), view.node.end()},
-                {}};
+  Motion motion{
+      {view.time.begin(), view.time.end()}, view.period, {view.node.begin(), view.node.end()}, {}};
   motion.pose.reserve(view.pose.size());
   for (const PoseRecord& p : view.pose)
     motion.pose.push_back({{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}, p[7]});
@@ -200,8 +197,8 @@ MotionFigures motionFigures(const CenterlineTree& tree, const Motion& motion) {
   for (std::size_t t = 0; t < motion.time.size(); ++t) {
     const std::vector<NodePose> poses = posesOf(tree, motion, {t, t, 0});
     for (const std::uint32_t node : motion.node)
-      figures.displacement = std::max(figures.displacement,
-                                      field::norm(poses[node].centre - vec(tree.centre[node])));
+      figures.displacement =
+          std::max(figures.displacement, field::norm(poses[node].centre - vec(tree.centre[node])));
     figures.strain = std::max(figures.strain, greatestStrain(tree, poses));
   }
   return figures;

@@ -37,11 +37,10 @@ PosedField::PosedField(const BlendedField& rest, const TreeView& tree, std::vect
       const double square = dot(to, to), ri = m_nodes[i].radius, rk = m_nodes[k].radius;
       const std::span<const std::uint32_t> joined = edgesOf(i);
       const bool isEdge = std::find(joined.begin(), joined.end(), k) != joined.end();
-      const double tau = blendingWidth(square, std::min(ri, rk), isEdge, 0.5 * (spacing[i] + spacing[k]));
-      m_rivals.push_back({{-2.0 * to.x, -2.0 * to.y, -2.0 * to.z},
-                          square - rk * rk + ri * ri,
-                          1.0 / tau,
-                          k});
+      const double tau =
+          blendingWidth(square, std::min(ri, rk), isEdge, 0.5 * (spacing[i] + spacing[k]));
+      m_rivals.push_back(
+          {{-2.0 * to.x, -2.0 * to.y, -2.0 * to.z}, square - rk * rk + ri * ri, 1.0 / tau, k});
     }
     m_offset.push_back(static_cast<std::uint32_t>(m_rivals.size()));
   }

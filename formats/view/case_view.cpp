@@ -215,10 +215,11 @@ MotionView viewMotion(const Chunk& chunk, IssueList& issues) {
     issues.add(sizeIssue(chunk, *size));
   } else {
     const std::byte* at = chunk.stored.data() + kMotionHeadSize;
+    const auto k = static_cast<std::size_t>(times), m = static_cast<std::size_t>(nodes);
     motion.period = period;
-    motion.time = {reinterpret_cast<const double*>(at), times};
-    motion.node = {reinterpret_cast<const std::uint32_t*>(at + 8 * times), nodes};
-    motion.pose = {reinterpret_cast<const PoseRecord*>(at + 8 * times + 4 * nodes), times * nodes};
+    motion.time = {reinterpret_cast<const double*>(at), k};
+    motion.node = {reinterpret_cast<const std::uint32_t*>(at + 8 * k), m};
+    motion.pose = {reinterpret_cast<const PoseRecord*>(at + 8 * k + 4 * m), k * m};
   }
   return motion;
 }

@@ -8,8 +8,9 @@ Engine makeEngine() {
   Engine engine;
   for (const auto make :
        {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand,
-        makeTrimCommand, makeInfoCommand, makeValidateCommand, makeCompareCommand, makeCheckCommand,
-        makeMeasureCommand, makePictureCommand, makeReportCommand, makePhantomCommand})
+        makeMotionCommand, makeTrimCommand, makeInfoCommand, makeValidateCommand,
+        makeCompareCommand, makeCheckCommand, makeMeasureCommand, makePictureCommand,
+        makeReportCommand, makePhantomCommand})
     engine.add(make);
 #ifdef LUMEN_WITH_LIBRARY
   for (const auto make :

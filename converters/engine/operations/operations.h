@@ -13,6 +13,7 @@ std::unique_ptr<Command> makeExportCommand();
 std::unique_ptr<Command> makeTrackCommand();
 std::unique_ptr<Command> makeSeedsCommand();
 std::unique_ptr<Command> makeFitCommand();
+std::unique_ptr<Command> makeMotionCommand();
 std::unique_ptr<Command> makeTrimCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeValidateCommand();

@@ -38,7 +38,10 @@ public:
         .argument("NAME", &m_options.name,
                   alternatives(convert::phantomNames()) + "; left out with " + kOption.tree.shown())
         .isRequired = false;
-    table.argument("OUT", &m_output, "Volume to write: " + formatEndings(canWriteVolume))
+    table
+        .argument("OUT", &m_output,
+                  "Volume to write: " + formatEndings(canWriteVolume) + "; with " +
+                      kOption.motion.shown() + " the first of OUT-00, OUT-01 and so on")
         .isRequired = false;
     table.file(kOption.tree.name, m_tree,
                "Draw the arteries of this SWC file, lengths in mm, instead of a named phantom");
@@ -51,9 +54,14 @@ public:
     sortArguments();
     requireInScope(*around.table, {}, around.progress);
     const Outputs outputs = checkOutputs(around);
-    const convert::Phantom phantom = convert::makePhantom(m_options, around.progress);
+    const convert::Phantom phantom = convert::makePhantom(
+        m_options,
+        [&](int phase, const convert::Volume& volume) {
+          outputs.volume.writeVolume(volume, volumeName(outputs.volume, phase));
+        },
+        around.progress);
     around.progress.begin("writing", 0);
-    outputs.volume.writeVolume(phantom.volume, m_output);
+    outputs.volume.writeVolume(phantom.volume, volumeName(outputs.volume, 0));
     if (outputs.truth != nullptr)
       outputs.truth->writeCase(phantom.truth, m_truth, {}, around.progress);
     if (!m_seeds.empty()) convert::writeSeeds(phantom.seeds, m_seeds);
@@ -66,6 +74,12 @@ private:
     const FileFormat& volume;
     const FileFormat* truth;  ///< null without --truth
   };
+
+  /// OUT itself, or with a motion OUT with the number of the phase before its ending.
+  [[nodiscard]] std::string volumeName(const FileFormat& format, int phase) const {
+    if (m_options.motion == convert::PhantomMotion::None) return m_output;
+    return numberedName(m_output, format, static_cast<std::size_t>(phase));
+  }
 
   void sortArguments() {
     const std::string usage =
@@ -91,10 +105,11 @@ private:
   Outputs checkOutputs(Surroundings& around) const {
     const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
                           m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
-    const std::vector<std::pair<std::string, convert::ContentKind>> files = {
-        {m_output, convert::ContentKind::Volume},
-        {m_truth, convert::ContentKind::Case},
-        {m_seeds, convert::ContentKind::Seeds}};
+    std::vector<std::pair<std::string, convert::ContentKind>> files = {
+        {m_truth, convert::ContentKind::Case}, {m_seeds, convert::ContentKind::Seeds}};
+    const int volumes = m_options.motion == convert::PhantomMotion::None ? 1 : m_options.phases;
+    for (int phase = 0; phase < volumes; ++phase)
+      files.emplace_back(volumeName(outputs.volume, phase), convert::ContentKind::Volume);
     for (auto file = files.begin(); file != files.end(); ++file) {
       const auto& [output, kind] = *file;
       if (output.empty()) continue;
@@ -113,11 +128,18 @@ private:
     json["size"] = size;
     json["voxel_size_mm"] = jsonNumber(phantom.volume.geometry.voxelSize());
     json["seeds"] = phantom.seeds.size();
-    return {std::move(json), m_output + ": " + joinedNumbers(size, " x ") + " voxels of " +
-                                 fixedText(phantom.volume.geometry.voxelSize(), 3) + " mm, " +
-                                 std::to_string(phantom.truth.tree.branches.size()) +
+    json["phases"] = phantom.truth.motion ? phantom.truth.motion->time.size() : 1;
+    return {std::move(json), shownVolumes(phantom) + ": " + joinedNumbers(size, " x ") +
+                                 " voxels of " + fixedText(phantom.volume.geometry.voxelSize(), 3) +
+                                 " mm, " + std::to_string(phantom.truth.tree.branches.size()) +
                                  " true branches, " +
                                  fixedText(totalLength(phantom.truth.tree), 1) + " mm\n"};
+  }
+
+  [[nodiscard]] std::string shownVolumes(const convert::Phantom& phantom) const {
+    if (!phantom.truth.motion) return m_output;
+    const FileFormat& format = volumeOutputFormat(m_output, "a phantom");
+    return volumeName(format, 0) + " to " + volumeName(format, m_options.phases - 1);
   }
 
   convert::PhantomOptions m_options;

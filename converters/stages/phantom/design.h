@@ -143,6 +143,8 @@ Design designSacSphere(const Frame& frame);
 Design designSacEllipsoid(const Frame& frame);
 Design designSacFork(const Frame& frame);
 Design designWillis(const Frame& frame);
+Design designCoronary(const Frame& frame);
+Design designHepatic(const Frame& frame);
 Design designPatient(const Frame& frame, std::uint64_t seed, Progress& progress);
 
 }  // namespace lumen::convert

@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/io/volume/write_volume.h"
+#include "converters/stages/motion/posing.h"
 #include "converters/stages/phantom/clutter.h"
 #include "converters/stages/phantom/phantom_scene.h"
 #include "formats/container/printable.h"
@@ -58,6 +59,7 @@ void checkOptions(const PhantomOptions& options) {
   requireRange(kOption.bias, options.bias, 0, 2);
   requireRange(kOption.psf, options.psf, 0, 5);
   requireRange(kOption.fade, options.fade, 0, 1);
+  requireRange(kOption.phases, options.phases, 2, 100);
   (void)parseClutter(options.clutter);
 }
 
@@ -88,6 +90,50 @@ VolumeGeometry geometryOf(const PhantomScene& scene, const Image& image) {
   return geometry;
 }
 
+// Steps that drawing one phase announces: the tree, two passes of the blur, and the noise each report
+// every slice.
+std::size_t stepsOf(const PhantomScene& scene, const PhantomOptions& options) {
+  return 3 * static_cast<std::size_t>(scene.grid.size[2]) +
+         static_cast<std::size_t>(scene.grid.size[1]) +
+         clutterSteps(parseClutter(options.clutter), scene.design, scene.grid);
+}
+
+// The voxels of a design in a scene.
+Volume draw(const PhantomScene& scene, const Design& design, const PhantomOptions& options,
+            int phase, Progress& progress) {
+  Image image = drawOccupancy(design, scene.grid, progress);
+  addClutter(parseClutter(options.clutter), design, scene.grid, options.seed, image, progress);
+  blur(image, options.psf, progress);
+  if (scene.slice != 1) image = averageSlices(image, scene.slice);
+  Volume volume;
+  volume.geometry = geometryOf(scene, image);
+  // noise of its own for each phase
+  const std::uint64_t seed = options.seed + 1000003 * static_cast<std::uint64_t>(phase);
+  volume.voxels = degrade(image, options.bias, options.noise, seed, scene.slice, progress);
+  return volume;
+}
+
+void requireTree(const PhantomScene& scene, const PhantomOptions& options) {
+  if (options.motion == PhantomMotion::None || !scene.design.wall) return;
+  throw Error(ErrorKind::Usage, "phantom: the wall of '" + options.name +
+                                    "' is not that of its tree, which " + kOption.motion.shown() +
+                                    " would move; expected another phantom");
+}
+
+formats::Motion motionOf(const PhantomScene& scene, const PhantomOptions& options) {
+  return motionOfTissue(scene.design.tree, MovingTissue(options.motion, boxOf(scene.design.tree)),
+                        periodOf(options.motion), static_cast<std::size_t>(options.phases));
+}
+
+Design designAt(const PhantomScene& scene, const formats::Motion& motion, int phase) {
+  const auto first = motion.pose.begin() + static_cast<std::ptrdiff_t>(motion.node.size()) *
+                                               static_cast<std::ptrdiff_t>(phase);
+  Design design = scene.design;
+  design.tree = posedTree(scene.design.tree,
+                          {first, first + static_cast<std::ptrdiff_t>(motion.node.size())});
+  return design;
+}
+
 void addImageRows(PhantomOptions& o, OptionTable& table) {
   constexpr NumberRange kTwice{0, 2};
   table
@@ -104,6 +150,18 @@ void addImageRows(PhantomOptions& o, OptionTable& table) {
       .add(kOption.psf.name, &o.psf, "VOXELS",
            "Standard deviation of the Gaussian point-spread function")
       .in(NumberRange{0, 5})
+      .recorded();
+}
+
+void addMotionRows(PhantomOptions& o, OptionTable& table) {
+  table
+      .choice(
+          kOption.motion.name, o.motion, phantomMotionByName(),
+          "Motion of the vessels: one volume for each phase of a cycle, numbered, and a truth with "
+          "its motion")
+      .recorded();
+  table.add(kOption.phases.name, &o.phases, "N", "Phases of the motion, evenly over its cycle")
+      .in(WholeRange{2, 100})
       .recorded();
 }
 
@@ -138,6 +196,7 @@ void PhantomOptions::addRows(OptionTable& table) {
            "bone,vein,streaks,stent,void")
       .recorded();
   addImageRows(*this, table);
+  addMotionRows(*this, table);
   table.add("seed", &seed, "K", "Seed of the random numbers")
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
       .recorded("random-seed");
@@ -168,40 +227,48 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
   if (sliceThickness == 0) parameters.erase(kOption.sliceThickness.name);
   if (clutter.empty()) parameters.erase(kOption.clutter.name);
   if (fade == 0) parameters.erase(kOption.fade.name);
+  if (motion == PhantomMotion::None) {
+    parameters.erase(kOption.motion.name);
+    parameters.erase(kOption.phases.name);
+  }
   return parameters;
 }
 
 const std::vector<std::string>& phantomNames() {
   static const std::vector<std::string> names = {
-      "tube",         "helix",         "bifurcation", "kissing", "aneurysm",     "stenosis",
-      "dropout",      "sac-lobes",     "companion",   "hairpin", "right-angle",  "fading",
-      "thick-slices", "coil",          "arc",         "cone",    "ellipse-tube", "fork",
-      "sac-sphere",   "sac-ellipsoid", "sac-fork",    "willis",  "patient"};
+      "tube",        "helix",        "bifurcation",  "kissing",    "aneurysm",
+      "stenosis",    "dropout",      "sac-lobes",    "companion",  "hairpin",
+      "right-angle", "fading",       "thick-slices", "coil",       "arc",
+      "cone",        "ellipse-tube", "fork",         "sac-sphere", "sac-ellipsoid",
+      "sac-fork",    "willis",       "coronary",     "hepatic",    "patient"};
   return names;
 }
 
 Phantom makePhantom(const PhantomOptions& options, Progress& progress) {
+  return makePhantom(
+      options, [](int, const Volume&) {}, progress);
+}
+
+Phantom makePhantom(const PhantomOptions& options, const PhaseReceiver& receive,
+                    Progress& progress) {
   checkOptions(options);
   PhantomScene scene =
       options.tree.empty() ? sceneOfName(options, progress) : sceneOfTree(options, progress);
-  const std::set<Clutter> clutter = parseClutter(options.clutter);
-  // drawing, two passes of the blur, and the noise each report every slice
-  progress.begin("phantom", 3 * static_cast<std::size_t>(scene.grid.size[2]) +
-                                static_cast<std::size_t>(scene.grid.size[1]) +
-                                clutterSteps(clutter, scene.design, scene.grid));
-  Image image = drawOccupancy(scene.design, scene.grid, progress);
-  addClutter(clutter, scene.design, scene.grid, options.seed, image, progress);
-  blur(image, options.psf, progress);
-  if (scene.slice != 1) image = averageSlices(image, scene.slice);
-
+  requireTree(scene, options);
+  const int phases = options.motion == PhantomMotion::None ? 1 : options.phases;
+  progress.begin("phantom", static_cast<std::size_t>(phases) * stepsOf(scene, options));
   Phantom phantom;
-  phantom.volume.geometry = geometryOf(scene, image);
-  phantom.volume.voxels =
-      degrade(image, options.bias, options.noise, options.seed, scene.slice, progress);
+  phantom.volume = draw(scene, scene.design, options, 0, progress);
   phantom.truth = describeTruth(scene, options);
   phantom.truth.metadata.voxelSize =
       scene.slice == 1 ? options.voxel : phantom.volume.geometry.voxelSize();
   phantom.truth.metadata.source = describeSource(phantom.volume);
+  if (phases > 1 || options.motion != PhantomMotion::None) {
+    phantom.truth.motion = motionOf(scene, options);
+    for (int phase = 1; phase < phases; ++phase)
+      receive(phase,
+              draw(scene, designAt(scene, *phantom.truth.motion, phase), options, phase, progress));
+  }
   phantom.seeds = std::move(scene.design.seeds);
   progress.end();
   return phantom;

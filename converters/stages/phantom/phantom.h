@@ -34,6 +34,8 @@
 // | sac-sphere, sac-ellipsoid | sacs above a plane that touches a straight vessel: their neck |
 // | sac-fork | a sac at the end of a trunk that parts to both sides |
 // | willis | a circle of Willis: three inlets, and communicating arteries as links |
+// | coronary | an artery that winds over a ventricle, with three side branches |
+// | hepatic | a trunk that divides three times |
 // | patient | a random tree |
 //
 // Shapes scale with the volume's edge. Radii of the small phantoms are given for 25.4 mm (128
@@ -50,6 +52,10 @@
 // states these in its step, as true.BRANCH.MEASURE. The wall of `ellipse-tube` is not that of its
 // tree, whose radii are those of the balls inside.
 //
+// `coronary` and `hepatic` lie in the middle half of the volume, so that they can move. With --motion
+// (moving.h) there is a volume for each of the phases, evenly over a cycle, the first at rest; each has
+// noise of its own. The truth is the tree at rest with its motion.
+//
 // A tree from a file is smoothed by the rule of smooth_chain.h. Its branches are b000, b001 and so
 // on, its seeds those of the vessels that are longer than 5 mm and wide enough to be tracked
 // (design.h), and its step states the digest of the file.
@@ -57,6 +63,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -64,6 +71,7 @@
 #include "converters/base/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/stages/phantom/moving.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
@@ -85,6 +93,8 @@ struct PhantomOptions {
   std::uint64_t seed = 1;
   bool isCareless = false;         ///< clicks as of a person in a hurry
   std::uint64_t clickDrawing = 0;  ///< another number: other clicks on the same volume
+  PhantomMotion motion = PhantomMotion::None;
+  int phases = 10;  ///< of a motion
 
   /// Adds a row for each value above except name and tree, stored in this object.
   void addRows(OptionTable& table);
@@ -93,7 +103,7 @@ struct PhantomOptions {
 };
 
 struct Phantom {
-  Volume volume;                  ///< int16
+  Volume volume;                  ///< int16; of the rest
   formats::Case truth;            ///< the true tree, densely sampled; no points, no models
   std::vector<SeedBranch> seeds;  ///< clicks as a user would set them
 };
@@ -109,5 +119,12 @@ const std::vector<std::string>& phantomNames();
 /// Makes a phantom. Throws Error(Usage) for an unknown name, options out of range and both or
 /// neither of name and tree, Error(InvalidInput) for the file of the tree, and Error(Cancelled).
 Phantom makePhantom(const PhantomOptions& options, Progress& progress);
+
+/// Receives the volume of a phase, from 1 on: those after the rest.
+using PhaseReceiver = std::function<void(int phase, const Volume& volume)>;
+/// Makes a phantom that may move, and hands over the volume of each phase but the first as soon as it
+/// is drawn. Throws as above, and Error(Usage) for a motion of a phantom whose wall is no tree's.
+Phantom makePhantom(const PhantomOptions& options, const PhaseReceiver& receive,
+                    Progress& progress);
 
 }  // namespace lumen::convert

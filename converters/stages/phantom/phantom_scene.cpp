@@ -110,7 +110,26 @@ Design makeDesign(const CenterlineFile& file, double voxel, const std::string& n
   return builder.design();
 }
 
+// The box that holds a tree in all phases of its motion.
+Box3d boxOfPhases(const formats::CenterlineTree& tree, const PhantomOptions& options) {
+  Box3d box = boxOf(tree);
+  if (options.motion == PhantomMotion::None) return box;
+  const MovingTissue tissue(options.motion, box);
+  for (int phase = 1; phase < options.phases; ++phase)
+    for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+      box.add(tissue.place(nodeCentre(tree, n), static_cast<double>(phase) / options.phases),
+              static_cast<double>(tree.radius[n]));
+  return box;
+}
+
 }  // namespace
+
+Box3d boxOf(const formats::CenterlineTree& tree) {
+  Box3d box;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+    box.add(nodeCentre(tree, n), static_cast<double>(tree.radius[n]));
+  return box;
+}
 
 PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
   const std::map<std::string, std::function<Design(const Frame&)>> small = {
@@ -135,7 +154,9 @@ PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
       {"sac-sphere", designSacSphere},
       {"sac-ellipsoid", designSacEllipsoid},
       {"sac-fork", designSacFork},
-      {"willis", designWillis}};
+      {"willis", designWillis},
+      {"coronary", designCoronary},
+      {"hepatic", designHepatic}};
   const auto found = small.find(options.name);
   const bool patient = found == small.end();
   const bool isLarge = patient || options.name == "willis";
@@ -173,10 +194,8 @@ PhantomScene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   scene.design = makeDesign(file, options.voxel, name, progress);
   fadeContrast(scene.design, options.fade);
   loseFlow(parseClutter(options.clutter), options.seed, scene.design);
-  Box3d box;
   const formats::CenterlineTree& tree = scene.design.tree;
-  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
-    box.add(nodeCentre(tree, n), static_cast<double>(tree.radius[n]));
+  const Box3d box = boxOfPhases(tree, options);
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
   scene.grid = gridAround(box, options.voxel);
   // whole slices

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "converters/base/progress.h"
+#include "converters/geometry/box.h"
 #include "converters/stages/phantom/design.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/phantom/render.h"
@@ -15,6 +16,9 @@ struct PhantomScene {
   double slice = 1;        ///< thickness of a slice, voxels
   std::string treeSha256;  ///< digest of the file with the tree; empty if the phantom has a name
 };
+
+/// The box around the balls of a tree's nodes, mm.
+Box3d boxOf(const formats::CenterlineTree& tree);
 
 /// The phantom `options.name` in a cube. The options are within their ranges. Throws Error(Usage)
 /// if the volume is too small for it, and Error(Cancelled).

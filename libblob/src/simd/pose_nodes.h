@@ -62,8 +62,8 @@ inline void placeNeighbours(blob_pose& pose, const std::uint32_t* nodes, std::si
     const std::size_t first = record.firstNeighbours;
     float quiet = static_cast<float>(kFarthestMm);
     for (std::size_t b = 0; b < record.neighbourBlocks; ++b) {
-      const float begin = placeBlock(pose, pose.laneKinds[first + b], nodes[i],
-                                     pose.model.neighbours[first + b]);
+      const float begin =
+          placeBlock(pose, pose.laneKinds[first + b], nodes[i], pose.model.neighbours[first + b]);
       if (b > 0 && begin < quiet) quiet = begin;
     }
     record.centre[3] = static_cast<double>(quiet) * static_cast<double>(quiet);
@@ -120,17 +120,17 @@ inline Columns turnBack(const Columns& q, const Columns& v) {
 
 // The inverse of a, times b.
 inline Columns quotient(const Columns& a, const Columns& b) {
-  return {a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y,
-          a.w * b.y + a.x * b.z - a.y * b.w - a.z * b.x,
-          a.w * b.z - a.x * b.y + a.y * b.x - a.z * b.w,
-          a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z};
+  return {
+      a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y, a.w * b.y + a.x * b.z - a.y * b.w - a.z * b.x,
+      a.w * b.z - a.x * b.y + a.y * b.x - a.z * b.w, a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z};
 }
 
 // About the angle between rotations a and b, radians: twice the lesser distance of their
 // quaternions.
 inline F8 angleBetween(const Columns& a, const Columns& b) {
   const auto squareOf = [&](float sign) {
-    const F8 s = set1(sign), x = a.x - s * b.x, y = a.y - s * b.y, z = a.z - s * b.z, w = a.w - s * b.w;
+    const F8 s = set1(sign), x = a.x - s * b.x, y = a.y - s * b.y, z = a.z - s * b.z,
+             w = a.w - s * b.w;
     return (x * x + y * y) + (z * z + w * w);
   };
   return set1(2.0f) * sqrt(min(squareOf(1.0f), squareOf(-1.0f)));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motions: both encodings, rules, and poses between the times.
+#include "formats/case/motion.h"
+
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "formats/case/case_field.h"
-#include "formats/case/motion.h"
 #include "formats/container/bytes.h"
 #include "formats/field/posed_field.h"
 #include "formats/view/limits.h"
@@ -131,8 +132,7 @@ const Breach kBreaches[] = {
     {"period_negative", [](Motion& m) { m.period = -1; }, "MOTION_PERIOD", "/motion/period", 8},
     {"node_beyond", [](Motion& m) { m.node[2] = 6; }, "MOTION_NODE", "/motion/node/2",
      kNodesAt + 8},
-    {"node_twice", [](Motion& m) { m.node[1] = 1; }, "MOTION_NODE", "/motion/node/1",
-     kNodesAt + 4},
+    {"node_twice", [](Motion& m) { m.node[1] = 1; }, "MOTION_NODE", "/motion/node/1", kNodesAt + 4},
     {"centre_nan", [](Motion& m) { m.pose[4].centre.y = kNan; }, "NOT_FINITE",
      "/motion/centre/1/1/1", kPosesAt + 32 * 4 + 4},
     {"rotation_long", [](Motion& m) { m.pose[3].rotation[3] = 0.802f; }, "MOTION_ROTATION",
@@ -144,8 +144,8 @@ const Breach kBreaches[] = {
      "MOTION_ROTATION", "/motion/rotation/2/2", kPosesAt + 32 * 8 + 12},
     {"rotation_nan", [](Motion& m) { m.pose[0].rotation[1] = kNan; }, "NOT_FINITE",
      "/motion/rotation/0/0/1", kPosesAt + 16},
-    {"factor_zero", [](Motion& m) { m.pose[1].factor = 0; }, "MOTION_FACTOR",
-     "/motion/factor/0/1", kPosesAt + 32 + 28}};
+    {"factor_zero", [](Motion& m) { m.pose[1].factor = 0; }, "MOTION_FACTOR", "/motion/factor/0/1",
+     kPosesAt + 32 + 28}};
 
 class MotionBreach : public testing::TestWithParam<Breach> {};
 
@@ -287,7 +287,8 @@ TEST(Poses, CarryPointsAboutTheCentreAtRest) {
 TEST(Slerp, AgreesWithTheFormulaForAnglesSmallAndLarge) {
   for (const double angle : {1e-9, 1e-3, 1.0, kPi / 2, 3.1})
     for (const double u : {0.0, 0.125, 0.5, 0.9, 1.0}) {
-      const Quaternion q = slerp(aboutZ(0.3), aboutZ(0.3 + angle), u), want = aboutZ(0.3 + u * angle);
+      const Quaternion q = slerp(aboutZ(0.3), aboutZ(0.3 + angle), u),
+                       want = aboutZ(0.3 + u * angle);
       for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(q[i], want[i], 1e-15) << angle << " " << u;
     }
 }
@@ -323,8 +324,8 @@ TEST(PosedField, IsThatOfTheCaseAtRestWhereTheWholeTreeMovesAsARigidBody) {
     EXPECT_EQ(posed.follow(moved, 0), rest.follow(point, 0));
     const field::Jet<1> want = rest.blended(point, node), have = posed.blended(moved, node);
     EXPECT_NEAR(have.value, want.value, 1e-6);
-    const field::Vec slope = rotated(kBody.rotation, {want.gradient[0], want.gradient[1],
-                                                      want.gradient[2]});
+    const field::Vec slope =
+        rotated(kBody.rotation, {want.gradient[0], want.gradient[1], want.gradient[2]});
     EXPECT_NEAR(have.gradient[0], slope.x, 2e-6);
     EXPECT_NEAR(have.gradient[2], slope.z, 2e-6);
   }
@@ -346,7 +347,8 @@ TEST(PosedField, HasTheGradientOfItsValueWhereNodesTurnAndGrowApart) {
   for (int axis = 0; axis < 3; ++axis) {
     const field::Vec by{axis == 0 ? step : 0, axis == 1 ? step : 0, axis == 2 ? step : 0};
     const double slope =
-        (posed.blended(point + by, node).value - posed.blended(point - by, node).value) / (2 * step);
+        (posed.blended(point + by, node).value - posed.blended(point - by, node).value) /
+        (2 * step);
     EXPECT_NEAR(f.gradient[axis], slope, 1e-7);
   }
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/motion/posing.h"
+
+#include "converters/base/vectors.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// The neighbours of each node between which its direction is measured: its parent, and the child that
+// goes on straightest; the node itself where it has none.
+struct Chain {
+  std::vector<std::uint32_t> before, after;
+
+  explicit Chain(const formats::CenterlineTree& tree) {
+    std::vector<double> straightest(tree.nodeCount(), -2.0);
+    for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
+      before.push_back(i);
+      after.push_back(i);
+    }
+    for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
+      if (tree.parent[i] < 0) continue;
+      const auto parent = static_cast<std::uint32_t>(tree.parent[i]);
+      before[i] = parent;
+      const Vector3d step = toEigen(tree.centre[i]) - toEigen(tree.centre[parent]);
+      const double length = step.norm();
+      const double cosine = length > 0 ? step.dot(toEigen(tree.direction[parent])) / length : -1;
+      // the vessel itself goes on, whichever way it turns
+      const double rank = cosine + (tree.branch[i] == tree.branch[parent] ? 3 : 0);
+      if (rank <= straightest[parent]) continue;
+      straightest[parent] = rank;
+      after[parent] = i;
+    }
+  }
+};
+
+}  // namespace
+
+Quaterniond rotationOf(const formats::Pose& pose) {
+  const auto& q = pose.rotation;
+  return Quaterniond(q[3], q[0], q[1], q[2]).normalized();
+}
+
+formats::Pose poseOf(const Vector3d& centre, const Quaterniond& rotation, double factor) {
+  formats::Pose pose;
+  pose.centre = toVec3f(centre);
+  const Eigen::Vector4f q = rotation.normalized().coeffs().cast<float>();
+  pose.rotation = {q[0], q[1], q[2], q[3]};
+  pose.factor = static_cast<float>(factor);
+  return pose;
+}
+
+formats::CenterlineTree posedTree(const formats::CenterlineTree& rest,
+                                  const std::vector<formats::Pose>& poses) {
+  formats::CenterlineTree tree = rest;
+  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
+    tree.centre[i] = poses[i].centre;
+    tree.direction[i] = toVec3f((rotationOf(poses[i]) * toEigen(rest.direction[i])).normalized());
+    tree.radius[i] *= poses[i].factor;
+    tree.height[i] *= poses[i].factor;
+  }
+  return tree;
+}
+
+formats::Case posedWalls(const formats::Case& rest, const std::vector<formats::Pose>& poses) {
+  formats::Case posed;
+  posed.metadata = rest.metadata;
+  posed.nodeArrays = rest.nodeArrays;
+  posed.tree = posedTree(rest.tree, poses);
+  if (!rest.points) return posed;
+  posed.points = rest.points;
+  for (std::uint32_t i = 0; i < rest.tree.nodeCount(); ++i) {
+    const Quaterniond turn = rotationOf(poses[i]);
+    const Vector3d from = toEigen(rest.tree.centre[i]), to = toEigen(poses[i].centre);
+    for (std::uint32_t p = rest.points->offset[i]; p < rest.points->offset[i + 1]; ++p) {
+      const Vector3d point = toEigen(rest.points->position[p]);
+      posed.points->position[p] = toVec3f(to + double{poses[i].factor} * (turn * (point - from)));
+    }
+  }
+  return posed;
+}
+
+std::vector<formats::Pose> posesFromCentres(const formats::CenterlineTree& rest,
+                                            const std::vector<Vector3d>& centres,
+                                            const std::vector<double>& factors) {
+  const Chain chain(rest);
+  std::vector<formats::Pose> poses;
+  for (std::uint32_t i = 0; i < rest.nodeCount(); ++i) {
+    const std::uint32_t a = chain.before[i], b = chain.after[i];
+    const Vector3d before = toEigen(rest.centre[b]) - toEigen(rest.centre[a]);
+    const Vector3d now = centres[b] - centres[a];
+    const Quaterniond turn = before.norm() > 0 && now.norm() > 0
+                                 ? Quaterniond::FromTwoVectors(before, now)
+                                 : Quaterniond::Identity();
+    poses.push_back(poseOf(centres[i], turn, factors[i]));
+  }
+  return poses;
+}
+
+}  // namespace lumen::convert

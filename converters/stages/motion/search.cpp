@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/motion/search.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/base/error.h"
+#include "converters/base/statistics.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A strain of one half costs as much as vessel that is not seen.
+constexpr double kStrainCost = 4;
+/// Stations in one place would be tied without bound: the least gap, in radii.
+constexpr double kLeastGap = 0.25;
+
+// The energies of all moves of one station, x fastest.
+using Energies = std::vector<float>;
+
+class Search {
+public:
+  Search(const Stations& stations, const std::vector<StationShape>& shapes,
+         const std::vector<Vector3d>& around, const MoveGrid& grid)
+      : m_stations(stations), m_shapes(shapes), m_around(around), m_grid(grid) {}
+
+  // Contrasts, as shares of the median of the best that the stations have, which is usual.
+  void see(const Evidence& evidence, const Progress& progress) {
+    m_seen.assign(m_stations.size(), Energies(m_grid.count()));
+    std::vector<double> best(m_stations.size());
+    const double blunt = 0.6 * m_grid.step;  // a step must not leap over a vessel
+    tbb::parallel_for(std::size_t{0}, m_stations.size(), [&](std::size_t i) {
+      progress.check();
+      const StationShape& shape = m_shapes[i];
+      for (std::size_t label = 0; label < m_grid.count(); ++label)
+        m_seen[i][label] =
+            static_cast<float>(evidence.contrastAt(shape.centre + m_around[i] + m_grid.move(label),
+                                                   shape.direction, std::max(shape.radius, blunt)));
+      best[i] = double{*std::max_element(m_seen[i].begin(), m_seen[i].end())};
+    });
+    const double usual = upperMedian(best);
+    if (!(usual > 0))
+      throw invalidInput(
+          "no vessel of the case is seen in the volume, within the way that it may move");
+    for (Energies& seen : m_seen)
+      for (float& value : seen) value = static_cast<float>(std::clamp(value / usual, 0.0, 1.0));
+  }
+
+  SearchResult solve() {
+    m_energy.clear();
+    for (std::size_t i = 0; i < m_stations.size(); ++i) {
+      Energies& energy = m_energy.emplace_back(m_seen[i]);
+      for (float& e : energy) e = static_cast<float>(m_stations.length[i] * (1.0 - double{e}));
+    }
+    for (std::size_t i = m_stations.size(); i-- > 0;)
+      if (m_stations.parent[i] >= 0) sendUp(i);
+    SearchResult result;
+    for (std::size_t i = 0; i < m_stations.size(); ++i) choose(i, result);
+    return result;
+  }
+
+private:
+  // The weight of the square of a difference of moves along an edge, 1/mm.
+  [[nodiscard]] double stiffness(std::size_t i) const {
+    return kStrainCost / std::max(m_stations.gap[i], kLeastGap * m_shapes[i].radius);
+  }
+  // The difference of the moves of a station and its parent around which both search, in steps.
+  [[nodiscard]] Vector3d shift(std::size_t i) const {
+    return (m_around[i] - m_around[static_cast<std::size_t>(m_stations.parent[i])]) / m_grid.step;
+  }
+
+  // out(b) = min over a of in(a) + w (a - b + s)^2 along one axis, whose places are `stride` apart.
+  void spreadAxis(Energies& energy, std::size_t stride, double w, double s) const {
+    const int width = m_grid.width();
+    std::vector<double> cost(static_cast<std::size_t>(2 * width));
+    for (int d = -width + 1; d < width; ++d)
+      cost[static_cast<std::size_t>(d + width - 1)] = w * (d + s) * (d + s);
+    std::vector<float> line(static_cast<std::size_t>(width));
+    for (std::size_t first = 0; first < energy.size(); ++first) {
+      if (first / stride % static_cast<std::size_t>(width) != 0) continue;
+      for (int a = 0; a < width; ++a)
+        line[static_cast<std::size_t>(a)] = energy[first + static_cast<std::size_t>(a) * stride];
+      for (int b = 0; b < width; ++b) {
+        double least = std::numeric_limits<double>::infinity();
+        for (int a = 0; a < width; ++a)
+          least = std::min(least, double{line[static_cast<std::size_t>(a)]} +
+                                      cost[static_cast<std::size_t>(a - b + width - 1)]);
+        energy[first + static_cast<std::size_t>(b) * stride] = static_cast<float>(least);
+      }
+    }
+  }
+
+  void sendUp(std::size_t i) {
+    Energies message = m_energy[i];
+    const double w = stiffness(i) * m_grid.step * m_grid.step;
+    const Vector3d s = shift(i);
+    std::size_t stride = 1;
+    for (int axis = 0; axis < 3; ++axis, stride *= static_cast<std::size_t>(m_grid.width()))
+      spreadAxis(message, stride, w, s[axis]);
+    Energies& parent = m_energy[static_cast<std::size_t>(m_stations.parent[i])];
+    for (std::size_t label = 0; label < parent.size(); ++label) parent[label] += message[label];
+  }
+
+  // The best move of a station, given that of its parent, which comes before it.
+  void choose(std::size_t i, SearchResult& result) const {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t label = 0; label < m_grid.count(); ++label) {
+      double energy = double{m_energy[i][label]};
+      if (m_stations.parent[i] >= 0) {
+        const Vector3d& above = result.moves[static_cast<std::size_t>(m_stations.parent[i])];
+        energy += stiffness(i) * (m_around[i] + m_grid.move(label) - above).squaredNorm();
+      }
+      if (energy >= least) continue;
+      least = energy;
+      best = label;
+    }
+    result.moves.emplace_back(m_around[i] + m_grid.move(best));
+    result.evidence.push_back(double{m_seen[i][best]});
+  }
+
+  const Stations& m_stations;
+  const std::vector<StationShape>& m_shapes;
+  const std::vector<Vector3d>& m_around;
+  MoveGrid m_grid;
+  std::vector<Energies> m_seen, m_energy;
+};
+
+}  // namespace
+
+Vector3d MoveGrid::move(std::size_t label) const {
+  const auto w = static_cast<std::size_t>(width());
+  const std::array<std::size_t, 3> cell = {label % w, label / w % w, label / (w * w)};
+  Vector3d result;
+  for (int axis = 0; axis < 3; ++axis)
+    result[axis] = step * (static_cast<double>(cell[static_cast<std::size_t>(axis)]) - steps);
+  return result;
+}
+
+SearchResult searchMoves(const Stations& stations, const std::vector<StationShape>& shapes,
+                         const std::vector<Vector3d>& around, const MoveGrid& grid,
+                         const Evidence& evidence, const Progress& progress) {
+  Search search(stations, shapes, around, grid);
+  search.see(evidence, progress);
+  return search.solve();
+}
+
+}  // namespace lumen::convert

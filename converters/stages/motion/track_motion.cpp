@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/motion/track_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "converters/base/error.h"
+#include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
+#include "converters/stages/fitting/image/fit_to_image.h"
+#include "converters/stages/motion/posing.h"
+#include "converters/stages/motion/search.h"
+#include "converters/stages/motion/smooth_moves.h"
+#include "converters/stages/motion/stations.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The first grid has this many steps to either side within the reach, each later one half the step.
+constexpr int kFirstSteps = 4, kLaterSteps = 2;
+/// The last step, in voxels; the image finds the rest.
+constexpr double kLastStep = 0.5;
+/// The least standard deviation of a measured centre or radius, in voxels, and the blur, in voxels, that
+/// the fit to the image begins with.
+constexpr double kLeastDeviation = 0.1, kUsualBlur = 0.6;
+/// The standard deviation by which the logarithm of a radius changes from rest to another phase
+/// differently within the length of a radius, and altogether.
+constexpr double kWidening = 0.02, kWidest = 0.2;
+/// The evidence, as a share of the usual contrast, from which on a vessel is seen.
+constexpr double kSeen = 0.3;
+
+class MotionTracker {
+public:
+  MotionTracker(const formats::Case& rest, const MotionOptions& options, Progress& progress)
+      : m_rest(rest),
+        m_options(options),
+        m_progress(progress),
+        m_stations(placeStations(rest.tree)),
+        m_moves(m_stations.size(), Vector3d::Zero()),
+        m_factors(rest.tree.nodeCount(), 1.0) {
+    for (const auto& centre : rest.tree.centre) m_centres.push_back(toEigen(centre));
+  }
+
+  PhaseReport follow(const Volume& volume) {
+    PhaseReport report;
+    report.seen = search(volume);
+    refine(volume, report);
+    for (std::uint32_t i = 0; i < m_centres.size(); ++i)
+      report.farthest =
+          std::max(report.farthest, (m_centres[i] - toEigen(m_rest.tree.centre[i])).norm());
+    for (std::size_t s = 0; s < m_stations.size(); ++s) {
+      const std::uint32_t node = m_stations.node[s];
+      m_moves[s] = m_centres[node] - toEigen(m_rest.tree.centre[node]);
+    }
+    return report;
+  }
+
+  [[nodiscard]] std::vector<formats::Pose> poses() const {
+    return posesFromCentres(m_rest.tree, m_centres, m_factors);
+  }
+
+private:
+  // Moves the stations, and the nodes between, by grids of ever shorter steps. Returns the share of
+  // length with evidence.
+  double search(const Volume& volume) {
+    const double voxel = volume.geometry.voxelSize();
+    int steps = kFirstSteps;
+    SearchResult found;
+    for (double step = m_options.reach / kFirstSteps;; step *= 0.5) {
+      const Evidence evidence(volume, m_options.dark, 0.5 * std::max(step, voxel));
+      found = searchMoves(m_stations, shapes(), m_moves, {step, steps}, evidence, m_progress);
+      m_moves = found.moves;
+      const std::vector<Vector3d> spread = m_stations.spread(m_moves);
+      for (std::uint32_t i = 0; i < m_centres.size(); ++i)
+        m_centres[i] = toEigen(m_rest.tree.centre[i]) + spread[i];
+      steps = kLaterSteps;
+      m_lastStep = step;
+      if (step <= kLastStep * voxel) break;
+    }
+    double seen = 0, all = 0;
+    for (std::size_t s = 0; s < m_stations.size(); ++s) {
+      all += m_stations.length[s];
+      if (found.evidence[s] > kSeen) seen += m_stations.length[s];
+    }
+    return all > 0 ? seen / all : 1.0;
+  }
+
+  [[nodiscard]] std::vector<StationShape> shapes() const {
+    const formats::CenterlineTree posed = posedTree(m_rest.tree, poses());
+    std::vector<StationShape> result;
+    for (const std::uint32_t node : m_stations.node)
+      result.push_back({toEigen(m_rest.tree.centre[node]),
+                        toEigen(posed.direction[node]).normalized(), double{posed.radius[node]}});
+    return result;
+  }
+
+  // Moves the nodes to where the blurred image of their sections lies, smoothed along the tree.
+  void refine(const Volume& volume, PhaseReport& report) {
+    formats::Case posed = posedWalls(m_rest, poses());
+    if (!posed.points)
+      posed.points = formats::PointSets{std::vector<std::uint32_t>(m_centres.size() + 1, 0), {}};
+    const formats::CenterlineTree before = posed.tree;
+    const double voxel = volume.geometry.voxelSize();
+    fitToImage(posed, volume, {m_options.dark, kUsualBlur * volume.geometry.spacing.minCoeff()},
+               m_progress);
+    const std::vector<float> deviations = deviationsOf(posed);
+    std::vector<MeasuredMove> moves;
+    std::vector<MeasuredNumber> widths;
+    std::vector<double> walk, corrections, radii;
+    for (std::uint32_t i = 0; i < m_centres.size(); ++i) {
+      const double radius = double{before.radius[i]};
+      MeasuredMove move{Vector3d::Zero(), toEigen(before.direction[i]).normalized()};
+      MeasuredNumber width;
+      if (deviations[i] > 0) {
+        move.move = toEigen(posed.tree.centre[i]) - toEigen(before.centre[i]);
+        move.deviation = std::hypot(double{deviations[i]}, kLeastDeviation * voxel);
+        width = {std::log(double{posed.tree.radius[i]} / double{m_rest.tree.radius[i]}),
+                 move.deviation / radius};
+        corrections.push_back(move.move.norm());
+      }
+      moves.push_back(move);
+      widths.push_back(width);
+      walk.push_back(kWidening * kWidening / radius);
+      radii.push_back(radius);
+    }
+    report.fitted = corrections.size();
+    if (corrections.empty()) return;
+    report.correction = upperMedian(corrections);
+    // the search is right to half a step, anew from station to station, which are a radius apart
+    const double slack = 0.5 * m_lastStep;
+    const std::vector<Vector3d> smooth =
+        smoothMoves(before, moves, slack * slack / upperMedian(radii));
+    const std::vector<double> wider = smoothNumbers(before, widths, walk, kWidest);
+    for (std::uint32_t i = 0; i < m_centres.size(); ++i) {
+      m_centres[i] += smooth[i];
+      m_factors[i] = std::exp(wider[i]);
+    }
+  }
+
+  static std::vector<float> deviationsOf(const formats::Case& value) {
+    for (const formats::NodeArray& array : value.nodeArrays)
+      if (array.name == "LUMEN_image.deviation") return std::get<std::vector<float>>(array.values);
+    return std::vector<float>(value.tree.nodeCount(), 0.0F);
+  }
+
+  const formats::Case& m_rest;
+  MotionOptions m_options;
+  Progress& m_progress;
+  Stations m_stations;
+  std::vector<Vector3d> m_moves;    ///< of the stations, mm from rest
+  std::vector<Vector3d> m_centres;  ///< of all nodes, mm
+  std::vector<double> m_factors;
+  double m_lastStep = 0;
+};
+
+}  // namespace
+
+TrackedMotion trackMotion(const formats::Case& rest, const std::vector<double>& time, double period,
+                          const PhaseSource& read, const MotionOptions& options,
+                          Progress& progress) {
+  TrackedMotion result;
+  result.motion.time = time;
+  result.motion.period = period;
+  for (std::uint32_t i = 0; i < rest.tree.nodeCount(); ++i) result.motion.node.push_back(i);
+  MotionTracker tracker(rest, options, progress);
+  for (std::size_t phase = 0; phase < time.size(); ++phase) {
+    const Volume volume = read(phase);
+    progress.begin("phase " + std::to_string(phase + 1) + " of " + std::to_string(time.size()), 0);
+    result.phases.push_back(tracker.follow(volume));
+    progress.end();
+    const std::vector<formats::Pose> poses = tracker.poses();
+    result.motion.pose.insert(result.motion.pose.end(), poses.begin(), poses.end());
+  }
+  return result;
+}
+
+}  // namespace lumen::convert

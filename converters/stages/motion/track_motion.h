@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The motion of a case through a series of volumes (docs/method.md, section 12).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/voxels/volume.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+struct MotionOptions {
+  double reach =
+      12;  ///< mm, > 0: the longest way of a vessel from one phase to the next, along each axis
+  bool dark = false;  ///< vessels are darker than their background
+};
+
+/// What was found in one phase.
+struct PhaseReport {
+  double farthest = 0;     ///< mm: longest way of a node from its place at rest
+  double seen = 0;         ///< share of the length of vessel that the volume shows, 0 to 1
+  double correction = 0;   ///< mm: median way by which the image moved the nodes that it determined
+  std::size_t fitted = 0;  ///< nodes that the image determined
+};
+
+struct TrackedMotion {
+  formats::Motion motion;  ///< of all nodes
+  std::vector<PhaseReport> phases;
+};
+
+/// Reads the volume of a phase.
+using PhaseSource = std::function<Volume(std::size_t phase)>;
+
+/// Follows the nodes of `rest` through the phases, one after another, each from where the one before left
+/// them. `time`: seconds of the phases, ascending; `period`: seconds, or 0. The result does not depend on
+/// the number of threads. Throws Error(InvalidInput) for a phase that shows no vessel of the case, what
+/// the source throws, and Error(Cancelled).
+TrackedMotion trackMotion(const formats::Case& rest, const std::vector<double>& time, double period,
+                          const PhaseSource& read, const MotionOptions& options,
+                          Progress& progress);
+
+}  // namespace lumen::convert
