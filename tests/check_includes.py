@@ -34,7 +34,7 @@ ROOMS = [
      "io/centerline": ["io/seeds", "io/vtk", "io/volume"]},
     {"stages/finding": [], "stages/tracking": [], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
      "stages/surface": [], "stages/surface/patches": ["stages/surface"],
-     "stages/trees_from_surfaces": ["stages/repair"], "stages/phantom": []},
+     "stages/trees_from_surfaces": ["stages/repair"], "stages/motion": ["stages/fitting/image"], "stages/phantom": ["stages/motion"]},
     {"judge/compare": [], "judge/check": []},
     {"judge/measure": []},
     {"judge/facts": []},

@@ -30,7 +30,7 @@ public:
       : m_stations(stations), m_shapes(shapes), m_around(around), m_grid(grid) {}
 
   // Contrasts, as shares of the median of the best that the stations have, which is usual.
-  void see(const Evidence& evidence, const Progress& progress) {
+  void see(const Evidence& evidence, Progress& progress) {
     m_seen.assign(m_stations.size(), Energies(m_grid.count()));
     std::vector<double> best(m_stations.size());
     const double blunt = 0.6 * m_grid.step;  // a step must not leap over a vessel
@@ -42,6 +42,7 @@ public:
             static_cast<float>(evidence.contrastAt(shape.centre + m_around[i] + m_grid.move(label),
                                                    shape.direction, std::max(shape.radius, blunt)));
       best[i] = double{*std::max_element(m_seen[i].begin(), m_seen[i].end())};
+      progress.advance();
     });
     const double usual = upperMedian(best);
     if (!(usual > 0))
@@ -144,7 +145,7 @@ Vector3d MoveGrid::move(std::size_t label) const {
 
 SearchResult searchMoves(const Stations& stations, const std::vector<StationShape>& shapes,
                          const std::vector<Vector3d>& around, const MoveGrid& grid,
-                         const Evidence& evidence, const Progress& progress) {
+                         const Evidence& evidence, Progress& progress) {
   Search search(stations, shapes, around, grid);
   search.see(evidence, progress);
   return search.solve();

@@ -40,9 +40,9 @@ struct SearchResult {
 /// The moves of least energy: the length of the vessel without evidence, plus kStrainCost times the
 /// square of the strain along it, in mm. Exact, by messages from the tips to the roots. `around`: one move
 /// for each station. Throws Error(InvalidInput) where no station has any contrast, and
-/// Error(Cancelled).
+/// Error(Cancelled). Advances `progress` by one for each station.
 SearchResult searchMoves(const Stations& stations, const std::vector<StationShape>& shapes,
                          const std::vector<Eigen::Vector3d>& around, const MoveGrid& grid,
-                         const Evidence& evidence, const Progress& progress);
+                         const Evidence& evidence, Progress& progress);
 
 }  // namespace lumen::convert

@@ -44,9 +44,9 @@ public:
     for (const auto& centre : rest.tree.centre) m_centres.push_back(toEigen(centre));
   }
 
-  PhaseReport follow(const Volume& volume) {
+  PhaseReport follow(const Volume& volume, const std::string& stage) {
     PhaseReport report;
-    report.seen = search(volume);
+    report.seen = search(volume, stage);
     refine(volume, report);
     for (std::uint32_t i = 0; i < m_centres.size(); ++i)
       report.farthest =
@@ -65,8 +65,11 @@ public:
 private:
   // Moves the stations, and the nodes between, by grids of ever shorter steps. Returns the share of
   // length with evidence.
-  double search(const Volume& volume) {
-    const double voxel = volume.geometry.voxelSize();
+  double search(const Volume& volume, const std::string& stage) {
+    const double voxel = volume.geometry.voxelSize(), last = kLastStep * voxel;
+    const double halvings = std::ceil(std::log2(m_options.reach / kFirstSteps / last));
+    m_progress.begin(stage,
+                     static_cast<std::size_t>(1 + std::max(halvings, 0.0)) * m_stations.size());
     int steps = kFirstSteps;
     SearchResult found;
     for (double step = m_options.reach / kFirstSteps;; step *= 0.5) {
@@ -78,8 +81,9 @@ private:
         m_centres[i] = toEigen(m_rest.tree.centre[i]) + spread[i];
       steps = kLaterSteps;
       m_lastStep = step;
-      if (step <= kLastStep * voxel) break;
+      if (step <= last) break;
     }
+    m_progress.end();
     double seen = 0, all = 0;
     for (std::size_t s = 0; s < m_stations.size(); ++s) {
       all += m_stations.length[s];
@@ -168,9 +172,8 @@ TrackedMotion trackMotion(const formats::Case& rest, const std::vector<double>& 
   MotionTracker tracker(rest, options, progress);
   for (std::size_t phase = 0; phase < time.size(); ++phase) {
     const Volume volume = read(phase);
-    progress.begin("phase " + std::to_string(phase + 1) + " of " + std::to_string(time.size()), 0);
-    result.phases.push_back(tracker.follow(volume));
-    progress.end();
+    result.phases.push_back(tracker.follow(
+        volume, "phase " + std::to_string(phase + 1) + " of " + std::to_string(time.size())));
     const std::vector<formats::Pose> poses = tracker.poses();
     result.motion.pose.insert(result.motion.pose.end(), poses.begin(), poses.end());
   }
