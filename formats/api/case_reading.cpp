@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of lumen/case.h that read and validate.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
@@ -9,15 +11,18 @@
 
 #include "formats/api/handle.h"
 #include "formats/case/case_file.h"
+#include "formats/case/motion.h"
 
 namespace lumen::formats::api {
 namespace {
 
 using Triple = const float (*)[3];
 using Pair = const std::uint32_t (*)[2];
+using PoseRow = const float (*)[8];
 
 static_assert(sizeof(Vec3f) == 3 * sizeof(float));
 static_assert(sizeof(std::array<std::uint32_t, 2>) == 2 * sizeof(std::uint32_t));
+static_assert(sizeof(Pose) == 8 * sizeof(float));
 
 Triple triples(const std::vector<Vec3f>& values) {
   return reinterpret_cast<Triple>(values.data());
@@ -160,6 +165,32 @@ lumen_case_models lumen_case_get_models(const lumen_case* value) noexcept {
           models.offset.data(),
           triples(models.centre),
           models.width.data()};
+}
+
+lumen_case_motion lumen_case_get_motion(const lumen_case* value) noexcept {
+  if (!value || !value->value.motion) return {};
+  const Motion& motion = *value->value.motion;
+  return {motion.time.size(), motion.time.data(), motion.period,
+          motion.node.size(), motion.node.data(), reinterpret_cast<PoseRow>(motion.pose.data())};
+}
+
+lumen_case_status lumen_case_poses_at(const lumen_case* value, double time, size_t count,
+                                      double (*pose)[8]) noexcept {
+  return guarded(nullptr, [&] {
+    if (!value || (count > 0 && !pose) || count != value->value.tree.nodeCount() ||
+        !std::isfinite(time))
+      return LUMEN_CASE_ERROR_ARGUMENT;
+    const std::optional<Motion>& motion = value->value.motion;
+    const Motion still{{0.0}, 0, {}, {}};
+    const auto poses = posesAt(value->value.tree, motion ? *motion : still, time);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [centre, rotation, factor] = poses[i];
+      const double row[8] = {centre.x,    centre.y,    centre.z,    rotation[0],
+                             rotation[1], rotation[2], rotation[3], factor};
+      std::copy(row, row + 8, pose[i]);
+    }
+    return LUMEN_CASE_OK;
+  });
 }
 
 lumen_case_source lumen_case_get_source(const lumen_case* value) noexcept {

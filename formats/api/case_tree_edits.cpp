@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/api/edited_case.h"
+#include "formats/case/motion.h"
 #include "formats/case/topology.h"
 #include "formats/view/limits.h"
 #include "lumen/case_edit.h"
@@ -187,6 +188,7 @@ void keepBranches(Case& value, const std::vector<bool>& branchStays) {
   for (auto& link : tree.links) link = {newIndex[link[0]], newIndex[link[1]]};
   tree.branches = std::move(branches);
   keepNodeData(value, stays);
+  keepMotionOf(value.motion, stays, newIndex);
   resizeTree(tree, next);
   deriveParents(tree);
 }
@@ -224,6 +226,7 @@ lumen_case_status lumen_case_set_tree(lumen_case* value, const lumen_case_nodes*
     edited.tree = std::move(tree);
     edited.points.reset();
     edited.models.reset();
+    edited.motion.reset();
     edited.metadata.pointQuantisation.reset();
     edited.nodeArrays.clear();
     return LUMEN_CASE_OK;
@@ -256,6 +259,7 @@ lumen_case_status lumen_case_append_branch(lumen_case* value, const char* label,
     tree.branches.push_back(std::move(branch));
     deriveParents(tree);
     appendToNodeData(edited, count);
+    edited.motion.reset();
     return LUMEN_CASE_OK;
   });
 }

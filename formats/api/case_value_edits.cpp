@@ -40,6 +40,15 @@ lumen_case_status editBranch(lumen_case* value, std::size_t branch, lumen_case_f
       Edits::Values);
 }
 
+std::vector<Pose> posesOf(const float (*from)[8], std::size_t count) {
+  std::vector<Pose> poses(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* p = from[i];
+    poses[i] = {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}, p[7]};
+  }
+  return poses;
+}
+
 NodeArray arrayOf(const lumen_case_array& from, std::size_t nodes) {
   NodeArray array;
   array.name = from.name;
@@ -88,6 +97,7 @@ lumen_case_status lumen_case_set_node(lumen_case* value, size_t node, const floa
       return refuseArgument(fault, "there is no such node, or no centre for it");
     edited.tree.centre[node] = {centre[0], centre[1], centre[2]};
     edited.tree.radius[node] = radius;
+    edited.motion.reset();
     return LUMEN_CASE_OK;
   });
 }
@@ -126,6 +136,26 @@ lumen_case_status lumen_case_set_models(lumen_case* value, const lumen_case_mode
                      copyValues<float>(models->width, models->count)};
     return LUMEN_CASE_OK;
   });
+}
+
+lumen_case_status lumen_case_set_motion(lumen_case* value, const lumen_case_motion* motion,
+                                        lumen_case_fault* fault) noexcept {
+  return edit(
+      value, fault,
+      [&](Case& edited) {
+        edited.motion.reset();
+        if (!motion) return LUMEN_CASE_OK;
+        const std::size_t times = motion->time_count, nodes = motion->node_count;
+        if (!motion->time || (nodes > 0 && (!motion->node || !motion->pose)))
+          return refuseArgument(fault, "a motion needs times, nodes and poses");
+        if (times == 0 || times > kMaxTimes || nodes > kMaxNodes || times * nodes > kMaxPoses)
+          return refuseArgument(fault, "a motion has 1 to 4096 times, and at most 67108864 poses");
+        edited.motion = Motion{copyValues<double>(motion->time, times), motion->period,
+                               copyValues<std::uint32_t>(motion->node, nodes),
+                               posesOf(motion->pose, times * nodes)};
+        return LUMEN_CASE_OK;
+      },
+      Edits::Values);
 }
 
 lumen_case_status lumen_case_set_array(lumen_case* value, const lumen_case_array* array,

@@ -13,6 +13,9 @@
 
 namespace lumen::formats {
 
+/// The motion of a case, among names of node arrays.
+inline constexpr const char* kMotionName = "motion";
+
 /// Version of a file that holds `value`.
 FormatVersion versionOf(const Case& value);
 

@@ -116,6 +116,72 @@ TEST(CaseLibrary, KeepsPointsModelsAndArraysWithTheirNodes) {
   EXPECT_EQ(value.points().offset[4], 1u);
 }
 
+// Nodes 1 and 4 of the three vessels, at 0 s and 1 s.
+const double kTimes[2] = {0, 1};
+const std::uint32_t kMoving[2] = {1, 4};
+const float kPoses[4][8] = {{0, 0, 2, 0, 0, 0, 1, 1},
+                            {4, 0, 2, 0, 0, 0, 1, 1},
+                            {0, 1, 2, 0, 0, 0.6F, 0.8F, 1},
+                            {4, 3, 2, 0, 0, 0, 1, 2}};
+const lumen_case_motion kMotion = {2, kTimes, 1.5, 2, kMoving, kPoses};
+
+TEST(CaseLibrary, SetsReadsAndRemovesAMotion) {
+  VesselCase value = threeVessels();
+  EXPECT_EQ(value.motion().time, nullptr);
+  value.setMotion(&kMotion);
+  const auto bytes = value.encode();
+  const VesselCase read = VesselCase::fromBytes(bytes.data(), bytes.size());
+  const lumen_case_motion motion = read.motion();
+  ASSERT_EQ(motion.time_count, 2u);
+  ASSERT_EQ(motion.node_count, 2u);
+  EXPECT_EQ(motion.period, 1.5);
+  EXPECT_EQ(motion.time[1], 1);
+  EXPECT_EQ(motion.node[1], 4u);
+  EXPECT_EQ(std::memcmp(motion.pose, kPoses, sizeof kPoses), 0);
+  value.setMotion(nullptr);
+  EXPECT_EQ(value.motion().time_count, 0u);
+}
+
+TEST(CaseLibrary, GivesThePosesOfAllNodesAtAnyTime) {
+  VesselCase value = threeVessels();
+  double poses[6][8];
+  ASSERT_EQ(lumen_case_poses_at(value.get(), 0.5, 6, poses), LUMEN_CASE_OK);
+  EXPECT_EQ(poses[4][0], 4);  // at rest
+  value.setMotion(&kMotion);
+  ASSERT_EQ(lumen_case_poses_at(value.get(), 0.5, 6, poses), LUMEN_CASE_OK);
+  EXPECT_NEAR(poses[4][1], 1.5, 1e-12);
+  EXPECT_NEAR(poses[4][7], 1.5, 1e-12);
+  EXPECT_NEAR(poses[1][5], std::sin(std::asin(0.6) / 2), 1e-7);
+  EXPECT_EQ(poses[0][6], 1);
+  EXPECT_EQ(lumen_case_poses_at(value.get(), 0.5, 5, poses), LUMEN_CASE_ERROR_ARGUMENT);
+  EXPECT_EQ(lumen_case_poses_at(value.get(), NAN, 6, poses), LUMEN_CASE_ERROR_ARGUMENT);
+}
+
+TEST(CaseLibrary, KeepsTheMotionOfNodesThatStayAndDropsItWhereNodesChange) {
+  VesselCase value = threeVessels();
+  value.setMotion(&kMotion);
+  value.removeBranch(1);  // with the leaf
+  ASSERT_EQ(value.motion().node_count, 1u);
+  EXPECT_EQ(value.motion().pose[1][1], 1);
+  value.setNode(0, {0, 0, 0.5F}, 2);
+  EXPECT_EQ(value.motion().time_count, 0u);
+  value = threeVessels();
+  value.setMotion(&kMotion);
+  value.appendBranch("more", 5, 1, kLeaf, kThinnest);
+  EXPECT_EQ(value.motion().time_count, 0u);
+}
+
+TEST(CaseLibrary, RefusesAMotionThatBreaksARule) {
+  VesselCase value = threeVessels();
+  lumen_case_motion motion = kMotion;
+  motion.period = 1;
+  EXPECT_STREQ(faultOf([&] { value.setMotion(&motion); }).name, "MOTION_PERIOD");
+  motion = kMotion;
+  motion.pose = nullptr;
+  EXPECT_EQ(lumen_case_set_motion(value.get(), &motion, nullptr), LUMEN_CASE_ERROR_ARGUMENT);
+  EXPECT_EQ(value.motion().time_count, 0u);
+}
+
 TEST(CaseLibrary, LeavesACaseAsItWasWhenAnEditBreaksARule) {
   VesselCase value = threeVessels();
   const auto before = value.encode();

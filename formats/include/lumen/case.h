@@ -65,7 +65,7 @@ extern "C" {
 #endif
 
 /* Number of the interface. It grows when functions are added. */
-#define LUMEN_CASE_INTERFACE 1
+#define LUMEN_CASE_INTERFACE 2
 
 /* Version of the library that runs, such as "0.2.0". Static. Cannot fail. O(1). */
 LUMEN_CASE_CALL const char* lumen_case_version(void) LUMEN_CASE_NOEXCEPT;
@@ -202,6 +202,27 @@ typedef struct lumen_case_models {
 
 /* The models of a case, without a copy. Cannot fail. O(1). */
 LUMEN_CASE_CALL lumen_case_models lumen_case_get_models(const lumen_case* value) LUMEN_CASE_NOEXCEPT;
+
+/* Poses of some nodes over time (spec/lumen.md, "Motion"): tree, wall points and models are those at rest. The pose of
+ * node[n] at time[t] is pose[t * node_count + n]: centre x, y, z in mm; rotation x, y, z, w, a unit quaternion; and the
+ * factor of the radius. It carries a point X that is at rest to centre + factor * R (X - the centre at rest). */
+typedef struct lumen_case_motion {
+  size_t time_count;      /* 1 to 4096; 0: the case has no motion */
+  const double* time;     /* s, ascending; null without a motion */
+  double period;          /* s; 0: not periodic */
+  size_t node_count;      /* moving nodes; all others rest */
+  const uint32_t* node;   /* ascending */
+  const float (*pose)[8]; /* time_count * node_count */
+} lumen_case_motion;
+
+/* The motion of a case, without a copy. Cannot fail. O(1). */
+LUMEN_CASE_CALL lumen_case_motion lumen_case_get_motion(const lumen_case* value) LUMEN_CASE_NOEXCEPT;
+
+/* Poses of all nodes at any time (s), between the times as spec/lumen.md defines it; at rest without a motion.
+ * The caller provides room for `count` poses, which is the number of nodes; each is as those of lumen_case_motion.
+ * Fails with ARGUMENT, for a time that is not finite too, or MEMORY. O(nodes). */
+LUMEN_CASE_CALL lumen_case_status lumen_case_poses_at(const lumen_case* value, double time, size_t count,
+                                                      double (*pose)[8]) LUMEN_CASE_NOEXCEPT;
 
 /* Geometry of the volume that a case was made from. */
 typedef struct lumen_case_source {

@@ -121,6 +121,7 @@ public:
   }
   lumen_case_points points() const noexcept { return lumen_case_get_points(get()); }
   lumen_case_models models() const noexcept { return lumen_case_get_models(get()); }
+  lumen_case_motion motion() const noexcept { return lumen_case_get_motion(get()); }
   std::string note() const { return lumen_case_note(get()); }
 
   void setTree(const lumen_case_nodes& nodes, const std::vector<lumen_case_branch>& branches) {
@@ -148,6 +149,10 @@ public:
     demand([&](lumen_case_fault* fault) {
       return lumen_case_set_node(get(), node, centre, radius, fault);
     });
+  }
+  /// Null removes the motion.
+  void setMotion(const lumen_case_motion* motion) {
+    demand([&](lumen_case_fault* fault) { return lumen_case_set_motion(get(), motion, fault); });
   }
   void setNote(const std::string& note) {
     demand(

@@ -27,7 +27,7 @@ extern "C" {
  * Fails with MEMORY or ARGUMENT. O(1). */
 LUMEN_CASE_CALL lumen_case_status lumen_case_create(lumen_case** out) LUMEN_CASE_NOEXCEPT;
 
-/* Replaces the tree. Wall points, models and node arrays, which belong to the former nodes, go.
+/* Replaces the tree. Wall points, models, motion and node arrays, which belong to the former nodes, go.
  * The caller provides nodes with at least count, centre and radius, and `branch_count` branches, of which label, kind,
  * parent_node, node_count and stop count; first_node follows from the counts, and a negative or NaN mean_inlier_rate
  * is unknown. `parent` and `branch` of the nodes follow from the branches and are not read. Null arrays are derived:
@@ -39,13 +39,13 @@ LUMEN_CASE_CALL lumen_case_status lumen_case_set_tree(lumen_case* value, const l
 
 /* Appends a branch of `count` nodes behind all others, with directions and heights derived as by lumen_case_set_tree().
  * The caller provides a label that no branch has, a kind, the node that it leaves or -1, and centres and radii in mm.
- * Wall points and models stay, and the new nodes have none; node arrays hold zeros for them. O(n). */
+ * Wall points and models stay, and the new nodes have none; node arrays hold zeros for them. A motion goes. O(n). */
 LUMEN_CASE_CALL lumen_case_status lumen_case_append_branch(lumen_case* value, const char* label, lumen_case_kind kind,
                                                            int32_t parent_node, size_t count, const float (*centre)[3],
                                                            const float* radius,
                                                            lumen_case_fault* fault) LUMEN_CASE_NOEXCEPT;
 
-/* Removes a branch and all that hang on it, with their wall points, models and values. At least one other branch must
+/* Removes a branch and all that hang on it, with their wall points, models, poses and values. At least one other branch must
  * stay. O(n). */
 LUMEN_CASE_CALL lumen_case_status lumen_case_remove_branch(lumen_case* value, size_t branch,
                                                            lumen_case_fault* fault) LUMEN_CASE_NOEXCEPT;
@@ -58,7 +58,7 @@ LUMEN_CASE_CALL lumen_case_status lumen_case_set_label(lumen_case* value, size_t
 LUMEN_CASE_CALL lumen_case_status lumen_case_set_kind(lumen_case* value, size_t branch, lumen_case_kind kind,
                                                       lumen_case_fault* fault) LUMEN_CASE_NOEXCEPT;
 
-/* Sets centre and radius of a node, mm. Its wall points, models and direction stay. O(n). */
+/* Sets centre and radius of a node, mm. Its wall points, models and direction stay; a motion goes. O(n). */
 LUMEN_CASE_CALL lumen_case_status lumen_case_set_node(lumen_case* value, size_t node, const float centre[3],
                                                       float radius, lumen_case_fault* fault) LUMEN_CASE_NOEXCEPT;
 
@@ -68,6 +68,10 @@ LUMEN_CASE_CALL lumen_case_status lumen_case_set_points(lumen_case* value, const
 
 /* Replaces the models by `models`, with an offset for each node and one more; null removes them. O(n). */
 LUMEN_CASE_CALL lumen_case_status lumen_case_set_models(lumen_case* value, const lumen_case_models* models,
+                                                        lumen_case_fault* fault) LUMEN_CASE_NOEXCEPT;
+
+/* Replaces the motion by `motion`, with a pose for each time and moving node; null removes it. O(n). */
+LUMEN_CASE_CALL lumen_case_status lumen_case_set_motion(lumen_case* value, const lumen_case_motion* motion,
                                                         lumen_case_fault* fault) LUMEN_CASE_NOEXCEPT;
 
 /* Adds a node array, or replaces the one of its name, and lists its extension. The caller provides a name
