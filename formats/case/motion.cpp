@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include "formats/case/chunk_codec.h"
-#include "formats/field/repeatable_math.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 
 using field::NodePose;
-using field::Quaternion;
 
 namespace {
 
@@ -19,15 +17,9 @@ field::Vec vec(const Vec3f& v) {
   return {v.x, v.y, v.z};
 }
 
-Quaternion unit(Quaternion q) {
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (double& x : q) x /= length;
-  return q;
-}
-
 NodePose valueOf(const Pose& pose) {
   const auto& q = pose.rotation;
-  return {vec(pose.centre), unit({q[0], q[1], q[2], q[3]}), pose.factor};
+  return {vec(pose.centre), field::unit({q[0], q[1], q[2], q[3]}), pose.factor};
 }
 
 // The motion of a chunk in version 1, or nothing.
@@ -48,26 +40,6 @@ std::optional<Motion> motionOfChunk(const OtherChunk& other, IssueList& faults) 
   chunk.stored = raw;
   const MotionView view = viewMotion(chunk, faults);
   return faults.failed() ? std::nullopt : std::optional(motionOf(view));
-}
-
-// Half the angle of the rotation from one unit quaternion to another that is not opposite, along
-// the shorter arc; W. Kahan, "How futile are mindless assessments of roundoff in floating-point
-// computation?", 2006, section 12: exact for small angles and for large ones.
-double halfAngle(const Quaternion& a, const Quaternion& b) {
-  double difference = 0, sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    difference += (b[i] - a[i]) * (b[i] - a[i]);
-    sum += (b[i] + a[i]) * (b[i] + a[i]);
-  }
-  return 2.0 * field::repeatableArctangent(std::sqrt(difference) / std::sqrt(sum));
-}
-
-double product(const Quaternion& a, const Quaternion& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-}
-
-Quaternion opposite(const Quaternion& q) {
-  return {-q[0], -q[1], -q[2], -q[3]};
 }
 
 // Two of a motion's times, and the share of the way from the first to the second.
@@ -101,7 +73,7 @@ double between(double a, double b, double u) {
 
 NodePose interpolated(const Pose& from, const Pose& to, double u) {
   const NodePose a = valueOf(from), b = valueOf(to);
-  return {(1.0 - u) * a.centre + u * b.centre, slerp(a.rotation, b.rotation, u),
+  return {(1.0 - u) * a.centre + u * b.centre, field::slerp(a.rotation, b.rotation, u),
           between(a.factor, b.factor, u)};
 }
 
@@ -124,7 +96,7 @@ double strainOf(const CenterlineTree& tree, const std::vector<NodePose>& poses, 
   if (!(length > 0)) return 0;
   const field::Vec moved =
       (1.0 / poses[i].factor) * rotatedBack(poses[i].rotation, poses[k].centre - poses[i].centre);
-  const double angle = angleBetween(poses[i].rotation, poses[k].rotation);
+  const double angle = field::angleBetween(poses[i].rotation, poses[k].rotation);
   const double radius = std::max(tree.radius[i], tree.radius[k]);
   return (field::norm(moved - rest) + radius * angle) / length;
 }
@@ -173,23 +145,6 @@ void takeMotion(Case& value, IssueList& issues) {
 
 std::vector<NodePose> posesAt(const CenterlineTree& tree, const Motion& motion, double time) {
   return posesOf(tree, motion, instantOf(motion, time));
-}
-
-Quaternion slerp(const Quaternion& a, Quaternion b, double u) {
-  if (product(a, b) < 0) b = opposite(b);
-  const double angle = halfAngle(a, b);
-  const double sine = field::repeatableSine(angle);
-  if (!(sine > 0) || u <= 0) return u < 0.5 ? a : b;
-  if (u >= 1) return b;
-  const double from = field::repeatableSine((1.0 - u) * angle) / sine;
-  const double to = field::repeatableSine(u * angle) / sine;
-  Quaternion q;
-  for (std::size_t i = 0; i < 4; ++i) q[i] = from * a[i] + to * b[i];
-  return unit(q);
-}
-
-double angleBetween(const Quaternion& a, const Quaternion& b) {
-  return 2.0 * halfAngle(a, product(a, b) < 0 ? opposite(b) : b);
 }
 
 MotionFigures motionFigures(const CenterlineTree& tree, const Motion& motion) {

@@ -30,12 +30,6 @@ void takeMotion(Case& value, IssueList& issues);
 /// Poses of all nodes at a time (s): those of the motion, and of the others the pose at rest.
 std::vector<field::NodePose> posesAt(const CenterlineTree& tree, const Motion& motion, double time);
 
-/// Rotation from `a` to `b` along the shorter arc, at the share `u` of it, 0 to 1.
-field::Quaternion slerp(const field::Quaternion& a, field::Quaternion b, double u);
-
-/// Angle in radians, 0 to pi, of the rotation that leads from `a` to `b`.
-double angleBetween(const field::Quaternion& a, const field::Quaternion& b);
-
 /// Figures of a motion over all of its times.
 struct MotionFigures {
   double displacement = 0;  ///< mm: longest distance of a node's centre from its centre at rest

@@ -18,6 +18,10 @@ struct NodePose {
   double factor = 1;
 };
 
+inline Quaternion conjugate(const Quaternion& q) {
+  return {-q[0], -q[1], -q[2], q[3]};
+}
+
 /// `vector` turned by a rotation.
 inline Vec rotated(const Quaternion& rotation, const Vec& vector) {
   const Vec axis{rotation[0], rotation[1], rotation[2]};
@@ -27,7 +31,7 @@ inline Vec rotated(const Quaternion& rotation, const Vec& vector) {
 
 /// `vector` turned back by a rotation.
 inline Vec rotatedBack(const Quaternion& rotation, const Vec& vector) {
-  return rotated({-rotation[0], -rotation[1], -rotation[2], rotation[3]}, vector);
+  return rotated(conjugate(rotation), vector);
 }
 
 /// Position to which a pose carries the point `rest` of a node whose centre at rest is `centre`.
@@ -39,5 +43,14 @@ inline Vec carried(const NodePose& pose, const Vec& centre, const Vec& rest) {
 inline Vec carriedBack(const NodePose& pose, const Vec& centre, const Vec& moved) {
   return centre + (1.0 / pose.factor) * rotatedBack(pose.rotation, moved - pose.centre);
 }
+
+/// The quaternion of length 1 along one that is not zero.
+Quaternion unit(Quaternion q);
+
+/// Rotation from `a` to `b` along the shorter arc, at the share `u` of it, 0 to 1.
+Quaternion slerp(const Quaternion& a, Quaternion b, double u);
+
+/// Angle in radians, 0 to pi, of the rotation that leads from `a` to `b`.
+double angleBetween(const Quaternion& a, const Quaternion& b);
 
 }  // namespace lumen::field

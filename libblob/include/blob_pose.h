@@ -120,12 +120,12 @@ BLOB_API blob_status blob_pose_set_centres(blob_pose* pose, size_t count, const 
 BLOB_API blob_transform blob_pose_node(const blob_pose* pose, uint32_t node) BLOB_NOEXCEPT;
 
 /* The strain of the whole pose against the one for which its tables of neighbours were made: the
- * greatest over all edges, from node i (the child, or the second node of a link) to k, of
+ * greatest over all edges i, k, from both ends, of
  *     |R_i^-1 (O'_k - O'_i) / s_i - (O_k - O_i)| / d  +  max(r_i, r_k) * angle(R_i, R_k) / d
  * with O, r and d at rest, s the factor, and R and O' as they changed since then: the stretch of
  * the axis, and what bending adds at the wall. Cursors and blending rest on these tables: nodes
  * that come near each other along the tree by bending become neighbours only when the tables are
- * made anew. O(n). */
+ * made anew. The angle is right to 1 % up to half a radian. O(n). */
 BLOB_API double blob_pose_strain(const blob_pose* pose) BLOB_NOEXCEPT;
 
 /* Makes the tables of neighbours anew from the posed centres and radii, as for a model at rest.
@@ -136,7 +136,7 @@ BLOB_API blob_status blob_pose_renew(blob_pose* pose) BLOB_NOEXCEPT;
 
 /* A transform between two: centre and factor are interpolated linearly, the rotation along the
  * shorter arc (slerp), as spec/lumen.md has it between two times.
- * The caller provides two transforms and a fraction; beyond 0 to 1 it extrapolates.
+ * The caller provides two transforms and a fraction, which is held within 0 to 1.
  * Returns a transform with a quaternion of length 1. O(1). */
 BLOB_API blob_transform blob_transform_between(const blob_transform* from, const blob_transform* to,
                                                double fraction) BLOB_NOEXCEPT;

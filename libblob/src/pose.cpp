@@ -193,7 +193,7 @@ void readRest(blob_pose& pose) {
   const blob_model& model = pose.model;
   for (std::uint32_t i = 0; i < model.nodes.size(); ++i) {
     const double* centre = model.nodes[i].centre;
-    pose.pose.push_back({{centre[0], centre[1], centre[2]}, {}, 1.0});
+    pose.pose.push_back({vectorOf(centre), {0, 0, 0, 1}, 1.0});
     pose.place.push_back({{static_cast<float>(centre[0]), static_cast<float>(centre[1]),
                            static_cast<float>(centre[2]), model.nodes[i].radius()}});
     if (model.lender[i] != i && model.lender[i] != BLOB_NOWHERE)
@@ -201,6 +201,17 @@ void readRest(blob_pose& pose) {
   }
   pose.rotation.assign(pose.pose.size(), {{0, 0, 0, 1}});
   pose.inverseFactor.assign(pose.pose.size(), 1.0f);
+}
+
+EdgeReference edgeAtRest(const blob_model& rest, std::uint32_t from, std::uint32_t to) noexcept {
+  EdgeReference edge{};
+  edge.node[0] = from;
+  edge.node[1] = to;
+  edge.radius = std::max(rest.nodes[from].radius(), rest.nodes[to].radius());
+  const double length =
+      field::norm(vectorOf(rest.nodes[to].centre) - vectorOf(rest.nodes[from].centre));
+  edge.inverseLength = length > 0 ? static_cast<float>(1.0 / length) : 0.0f;
+  return edge;
 }
 
 // The edges from all nodes to their parents, in the order of the nodes, then the links; and their
@@ -212,32 +223,30 @@ void listEdges(blob_pose& pose) {
     if (rest.parent[i] >= 0) ends.push_back({i, static_cast<std::uint32_t>(rest.parent[i])});
   for (const auto& link : rest.links) ends.push_back({link[1], link[0]});
   pose.edgeAt.assign(pose.edges.node.size(), 0);
-  for (std::uint32_t id = 0; id < ends.size(); ++id) {
-    const auto [i, k] = ends[id];
-    EdgeReference edge{};
-    edge.node = i;
-    edge.other = k;
-    edge.radius = std::max(rest.nodes[i].radius(), rest.nodes[k].radius());
-    const double length =
-        field::norm(vectorOf(rest.nodes[k].centre) - vectorOf(rest.nodes[i].centre));
-    edge.inverseLength = length > 0 ? static_cast<float>(1.0 / length) : 0.0f;
-    pose.edgeReference.push_back(edge);
+  for (const auto& [i, k] : ends) {
+    const auto id = static_cast<std::uint32_t>(pose.edgeReference.size());
+    pose.edgeReference.push_back(edgeAtRest(rest, i, k));
     for (const auto& [from, to] : {std::array{i, k}, std::array{k, i}})
       for (std::uint32_t e = pose.edges.offset[from]; e < pose.edges.offset[from + 1]; ++e)
         if (pose.edges.node[e] == to) pose.edgeAt[e] = id;
   }
 }
 
+void copyTo(const Vec& v, float* numbers) noexcept {
+  numbers[0] = static_cast<float>(v.x);
+  numbers[1] = static_cast<float>(v.y);
+  numbers[2] = static_cast<float>(v.z);
+}
+
 // Strains are measured from now on against the pose as it is.
 void referToPose(blob_pose& pose) noexcept {
   for (EdgeReference& edge : pose.edgeReference) {
-    const NodePose &from = pose.pose[edge.node], &to = pose.pose[edge.other];
-    const Quaternion back = conjugate(from.rotation), turn = back * to.rotation;
-    const Vec vector =
-        (1.0 / from.factor) * rotate(back, vectorOf(to.centre) - vectorOf(from.centre));
-    const double numbers[7] = {vector.x, vector.y, vector.z, turn.x, turn.y, turn.z, turn.w};
-    for (int i = 0; i < 3; ++i) edge.vector[i] = static_cast<float>(numbers[i]);
-    for (int i = 0; i < 4; ++i) edge.turn[i] = static_cast<float>(numbers[3 + i]);
+    const NodePose &a = pose.pose[edge.node[0]], &b = pose.pose[edge.node[1]];
+    const Vec vector = b.centre - a.centre;
+    copyTo((1.0 / a.factor) * field::rotatedBack(a.rotation, vector), edge.from);
+    copyTo((1.0 / b.factor) * field::rotatedBack(b.rotation, vector), edge.to);
+    const Quaternion turn = product(field::conjugate(a.rotation), b.rotation);
+    for (std::size_t i = 0; i < 4; ++i) edge.turn[i] = static_cast<float>(turn[i]);
   }
 }
 
@@ -286,14 +295,15 @@ bool isTransform(const blob_transform& transform) noexcept {
 
 NodePose poseOf(const blob_transform& transform) noexcept {
   const double *c = transform.centre, *q = transform.rotation;
+  const double scale = 1.0 / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return {{static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])},
-          normalised({q[0], q[1], q[2], q[3]}),
+          {scale * q[0], scale * q[1], scale * q[2], scale * q[3]},
           transform.factor};
 }
 
 blob_transform transformOf(const NodePose& pose) noexcept {
   const Quaternion& q = pose.rotation;
-  return {{pose.centre[0], pose.centre[1], pose.centre[2]}, {q.x, q.y, q.z, q.w}, pose.factor};
+  return {{pose.centre.x, pose.centre.y, pose.centre.z}, {q[0], q[1], q[2], q[3]}, pose.factor};
 }
 
 double strainOfChange(blob_pose& pose) noexcept {

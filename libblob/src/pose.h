@@ -24,14 +24,13 @@ struct alignas(16) PosedRotation {
   float quaternion[4];
 };
 
-/// An edge as it was when the tables of neighbours were made, seen from its first node: the child, or
-/// the second node of a link.
+/// An edge as it was when the tables of neighbours were made.
 struct alignas(16) EdgeReference {
-  float vector[3],
-      inverseLength;  ///< the edge in the node's frame, over the factor; 1 over its length at rest
-  float turn[4];      ///< the rotation of the other node in the node's frame, a quaternion
-  std::uint32_t node, other;
-  float radius;  ///< the greater one at rest, mm
+  float from[3],
+      inverseLength;  ///< the edge in its first node's frame, over the factor; 1 over its length at rest
+  float to[3], radius;  ///< the same in its second node's; the greater radius at rest, mm
+  float turn[4];        ///< the rotation of the second node in the first one's frame
+  std::uint32_t node[2];
 };
 
 /// The kinds of the lanes of a NeighbourBlock: 1 for an edge, 0 for another neighbour, -1 for
@@ -40,12 +39,7 @@ struct alignas(32) LaneKinds {
   float kind[kLanes];
 };
 
-/// A transform as it is applied.
-struct NodePose {
-  double centre[3];  ///< mm; floats, stored as doubles
-  Quaternion rotation;
-  double factor;
-};
+using field::NodePose;
 
 /// Indices without repetition, in memory that was taken before.
 class IndexSet {

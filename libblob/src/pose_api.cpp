@@ -110,12 +110,12 @@ blob_status blob_pose_set_centres(blob_pose* pose, size_t count, const uint32_t*
   BLOB_REQUIRE(pose != nullptr && (centres != nullptr || count == 0));
   if (!areNodes(*pose, count, nodes)) return BLOB_ERROR_TOPOLOGY;
   if (!areInReach(count, centres)) return BLOB_ERROR_RANGE;
-  for (std::size_t i = 0; i < count; ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      const float x = static_cast<float>(centres[i][axis]);
-      const std::uint32_t node = indexAt(nodes, i);
-      pose->pose[node].centre[axis] = pose->place[node].number[axis] = x;
-    }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t node = indexAt(nodes, i);
+    float* place = pose->place[node].number;
+    for (int axis = 0; axis < 3; ++axis) place[axis] = static_cast<float>(centres[i][axis]);
+    pose->pose[node].centre = {place[0], place[1], place[2]};
+  }
   collectChanged(*pose, count, nodes, true);
   for (const std::uint32_t node : pose->changed.list())
     pose->pose[node].rotation = rotationFromCentres(*pose, node);
@@ -154,15 +154,15 @@ blob_transform blob_transform_between(const blob_transform* from, const blob_tra
                                       double fraction) noexcept {
   BLOB_REQUIRE(from != nullptr && to != nullptr);
   const auto rotation = [](const blob_transform& t) {
-    return normalised({t.rotation[0], t.rotation[1], t.rotation[2], t.rotation[3]});
+    return lumen::field::unit({t.rotation[0], t.rotation[1], t.rotation[2], t.rotation[3]});
   };
+  const double share = fraction > 0 ? std::min(fraction, 1.0) : 0.0;
   blob_transform result;
   for (int axis = 0; axis < 3; ++axis)
-    result.centre[axis] = from->centre[axis] + fraction * (to->centre[axis] - from->centre[axis]);
-  const Quaternion q = between(rotation(*from), rotation(*to), fraction);
-  const double parts[4] = {q.x, q.y, q.z, q.w};
-  std::copy_n(parts, 4, result.rotation);
-  result.factor = from->factor + fraction * (to->factor - from->factor);
+    result.centre[axis] = (1.0 - share) * from->centre[axis] + share * to->centre[axis];
+  const Quaternion q = lumen::field::slerp(rotation(*from), rotation(*to), share);
+  std::copy(q.begin(), q.end(), result.rotation);
+  result.factor = (1.0 - share) * from->factor + share * to->factor;
   return result;
 }
 

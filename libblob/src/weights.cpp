@@ -32,13 +32,11 @@ NodeWeights weighNodes(const blob_model& model, std::uint32_t flags, const doubl
 field::Vec displacementOf(const blob_pose& pose, const blob_pose& before, std::uint32_t node,
                           const double* point) noexcept {
   const NodePose &now = pose.pose[node], &then = before.pose[node];
-  const field::Vec x{point[0] - now.centre[0], point[1] - now.centre[1], point[2] - now.centre[2]};
+  const field::Vec x = field::Vec{point[0], point[1], point[2]} - now.centre;
   // relative to the centres, so that small steps keep their digits
-  const field::Vec rest = (1.0 / now.factor) * rotate(conjugate(now.rotation), x);
-  const field::Vec was = then.factor * rotate(then.rotation, rest);
-  const field::Vec centre{now.centre[0] - then.centre[0], now.centre[1] - then.centre[1],
-                          now.centre[2] - then.centre[2]};
-  return centre + (x - was);
+  const field::Vec rest = (1.0 / now.factor) * field::rotatedBack(now.rotation, x);
+  const field::Vec was = then.factor * field::rotated(then.rotation, rest);
+  return (now.centre - then.centre) + (x - was);
 }
 
 }  // namespace lumen::blob

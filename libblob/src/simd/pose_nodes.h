@@ -77,16 +77,17 @@ inline void placeBlobs(blob_pose& pose, const std::uint32_t* nodes, std::size_t 
     const NodePose& at = pose.pose[node];
     NodeRecord& record = pose.model.nodes[node];
     float* place = pose.place[node].number;
+    const double centre[3] = {at.centre.x, at.centre.y, at.centre.z};
     for (int axis = 0; axis < 3; ++axis) {
-      record.centre[axis] = at.centre[axis];
-      place[axis] = static_cast<float>(at.centre[axis]);
+      record.centre[axis] = centre[axis];
+      place[axis] = static_cast<float>(centre[axis]);
     }
     place[3] = static_cast<float>(at.factor * static_cast<double>(pose.rest->nodes[node].radius()));
     record.field.place[3] = place[3];
     const Quaternion& q = at.rotation;
     store4(pose.rotation[node].quaternion,
-           makeRow(static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z),
-                   static_cast<float>(q.w)));
+           makeRow(static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
+                   static_cast<float>(q[3])));
     pose.inverseFactor[node] = static_cast<float>(1.0 / at.factor);
     if (pose.model.lender[node] != node) continue;
     float matrix[9];
@@ -136,30 +137,38 @@ inline F8 angleBetween(const Columns& a, const Columns& b) {
   return set1(2.0f) * sqrt(min(squareOf(1.0f), squareOf(-1.0f)));
 }
 
-// The greatest strain of eight edges; edges may occur more than once.
+// The length of an edge's change in the frame of one of its ends.
+inline F8 stretchOf(const Columns& turn, F8 inverseFactor, const Columns& edge,
+                    const Columns& was) {
+  const Columns now = turnBack(turn, edge);
+  const F8 x = now.x * inverseFactor - was.x, y = now.y * inverseFactor - was.y,
+           z = now.z * inverseFactor - was.z;
+  return sqrt((x * x + y * y) + z * z);
+}
+
+// The strains of eight edges.
 inline F8 strainOfEight(const blob_pose& pose, const std::uint32_t* edges) {
-  float from[kLanes][4], to[kLanes][4], turnFrom[kLanes][4], turnTo[kLanes][4], was[kLanes][4],
-      turnWas[kLanes][4], inverse[kLanes], radius[kLanes];
+  float place[2][kLanes][4], turn[2][kLanes][4], was[2][kLanes][4], turned[kLanes][4],
+      inverse[2][kLanes];
   for (int lane = 0; lane < kLanes; ++lane) {
     const EdgeReference& edge = pose.edgeReference[edges[lane]];
-    std::memcpy(from[lane], pose.place[edge.node].number, sizeof from[lane]);
-    std::memcpy(to[lane], pose.place[edge.other].number, sizeof to[lane]);
-    std::memcpy(turnFrom[lane], pose.rotation[edge.node].quaternion, sizeof turnFrom[lane]);
-    std::memcpy(turnTo[lane], pose.rotation[edge.other].quaternion, sizeof turnTo[lane]);
-    std::memcpy(was[lane], edge.vector, sizeof was[lane]);
-    std::memcpy(turnWas[lane], edge.turn, sizeof turnWas[lane]);
-    inverse[lane] = pose.inverseFactor[edge.node];
-    radius[lane] = edge.radius;
+    for (int end = 0; end < 2; ++end) {
+      const std::uint32_t node = edge.node[end];
+      store4(place[end][lane], load4(pose.place[node].number));
+      store4(turn[end][lane], load4(pose.rotation[node].quaternion));
+      inverse[end][lane] = pose.inverseFactor[node];
+    }
+    store4(was[0][lane], load4(edge.from));
+    store4(was[1][lane], load4(edge.to));
+    store4(turned[lane], load4(edge.turn));
   }
-  const Columns a = columnsOf(from), b = columnsOf(to), q = columnsOf(turnFrom);
-  const Columns reference = columnsOf(was);
-  const F8 scale = load(inverse);
-  const Columns now = turnBack(q, {b.x - a.x, b.y - a.y, b.z - a.z, scale});
-  const F8 x = now.x * scale - reference.x, y = now.y * scale - reference.y,
-           z = now.z * scale - reference.z;
-  const F8 stretch = sqrt((x * x + y * y) + z * z);
-  const F8 turn = angleBetween(quotient(q, columnsOf(turnTo)), columnsOf(turnWas));
-  return (stretch + load(radius) * turn) * reference.w;
+  const Columns a = columnsOf(place[0]), b = columnsOf(place[1]), from = columnsOf(turn[0]),
+                to = columnsOf(turn[1]), wasFrom = columnsOf(was[0]), wasTo = columnsOf(was[1]);
+  const Columns edge{b.x - a.x, b.y - a.y, b.z - a.z, a.w};
+  const F8 stretch = max(stretchOf(from, load(inverse[0]), edge, wasFrom),
+                         stretchOf(to, load(inverse[1]), edge, wasTo));
+  const F8 angle = angleBetween(quotient(from, to), columnsOf(turned));
+  return (stretch + wasTo.w * angle) * wasFrom.w;
 }
 
 inline float greatestStrain(const blob_pose& pose, const std::uint32_t* edges, std::size_t count) {

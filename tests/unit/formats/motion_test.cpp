@@ -244,10 +244,10 @@ TEST(Poses, AreLinearInTimeAndTurnAlongTheShorterArc) {
   const NodePose pose = poseAt(turningCase(0), 0.25);
   EXPECT_NEAR(pose.centre.x, 1, 1e-12);
   EXPECT_NEAR(pose.factor, 1.5, 1e-12);
-  EXPECT_NEAR(angleBetween(pose.rotation, {0, 0, 0, 1}), kPi / 8, 1e-7);
+  EXPECT_NEAR(field::angleBetween(pose.rotation, {0, 0, 0, 1}), kPi / 8, 1e-7);
   Case other = turningCase(0);
   for (float& x : other.motion->pose[1].rotation) x = -x;  // the same rotation
-  EXPECT_NEAR(angleBetween(poseAt(other, 0.25).rotation, pose.rotation), 0, 1e-7);
+  EXPECT_NEAR(field::field::angleBetween(poseAt(other, 0.25).rotation, pose.rotation), 0, 1e-7);
 }
 
 // spec: M52
@@ -287,7 +287,7 @@ TEST(Poses, CarryPointsAboutTheCentreAtRest) {
 TEST(Slerp, AgreesWithTheFormulaForAnglesSmallAndLarge) {
   for (const double angle : {1e-9, 1e-3, 1.0, kPi / 2, 3.1})
     for (const double u : {0.0, 0.125, 0.5, 0.9, 1.0}) {
-      const Quaternion q = slerp(aboutZ(0.3), aboutZ(0.3 + angle), u),
+      const Quaternion q = field::slerp(aboutZ(0.3), aboutZ(0.3 + angle), u),
                        want = aboutZ(0.3 + u * angle);
       for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(q[i], want[i], 1e-15) << angle << " " << u;
     }

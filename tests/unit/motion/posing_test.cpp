@@ -28,11 +28,13 @@ TEST(MotionPosing, CarriesCentresDirectionsRadiiAndWallPoints) {
   for (const auto& centre : rest.tree.centre)
     poses.push_back(poseOf(toEigen(centre) + Vector3d(1, 2, 3), turn, 2));
   const formats::Case posed = posedWalls(rest, poses);
-  EXPECT_TRUE((toEigen(posed.tree.centre[3]) - toEigen(rest.tree.centre[3])).isApprox(Vector3d(1, 2, 3), 1e-6));
+  EXPECT_TRUE((toEigen(posed.tree.centre[3]) - toEigen(rest.tree.centre[3]))
+                  .isApprox(Vector3d(1, 2, 3), 1e-6));
   EXPECT_TRUE(toEigen(posed.tree.direction[3]).isApprox(Vector3d(0, -1, 0), 1e-6));
   EXPECT_FLOAT_EQ(posed.tree.radius[3], 2);
   EXPECT_FLOAT_EQ(posed.tree.height[3], 1);
-  EXPECT_TRUE((toEigen(posed.points->position[3]) - toEigen(posed.tree.centre[3])).isApprox(Vector3d(0, -2, 0), 1e-5));
+  EXPECT_TRUE((toEigen(posed.points->position[3]) - toEigen(posed.tree.centre[3]))
+                  .isApprox(Vector3d(0, -2, 0), 1e-5));
 }
 
 TEST(MotionPosing, TurnsNodesByWhatTheirCentresShow) {

@@ -38,10 +38,12 @@ struct Scene {
 
   Scene() {
     for (const std::uint32_t node : stations.node)
-      shapes.push_back({toEigen(rest.centre[node]), toEigen(rest.direction[node]), double{rest.radius[node]}});
+      shapes.push_back(
+          {toEigen(rest.centre[node]), toEigen(rest.direction[node]), double{rest.radius[node]}});
     around.assign(stations.size(), Vector3d::Zero());
   }
-  [[nodiscard]] SearchResult find(const formats::CenterlineTree& drawn, const MoveGrid& grid) const {
+  [[nodiscard]] SearchResult find(const formats::CenterlineTree& drawn,
+                                  const MoveGrid& grid) const {
     const Volume volume = draw(drawn);
     Progress silent;
     return searchMoves(stations, shapes, around, grid, Evidence(volume, false, 0.4), silent);

@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 std::vector<MeasuredMove> unmeasured(const formats::CenterlineTree& tree) {
   std::vector<MeasuredMove> result;
-  for (const auto& direction : tree.direction) result.push_back({Vector3d::Zero(), toEigen(direction), 0});
+  for (const auto& direction : tree.direction)
+    result.push_back({Vector3d::Zero(), toEigen(direction), 0});
   return result;
 }
 
@@ -51,7 +52,8 @@ TEST(MotionSmoothing, OneThatIsFarOffCountsLittle) {
     measured[i].deviation = 0.05;
   }
   measured[10].move = {6, 0, 0};
-  for (std::size_t i = 0; i <= 20; ++i) EXPECT_NEAR(smoothMoves(tree, measured, 0.01)[i].x(), 0.3, 0.02);
+  for (std::size_t i = 0; i <= 20; ++i)
+    EXPECT_NEAR(smoothMoves(tree, measured, 0.01)[i].x(), 0.3, 0.02);
 }
 
 TEST(MotionSmoothing, NumbersAreMeansOfTheirNeighbours) {
@@ -63,7 +65,8 @@ TEST(MotionSmoothing, NumbersAreMeansOfTheirNeighbours) {
     m = {0.1 + 0.02 * (2 * random.uniform() - 1), 0.02};
     mean += m.value / static_cast<double>(measured.size());
   }
-  const auto smooth = smoothNumbers(tree, measured, std::vector<double>(tree.nodeCount(), 1e-6), 0.2);
+  const auto smooth =
+      smoothNumbers(tree, measured, std::vector<double>(tree.nodeCount(), 1e-6), 0.2);
   for (const double number : smooth) EXPECT_NEAR(number, mean, 2e-3);
 }
 

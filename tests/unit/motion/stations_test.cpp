@@ -18,7 +18,8 @@ bool isStation(const Stations& s, std::uint32_t node) {
 TEST(MotionStations, AreRootsTipsForksAndNodesARadiusApart) {
   const formats::CenterlineTree tree = test::forkedTree();
   const Stations s = placeStations(tree);
-  for (const std::uint32_t node : {0U, 12U, 16U, 20U, 31U, 42U}) EXPECT_TRUE(isStation(s, node)) << node;
+  for (const std::uint32_t node : {0U, 12U, 16U, 20U, 31U, 42U})
+    EXPECT_TRUE(isStation(s, node)) << node;
   for (std::size_t i = 0; i < s.size(); ++i) {
     EXPECT_LT(s.parent[i], static_cast<std::int32_t>(i));
     EXPECT_LE(s.gap[i], 1.0 + 0.5 + 1e-6) << i;
@@ -31,7 +32,8 @@ TEST(MotionStations, StandForTheWholeLength) {
   const Stations s = placeStations(test::forkedTree());
   // 20 edges of the trunk, 11 of each arm with the one to its parent
   const double first = std::hypot(0.5, 0.0), second = std::hypot(0.5, 0.0);
-  EXPECT_NEAR(std::accumulate(s.length.begin(), s.length.end(), 0.0), 10.0 + 5.0 + first + 5.0 + second, 1e-5);
+  EXPECT_NEAR(std::accumulate(s.length.begin(), s.length.end(), 0.0),
+              10.0 + 5.0 + first + 5.0 + second, 1e-5);
 }
 
 TEST(MotionStations, SpreadsMovesLinearlyAlongTheTree) {
@@ -39,7 +41,8 @@ TEST(MotionStations, SpreadsMovesLinearlyAlongTheTree) {
   const Stations s = placeStations(tree);
   // a linear move along z comes back on the trunk; a constant one everywhere
   std::vector<Eigen::Vector3d> moves;
-  for (const std::uint32_t node : s.node) moves.emplace_back(0.1 * double{tree.centre[node].z}, 2, 0);
+  for (const std::uint32_t node : s.node)
+    moves.emplace_back(0.1 * double{tree.centre[node].z}, 2, 0);
   const std::vector<Eigen::Vector3d> all = s.spread(moves);
   ASSERT_EQ(all.size(), tree.nodeCount());
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {

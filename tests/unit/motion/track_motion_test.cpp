@@ -51,8 +51,9 @@ Moving makeMoving(const std::string& name, PhantomMotion motion) {
 
 TrackedMotion trackPhases(const Moving& m) {
   Progress silent;
-  return trackMotion(m.rest, {0, 0.25, 0.5, 0.75}, 1, [&](std::size_t phase) { return m.phases[phase]; },
-               MotionOptions{}, silent);
+  return trackMotion(
+      m.rest, {0, 0.25, 0.5, 0.75}, 1, [&](std::size_t phase) { return m.phases[phase]; },
+      MotionOptions{}, silent);
 }
 
 std::vector<formats::Pose> posesOf(const formats::Motion& motion, std::size_t phase) {
@@ -112,11 +113,13 @@ TEST(MovingPhantom, StartsAtRestAndMovesByMillimetres) {
   const formats::Motion& motion = *m.phantom.truth.motion;
   EXPECT_EQ(motion.period, 0.8);
   ASSERT_EQ(motion.time.size(), 4U);
-  for (std::size_t t = 0; t < 4; ++t) EXPECT_NEAR(motion.time[t], 0.2 * static_cast<double>(t), 1e-12);
+  for (std::size_t t = 0; t < 4; ++t)
+    EXPECT_NEAR(motion.time[t], 0.2 * static_cast<double>(t), 1e-12);
   const std::size_t nodes = m.phantom.truth.tree.nodeCount();
   ASSERT_EQ(motion.pose.size(), 4 * nodes);
   for (std::size_t i = 0; i < nodes; ++i) {
-    EXPECT_LT((toEigen(motion.pose[i].centre) - toEigen(m.phantom.truth.tree.centre[i])).norm(), 1e-5);
+    EXPECT_LT((toEigen(motion.pose[i].centre) - toEigen(m.phantom.truth.tree.centre[i])).norm(),
+              1e-5);
     EXPECT_NEAR(motion.pose[i].rotation[3], 1, 1e-6);
   }
   // systole: the voxels on the axis of the moved artery are bright, those of the artery at rest are not all
@@ -124,7 +127,8 @@ TEST(MovingPhantom, StartsAtRestAndMovesByMillimetres) {
     const VolumeGeometry& g = m.phases[volume].geometry;
     const Eigen::Vector3d at = g.indexFromWorld(toEigen(motion.pose[phase * nodes + node].centre));
     const auto& voxels = std::get<std::vector<std::int16_t>>(m.phases[volume].voxels);
-    return voxels[g.index({static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())),
+    return voxels[g.index({static_cast<int>(std::lround(at.x())),
+                           static_cast<int>(std::lround(at.y())),
                            static_cast<int>(std::lround(at.z()))})];
   };
   std::size_t stays = 0;
