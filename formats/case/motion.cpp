@@ -42,31 +42,6 @@ std::optional<Motion> motionOfChunk(const OtherChunk& other, IssueList& faults) 
   return faults.failed() ? std::nullopt : std::optional(motionOf(view));
 }
 
-// Two of a motion's times, and the share of the way from the first to the second.
-struct Instant {
-  std::size_t from = 0, to = 0;
-  double share = 0;
-};
-
-Instant instantOf(const Motion& motion, double time) {
-  const std::vector<double>& times = motion.time;
-  const std::size_t last = times.size() - 1;
-  if (motion.period > 0) {
-    const double passed = time - times.front();
-    const double within = passed - motion.period * std::floor(passed / motion.period);
-    time = times.front() + (within < motion.period ? std::max(within, 0.0) : 0.0);
-    if (time >= times.back()) {
-      const double rest = times.front() + motion.period - times.back();
-      return {last, 0, std::min((time - times.back()) / rest, 1.0)};
-    }
-  }
-  if (time <= times.front()) return {0, 0, 0};
-  if (time >= times.back()) return {last, last, 0};
-  const auto after = std::upper_bound(times.begin(), times.end(), time);
-  const auto to = static_cast<std::size_t>(after - times.begin());
-  return {to - 1, to, (time - times[to - 1]) / (times[to] - times[to - 1])};
-}
-
 double between(double a, double b, double u) {
   return (1.0 - u) * a + u * b;
 }
@@ -78,7 +53,7 @@ NodePose interpolated(const Pose& from, const Pose& to, double u) {
 }
 
 std::vector<NodePose> posesOf(const CenterlineTree& tree, const Motion& motion,
-                              const Instant& instant) {
+                              const field::Instant& instant) {
   std::vector<NodePose> poses(tree.nodeCount());
   for (std::size_t i = 0; i < poses.size(); ++i) poses[i].centre = vec(tree.centre[i]);
   const std::size_t nodes = motion.node.size();
@@ -144,7 +119,7 @@ void takeMotion(Case& value, IssueList& issues) {
 }
 
 std::vector<NodePose> posesAt(const CenterlineTree& tree, const Motion& motion, double time) {
-  return posesOf(tree, motion, instantOf(motion, time));
+  return posesOf(tree, motion, field::instantAt(motion.time, motion.period, time));
 }
 
 MotionFigures motionFigures(const CenterlineTree& tree, const Motion& motion) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/field/pose.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include "formats/field/repeatable_math.h"
 
@@ -52,6 +52,24 @@ Quaternion slerp(const Quaternion& a, Quaternion b, double u) {
 
 double angleBetween(const Quaternion& a, const Quaternion& b) {
   return 2.0 * halfAngle(a, product(a, b) < 0 ? opposite(b) : b);
+}
+
+Instant instantAt(std::span<const double> times, double period, double time) {
+  const std::size_t last = times.size() - 1;
+  if (period > 0) {
+    const double passed = time - times.front();
+    const double within = passed - period * std::floor(passed / period);
+    time = times.front() + (within < period ? std::max(within, 0.0) : 0.0);
+    if (time >= times.back()) {
+      const double rest = times.front() + period - times.back();
+      return {last, 0, std::min((time - times.back()) / rest, 1.0)};
+    }
+  }
+  if (!(time > times.front())) return {0, 0, 0};
+  if (time >= times.back()) return {last, last, 0};
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  const auto to = static_cast<std::size_t>(after - times.begin());
+  return {to - 1, to, (time - times[to - 1]) / (times[to] - times[to - 1])};
 }
 
 }  // namespace lumen::field

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
 
 #include "formats/field/vector.h"
 
@@ -52,5 +54,15 @@ Quaternion slerp(const Quaternion& a, Quaternion b, double u);
 
 /// Angle in radians, 0 to pi, of the rotation that leads from `a` to `b`.
 double angleBetween(const Quaternion& a, const Quaternion& b);
+
+/// Two of a motion's times, and the share of the way from the first to the second.
+struct Instant {
+  std::size_t from = 0, to = 0;
+  double share = 0;
+};
+
+/// The instant of a time, s, among ascending times; `period`: s, or 0. See spec/lumen.md, "Between the
+/// times".
+Instant instantAt(std::span<const double> times, double period, double time);
 
 }  // namespace lumen::field

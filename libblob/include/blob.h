@@ -94,7 +94,8 @@ typedef enum blob_status {
   BLOB_ERROR_LIMIT = 9,     /* more nodes, blobs or links than the limits below */
   BLOB_ERROR_RANGE = 10,    /* a number is not finite or out of its range, see blob_model_def */
   BLOB_ERROR_TOPOLOGY = 11, /* a parent, link or offset refers to an index that does not exist */
-  BLOB_ERROR_KERNEL = 12    /* there is no such kernel */
+  BLOB_ERROR_KERNEL = 12,   /* there is no such kernel */
+  BLOB_ERROR_NO_MOTION = 13 /* the case has no motion */
 } blob_status;
 
 /* Describes a status.

@@ -147,6 +147,48 @@ BLOB_API blob_transform blob_transform_between(const blob_transform* from, const
 BLOB_API blob_status blob_pose_blend(blob_pose* pose, const blob_pose* from, const blob_pose* to,
                                      double fraction, blob_pose_change* change) BLOB_NOEXCEPT;
 
+/* ---------------------------------------------------------------- motions */
+
+/* Poses of nodes over time, as a .lumen file holds them. */
+typedef struct blob_motion blob_motion;
+
+/* Reads the motion of a .lumen file.
+ * The caller provides its path (UTF-8), and a definition of blob_open_def_default() or null; its
+ * `simd` means nothing here.
+ * On BLOB_OK *motion is a motion, to be closed by blob_motion_close(); otherwise it is null.
+ * Fails with BLOB_ERROR_NO_MOTION, or as blob_model_open(). O(file size). */
+BLOB_API blob_status blob_motion_open(const char* path, const blob_open_def* def,
+                                      blob_motion** motion) BLOB_NOEXCEPT;
+
+/* Reads the motion of a .lumen file that is in memory: `size` bytes of any alignment, which are read
+ * during the call only. Result, failures and cost are those of blob_motion_open(). */
+BLOB_API blob_status blob_motion_open_bytes(const void* bytes, size_t size,
+                                            const blob_open_def* def,
+                                            blob_motion** motion) BLOB_NOEXCEPT;
+
+/* Frees a motion, or does nothing for null. */
+BLOB_API void blob_motion_close(blob_motion* motion) BLOB_NOEXCEPT;
+
+/* Properties of a motion. */
+typedef struct blob_motion_info {
+  size_t time_count, node_count; /* nodes that move */
+  double first, last;            /* s */
+  double period;                 /* s; 0: not periodic */
+} blob_motion_info;
+
+/* Describes a motion. Returns its counts and times. Cannot fail. O(1). */
+BLOB_API blob_motion_info blob_motion_describe(const blob_motion* motion) BLOB_NOEXCEPT;
+
+/* Sets the nodes that a motion moves to where they are at a time; all others stay as they are.
+ * The caller provides a motion of the case that the model at rest is of, any finite number of
+ * seconds (a periodic motion repeats, another one stays at its ends), and room for a report, or null.
+ * Fails with BLOB_ERROR_ARGUMENT (a case with another number of nodes), _RANGE (a time that is not
+ * finite), or as blob_pose_set(), as which it costs, and a few dozen nanoseconds for each node. */
+BLOB_API blob_status blob_pose_set_time(blob_pose* pose, const blob_motion* motion, double seconds,
+                                        blob_pose_change* change) BLOB_NOEXCEPT;
+
+/* ---------------------------------------------------------------- forces and velocities */
+
 /* Lists the nodes that answer at a point, and their weights in the blended field, whose sum is 1.
  * With them a simulator spreads a force F at the point X over the nodes of the vessel: node k gets
  * w_k F at its centre O', and the torque w_k (X - O') x F.

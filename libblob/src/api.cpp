@@ -26,7 +26,7 @@ namespace {
 using namespace lumen::blob;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint32_t kOpenCookie = 0x626c6f31U, kModelCookie = 0x626c6f32U;
+constexpr std::uint32_t kModelCookie = 0x626c6f32U;
 
 std::atomic<blob_misuse_handler> g_misuseHandler{nullptr};
 
@@ -141,6 +141,8 @@ const char* blob_status_text(blob_status status) noexcept {
       return "a parent, link or offset names what does not exist";
     case BLOB_ERROR_KERNEL:
       return "there is no such kernel";
+    case BLOB_ERROR_NO_MOTION:
+      return "the case has no motion";
   }
   return "unknown status";
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "formats/container/printable.h"
 #include "formats/view/case_view.h"
 #include "mapped_file.h"
+#include "posed_model.h"
 
 namespace lumen::blob {
 namespace {
@@ -75,10 +77,38 @@ blob_status build(const formats::CaseView& view, const blob_open_def& def, blob_
   return BLOB_OK;
 }
 
-}  // namespace
+// Copies the motion of a view.
+blob_status readMotion(const formats::CaseView& view, const blob_open_def& def,
+                       blob_motion** motion) {
+  if (!view.motion)
+    return fail(def, BLOB_ERROR_NO_MOTION, "the case has no motion; lumen motion makes one");
+  const formats::MotionView& from = *view.motion;
+  auto made = std::make_unique<blob_motion>();
+  made->caseNodes = view.nodeCount();
+  made->period = from.period;
+  made->time.assign(from.time.begin(), from.time.end());
+  made->node.assign(from.node.begin(), from.node.end());
+  for (const formats::PoseRecord& p : from.pose) {
+    const blob_transform transform{{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}, p[7]};
+    if (!isTransform(transform))
+      return fail(def, BLOB_ERROR_RANGE,
+                  "a pose of the motion is out of the range of blob_transform");
+    made->pose.push_back(poseOf(transform));
+  }
+  const bool areNodes = std::all_of(made->node.begin(), made->node.end(),
+                                    [&view](std::uint32_t i) { return i < view.nodeCount(); });
+  // of an unverified file, counts and order may be anything
+  if (!areNodes || made->time.empty() ||
+      made->pose.size() != made->time.size() * made->node.size() ||
+      !std::is_sorted(made->time.begin(), made->time.end()))
+    return fail(def, BLOB_ERROR_TOPOLOGY, "the motion names nodes or times that the case lacks");
+  *motion = made.release();
+  return BLOB_OK;
+}
 
-blob_status openBytes(const void* bytes, std::size_t size, const blob_open_def& def,
-                      blob_model** model) {
+// Views the bytes of a file, and uses the view.
+template <class Use>
+blob_status withView(const void* bytes, std::size_t size, const blob_open_def& def, Use use) {
   std::span<const std::byte> view(static_cast<const std::byte*>(bytes), size);
   // numbers are used in place, so unaligned bytes are copied
   std::vector<std::byte> aligned;
@@ -90,13 +120,41 @@ blob_status openBytes(const void* bytes, std::size_t size, const blob_open_def& 
       formats::viewCase(view, def.verify != 0 ? formats::Verify::All : formats::Verify::Structure);
   if (!opened)
     return fail(def, statusOf(opened.error().code), formats::printable(opened.error().message));
-  return build(*opened, def, model);
+  return use(*opened);
+}
+
+// Maps a file, and uses its bytes.
+template <class Use>
+blob_status withFile(const char* path, const blob_open_def& def, Use use) {
+  const MappedFile file(path);
+  if (!file) return fail(def, BLOB_ERROR_FILE, blob_status_text(BLOB_ERROR_FILE));
+  return use(file.data(), file.size());
+}
+
+}  // namespace
+
+blob_status openBytes(const void* bytes, std::size_t size, const blob_open_def& def,
+                      blob_model** model) {
+  return withView(bytes, size, def,
+                  [&](const formats::CaseView& view) { return build(view, def, model); });
 }
 
 blob_status openFile(const char* path, const blob_open_def& def, blob_model** model) {
-  const MappedFile file(path);
-  if (!file) return fail(def, BLOB_ERROR_FILE, blob_status_text(BLOB_ERROR_FILE));
-  return openBytes(file.data(), file.size(), def, model);
+  return withFile(path, def, [&](const void* bytes, std::size_t size) {
+    return openBytes(bytes, size, def, model);
+  });
+}
+
+blob_status openMotionBytes(const void* bytes, std::size_t size, const blob_open_def& def,
+                            blob_motion** motion) {
+  return withView(bytes, size, def,
+                  [&](const formats::CaseView& view) { return readMotion(view, def, motion); });
+}
+
+blob_status openMotionFile(const char* path, const blob_open_def& def, blob_motion** motion) {
+  return withFile(path, def, [&](const void* bytes, std::size_t size) {
+    return openMotionBytes(bytes, size, def, motion);
+  });
 }
 
 }  // namespace lumen::blob

@@ -9,7 +9,8 @@
 #include "construct.h"
 #include "locate.h"
 #include "misuse.h"
-#include "pose.h"
+#include "open_case.h"
+#include "posed_model.h"
 #include "simd/backend.h"
 #include "weights.h"
 
@@ -58,6 +59,28 @@ void collectChanged(blob_pose& pose, std::size_t count, const std::uint32_t* nod
     for (std::uint32_t e = pose.edges.offset[node]; e < pose.edges.offset[node + 1]; ++e)
       pose.changed.add(pose.edges.node[e]);
   }
+}
+
+// A transform as it is stated: its centre keeps all digits.
+NodePose exactPoseOf(const blob_transform& transform) noexcept {
+  NodePose pose = poseOf(transform);
+  pose.centre = {transform.centre[0], transform.centre[1], transform.centre[2]};
+  return pose;
+}
+
+// A pose between two, whose centre is no float yet.
+NodePose between(const NodePose& from, const NodePose& to, double fraction) noexcept {
+  const double share = fraction > 0 ? std::min(fraction, 1.0) : 0.0;
+  return {(1.0 - share) * from.centre + share * to.centre,
+          lumen::field::slerp(from.rotation, to.rotation, share),
+          (1.0 - share) * from.factor + share * to.factor};
+}
+
+// The same for a node, whose centre is kept as floats.
+NodePose nodeBetween(const NodePose& from, const NodePose& to, double fraction) noexcept {
+  NodePose pose = between(from, to, fraction);
+  for (double* x : {&pose.centre.x, &pose.centre.y, &pose.centre.z}) *x = static_cast<float>(*x);
+  return pose;
 }
 
 bool areInReach(std::size_t count, const double (*centres)[3]) noexcept {
@@ -153,31 +176,58 @@ blob_status blob_pose_renew(blob_pose* pose) noexcept {
 blob_transform blob_transform_between(const blob_transform* from, const blob_transform* to,
                                       double fraction) noexcept {
   BLOB_REQUIRE(from != nullptr && to != nullptr);
-  const auto rotation = [](const blob_transform& t) {
-    return lumen::field::unit({t.rotation[0], t.rotation[1], t.rotation[2], t.rotation[3]});
-  };
-  const double share = fraction > 0 ? std::min(fraction, 1.0) : 0.0;
-  blob_transform result;
-  for (int axis = 0; axis < 3; ++axis)
-    result.centre[axis] = (1.0 - share) * from->centre[axis] + share * to->centre[axis];
-  const Quaternion q = lumen::field::slerp(rotation(*from), rotation(*to), share);
-  std::copy(q.begin(), q.end(), result.rotation);
-  result.factor = (1.0 - share) * from->factor + share * to->factor;
-  return result;
+  return transformOf(between(exactPoseOf(*from), exactPoseOf(*to), fraction));
 }
 
 blob_status blob_pose_blend(blob_pose* pose, const blob_pose* from, const blob_pose* to,
                             double fraction, blob_pose_change* change) noexcept {
   BLOB_REQUIRE(pose != nullptr && from != nullptr && to != nullptr);
   if (from->rest != pose->rest || to->rest != pose->rest) return BLOB_ERROR_ARGUMENT;
-  for (std::size_t i = 0; i < pose->pose.size(); ++i) {
-    const blob_transform a = transformOf(from->pose[i]), b = transformOf(to->pose[i]);
-    const blob_transform mixed = blob_transform_between(&a, &b, fraction);
-    if (!isTransform(mixed)) return BLOB_ERROR_RANGE;
-    pose->given[i] = poseOf(mixed);
-  }
-  std::copy(pose->given.begin(), pose->given.end(), pose->pose.begin());
+  for (std::size_t i = 0; i < pose->pose.size(); ++i)
+    pose->pose[i] = nodeBetween(from->pose[i], to->pose[i], fraction);
   collectChanged(*pose, pose->pose.size(), nullptr, false);
+  return finishChange(*pose, change);
+}
+
+blob_status blob_motion_open(const char* path, const blob_open_def* def,
+                             blob_motion** motion) noexcept {
+  const blob_open_def used = def != nullptr ? *def : blob_open_def_default();
+  return construct(motion, [&] {
+    if (path == nullptr || used.cookie != kOpenCookie) return BLOB_ERROR_ARGUMENT;
+    return openMotionFile(path, used, motion);
+  });
+}
+
+blob_status blob_motion_open_bytes(const void* bytes, size_t size, const blob_open_def* def,
+                                   blob_motion** motion) noexcept {
+  const blob_open_def used = def != nullptr ? *def : blob_open_def_default();
+  return construct(motion, [&] {
+    if (bytes == nullptr || used.cookie != kOpenCookie) return BLOB_ERROR_ARGUMENT;
+    return openMotionBytes(bytes, size, used, motion);
+  });
+}
+
+void blob_motion_close(blob_motion* motion) noexcept {
+  delete motion;
+}
+
+blob_motion_info blob_motion_describe(const blob_motion* motion) noexcept {
+  BLOB_REQUIRE(motion != nullptr);
+  return {motion->time.size(), motion->node.size(), motion->time.front(), motion->time.back(),
+          motion->period};
+}
+
+blob_status blob_pose_set_time(blob_pose* pose, const blob_motion* motion, double seconds,
+                               blob_pose_change* change) noexcept {
+  BLOB_REQUIRE(pose != nullptr && motion != nullptr);
+  if (motion->caseNodes != pose->pose.size()) return BLOB_ERROR_ARGUMENT;
+  if (!std::isfinite(seconds)) return BLOB_ERROR_RANGE;
+  const std::size_t count = motion->node.size();
+  const lumen::field::Instant at = lumen::field::instantAt(motion->time, motion->period, seconds);
+  for (std::size_t i = 0; i < count; ++i)
+    pose->pose[motion->node[i]] =
+        nodeBetween(motion->pose[at.from * count + i], motion->pose[at.to * count + i], at.share);
+  collectChanged(*pose, count, motion->node.data(), false);
   return finishChange(*pose, change);
 }
 

@@ -6,7 +6,7 @@
 
 #include "formats/field/blend.h"
 #include "formats/field/vector.h"
-#include "pose.h"
+#include "posed_model.h"
 
 namespace lumen::blob {
 

@@ -22,12 +22,12 @@ python_test(Conformance.OfTheReferenceReaderHolds slow
   ${conformance}/run.py --lacks zstd --lacks draco
   --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
 # libblob answers queries, has neither decoder, and computes with floats
-set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco --lacks motion)
+set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco)
 python_test(Conformance.OfLibblobHolds quick ${queries_only} --reader $<TARGET_FILE:blob_reader>)
 python_test(Conformance.OfLibblobInDoublesHolds quick
   ${queries_only} --reader "$<TARGET_FILE:blob_reader> --doubles")
 if(TARGET blob_wasm AND NODE)
-  python_test(Conformance.OfLibblobInWebAssemblyHolds slow ${queries_only} --reader
+  python_test(Conformance.OfLibblobInWebAssemblyHolds slow ${queries_only} --lacks motion --reader
     "${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/blob_reader.mjs $<TARGET_PROPERTY:blob_wasm,WASM>")
 endif()
 python_test(Conformance.FilesAreThoseOfTheirRecipes slow ${conformance}/make.py --check)

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "model.h"
-#include "pose.h"
+#include "posed_model.h"
 
 namespace lumen::blob {
 

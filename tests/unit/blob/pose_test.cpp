@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+#include <fstream>
+#include <iterator>
+#include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -470,6 +473,57 @@ TEST(BlobPose, BlendsBetweenTwo) {
   for (double& x : back.rotation) x = -x;
   const blob_transform first = blob_pose_node(from.get(), 10);
   EXPECT_NEAR(blob_transform_between(&first, &back, 0.25).rotation[3], std::cos(0.125), 1e-12);
+}
+
+std::vector<char> bytesOf(const std::string& file) {
+  std::ifstream in(std::string(LUMEN_CONFORMANCE) + "/valid/" + file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(BlobMotion, IsReadFromACaseAndRepeats) {
+  const std::vector<char> bytes = bytesOf("motion-periodic.lumen");
+  ASSERT_FALSE(bytes.empty());
+  blob_model* model = nullptr;
+  ASSERT_EQ(blob_model_open_bytes(bytes.data(), bytes.size(), nullptr, &model), BLOB_OK);
+  const Model rest(model);
+  blob_motion* motion = nullptr;
+  ASSERT_EQ(blob_motion_open_bytes(bytes.data(), bytes.size(), nullptr, &motion), BLOB_OK);
+  const blob_motion_info info = blob_motion_describe(motion);
+  EXPECT_GT(info.period, info.last - info.first);
+  EXPECT_GE(info.time_count, 2U);
+  EXPECT_GE(info.node_count, 1U);
+  const Pose now = makePose(rest), later = makePose(rest);
+  const double time = info.first + 0.3 * info.period;
+  ASSERT_EQ(blob_pose_set_time(now.get(), motion, time, nullptr), BLOB_OK);
+  ASSERT_EQ(blob_pose_set_time(later.get(), motion, time + 3 * info.period, nullptr), BLOB_OK);
+  double moved = 0;
+  for (std::uint32_t i = 0; i < countNodes(rest.get()); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(blob_pose_node(now.get(), i).centre[k], blob_pose_node(later.get(), i).centre[k],
+                  1e-5);
+      moved = std::max(moved, std::abs(blob_pose_node(now.get(), i).centre[k] -
+                                       blob_model_node(rest.get(), i).centre[k]));
+    }
+  EXPECT_GT(moved, 0.01);
+  EXPECT_EQ(blob_pose_set_time(now.get(), motion, std::nan(""), nullptr), BLOB_ERROR_RANGE);
+  const Model another = tube(20).build();
+  const Pose stranger = makePose(another);
+  EXPECT_EQ(blob_pose_set_time(stranger.get(), motion, 0, nullptr), BLOB_ERROR_ARGUMENT);
+  blob_motion_close(motion);
+}
+
+TEST(BlobMotion, IsMissingInACaseThatRests) {
+  const std::vector<char> bytes = bytesOf("golden-1-1.lumen");
+  ASSERT_FALSE(bytes.empty());
+  char message[200] = "";
+  blob_open_def def = blob_open_def_default();
+  def.message = message;
+  def.message_size = sizeof message;
+  blob_motion* motion = nullptr;
+  EXPECT_EQ(blob_motion_open_bytes(bytes.data(), bytes.size(), &def, &motion),
+            BLOB_ERROR_NO_MOTION);
+  EXPECT_EQ(motion, nullptr);
+  EXPECT_NE(std::string(message).find("no motion"), std::string::npos);
 }
 
 TEST(BlobPose, SegmentsHitTheWallWhereItIsNow) {

@@ -221,10 +221,10 @@ TEST(BlobCreate, RefusesWhatWasNotMadeByTheDefaultFunction) {
 }
 
 TEST(BlobStatus, EveryCodeHasItsText) {
-  for (int code = BLOB_OK; code <= BLOB_ERROR_KERNEL; ++code)
+  for (int code = BLOB_OK; code <= BLOB_ERROR_NO_MOTION; ++code)
     EXPECT_STRNE(blob_status_text(static_cast<blob_status>(code)), "unknown status");
   blob_status future;
-  std::memcpy(&future, "\15\0\0", 4);  // one more than the last
+  std::memcpy(&future, "\16\0\0", 4);  // one more than the last
   EXPECT_STREQ(blob_status_text(future), "unknown status");
 }
 

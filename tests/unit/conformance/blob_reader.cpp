@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "blob.h"
+#include "blob_pose.h"
 
 namespace {
 
@@ -48,6 +49,34 @@ json differentiated(const blob_model* model, std::uint32_t flags, const double* 
           {"inside", blob_inside(model, flags, point, &cursor) != 0}};
 }
 
+/// A model at rest, and at any time of its motion if it has one.
+class Moving {
+public:
+  Moving(const char* file, const blob_model* rest) : m_rest(rest) {
+    blob_motion* motion = nullptr;
+    blob_pose* pose = nullptr;
+    if (blob_motion_open(file, nullptr, &motion) != BLOB_OK) return;
+    m_motion.reset(motion);
+    blob_pose_def def = blob_pose_def_default();
+    def.renew = 0;  // neighbours are those of the case at rest
+    if (blob_pose_create(rest, &def, &pose) == BLOB_OK) m_pose.reset(pose);
+  }
+  const blob_model* at(const json& question) {
+    if (!question.contains("time")) return m_rest;
+    blob_pose_set_time(m_pose.get(), m_motion.get(), question["time"].get<double>(), nullptr);
+    return blob_pose_model(m_pose.get());
+  }
+
+private:
+  struct Closer {
+    void operator()(blob_motion* motion) const { blob_motion_close(motion); }
+    void operator()(blob_pose* pose) const { blob_pose_close(pose); }
+  };
+  const blob_model* m_rest;
+  std::unique_ptr<blob_motion, Closer> m_motion;
+  std::unique_ptr<blob_pose, Closer> m_pose;
+};
+
 /// Both fields are asked from where the point came from, so that either has to follow.
 json answer(const blob_model* model, bool doubles, const json& question) {
   const auto point = question.at("point").get<std::vector<double>>();
@@ -77,8 +106,11 @@ int main(int argc, char** argv) {
   }
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
   json answers = json::array();
-  for (const json& question : json::parse(text))
-    answers.push_back(answer(model, doubles, question));
+  {
+    Moving moving(argv[argc - 1], model);
+    for (const json& question : json::parse(text))
+      answers.push_back(answer(moving.at(question), doubles, question));
+  }
   blob_model_close(model);
   std::cout << json{{"accepted", true}, {"answers", answers}} << '\n';
 }

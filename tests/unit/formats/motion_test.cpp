@@ -247,7 +247,7 @@ TEST(Poses, AreLinearInTimeAndTurnAlongTheShorterArc) {
   EXPECT_NEAR(field::angleBetween(pose.rotation, {0, 0, 0, 1}), kPi / 8, 1e-7);
   Case other = turningCase(0);
   for (float& x : other.motion->pose[1].rotation) x = -x;  // the same rotation
-  EXPECT_NEAR(field::field::angleBetween(poseAt(other, 0.25).rotation, pose.rotation), 0, 1e-7);
+  EXPECT_NEAR(field::angleBetween(poseAt(other, 0.25).rotation, pose.rotation), 0, 1e-7);
 }
 
 // spec: M52

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pose.h"
+#include "posed_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,7 +181,6 @@ void makeWorkingMemory(blob_pose& pose) {
   pose.changed = IndexSet(count);
   pose.dirty = IndexSet(count);
   pose.strained = IndexSet(pose.edgeReference.size());
-  pose.given.resize(count);
   std::size_t children = pose.model.locate.leaves.size();
   for (const std::vector<LocateBlock>& level : pose.model.locate.levels) {
     pose.children.emplace_back(children);

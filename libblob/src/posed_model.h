@@ -87,10 +87,18 @@ struct blob_pose {
   std::vector<std::uint32_t> edgeAt;  ///< into edgeReference, for each entry of edges.node
 
   /// Used while nodes are set: nodes whose blobs moved, nodes whose neighbours did, edges at the
-  /// former, and what was given; then the children that have other bounds, one set for each level.
+  /// former; then the children that have other bounds, one set for each level.
   lumen::blob::IndexSet changed{0}, dirty{0}, strained{0};
   std::vector<lumen::blob::IndexSet> children;
-  std::vector<lumen::blob::NodePose> given;
+};
+
+/// The poses of some nodes of a case over time.
+struct blob_motion {
+  std::size_t caseNodes = 0;
+  double period = 0;         ///< s; 0: not periodic
+  std::vector<double> time;  ///< s, ascending, at least one
+  std::vector<std::uint32_t> node;
+  std::vector<lumen::blob::NodePose> pose;  ///< time by time, one for each entry of `node`
 };
 
 namespace lumen::blob {
