@@ -129,6 +129,8 @@ def make_cases(lumen, folder):
     go("track.schema.json", "track", "a.nrrd", "tracked.lumen", "--seeds", "astray.json")
     go("fit.schema.json", "fit", "tracked.lumen", "image.lumen", "--image", "a.nrrd")
     go("fit.schema.json", "fit", "tracked.lumen", "fitted.lumen")
+    go("motion.schema.json", "motion", "tracked.lumen", "a.nrrd", "--out", "moving.lumen", "--reach", "2")
+    go("phantom.schema.json", "phantom", "coronary", "beat.nrrd", "--size", "64", "--motion", "heart", "--phases", "2")
     go("trim.schema.json", "trim", "fitted.lumen", "trimmed.lumen", "--min-length", "1")
     go("convert.schema.json", "convert", "a.nrrd", "made.lumen.json", "--seeds", "astray.json")
     hold_or_silent("convert.schema.json", run(lumen, folder, "convert", "a.nrrd", "strict.lumen", "--seeds", "astray.json", "--strict"),
