@@ -103,6 +103,13 @@ void readModels(SpanReader& reader, const CaseChunks& chunks, ModelView& models)
                  models.centre.size() * sizeof(float));
 }
 
+// A count beyond its limit; it may be beyond the sizes of the machine, too.
+Issue foundLimit(const char* pointer, std::uint64_t found, std::size_t limit) {
+  const std::string text = std::to_string(found), most = std::to_string(limit);
+  return pointerIssue(ErrorCode::Limit, pointer, "found " + text + ", the limit is " + most,
+                      {{"found", text}, {"limit", most}});
+}
+
 // Size of the chunk of a motion by the counts in its head; nothing if these exceed their limits.
 std::optional<std::uint64_t> motionSize(std::uint64_t times, std::uint64_t nodes) {
   if (times > kMaxTimes || times * nodes > kMaxPoses) return std::nullopt;
@@ -206,20 +213,21 @@ MotionView viewMotion(const Chunk& chunk, IssueList& issues) {
   const auto period = cursor.read<double>();
   const auto size = motionSize(times, nodes);
   if (!size) {
-    Issue issue = times > kMaxTimes
-                      ? limitIssue(ErrorCode::Limit, "/motion/time", times, kMaxTimes)
-                      : limitIssue(ErrorCode::Limit, "/motion/centre", times * nodes, kMaxPoses);
+    const bool isLong = times > kMaxTimes;
+    Issue issue = isLong ? foundLimit("/motion/time", times, kMaxTimes)
+                         : foundLimit("/motion/centre", times * nodes, kMaxPoses);
     issue.offset = chunk.offset;
     issues.add(std::move(issue));
   } else if (found != *size) {
     issues.add(sizeIssue(chunk, *size));
   } else {
+    // the bytes are there, so that their number fits
+    const auto k = static_cast<std::size_t>(times), v = static_cast<std::size_t>(nodes);
     const std::byte* at = chunk.stored.data() + kMotionHeadSize;
-    const auto k = static_cast<std::size_t>(times), m = static_cast<std::size_t>(nodes);
     motion.period = period;
     motion.time = {reinterpret_cast<const double*>(at), k};
-    motion.node = {reinterpret_cast<const std::uint32_t*>(at + 8 * k), m};
-    motion.pose = {reinterpret_cast<const PoseRecord*>(at + 8 * k + 4 * m), k * m};
+    motion.node = {reinterpret_cast<const std::uint32_t*>(at + 8 * k), v};
+    motion.pose = {reinterpret_cast<const PoseRecord*>(at + 8 * k + 4 * v), k * v};
   }
   return motion;
 }
