@@ -84,6 +84,7 @@ struct OptionNames {
   // lumen motion
   OptionName period{"period"};
   OptionName times{"times"};
+  OptionName frames{"frames"};
   // lumen validate
   OptionName privacy{"privacy"};
   // libraries

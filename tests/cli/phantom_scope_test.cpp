@@ -29,23 +29,13 @@ protected:
 };
 
 TEST_F(PhantomScopeTest, EveryOptionChangesEveryPhantom) {
-  const Given options = {{"size", "40"},
-                         {"voxel", "0.23"},
-                         {"slice-thickness", "0.95"},
-                         {"fade", "0.5"},
-                         {"clutter", "bone"},
-                         {"clutter", "vein"},
-                         {"clutter", "streaks"},
-                         {"clutter", "stent"},
-                         {"clutter", "void"},
-                         {"noise", "0.2"},
-                         {"bias", "0.3"},
-                         {"psf", "1"},
-                         {"seed", "2"},
-                         {"clicks", "careless"},
-                         {"click-drawing", "2"},
-                         {"truth", "out/t.lumen"},
-                         {"seeds", "out/q.json"}};
+  const Given options = {
+      {"size", "40"},         {"voxel", "0.23"},        {"slice-thickness", "0.95"},
+      {"fade", "0.5"},        {"clutter", "bone"},      {"clutter", "vein"},
+      {"clutter", "streaks"}, {"clutter", "stent"},     {"clutter", "void"},
+      {"noise", "0.2"},       {"bias", "0.3"},          {"psf", "1"},
+      {"seed", "2"},          {"clicks", "careless"},   {"click-drawing", "2"},
+      {"motion", "heart"},    {"truth", "out/t.lumen"}, {"seeds", "out/q.json"}};
   write("fork.swc", "1 0 0 0 0 .6 -1\n2 0 6 0 0 .6 1\n3 0 10 2 0 .5 2\n4 0 10 -3 0 .4 2\n");
   std::vector<std::string> names = convert::phantomNames();
   names.emplace_back("--tree");
@@ -62,12 +52,18 @@ TEST_F(PhantomScopeTest, EveryOptionChangesEveryPhantom) {
   }
 }
 
+TEST_F(PhantomScopeTest, TheNumberOfPhasesChangesAMotion) {
+  const std::pair<std::string, std::string> motion = {"motion", "breath"};
+  EXPECT_FALSE(drawn("hepatic", {motion, {"phases", "3"}}) ==
+               drawn("hepatic", {motion, {"phases", "2"}}));
+}
+
 TEST_F(PhantomScopeTest, EveryOptionIsTried) {
   const engine::BoundCommand phantom = m_engine.find("phantom");
   for (const OptionRow& row : phantom.table->rows()) {
     static const std::vector<std::string> known = {
-        "tree",    "truth", "seeds", "size", "voxel", "slice-thickness", "fade",
-        "clutter", "noise", "bias",  "psf",  "seed",  "clicks",          "click-drawing"};
+        "tree",  "truth", "seeds", "size", "voxel",  "slice-thickness", "fade",   "clutter",
+        "noise", "bias",  "psf",   "seed", "clicks", "click-drawing",   "motion", "phases"};
     EXPECT_TRUE(row.isArgument || std::find(known.begin(), known.end(), row.name) != known.end())
         << row.name;
   }

@@ -55,6 +55,11 @@ public:
         .many()
         .delimiter = ',';
     table
+        .add(kOption.frames.name, &m_frames, "N",
+             "Take the first N volumes of one PHASE that holds several, such as a 4-D NIfTI")
+        .in(WholeRange{1, 4096})
+        .notBeside(kOption.volumeIndex.name);
+    table
         .add("reach", &m_options.reach, "MM",
              "Longest way of a vessel from one phase to the next along each axis")
         .in(NumberRange{0.1, 100});
@@ -67,6 +72,10 @@ public:
     const FileFormat& to = caseOutputFormat(m_output, "", "the motion");
     requireInput(m_rest, "case file");
     for (const std::string& file : m_phases) requireInput(file, "volume");
+    if (m_frames > 0 && m_phases.size() != 1)
+      throw Error(ErrorKind::Usage, kOption.frames.shown() + ": found " +
+                                        counted(m_phases.size(), "file", "files") +
+                                        " of phases beside it, expected one that holds them all");
     const std::vector<double> times = phaseTimes();
     requireWritable(m_output, convert::ContentKind::Case);
     around.willWrite(m_output);
@@ -84,11 +93,19 @@ public:
   }
 
 private:
+  [[nodiscard]] std::size_t phaseCount() const {
+    return m_frames > 0 ? static_cast<std::size_t>(m_frames) : m_phases.size();
+  }
+  [[nodiscard]] const std::string& fileOf(std::size_t phase) const {
+    return m_phases[m_frames > 0 ? 0 : phase];
+  }
+
   [[nodiscard]] std::vector<double> phaseTimes() const {
+    const std::size_t count = phaseCount();
     std::vector<double> times;
     if (m_times.empty()) {
-      for (std::size_t i = 0; i < m_phases.size(); ++i)
-        times.push_back(m_period * static_cast<double>(i) / static_cast<double>(m_phases.size()));
+      for (std::size_t i = 0; i < count; ++i)
+        times.push_back(m_period * static_cast<double>(i) / static_cast<double>(count));
       return times;
     }
     for (const std::string& part : m_times) {
@@ -99,11 +116,10 @@ private:
                                           "', expected seconds that ascend, such as 0,0.1,0.25");
       times.push_back(*time);
     }
-    if (times.size() != m_phases.size())
-      throw Error(ErrorKind::Usage, kOption.times.shown() + ": found " +
-                                        counted(times.size(), "time", "times") + " for " +
-                                        counted(m_phases.size(), "volume", "volumes") +
-                                        ", expected one for each");
+    if (times.size() != count)
+      throw Error(ErrorKind::Usage,
+                  kOption.times.shown() + ": found " + counted(times.size(), "time", "times") +
+                      " for " + counted(count, "volume", "volumes") + ", expected one for each");
     return times;
   }
 
@@ -112,11 +128,13 @@ private:
     std::size_t current = 0;
     const auto read = [&](std::size_t phase) {
       current = phase;
-      const std::string& file = m_phases[phase];
+      const std::string& file = fileOf(phase);
       const FileFormat& from = inputFormat(file, m_from);
       if (from.kind != FormatKind::Volume)
         throw unsupported(file + ": this is no volume; expected one for each phase");
-      convert::Volume volume = loadVolume(file, from, m_volume, progress);
+      VolumeArguments which = m_volume;
+      if (m_frames > 0) which.volumeIndex = static_cast<std::int64_t>(phase);
+      convert::Volume volume = loadVolume(file, from, which, progress);
       if (phase == 0) m_options.dark = convert::recordedImageFit(rest, volume).dark;
       return volume;
     };
@@ -124,7 +142,7 @@ private:
       return convert::trackMotion(rest, times, m_times.empty() ? m_period : 0.0, read, m_options,
                                   progress);
     } catch (const Error& error) {
-      const std::string& file = m_phases[current];
+      const std::string& file = fileOf(current);
       if (error.kind() != ErrorKind::InvalidInput ||
           std::string_view(error.what()).find(file) != std::string_view::npos)
         throw;
@@ -143,9 +161,11 @@ private:
                         {"seen", jsonNumber(p.seen)},
                         {"correction_mm", jsonNumber(p.correction)},
                         {"fitted_nodes", p.fitted}});
-      text += formats::printable(m_phases[i]) + ": " + fixedText(tracked.motion.time[i], 3) +
-              " s, moved by up to " + fixedText(p.farthest, 2) + " mm, " +
-              fixedText(100 * p.seen, 1) + " % of the length seen\n";
+      text += formats::printable(fileOf(i)) +
+              (m_frames > 0 ? ", volume " + std::to_string(i) : std::string()) + ": " +
+              fixedText(tracked.motion.time[i], 3) + " s, moved by up to " +
+              fixedText(p.farthest, 2) + " mm, " + fixedText(100 * p.seen, 1) +
+              " % of the length seen\n";
     }
     json["period_s"] = jsonNumber(tracked.motion.period);
     json["phases"] = std::move(phases);
@@ -154,6 +174,7 @@ private:
 
   std::string m_rest, m_output, m_from;
   std::vector<std::string> m_phases, m_times;
+  std::int64_t m_frames = 0;
   double m_period = 1;
   VolumeArguments m_volume;
   convert::MotionOptions m_options;

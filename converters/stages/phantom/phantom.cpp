@@ -162,7 +162,8 @@ void addMotionRows(PhantomOptions& o, OptionTable& table) {
       .recorded();
   table.add(kOption.phases.name, &o.phases, "N", "Phases of the motion, evenly over its cycle")
       .in(WholeRange{2, 100})
-      .recorded();
+      .recorded()
+      .onlyWith(kOption.motion.name);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time to move the nodes of a model, and of queries on it: pose_bench [MODEL.lumen]. Without a file: a
 // helix of 10,000 nodes with five blobs each. Processor time; medians.
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,8 @@
 #include <cstdio>
 #include <memory>
 #include <vector>
+
+#include <time.h>
 
 #include "blob_pose.h"
 #include "tree.h"
@@ -125,8 +125,8 @@ int main(int argc, char** argv) {
     blob_pose_set_centres(pose.get(), count, nullptr,
                           reinterpret_cast<const double(*)[3]>(centres[round % 2].data()), nullptr);
   });
-  std::printf("%zu nodes: set %.3f ms, from centres %.3f ms, %zu of them %.4f ms\n", count, 1e3 * all,
-              1e3 * byCentres, some, 1e3 * few);
+  std::printf("%zu nodes: set %.3f ms, from centres %.3f ms, %zu of them %.4f ms\n", count,
+              1e3 * all, 1e3 * byCentres, some, 1e3 * few);
   const double atRest = queryTime(rest.get()), posed = queryTime(blob_pose_model(pose.get()));
   std::printf("blended query: %.1f ns at rest, %.1f ns posed, %.3f times\n", atRest, posed,
               posed / atRest);
