@@ -78,6 +78,25 @@ std::string sourceText(const formats::SourceVolume& source) {
          " mm, sha256 " + source.sha256;
 }
 
+std::string motionText(const convert::MotionInfo& motion) {
+  std::string text = std::to_string(motion.times) + " times from " + shownNumber(motion.firstTime) +
+                     " to " + shownNumber(motion.lastTime) + " s, ";
+  text += motion.period > 0 ? "period " + shownNumber(motion.period) + " s" : "not periodic";
+  return text + ", " + std::to_string(motion.nodes) + " moving nodes, displacement up to " +
+         fixedText(motion.figures.displacement, 3) + " mm, strain up to " +
+         fixedText(motion.figures.strain, 3);
+}
+
+Json motionJson(const convert::MotionInfo& motion) {
+  return {{"times", motion.times},
+          {"first_s", jsonNumber(motion.firstTime)},
+          {"last_s", jsonNumber(motion.lastTime)},
+          {"period_s", motion.period > 0 ? jsonNumber(motion.period) : Json(nullptr)},
+          {"nodes", motion.nodes},
+          {"displacement_mm", jsonNumber(motion.figures.displacement)},
+          {"strain", jsonNumber(motion.figures.strain)}};
+}
+
 /// Adds lines for facts that few cases have.
 void addExtras(const convert::CaseInfo& info, Lines& lines) {
   const formats::Metadata& metadata = info.metadata;
@@ -86,6 +105,7 @@ void addExtras(const convert::CaseInfo& info, Lines& lines) {
     lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
                             shownNumber(rounded->step) + " mm");
   for (const auto& name : info.nodeArrays) lines.add("node array", name);
+  if (info.motion) lines.add("motion", motionText(*info.motion));
   if (const auto& seeds = info.seeds; seeds && seeds->tracked + seeds->waiting > 0)
     lines.add("seeds", std::to_string(seeds->tracked) + " tracked, " +
                            std::to_string(seeds->waiting) + " waiting");
@@ -118,6 +138,7 @@ Json caseInfoJson(const convert::CaseInfo& info) {
   json["provenance"] = provenanceJson(info.metadata);
   json["note"] = info.metadata.note.empty() ? Json(nullptr) : Json(info.metadata.note);
   json["node_arrays"] = info.nodeArrays;
+  json["motion"] = info.motion ? motionJson(*info.motion) : Json(nullptr);
   json["seeds"] = nullptr;
   if (info.seeds)
     json["seeds"] = {{"tracked", info.seeds->tracked}, {"waiting", info.seeds->waiting}};

@@ -50,7 +50,7 @@ TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   EXPECT_EQ(keys(info),
             (Names{"branches", "nodes", "links", "points", "blobs", "blobs_per_node", "length_mm",
                    "reachable", "radius_mm", "error_of_fit_mm", "provenance", "note", "node_arrays",
-                   "seeds", "branch_table", "surface", "surface_warnings", "fetched"}));
+                   "motion", "seeds", "branch_table", "surface", "surface_warnings", "fetched"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);
   EXPECT_EQ(keys(info["provenance"]),

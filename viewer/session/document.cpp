@@ -25,6 +25,8 @@ std::size_t sizeOf(const formats::Case& value) {
   if (value.models)
     sum +=
         sizeOf(value.models->offset) + sizeOf(value.models->centre) + sizeOf(value.models->width);
+  if (value.motion)
+    sum += sizeOf(value.motion->time) + sizeOf(value.motion->node) + sizeOf(value.motion->pose);
   for (const formats::NodeArray& array : value.nodeArrays)
     std::visit([&sum](const auto& values) { sum += sizeOf(values); }, array.values);
   for (const formats::OtherChunk& chunk : value.otherChunks) sum += sizeOf(chunk.bytes);

@@ -8,6 +8,7 @@
 #include "converters/base/vectors.h"
 #include "converters/stages/tracking/tracked_tree.h"
 #include "formats/case/edited_walls.h"
+#include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "viewer/session/proposals.h"
@@ -57,6 +58,8 @@ Case readyToGrow(const Case& known, std::vector<std::string>& dropped) {
     dropped.push_back(array.name);
     return true;
   });
+  if (out.motion) dropped.emplace_back(formats::kMotionName);
+  out.motion.reset();
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "converters/base/message_text.h"
+#include "formats/case/motion.h"
 #include "viewer/session/conflict.h"
 #include "viewer/session/state_json.h"
 
@@ -55,8 +56,12 @@ void Workspace::sendMessage(const char* severity, const std::string& sentence) {
 
 void Workspace::warnOfDropped(const std::vector<std::string>& arrays) {
   for (const std::string& name : arrays)
-    sendMessage("warning", shownText("the node array " + name +
-                                     " is dropped, because it has no values for new nodes"));
+    sendMessage("warning",
+                name == formats::kMotionName
+                    ? "the motion is dropped, because it has no poses for nodes that are new or "
+                      "were moved"
+                    : shownText("the node array " + name +
+                                " is dropped, because it has no values for new nodes"));
 }
 
 std::string Workspace::shownText(std::string_view message) const {

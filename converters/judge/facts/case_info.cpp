@@ -24,6 +24,11 @@ BranchInfo describeBranch(const formats::CenterlineTree& tree, const formats::Br
   return info;
 }
 
+MotionInfo describeMotion(const formats::CenterlineTree& tree, const formats::Motion& motion) {
+  return {motion.time.size(), motion.node.size(), motion.time.front(),
+          motion.time.back(), motion.period,      formats::motionFigures(tree, motion)};
+}
+
 }  // namespace
 
 CaseInfo describeCase(const formats::Case& value, Progress& progress) {
@@ -32,6 +37,7 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   if (value.points) info.points = value.points->position.size();
   if (value.models) info.blobs = value.models->centre.size();
   info.links = value.tree.links.size();
+  if (value.motion) info.motion = describeMotion(value.tree, *value.motion);
   for (const auto& array : value.nodeArrays) info.nodeArrays.push_back(array.name);
   try {
     info.seeds = countSeeds(value, "the case");

@@ -12,6 +12,7 @@
 #include "converters/judge/facts/reachable.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/case.h"
+#include "formats/case/motion.h"
 
 namespace lumen::convert {
 
@@ -25,12 +26,20 @@ struct BranchInfo {
   std::optional<float> inlierRate;
 };
 
+struct MotionInfo {
+  std::size_t times = 0, nodes = 0;    ///< nodes: those that move
+  double firstTime = 0, lastTime = 0;  ///< s
+  double period = 0;                   ///< s; 0: not periodic
+  formats::MotionFigures figures;
+};
+
 struct CaseInfo {
   std::size_t nodes = 0;
   std::size_t points = 0;
   std::optional<std::size_t> blobs;
   std::size_t links = 0;
-  std::vector<std::string> nodeArrays;          ///< names
+  std::vector<std::string> nodeArrays;  ///< names
+  std::optional<MotionInfo> motion;
   std::optional<SeedCounts> seeds;              ///< absent if they cannot be read
   double length = 0;                            ///< mm
   std::optional<RadiusRange> radius;            ///< absent without nodes

@@ -18,7 +18,8 @@ struct Change {
   /// their neighbours along the tree have changed: the nodes for refit(). New nodes have no blobs
   /// until then. Empty if the case has no models.
   std::vector<std::uint32_t> stale;
-  /// Names of node arrays that were dropped, since their values at new nodes are unknown.
+  /// Names of node arrays that were dropped, since their values at new nodes are unknown, and
+  /// formats::kMotionName for the motion.
   std::vector<std::string> droppedArrays;
   /// Sentence for people that describes the edit, as the case's "edit" step records it.
   std::string sentence;

@@ -9,6 +9,7 @@
 #include "converters/base/vectors.h"
 #include "converters/stages/fitting/refit.h"
 #include "formats/case/edited_walls.h"
+#include "formats/case/motion.h"
 #include "formats/case/validate.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
@@ -222,6 +223,21 @@ void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
   formats::setEditedWalls(out, edited);
 }
 
+void Draft::putMotion(const Layout& layout, Case& out, Change& change) const {
+  if (!m_case.motion) return;
+  std::vector<bool> stays(m_case.tree.nodeCount(), false);
+  std::vector<std::uint32_t> newIndex(m_case.tree.nodeCount(), 0);
+  for (std::uint32_t i = 0; i < layout.before.size(); ++i) {
+    const std::uint32_t before = layout.before[i];
+    if (before == kNewNode || !(out.tree.centre[i] == m_case.tree.centre[before]))
+      return change.droppedArrays.emplace_back(formats::kMotionName), void();
+    stays[before] = true;
+    newIndex[before] = i;
+  }
+  out.motion = m_case.motion;
+  formats::keepMotionOf(out.motion, stays, newIndex);
+}
+
 Change Draft::finish(Case& target, const std::string& sentence) const {
   const Layout layout = layOut();
   Change change;
@@ -235,6 +251,7 @@ Change Draft::finish(Case& target, const std::string& sentence) const {
   putPoints(layout, out);
   putModels(layout, out);
   putArrays(layout, out, change);
+  putMotion(layout, out, change);
   out.otherChunks = m_case.otherChunks;
   formats::dropDependentChunks(out);
   if (const auto valid = formats::validate(out); !valid)

@@ -77,6 +77,9 @@ private:
   void putPoints(const Layout& layout, formats::Case& out) const;
   void putModels(const Layout& layout, formats::Case& out) const;
   void putArrays(const Layout& layout, formats::Case& out, Change& change) const;
+  /// Keeps the motion of the nodes that stay; a motion goes where a node is new or has another
+  /// centre at rest.
+  void putMotion(const Layout& layout, formats::Case& out, Change& change) const;
 
   const formats::Case& m_case;
 };

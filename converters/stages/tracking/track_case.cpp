@@ -18,6 +18,7 @@
 #include "converters/stages/tracking/tree_joins.h"
 #include "converters/stages/tracking/wall_review.h"
 #include "formats/case/edited_walls.h"
+#include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "formats/container/printable.h"
@@ -151,6 +152,8 @@ void dropOtherArrays(AddedTracks& out) {
     out.droppedArrays.push_back(array.name);
     return true;
   });
+  if (out.result.motion) out.droppedArrays.emplace_back(formats::kMotionName);
+  out.result.motion.reset();
 }
 
 }  // namespace
