@@ -20,6 +20,7 @@
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/mesh/write_vtp.h"
 #include "converters/io/volume/write_volume.h"
+#include "converters/stages/surface/skin.h"
 
 namespace lumen::engine {
 
@@ -64,10 +65,6 @@ std::optional<convert::SurfaceReport> writeCaseAs(const formats::Case& value, co
 
 using Levels = std::vector<convert::SurfaceMesh>;
 
-template <bool binary>
-std::string encodeGltf(const Levels& levels, const convert::WriteMeshOptions& options) {
-  return convert::encodeGltf(levels, binary, options);
-}
 std::string encodeStl(const Levels& levels, const convert::WriteMeshOptions& options) {
   return convert::encodeStl(levels.front(), options.stlSolids);
 }
@@ -76,20 +73,29 @@ std::string encodePlain(const Levels& levels, const convert::WriteMeshOptions&) 
   return encode(levels.front());
 }
 
-/// The writer of a mesh format: the case's surface as triangles, encoded. `hasLevels`: it takes
-/// coarser levels of detail too.
-template <std::string (*encode)(const Levels&, const convert::WriteMeshOptions&),
-          bool hasLevels = false>
+/// The writer of a mesh format: the case's surface as triangles, encoded.
+template <std::string (*encode)(const Levels&, const convert::WriteMeshOptions&)>
 std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, const fs::path& file,
                                                   const OutputOptions& options,
                                                   Progress& progress) {
-  CaseMesh mesh = meshOfCase(value, file, options, hasLevels, progress);
+  CaseMesh mesh = meshOfCase(value, file, options, false, progress);
   writeText(encode(mesh.levels, options.mesh), file);
   return std::move(mesh.report);
 }
 
-constexpr auto kWriteGlb = writeMeshAs<encodeGltf<true>, true>;
-constexpr auto kWriteGltf = writeMeshAs<encodeGltf<false>, true>;
+/// The writer of glTF, which alone holds the motion of a case.
+template <bool binary>
+std::optional<convert::SurfaceReport> writeGltf(const formats::Case& value, const fs::path& file,
+                                                const OutputOptions& options, Progress& progress) {
+  CaseMesh mesh = meshOfCase(value, file, options, true, progress);
+  std::optional<convert::MeshSkin> skin;
+  if (value.motion && options.mesh.skin) skin = convert::skinOf(value, mesh.levels);
+  writeText(convert::encodeGltf(mesh.levels, binary, options.mesh, skin ? &*skin : nullptr), file);
+  return std::move(mesh.report);
+}
+
+constexpr auto kWriteGlb = writeGltf<true>;
+constexpr auto kWriteGltf = writeGltf<false>;
 constexpr auto kWriteVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
 /// The writer of a centerline format: the case's tree, encoded.
 template <std::string (*encode)(const formats::CenterlineTree&)>

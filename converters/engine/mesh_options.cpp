@@ -65,6 +65,13 @@ void addGltfRows(OptionTable& table, OutputOptions& output) {
       .choice(kOption.colour.name, mesh.color, kColorBy,
               "Colours of a glTF's vertices, which all kinds of colour vision can distinguish")
       .alsoCalled("color");
+  table
+      .flag("skin", mesh.skin,
+            "Write the motion of a case as a skin and an animation of a glTF; without it, the case "
+            "at rest")
+      .forInputs(kCases)
+      .notBeside("time")
+      .negative = "no-skin";
   table.flag(kOption.meshopt.name, mesh.meshopt,
              "Compress glTF with EXT_meshopt_compression, to a micrometre; not for the f3d of "
              "Debian 12, which crashes on any such file");

@@ -113,6 +113,16 @@ def edited(lumen, folder, case):
     return value
 
 
+def moving(lumen, folder, case):
+    """The case with a periodic motion of its first node."""
+    run(lumen, folder, "convert", case, "plain.lumen.json")
+    value = json.loads((folder / "plain.lumen.json").read_text())
+    first = value["tree"]["centre"][0]
+    value.update(version="1.2", motion=dict(period=1.5, time=[0, 1], node=[0], centre=[[first], [[first[0] + 0.1, *first[1:]]]],
+                                            rotation=[[[0, 0, 0, 1]]] * 2, factor=[[1], [1]]))
+    return value
+
+
 def make_cases(lumen, folder):
     go = lambda name, *arguments, **more: hold(name, run(lumen, folder, *arguments), " ".join(arguments), **more)
     go("phantom.schema.json", "phantom", "aneurysm", "a.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds", "seeds.json")
@@ -136,6 +146,9 @@ def make_cases(lumen, folder):
     hold_or_silent("convert.schema.json", run(lumen, folder, "convert", "a.nrrd", "strict.lumen", "--seeds", "astray.json", "--strict"),
                    "convert --strict")
     go("convert.schema.json", "convert", "fitted.lumen", "mesh.ply")
+    (folder / "moving.lumen.json").write_text(json.dumps(moving(lumen, folder, "fitted.lumen")))
+    go("info-case.schema.json", "info", "moving.lumen.json")
+    go("convert.schema.json", "convert", "moving.lumen.json", "posed.lumen", "--time", "0.5")
     go("convert.schema.json", "convert", "fitted.lumen", "wall.ply", "--thickness", "0.2r")
     go("convert.schema.json", "convert", "fitted.lumen", "rounded.lumen", "--point-bits", "12", "--compress")
     go("compare.schema.json", "compare", "fitted.lumen", "truth.lumen")

@@ -63,6 +63,12 @@ const std::map<std::string, std::vector<Input>>& specialInputs() {
         {"header/vessels.scn", {{"mesh", "tip"}}, engine::kScene}}},
       {"gap", {{"two.lumen", none, engine::kFittedCase}}},
       {"touching", {{"apart.lumen", none, engine::kFittedCase}}},
+      {"skin",
+       {{"moving-case.lumen.json", none, engine::kFittedCase},
+        {"moving-tracked.lumen.json", none, engine::kUnfittedCase}}},
+      {"time",
+       {{"moving-case.lumen.json", none, engine::kFittedCase},
+        {"moving-tracked.lumen.json", none, engine::kUnfittedCase}}},
       // labels that are recognised by their voxels are such without it
       {"mask", {{"tube.nrrd", none, engine::kFileImage}}},
       {"mesh-per", {{"two.lumen", none, engine::kFittedCase}}}};

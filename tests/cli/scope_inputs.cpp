@@ -92,6 +92,29 @@ std::string withCorrection(const std::string& text) {
   return value.dump();
 }
 
+/// The case, whose nodes move by 0.5 mm along x and turn within a second, and grow by a tenth.
+std::string withMotion(const std::string& text) {
+  nlohmann::json value = nlohmann::json::parse(text);
+  const nlohmann::json& centres = value["tree"]["centre"];
+  nlohmann::json motion = {{"time", {0, 1}}, {"node", nlohmann::json::array()}};
+  for (const char* const key : {"centre", "rotation", "factor"})
+    motion[key] = {nlohmann::json::array(), nlohmann::json::array()};
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    nlohmann::json moved = centres[i];
+    moved[0] = moved[0].get<double>() + 0.5;
+    motion["node"].push_back(i);
+    motion["centre"][0].push_back(centres[i]);
+    motion["centre"][1].push_back(moved);
+    motion["rotation"][0].push_back({0, 0, 0, 1});
+    motion["rotation"][1].push_back({0, 0, 0.6, 0.8});
+    motion["factor"][0].push_back(1);
+    motion["factor"][1].push_back(1.1);
+  }
+  value["version"] = "1.2";
+  value["motion"] = motion;
+  return value.dump();
+}
+
 const std::map<std::string, std::string> kSamples = {{"series", "1"},
                                                      {"volume-index", "1"},
                                                      {"crop", "2,29,2,29,2,29"},
@@ -167,7 +190,9 @@ const std::map<std::string, std::string> kSamples = {{"series", "1"},
                                                      {"draco-normal-bits", "8"},
                                                      {"stl-solids", "true"},
                                                      {"compress", "true"},
-                                                     {"point-bits", "12"}};
+                                                     {"point-bits", "12"},
+                                                     {"time", "0.5"},
+                                                     {"skin", "false"}};
 
 /// A temporary folder that is gone when the program ends.
 struct KeptFolder {
@@ -237,6 +262,11 @@ void ScopeTest::makeVolumes() const {
   write("corrected.lumen.json", withCorrection(read("corrected.lumen.json")));
   make({"convert", "two.nrrd", "two.lumen", "--seeds", "two.json"});
   make({"track", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"});
+  for (const char* const name : {"case", "tracked"}) {
+    const std::string moving = "moving-" + std::string(name) + ".lumen.json";
+    make({"convert", std::string(name) + ".lumen", moving});
+    write(moving, withMotion(read(moving)));
+  }
   make({"check", "tube.nrrd", "case.lumen", "--mask", "labels.nrrd"});
   make({"check", "tube.nrrd", "case.lumen", "--mask", "whole.nii"});
   make({"convert", "apart.nrrd", "apart.lumen"});

@@ -44,6 +44,7 @@ struct Effect {
 /// | plain.stl, truth.swc | its surface, its centerline |
 /// | vessels.scn | a scene that loads its surface and another mesh |
 /// | tracked.lumen, case.lumen, tree.lumen | its case with points, with models too, without both |
+/// | moving-case.lumen.json, moving-tracked.lumen.json | case.lumen and tracked.lumen with a motion |
 /// | two.nrrd, two.json, two.lumen | two vessels that touch, and clicks on them |
 /// | apart.nrrd, apart.lumen, apart-labels.nrrd, apart.stl | two vessels that are apart, in two trees |
 /// | apart.json, one.json | clicks on both of them, and on one |

@@ -23,6 +23,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_info_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/motion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/option_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/phantom_scope_test.cpp

@@ -7,6 +7,7 @@ lumen_test(mesh_test
   LIBS lumen_repair lumen_surface OpenMeshCore draco::draco meshoptimizer::meshoptimizer TinyGLTF::TinyGLTF
     nlohmann_json::nlohmann_json
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/gltf_skin_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_parts_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/sofa_scene_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/vertex_color_test.cpp
@@ -31,7 +32,7 @@ set(mesh_folder ${CMAKE_CURRENT_BINARY_DIR}/mesh_samples_files)
 add_test(NAME MeshSamples.AreWritten COMMAND mesh_samples ${mesh_folder})
 set_tests_properties(MeshSamples.AreWritten PROPERTIES LABELS foreign FIXTURES_SETUP mesh_samples)
 set(gltf_files)
-foreach(sample tree fine empty closed confidence lod lod_per_branch)
+foreach(sample tree moving fine empty closed confidence lod lod_per_branch)
   foreach(coding plain draco meshopt)
     list(APPEND gltf_files ${mesh_folder}/${sample}_${coding}.glb ${mesh_folder}/${sample}_${coding}.gltf)
   endforeach()
@@ -39,6 +40,11 @@ endforeach()
 add_test(NAME GltfValidator.FindsNoErrorAndNoWarning
   COMMAND ${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/gltf/validate.mjs ${gltf_files})
 set_tests_properties(GltfValidator.FindsNoErrorAndNoWarning PROPERTIES LABELS foreign FIXTURES_REQUIRED mesh_samples)
+
+# three.js and Blender play a motion.
+python_test(GltfMotion.VerticesStayOnThePosedWall foreign
+  ${CMAKE_CURRENT_SOURCE_DIR}/gltf/check_motion.py $<TARGET_FILE:lumen> $<TARGET_FILE:case_reader> ${NODE}
+  ${PROJECT_SOURCE_DIR}/viewer/page/node_modules)
 
 # VTK reads what was written.
 python_test(Vtk.ReadsMeshesAsTheyWere foreign

@@ -15,6 +15,7 @@
 #include "converters/engine/gate_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/time_option.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "formats/container/printable.h"
@@ -149,6 +150,7 @@ public:
              "Blur of the volume, a standard deviation in mm: it displaces the edges of thin "
              "vessels; 0 takes them as they are seen [what the case records, else 0]")
         .in(NumberRange{0, 1000});
+    addTimeRow(table, m_time);
     table.add("profile", &m_profile, "NAME",
               "Also judge the case by thresholds, and exit with 3 if it needs a person: " +
                   profileNames() + ", or a FILE.json of one's own");
@@ -167,7 +169,8 @@ public:
     requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
                    around.progress);
     checkOutputs(around);
-    const formats::Case value = readCase(m_case);
+    const formats::Case value =
+        atTime(readCase(m_case), m_time, m_case, *around.table, around.progress);
     if (!value.models || value.tree.nodeCount() == 0)
       throw invalidInput(
           m_case +
@@ -243,7 +246,7 @@ private:
 
   std::string m_input, m_case, m_overlay, m_mask, m_from, m_profile;
   std::optional<convert::GateProfile> m_gate;
-  std::optional<double> m_pointSpread;
+  std::optional<double> m_pointSpread, m_time;
   VolumeArguments m_volume;
 };
 

@@ -15,6 +15,7 @@
 #include "converters/engine/remote_inputs.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/surface_answer.h"
+#include "converters/engine/time_option.h"
 #include "converters/engine/track_answer.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/editing/edit_request.h"
@@ -37,7 +38,8 @@ public:
            "  lumen convert head.lumen head.glb --colour radius\n"
            "  lumen convert aorta.stl aorta.lumen --centerline aorta-centerline.vtp\n"
            "  lumen convert labels.nii.gz arteries.lumen --labels 1=ica,2=mca\n"
-           "  lumen convert arteries.swc arteries.lumen";
+           "  lumen convert arteries.swc arteries.lumen\n"
+           "  lumen convert heart.lumen systole.lumen --time 0.3";
   }
 
   [[nodiscard]] std::vector<std::string> addressRows() const override {
@@ -71,6 +73,7 @@ public:
     addFitRows(table, m_fit);
     addMeshFileRows(table, m_outputOptions);
     addEncodingRows(table, m_outputOptions.encoding);
+    addTimeRow(table, m_time).forInputs(kCases).inGroup("");
   }
 
   Answer run(Surroundings& around) override {
@@ -88,6 +91,7 @@ public:
     formats::Case value = load(from, around);
     if (from.kind != FormatKind::Case) around.remote->record(value.metadata);
     requirePoints(value, around);
+    if (from.kind == FormatKind::Case) requireMotion(value, around);
     complete(value, from, to, around);
     around.progress.check();
     const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
@@ -106,9 +110,10 @@ private:
       return std::move(made.value);
     }
     if (from.kind == FormatKind::Case) {
-      // rounding makes another case; another encoding does not
-      return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
-                                                     : from.readCase(m_input);
+      // rounding and motion make another case; another encoding does not
+      const bool isOther = m_time || m_outputOptions.encoding.pointBits != 0;
+      return atTime(isOther ? readParentCase(m_input) : from.readCase(m_input), m_time, m_input,
+                    *around.table, progress);
     }
     if (from.kind == FormatKind::Centerline) {
       const auto loaded = loadCenterline(m_input, from, m_volume, m_centerline, progress);
@@ -174,6 +179,15 @@ private:
                  around.progress);
   }
 
+  /// Refuses to leave out a motion that a case does not have.
+  void requireMotion(const formats::Case& value, Surroundings& around) const {
+    const OptionRow& row = *around.table->find("skin");
+    if (row.isGiven && !value.motion)
+      refuseIdle(row,
+                 "is for cases with a motion, and " + formats::printable(m_input) + " has none",
+                 around.progress);
+  }
+
   [[nodiscard]] MeshArguments meshArguments() const {
     MeshArguments arguments = m_mesh;
     arguments.unit = m_volume.unit;
@@ -232,6 +246,7 @@ private:
   CenterlineArguments m_centerline;
   TrackArguments m_track;
   convert::FitOptions m_fit;
+  std::optional<double> m_time;
   MeshArguments m_mesh;
   std::optional<MeshFrame> m_meshFrame;  ///< none for other inputs
   MaskArguments m_mask;

@@ -14,6 +14,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/time_option.h"
 #include "converters/judge/measure/measure_changes.h"
 #include "converters/judge/measure/measure_text.h"
 #include "formats/case/atomic_file.h"
@@ -101,6 +102,7 @@ public:
         .add("step", &m_step, "MM",
              "Distance of the stations along a vessel in mm [half of its median radius]")
         .in(NumberRange{0.01, 1e3});
+    addTimeRow(table, m_time);
     table.file(kAgainst.name, m_before,
                "Earlier case of the same patient, in the same frame: also the differences of "
                "vessels that lie at the same place");
@@ -115,7 +117,8 @@ public:
     std::vector<MeasuredCase> measured;
     std::string text;
     for (const std::string& file : m_cases) {
-      const formats::Case source = readCase(file);
+      const formats::Case source =
+          atTime(readCase(file), m_time, file, *around.table, around.progress);
       const CaseMeasures measures = measure(file, source, around.progress);
       measured.push_back({file, convert::measureTables(source, measures)});
       text += formats::printable(file) + ": " + countText(measured.back().tables) + "\n\n" +
@@ -219,7 +222,7 @@ private:
 
   std::vector<std::string> m_cases;
   std::string m_output, m_before;
-  std::optional<double> m_step;
+  std::optional<double> m_step, m_time;
 };
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/time_option.h"
 #include "converters/engine/tracking_input.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
@@ -82,6 +83,7 @@ public:
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_input, "Case, with models");
     table.argument("PNG", &m_output, "Picture to write");
+    addTimeRow(table, m_time);
     table.group("Picture");
     table.choice("view", m_options.view, kViews,
                  "From which side of the patient; best: along the direction in which the "
@@ -111,7 +113,8 @@ public:
     requireInScope(*around.table, {}, around.progress);
     requireInput(m_input, "case");
     requireWritable(m_frames > 0 ? frameName(m_output, 0) : m_output, convert::ContentKind::Other);
-    const formats::Case value = readCase(m_input);
+    const formats::Case value =
+        atTime(readCase(m_input), m_time, m_input, *around.table, around.progress);
     std::optional<convert::Volume> volume;
     if (!m_volume.empty()) volume = volumeBehind(around);
     around.willWrite(m_output);
@@ -206,6 +209,7 @@ private:
 
   std::string m_input, m_output, m_volume;
   int m_frames = 0;
+  std::optional<double> m_time;
   convert::PictureOptions m_options;
   VolumeArguments m_volumeOptions;
 };

@@ -13,6 +13,7 @@
 #include "converters/io/mesh/draco_mesh.h"
 #include "converters/io/mesh/face_kind.h"
 #include "converters/io/mesh/gltf_document.h"
+#include "converters/io/mesh/gltf_skin.h"
 #include "converters/io/mesh/gltf_words.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/meshopt_codec.h"
@@ -67,11 +68,12 @@ json makeMaterial(FaceKind kind, bool isOpen, bool isColored) {
 }
 
 json meshExtras(const SurfaceMesh& surface, const std::vector<VertexStream>& streams,
-                const ColorScale& scale) {
-  const std::map<std::string, const char*> meanings = {{"POSITION", "mm, LPS"},
-                                                       {"_RADIUS", "mm"},
-                                                       {"_BRANCH", "index into branches"},
-                                                       {"_CONFIDENCE", "0 to 1"}};
+                const ColorScale& scale, bool isSkinned) {
+  const std::map<std::string, const char*> meanings = {
+      {"POSITION", isSkinned ? "m, as glTF" : "mm, LPS"},
+      {"_RADIUS", "mm"},
+      {"_BRANCH", "index into branches"},
+      {"_CONFIDENCE", "0 to 1"}};
   json extras = {{"branches", surface.labels}};
   for (const VertexStream& stream : streams)
     if (const auto found = meanings.find(stream.name); found != meanings.end())
@@ -211,10 +213,11 @@ json turnFromZ(const std::array<double, 3>& d) {
 class GltfWriter {
 public:
   GltfWriter(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options,
-             const GltfScene* layout = nullptr)
+             const GltfScene* layout = nullptr, const MeshSkin* skin = nullptr)
       : m_document(options.meshopt),
         m_options(options),
         m_layout(layout),
+        m_skin(skin),
         m_first(levels.front()),
         m_scale(measureColorScale(m_first, options.color)),
         m_grid(makeDracoGrid(levels)),
@@ -223,6 +226,7 @@ public:
     m_document.content["scene"] = 0;
     m_document.add("scenes", {{"nodes", json::array({0})}});
     m_document.add("nodes", layout ? json{{"name", "vessels"}} : rootNode());
+    if (skin) m_skinIndex = addSkin(*skin, m_document);
     for (const SurfaceMesh& level : levels) addLevel(level);
     for (const auto& [branch, nodes] : m_nodes) link(nodes);
     if (layout)
@@ -232,7 +236,12 @@ public:
   std::string write(bool binary) { return m_document.write(binary); }
 
 private:
-  void addChild(int node) { m_document.content["nodes"][0]["children"].push_back(node); }
+  // A skinned mesh is a root, as it has no transform of its own.
+  void addChild(int node) {
+    json& siblings = m_skin ? m_document.content["scenes"][0]["nodes"]
+                            : m_document.content["nodes"][0]["children"];
+    siblings.push_back(node);
+  }
 
   void addPlace(const GltfPlace& place) {
     addChild(m_document.add("nodes", {{"name", place.name},
@@ -249,6 +258,7 @@ private:
       std::erase_if(level.streams, [](const VertexStream& stream) {
         return stream.name != "POSITION" && stream.name != "NORMAL";
       });
+    if (m_skin) addSkinStreams(m_skin->levels[m_levels++], level.parts, level.streams);
     if (level.parts.empty()) return;
     const std::vector<json> primitives = m_options.draco
                                              ? dracoPrimitives(m_document, level, m_grid, m_options)
@@ -257,12 +267,13 @@ private:
       const std::uint32_t branch = level.parts[i].branch;
       const std::string name = m_layout ? m_layout->nodes[m_nodes[branch].size()] : nameOf(branch);
       json mesh = {{"name", name}};
-      if (!m_layout) mesh["extras"] = meshExtras(surface, level.streams, m_scale);
+      if (!m_layout)
+        mesh["extras"] = meshExtras(surface, level.streams, m_scale, m_skin != nullptr);
       for (; i < primitives.size() && level.parts[i].branch == branch; ++i)
         mesh["primitives"].push_back(finished(primitives[i], level.parts[i].group));
-      const int node = m_document.add(
-          "nodes", {{"name", name}, {"mesh", m_document.add("meshes", std::move(mesh))}});
-      m_nodes[branch].push_back(node);
+      json node = {{"name", name}, {"mesh", m_document.add("meshes", std::move(mesh))}};
+      if (m_skin) node["skin"] = m_skinIndex;
+      m_nodes[branch].push_back(m_document.add("nodes", std::move(node)));
     }
   }
 
@@ -308,6 +319,9 @@ private:
   GltfDocument m_document;
   const WriteMeshOptions& m_options;
   const GltfScene* m_layout;
+  const MeshSkin* m_skin;
+  int m_skinIndex = 0;
+  std::size_t m_levels = 0;  // those that are written
   const SurfaceMesh& m_first;
   ColorScale m_scale;
   DracoGrid m_grid;
@@ -319,11 +333,13 @@ private:
 }  // namespace
 
 std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
-                       const WriteMeshOptions& options) {
+                       const WriteMeshOptions& options, const MeshSkin* skin) {
   if (options.draco && options.meshopt)
     throw Error(ErrorKind::Usage, kOption.draco.shown() + " and " + kOption.meshopt.shown() +
                                       ": found both, expected one of them");
-  return GltfWriter(levels, options).write(binary);
+  if (!skin) return GltfWriter(levels, options).write(binary);
+  const std::vector<SurfaceMesh> placed = inGltfFrame(levels);
+  return GltfWriter(placed, options, nullptr, skin).write(binary);
 }
 
 std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/io/mesh/mesh_skin.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/io/mesh/write_options.h"
 
@@ -29,11 +30,16 @@ constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
 /// that vertexStreams() lists; a mesh's `extras` state their units, the branches' labels, and the
 /// meaning of colours. Coarser levels are nodes outside of the scene that MSFT_lod names.
 ///
+/// With a skin, meshes are roots beside that node, in glTF's own metres, and the node has the joints
+/// as children, in LPS millimetres: programs without skins show the case at rest. Vertices have
+/// JOINTS_0 and WEIGHTS_0, and an animation "motion" has linear samplers; its extras state `start_s`
+/// where the time of the case is not that of the file. Every option counts with a skin, too.
+///
 /// Throws Error(Unsupported) above 2 GiB of vertex data, Error(InvalidInput) if the quantity to
 /// colour by is missing, Error(Usage) for options that exclude one another, and Error(Failed) if
 /// Draco refuses a mesh.
 std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
-                       const WriteMeshOptions& options);
+                       const WriteMeshOptions& options, const MeshSkin* skin = nullptr);
 
 /// A node without a mesh: a named place with its z axis along `direction`.
 struct GltfPlace {

@@ -19,6 +19,7 @@ struct WriteMeshOptions {
   bool draco = false;             ///< KHR_draco_mesh_compression
   int dracoPositionBits = 16;     ///< quantisation of the surface's bounding box, 1 .. 30
   int dracoNormalBits = 10;       ///< quantisation of a normal, 2 .. 30
+  bool skin = true;               ///< the motion of a case that has one
 };
 
 }  // namespace lumen::convert

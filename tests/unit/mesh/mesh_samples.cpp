@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the files that the glTF validator and VTK look at: mesh_samples DIRECTORY
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +16,7 @@
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/mesh/write_vtp.h"
 #include "converters/stages/surface/patches/polygonise.h"
+#include "converters/stages/surface/skin.h"
 #include "synthetic.h"
 
 namespace {
@@ -31,6 +34,23 @@ SurfaceMesh patchesOf(const formats::Case& source, double cell = 0) {
   return convert::polygonise(source, {cell}, progress).surface;
 }
 
+// Lets all nodes but the first turn about z, by their place along it, and grow.
+void bend(formats::Case& source) {
+  formats::Motion& motion = source.motion.emplace();
+  motion.time = {-0.25, 0.5};
+  motion.period = 1;
+  for (int t = 0; t < 2; ++t)
+    for (std::uint32_t i = 1; i < source.tree.nodeCount(); ++i) {
+      const float angle = 0.05F * static_cast<float>(t) * source.tree.centre[i].z;
+      formats::Pose pose{source.tree.centre[i],
+                         {0, 0, std::sin(angle / 2), std::cos(angle / 2)},
+                         1 + 0.1F * static_cast<float>(t)};
+      pose.centre.y += angle;
+      if (t == 0) motion.node.push_back(i);
+      motion.pose.push_back(pose);
+    }
+}
+
 void writeGltfs(const std::filesystem::path& folder) {
   formats::Case source = test::tubeCase(6);
   test::addVessel(source, "c\u00f4t\u00e9 \"B\"", test::straightPath({3, 1.3, 0}, {0.1, 0.7, 0}, 5),
@@ -42,6 +62,9 @@ void writeGltfs(const std::filesystem::path& folder) {
   if (fine[0].position.size() <= 65536) throw std::runtime_error("the fine sphere is too coarse");
   const std::array closed{test::cappedTube(test::hostileLabels())};
   const std::array<SurfaceMesh, 1> empty{};
+  bend(source);
+  const std::vector<SurfaceMesh> moving(tree.begin(), tree.end());
+  const convert::MeshSkin skin = convert::skinOf(source, moving);
   using enum convert::MeshPer;
   using convert::ColorBy;
   for (const std::string coding : {"plain", "draco", "meshopt"}) {
@@ -53,6 +76,8 @@ void writeGltfs(const std::filesystem::path& folder) {
       write(folder / (name + "_" + coding + ".gltf"), encodeGltf(levels, false, options));
     };
     both("tree", std::span(tree).first(1));
+    write(folder / ("moving_" + coding + ".glb"), encodeGltf(moving, true, options, &skin));
+    write(folder / ("moving_" + coding + ".gltf"), encodeGltf(moving, false, options, &skin));
     both("fine", fine);
     both("empty", empty);
     both("closed", closed);
