@@ -123,8 +123,8 @@ private:
 };
 
 int addJointNode(const MeshSkin& skin, std::size_t joint, GltfDocument& document) {
-  const int node = document.add(
-      "nodes", {{"name", skin.name[joint]}, {"translation", skin.rest[joint]}});
+  const int node =
+      document.add("nodes", {{"name", skin.name[joint]}, {"translation", skin.rest[joint]}});
   document.content["nodes"][0]["children"].push_back(node);
   return node;
 }

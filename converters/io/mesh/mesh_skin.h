@@ -28,7 +28,7 @@ struct MeshSkin {
   /// along the shorter arc.
   std::vector<float> time;
   /// Values of each joint, time by time: those of joint j at time t are at [j][t].
-  std::vector<std::vector<formats::Float3>> translation;     ///< mm, LPS
+  std::vector<std::vector<formats::Float3>> translation;    ///< mm, LPS
   std::vector<std::vector<std::array<float, 4>>> rotation;  ///< x, y, z, w
   std::vector<std::vector<float>> scale;
   double startTime = 0;  ///< s: time of the case at which `time` is 0

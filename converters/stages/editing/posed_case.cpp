@@ -71,7 +71,8 @@ void requireLegal(const Case& value) {
 }  // namespace
 
 Case posedCase(const Case& source, double time, Progress& progress) {
-  if (!source.motion) throw invalidInput("the case has no motion; expected one with poses over time");
+  if (!source.motion)
+    throw invalidInput("the case has no motion; expected one with poses over time");
   const std::vector<NodePose> poses = formats::posesAt(source.tree, *source.motion, time);
   Case out = source;
   out.motion.reset();

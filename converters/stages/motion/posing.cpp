@@ -9,10 +9,23 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// The neighbours of each node between which its direction is measured: its parent, and the child that
-// goes on straightest; the node itself where it has none.
+// The neighbours of each node along its vessel: its parent, and the child that goes on straightest; the
+// node itself where it has none.
 struct Chain {
   std::vector<std::uint32_t> before, after;
+
+  // The node to which steps along `next` lead from a node until they are at least a radius long: between
+  // nodes that lie close together a direction is little but their errors.
+  static std::uint32_t aRadiusOn(const formats::CenterlineTree& tree,
+                                 const std::vector<std::uint32_t>& next, std::uint32_t from) {
+    double way = 0;
+    std::uint32_t at = from;
+    while (way < double{tree.radius[from]} && next[at] != at) {
+      way += (toEigen(tree.centre[next[at]]) - toEigen(tree.centre[at])).norm();
+      at = next[at];
+    }
+    return at;
+  }
 
   explicit Chain(const formats::CenterlineTree& tree) {
     std::vector<double> straightest(tree.nodeCount(), -2.0);
@@ -88,7 +101,8 @@ std::vector<formats::Pose> posesFromCentres(const formats::CenterlineTree& rest,
   const Chain chain(rest);
   std::vector<formats::Pose> poses;
   for (std::uint32_t i = 0; i < rest.nodeCount(); ++i) {
-    const std::uint32_t a = chain.before[i], b = chain.after[i];
+    const std::uint32_t a = Chain::aRadiusOn(rest, chain.before, i),
+                        b = Chain::aRadiusOn(rest, chain.after, i);
     const Vector3d before = toEigen(rest.centre[b]) - toEigen(rest.centre[a]);
     const Vector3d now = centres[b] - centres[a];
     const Quaterniond turn = before.norm() > 0 && now.norm() > 0

@@ -23,7 +23,8 @@ formats::CenterlineTree posedTree(const formats::CenterlineTree& rest,
 formats::Case posedWalls(const formats::Case& rest, const std::vector<formats::Pose>& poses);
 
 /// The poses of all nodes of a tree that moves by centres alone: each turns by the least rotation that
-/// leads from the direction of the vessel at rest to that of the centres (mm); `factor` for each.
+/// leads from the direction of the vessel at rest to that of the centres (mm), each over a radius to both
+/// sides; `factor` for each.
 std::vector<formats::Pose> posesFromCentres(const formats::CenterlineTree& rest,
                                             const std::vector<Eigen::Vector3d>& centres,
                                             const std::vector<double>& factors);

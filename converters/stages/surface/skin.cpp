@@ -76,7 +76,8 @@ public:
 
   // Shares of the moving nodes, by their place in the motion, and of kNoJoint for all others, at a
   // point on the way of the cursor from `start`.
-  [[nodiscard]] std::vector<JointShare> sharesAt(const Float3& position, std::uint32_t start) const {
+  [[nodiscard]] std::vector<JointShare> sharesAt(const Float3& position,
+                                                 std::uint32_t start) const {
     const double point[3] = {position[0], position[1], position[2]};
     const std::uint32_t node = m_blended.follow({point[0], point[1], point[2]}, start);
     std::vector<JointShare> shares;

@@ -129,8 +129,8 @@ TEST(GltfSkin, SurvivesDracoBitForBit) {
     const std::unique_ptr<draco::Mesh> mesh =
         draco::Decoder().DecodeMeshFromBuffer(&buffer).value();
     const auto attributeOf = [&](const char* name) {
-      return mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(
-          extension.Get("attributes").Get(name).GetNumberAsInt()));
+      return mesh->GetAttributeByUniqueId(
+          static_cast<std::uint32_t>(extension.Get("attributes").Get(name).GetNumberAsInt()));
     };
     const auto* weight = attributeOf("WEIGHTS_0");
     const auto* joint = attributeOf("JOINTS_0");
