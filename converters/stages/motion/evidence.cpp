@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/motion/evidence.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,8 +28,8 @@ Vector3d smoothingOf(const Volume& volume, double smoothing) {
 Evidence::Evidence(const Volume& volume, bool dark, double smoothing)
     : m_voxels(volume, smoothingOf(volume, smoothing)), m_sign(dark ? -1.0 : 1.0) {}
 
-double Evidence::contrastAt(const Vector3d& centre, const Vector3d& direction,
-                            double radius) const {
+Evidence::Disc Evidence::discAt(const Vector3d& centre, const Vector3d& direction,
+                                double radius) const {
   const auto [u, v] = planeBasis(direction);
   const VolumeGeometry& geometry = m_voxels.geometry();
   const auto meanOf = [&, &u = u, &v = v](double at, int count) {
@@ -44,7 +44,21 @@ double Evidence::contrastAt(const Vector3d& centre, const Vector3d& direction,
   const double middle = double{m_voxels.sample(geometry.indexFromWorld(centre))};
   const double inside = (middle + kInner * meanOf(0.45, kInner) + kOuter * meanOf(0.8, kOuter)) /
                         (1 + kInner + kOuter);
-  const double contrast = m_sign * (inside - meanOf(kRing, kAround));
+  return {m_sign * inside, m_sign * meanOf(kRing, kAround)};
+}
+
+double Evidence::contrastAt(const Vector3d& centre, const Vector3d& direction,
+                            double radius) const {
+  const Disc disc = discAt(centre, direction, radius);
+  const double contrast = disc.inside - disc.around;
+  return std::isfinite(contrast) ? contrast : 0.0;
+}
+
+double Evidence::contrastOfEnd(const Vector3d& centre, const Vector3d& direction,
+                               const Vector3d& outward, double radius) const {
+  const Disc disc = discAt(centre, direction, radius);
+  const Disc beyond = discAt(centre + 2 * radius * outward, direction, radius);
+  const double contrast = disc.inside - std::max(disc.around, beyond.inside);
   return std::isfinite(contrast) ? contrast : 0.0;
 }
 

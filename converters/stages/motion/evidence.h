@@ -21,7 +21,19 @@ public:
   [[nodiscard]] double contrastAt(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction,
                                   double radius) const;
 
+  /// The same for the last disc of a vessel that ends a radius farther on: also less than the mean of the
+  /// disc two radii on in the direction `outward`.
+  [[nodiscard]] double contrastOfEnd(const Eigen::Vector3d& centre,
+                                     const Eigen::Vector3d& direction,
+                                     const Eigen::Vector3d& outward, double radius) const;
+
 private:
+  struct Disc {
+    double inside, around;
+  };
+  [[nodiscard]] Disc discAt(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction,
+                            double radius) const;
+
   BsplineVolume m_voxels;
   double m_sign;
 };

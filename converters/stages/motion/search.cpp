@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A strain of one half costs as much as vessel that is not seen.
-constexpr double kStrainCost = 4;
+/// A strain of one costs as much as vessel that is not seen.
+constexpr double kStrainCost = 1;
 /// Stations in one place would be tied without bound: the least gap, in radii.
 constexpr double kLeastGap = 0.25;
 
@@ -37,10 +37,14 @@ public:
     tbb::parallel_for(std::size_t{0}, m_stations.size(), [&](std::size_t i) {
       progress.check();
       const StationShape& shape = m_shapes[i];
-      for (std::size_t label = 0; label < m_grid.count(); ++label)
-        m_seen[i][label] =
-            static_cast<float>(evidence.contrastAt(shape.centre + m_around[i] + m_grid.move(label),
-                                                   shape.direction, std::max(shape.radius, blunt)));
+      for (std::size_t label = 0; label < m_grid.count(); ++label) {
+        const Vector3d place = shape.centre + m_around[i] + m_grid.move(label);
+        const double radius = std::max(shape.radius, blunt);
+        m_seen[i][label] = static_cast<float>(
+            shape.outward.isZero()
+                ? evidence.contrastAt(place, shape.direction, radius)
+                : evidence.contrastOfEnd(place, shape.direction, shape.outward, radius));
+      }
       best[i] = double{*std::max_element(m_seen[i].begin(), m_seen[i].end())};
       progress.advance();
     });
@@ -70,9 +74,11 @@ private:
   [[nodiscard]] double stiffness(std::size_t i) const {
     return kStrainCost / std::max(m_stations.gap[i], kLeastGap * m_shapes[i].radius);
   }
-  // The difference of the moves of a station and its parent around which both search, in steps.
+  // The difference of the moves of a station and its parent around which both search, less that of a
+  // turn, in steps.
   [[nodiscard]] Vector3d shift(std::size_t i) const {
-    return (m_around[i] - m_around[static_cast<std::size_t>(m_stations.parent[i])]) / m_grid.step;
+    const Vector3d& above = m_around[static_cast<std::size_t>(m_stations.parent[i])];
+    return (m_around[i] - above - m_shapes[i].turned) / m_grid.step;
   }
 
   // out(b) = min over a of in(a) + w (a - b + s)^2 along one axis, whose places are `stride` apart.
@@ -115,7 +121,8 @@ private:
       double energy = double{m_energy[i][label]};
       if (m_stations.parent[i] >= 0) {
         const Vector3d& above = result.moves[static_cast<std::size_t>(m_stations.parent[i])];
-        energy += stiffness(i) * (m_around[i] + m_grid.move(label) - above).squaredNorm();
+        energy += stiffness(i) *
+                  (m_around[i] + m_grid.move(label) - above - m_shapes[i].turned).squaredNorm();
       }
       if (energy >= least) continue;
       least = energy;

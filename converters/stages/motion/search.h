@@ -29,6 +29,10 @@ struct MoveGrid {
 struct StationShape {
   Eigen::Vector3d centre, direction;  ///< at rest, and as it is turned by now
   double radius;                      ///< mm
+  /// Difference of its move and that of its parent that a turn of the vessel explains, mm: no strain.
+  Eigen::Vector3d turned = Eigen::Vector3d::Zero();
+  Eigen::Vector3d outward =
+      Eigen::Vector3d::Zero();  ///< unit, out of the vessel at an end, or zero
 };
 
 struct SearchResult {

@@ -25,10 +25,14 @@ std::vector<bool> chooseStations(const formats::CenterlineTree& tree) {
       isStation[static_cast<std::size_t>(branch.parentNode)] = true;
   }
   for (const formats::Branch& branch : tree.branches) {
-    double way = 0;
-    for (std::uint32_t i = branch.firstNode; i < branch.firstNode + branch.nodeCount; ++i) {
+    const std::uint32_t end = branch.firstNode + branch.nodeCount;
+    double way = 0, left = 0;
+    for (std::uint32_t i = branch.firstNode + 1; i < end; ++i) left += lengthAbove(tree, i);
+    for (std::uint32_t i = branch.firstNode; i < end; ++i) {
       way += lengthAbove(tree, i);
-      if (!isStation[i] && way < double{tree.radius[i]}) continue;
+      if (i > branch.firstNode) left -= lengthAbove(tree, i);
+      // a tip is as far from the station before it as others are: alone it would be turned by little
+      if (!isStation[i] && std::min(way, left) < double{tree.radius[i]}) continue;
       isStation[i] = true;
       way = 0;
     }
@@ -72,11 +76,15 @@ Stations placeStations(const formats::CenterlineTree& tree) {
     s.between[i].share = gap > 0 ? way[i] / gap : 0.0;
   }
   s.length.assign(s.size(), 0.0);
+  std::vector<int> children(s.size(), 0);
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (s.parent[i] < 0) continue;
     s.length[i] += 0.5 * s.gap[i];
     s.length[static_cast<std::size_t>(s.parent[i])] += 0.5 * s.gap[i];
+    ++children[static_cast<std::size_t>(s.parent[i])];
   }
+  for (std::size_t i = 0; i < s.size(); ++i)
+    s.end.push_back(s.parent[i] < 0 ? (children[i] == 1 ? -1 : 0) : (children[i] == 0 ? 1 : 0));
   return s;
 }
 

@@ -93,11 +93,22 @@ private:
   }
 
   [[nodiscard]] std::vector<StationShape> shapes() const {
-    const formats::CenterlineTree posed = posedTree(m_rest.tree, poses());
+    const std::vector<formats::Pose> posed = poses();
     std::vector<StationShape> result;
-    for (const std::uint32_t node : m_stations.node)
-      result.push_back({toEigen(m_rest.tree.centre[node]),
-                        toEigen(posed.direction[node]).normalized(), double{posed.radius[node]}});
+    for (std::size_t s = 0; s < m_stations.size(); ++s) {
+      const std::uint32_t node = m_stations.node[s];
+      const Eigen::Quaterniond turn = rotationOf(posed[node]);
+      StationShape shape{toEigen(m_rest.tree.centre[node]),
+                         (turn * toEigen(m_rest.tree.direction[node])).normalized(),
+                         double{posed[node].factor} * double{m_rest.tree.radius[node]}};
+      if (m_stations.parent[s] >= 0) {
+        const std::uint32_t above = m_stations.node[static_cast<std::size_t>(m_stations.parent[s])];
+        const Vector3d edge = shape.centre - toEigen(m_rest.tree.centre[above]);
+        shape.turned = 0.5 * (turn * edge + rotationOf(posed[above]) * edge) - edge;
+      }
+      shape.outward = shape.direction * m_stations.end[s];
+      result.push_back(shape);
+    }
     return result;
   }
 

@@ -61,7 +61,7 @@ TEST(MotionSearch, FindsATreeThatMovedAsAWhole) {
   const SearchResult found = scene.find(moved(scene.rest, move), {1.0, 3});
   for (std::size_t i = 0; i < scene.stations.size(); ++i) {
     EXPECT_TRUE(found.moves[i].isApprox(move, 1e-9)) << i;
-    EXPECT_GT(found.evidence[i], 0.5) << i;
+    EXPECT_GT(found.evidence[i], 0.4) << i;
   }
 }
 
@@ -79,6 +79,17 @@ TEST(MotionSearch, WithoutEvidenceAStationGoesWithItsNeighbours) {
     EXPECT_NEAR((found.moves[i] - Vector3d(2, 0, 1)).norm(), 0, 1.1) << i;
 }
 
+TEST(MotionSearch, AnEndIsSeenWhereTheVesselEnds) {
+  const formats::CenterlineTree tree = test::forkedTree();
+  const Volume volume = draw(tree);
+  const Evidence evidence(volume, false, 0.4);
+  // the trunk's last node is at z = 10, and its round end a radius farther
+  const Eigen::Vector3d z = Vector3d::UnitZ();
+  const double right = evidence.contrastOfEnd({0, 0, 10}, z, z, 1);
+  EXPECT_GT(right, 2 * std::max(0.0, evidence.contrastOfEnd({0, 0, 8.5}, z, z, 1)));
+  EXPECT_GT(right, 2 * std::max(0.0, evidence.contrastOfEnd({0, 0, 11.5}, z, z, 1)));
+}
+
 TEST(MotionSearch, RefusesAVolumeWithoutVessels) {
   const Scene scene;
   Volume empty = draw(moved(scene.rest, {100, 0, 0}));
@@ -93,7 +104,7 @@ TEST(MotionSearch, GridsNameTheirMoves) {
   const MoveGrid grid{0.5, 2};
   EXPECT_EQ(grid.count(), 125U);
   EXPECT_EQ(grid.move(0), Vector3d(-1, -1, -1));
-  EXPECT_EQ(grid.move(62), Vector3d(0, 0, 0));
+  EXPECT_EQ(grid.move(62), Vector3d::Zero());
   EXPECT_EQ(grid.move(1), Vector3d(-0.5, -1, -1));
   EXPECT_EQ(grid.move(124), Vector3d(1, 1, 1));
 }

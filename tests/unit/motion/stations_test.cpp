@@ -22,10 +22,12 @@ TEST(MotionStations, AreRootsTipsForksAndNodesARadiusApart) {
     EXPECT_TRUE(isStation(s, node)) << node;
   for (std::size_t i = 0; i < s.size(); ++i) {
     EXPECT_LT(s.parent[i], static_cast<std::int32_t>(i));
-    EXPECT_LE(s.gap[i], 1.0 + 0.5 + 1e-6) << i;
+    EXPECT_LE(s.gap[i], 2.0 + 1e-6) << i;  // two radii and less than two nodes
   }
   EXPECT_EQ(std::count(s.parent.begin(), s.parent.end(), -1), 1);
   EXPECT_LT(s.size(), tree.nodeCount());
+  const auto tip = std::find(s.node.begin(), s.node.end(), 20U) - s.node.begin();
+  EXPECT_GE(s.gap[static_cast<std::size_t>(tip)], 1.0);
 }
 
 TEST(MotionStations, StandForTheWholeLength) {
@@ -48,6 +50,14 @@ TEST(MotionStations, SpreadsMovesLinearlyAlongTheTree) {
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
     EXPECT_NEAR(all[i].x(), 0.1 * double{tree.centre[i].z}, 1e-6) << i;
     EXPECT_NEAR(all[i].y(), 2, 1e-12);
+  }
+}
+
+TEST(MotionStations, KnowWhereTheTreeEnds) {
+  const Stations s = placeStations(test::forkedTree());
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const std::uint32_t node = s.node[i];
+    EXPECT_EQ(s.end[i], node == 0 ? -1 : node == 20 || node == 31 || node == 42 ? 1 : 0) << node;
   }
 }
 
