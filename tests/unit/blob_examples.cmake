@@ -1,7 +1,9 @@
 # Tests of the outputs of libblob/examples, libblob/python and libblob/wasm; each part where it is built.
 lumen_test(blob_examples_test
   LIBS lumen_options catheter_rod
-  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/catheter_test.cpp)
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/catheter_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/soft_vessel_test.cpp)
 target_include_directories(blob_examples_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples)
 
 # Fitted phantoms for the programs.
@@ -19,6 +21,13 @@ add_test(NAME Catheter.StaysInABifurcation
 set_tests_properties(Catheter.StaysInABifurcation PROPERTIES LABELS slow
   FIXTURES_REQUIRED blob_bifurcation
   PASS_REGULAR_EXPRESSION "\"deepest_mm\": (-|0\\.00)[0-9.]*,\n.*\"contacts_most\": [1-9]")
+
+# A vessel that gives way: it moves, and holds the rod.
+add_test(NAME Catheter.StaysInABifurcationThatGivesWay
+  COMMAND catheter ${models}/bifurcation.lumen --steps 500 --young 1e4 --soft 1)
+set_tests_properties(Catheter.StaysInABifurcationThatGivesWay PROPERTIES LABELS slow
+  FIXTURES_REQUIRED blob_bifurcation
+  PASS_REGULAR_EXPRESSION "\"wall\": \"soft\".*\"vessel_moved_mm\": 0\\.0[1-9].*\"deepest_ever_mm\": (-|0\\.0)[0-9.]*,\n")
 
 if(TARGET mujoco_vessel)
   lumen_test(mujoco_test

@@ -9,6 +9,9 @@
 #include "banded.h"
 
 static const double kPi = 3.14159265358979324;
+static const double kRelaxation =
+    0.5;                             /* share of a change of force that a soft wall bears at once */
+static const double kNoForce = 1e-9; /* N */
 
 /* Memory that every step reuses. */
 typedef struct scratch {
@@ -18,6 +21,9 @@ typedef struct scratch {
   double (*inertial)[3];  /* positions of nodes without forces */
   double* distances;
   double (*normals)[3];
+  double (*touched)[3]; /* points at the wall, and forces there */
+  double (*pushes)[3];
+  double* yields;
 } scratch;
 
 static double dot(const double a[3], const double b[3]) {
@@ -52,6 +58,11 @@ static double bending_stiffness(const rod_def* def) {
 /* Stiffness at which a contact's multiplier settles within a few iterations, for any rod. */
 static double contact_stiffness(const rod_def* def) {
   return 10 * bending_stiffness(def);
+}
+
+/* The same behind a wall that gives way. */
+static double stiffness_at(const rod* r, size_t i) {
+  return 1 / (1 / contact_stiffness(&r->def) + r->contact[i].yield);
 }
 
 /* Places the nodes that are still on the guide. */
@@ -89,8 +100,12 @@ int rod_create(rod* r, const rod_def* def, const wall* w, double inserted) {
   s->inertial = calloc(n, sizeof s->inertial[0]);
   s->distances = calloc(n, sizeof s->distances[0]);
   s->normals = calloc(n, sizeof s->normals[0]);
+  s->touched = calloc(n, sizeof s->touched[0]);
+  s->pushes = calloc(n, sizeof s->pushes[0]);
+  s->yields = calloc(n, sizeof s->yields[0]);
   if (!r->position || !r->velocity || !r->cursor || !r->contact || !s->lower || !s->gradient ||
-      !s->before || !s->inertial || !s->distances || !s->normals) {
+      !s->before || !s->inertial || !s->distances || !s->normals || !s->touched || !s->pushes ||
+      !s->yields) {
     rod_destroy(r);
     return 0;
   }
@@ -114,6 +129,9 @@ void rod_destroy(rod* r) {
     free(s->inertial);
     free(s->distances);
     free(s->normals);
+    free(s->touched);
+    free(s->pushes);
+    free(s->yields);
   }
   free(s);
   free(r->position);
@@ -220,22 +238,24 @@ static double depth(const rod* r, size_t i) {
 
 static void add_friction(rod* r, size_t i, double pressing) {
   const scratch* s = r->scratch;
-  const double k = contact_stiffness(&r->def), *n = r->contact[i].normal;
+  const double k = stiffness_at(r, i), *n = r->contact[i].normal;
   double slip[3];
   for (int a = 0; a < 3; ++a) slip[a] = r->position[i][a] - s->before[i][a];
   const double out = dot(slip, n);
   for (int a = 0; a < 3; ++a) slip[a] -= out * n[a];
   const double length = sqrt(dot(slip, slip)), limit = r->def.friction * pressing;
   const double stiffness = length * k > limit ? limit / length : k;
+  for (int a = 0; a < 3; ++a) r->contact[i].drag[a] = stiffness * slip[a];
   add_force(r, i, stiffness, slip);
   add_directed(r, i, i, stiffness, -1, n);
 }
 
 /* Adds contacts: a node in the wall is held on its plane until the force for this would pull. */
 static void add_contacts(rod* r) {
-  const double k = contact_stiffness(&r->def), none = 1e-12 * k;
   for (size_t i = 0; i < r->free_count; ++i) {
     rod_contact* c = &r->contact[i];
+    const double k = stiffness_at(r, i), none = 1e-12 * k;
+    memset(c->drag, 0, sizeof c->drag);
     if (depth(r, i) > 0) c->active = 1;
     if (!c->active) continue;
     const double pressing = c->force + k * depth(r, i);
@@ -247,11 +267,11 @@ static void add_contacts(rod* r) {
 
 /* Updates contact forces after `share` of the step -g, which balances the forces if taken whole. */
 static void update_forces(rod* r, double share, const double* g) {
-  const double k = contact_stiffness(&r->def);
   r->contact_count = 0;
   for (size_t i = 0; i < r->free_count; ++i) {
     rod_contact* c = &r->contact[i];
     if (!c->active) continue;
+    const double k = stiffness_at(r, i);
     c->force += share * k * (depth(r, i) - dot(c->normal, &g[3 * i]));
     c->active = c->force > 0;
     if (!c->active) c->force = 0;
@@ -278,6 +298,30 @@ static void newton_step(rod* r) {
     for (size_t a = 0; a < 3; ++a) r->position[i][a] -= share * s->gradient[3 * i + a];
 }
 
+/* Gives the wall its share of what changed in the forces on it, which becomes the force of the
+ * contact, and learns how far it gives way. */
+static void press_wall(rod* r, const wall* w, int first) {
+  scratch* s = r->scratch;
+  const double begin = now();
+  for (size_t i = 0; i < r->free_count; ++i) {
+    rod_contact* c = &r->contact[i];
+    for (int a = 0; a < 3; ++a) {
+      const double wanted = c->active ? c->force * c->normal[a] + c->drag[a] : 0;
+      c->push[a] += kRelaxation * (wanted - c->push[a]);
+    }
+    if (dot(c->push, c->push) < kNoForce * kNoForce) memset(c->push, 0, sizeof c->push);
+    c->force = fmax(0, dot(c->push, c->normal));
+    c->active = c->force > 0;
+    memcpy(s->pushes[i], c->push, sizeof c->push);
+    for (int a = 0; a < 3; ++a) s->touched[i][a] = r->position[i][a] + r->def.radius * c->normal[a];
+  }
+  const wall_load load = {r->free_count, (const double(*)[3])s->touched,
+                          (const double(*)[3])s->normals, (const double(*)[3])s->pushes, r->cursor};
+  w->press(w->self, first, &load, s->yields);
+  for (size_t i = 0; i < r->free_count; ++i) r->contact[i].yield = s->yields[i];
+  r->yield_seconds += now() - begin;
+}
+
 void rod_step(rod* r, const wall* w, double speed) {
   scratch* s = r->scratch;
   const double dt = r->def.time_step, begin = now();
@@ -289,12 +333,13 @@ void rod_step(rod* r, const wall* w, double speed) {
       s->before[i][a] = r->position[i][a];
       s->inertial[i][a] = r->position[i][a] + dt * r->velocity[i][a];
     }
-  r->wall_seconds = 0;
+  r->wall_seconds = r->yield_seconds = 0;
   for (int k = 0; k < r->def.iterations; ++k) {
-    if (k == 0 || !r->def.detect_once) detect(r, w);
+    if (k == 0 || !r->def.detect_once || w->press != NULL) detect(r, w);
     newton_step(r);
+    if (w->press != NULL) press_wall(r, w, k == 0);
   }
   for (size_t i = 0; i < r->free_count; ++i)
     for (int a = 0; a < 3; ++a) r->velocity[i][a] = (r->position[i][a] - s->before[i][a]) / dt;
-  r->solver_seconds = now() - begin - r->wall_seconds;
+  r->solver_seconds = now() - begin - r->wall_seconds - r->yield_seconds;
 }

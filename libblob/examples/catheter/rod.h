@@ -8,6 +8,13 @@
  * not sink into the wall. Friction is Coulomb's, regularised: a sticking contact creeps by
  * friction * force / contact stiffness per step.
  *
+ * A wall that gives way gets the contact forces after each iteration and moves. The next iteration
+ * holds each contact on a spring as soft as the wall, beginning at the force that the wall bears
+ * already: where wall and rod agree, the spring is at rest and changes nothing, and a bound of the
+ * wall's compliance keeps the exchange from overshooting along the normal. A force that turns, as in
+ * a vessel's end, moves the wall sideways, so the wall bears only a part of the change at once.
+ * Friction acts on both, by the slip against the frame of the case.
+ *
  * Units: mm, s, N, hence tonnes. */
 #ifndef CATHETER_ROD_H
 #define CATHETER_ROD_H
@@ -44,6 +51,9 @@ typedef struct rod_contact {
   double normal[3]; /* outward */
   double anchor[3]; /* position of the node when the wall was asked, mm */
   double force;     /* N, along -normal; >= 0 */
+  double drag[3];   /* friction on the wall, N */
+  double push[3];   /* force that a wall that gives way bears, friction included, N */
+  double yield;     /* mm/N, of a wall that gives way: see wall.press; else 0 */
   int active;       /* 1: it holds the node on the wall's plane, until the force would pull */
 } rod_contact;
 
@@ -58,6 +68,7 @@ typedef struct rod {
   rod_contact* contact;
   size_t contact_count; /* nodes that press on the wall after the last step */
   double wall_seconds;  /* seconds in wall.query() in the last step */
+  double yield_seconds; /* seconds in wall.press() */
   double solver_seconds;
   void* scratch;
 } rod;

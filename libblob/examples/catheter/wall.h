@@ -12,6 +12,15 @@
 extern "C" {
 #endif
 
+/* Points at a wall, in order along the rod, and the forces there. */
+typedef struct wall_load {
+  size_t count;
+  const double (*points)[3];  /* mm */
+  const double (*normals)[3]; /* outward unit vectors */
+  const double (*forces)[3];  /* on the wall, N; 0 where nothing touches */
+  const uint32_t* cursors;    /* those of query() */
+} wall_load;
+
 typedef struct wall {
   void* self;
   /* For `count` points (mm): the signed distance to the wall, negative in the lumen, and the
@@ -20,6 +29,11 @@ typedef struct wall {
   void (*query)(void* self, size_t count, const double (*points)[3], uint32_t* cursors,
                 double* distances, double (*normals)[3]);
   void (*close)(void* self);
+  /* Null for a rigid wall. Otherwise forces on the wall move it to where it is at the end of the
+   * time step; see wall_load. `first` is 1 at the first call of a step. `yields` gets, for each
+   * point, a bound of how far the wall gives way there along its normal when the forces at all
+   * points near it grow by 1 N, mm/N. */
+  void (*press)(void* self, int first, const wall_load* load, double* yields);
   uint32_t start_cursor;
   size_t primitives; /* blobs or triangles */
 } wall;
@@ -27,6 +41,11 @@ typedef struct wall {
 /* The wall of a model, which must outlive it. `flags` are those of blob_query(); `start` is the
  * node that points begin at. */
 wall wall_of_model(const blob_model* model, uint32_t flags, uint32_t start);
+
+/* The query of a wall by a model, for walls that wrap one. */
+void wall_query_model(const blob_model* model, uint32_t flags, size_t count,
+                      const double (*points)[3], uint32_t* cursors, double* distances,
+                      double (*normals)[3]);
 
 /* The wall of a triangle mesh, by Embree's closest point. Farther than `reach` mm from it the
  * distance is -reach: nothing touches. Triangles face outwards. The arrays are copied. self is null

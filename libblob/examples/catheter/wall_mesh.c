@@ -151,7 +151,7 @@ static void close_mesh(void* self) {
 
 wall wall_of_mesh(size_t vertex_count, const float (*vertices)[3], size_t triangle_count,
                   const uint32_t (*triangles)[3], double reach) {
-  wall w = {NULL, query_mesh, close_mesh, UINT32_MAX, triangle_count};
+  wall w = {NULL, query_mesh, close_mesh, NULL, UINT32_MAX, triangle_count};
   mesh_wall* mesh = malloc(sizeof *mesh);
   if (mesh == NULL) return w;
   mesh->device = rtcNewDevice("threads=1");

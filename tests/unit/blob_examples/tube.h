@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Straight tubes along x that are exactly round: every node has all blobs of its line.
+// Tubes that are exactly round where they are straight: every node has all blobs of its line.
 #pragma once
 
 #include <array>
@@ -16,19 +16,17 @@ struct CloseModel {
 };
 using Model = std::unique_ptr<blob_model, CloseModel>;
 
-/// Straight tubes of 20 mm along x, each from (0, y, 0). Its blobs of width 0.35 mm sit each half
-/// millimetre; their sum falls to 0.1 at 1.4 mm from the middle of the axis.
-inline Model makeTubes(const std::vector<float>& offsetsY) {
-  constexpr std::size_t kNodes = 41;
+/// Tubes with their nodes half a millimetre apart on each line. Blobs of width 0.35 mm sit in all nodes
+/// of a line; their sum falls to 0.1 at 1.4 mm from the middle of a straight axis.
+inline Model makeTubesAlong(const std::vector<std::vector<std::array<float, 3>>>& lines) {
   std::vector<std::array<float, 3>> nodes, blobs;
   std::vector<std::int32_t> parent;
   std::vector<std::uint32_t> offset{0};
-  for (const float y : offsetsY)
-    for (std::size_t i = 0; i < kNodes; ++i) {
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) {
       parent.push_back(i == 0 ? -1 : static_cast<std::int32_t>(nodes.size()) - 1);
-      nodes.push_back({0.5F * static_cast<float>(i), y, 0});
-      for (std::size_t j = 0; j < kNodes; ++j)
-        blobs.push_back({0.5F * static_cast<float>(j), y, 0});
+      nodes.push_back(line[i]);
+      blobs.insert(blobs.end(), line.begin(), line.end());
       offset.push_back(static_cast<std::uint32_t>(blobs.size()));
     }
   const std::vector<float> radius(nodes.size(), 1.4F), width(blobs.size(), 0.35F);
@@ -42,6 +40,16 @@ inline Model makeTubes(const std::vector<float>& offsetsY) {
   def.blobs.width = width.data();
   blob_model* model = nullptr;
   return Model(blob_model_create(&def, &model) == BLOB_OK ? model : nullptr);
+}
+
+/// Straight tubes along x, each from (0, y, 0), of 20 mm if they have 41 nodes.
+inline Model makeTubes(const std::vector<float>& offsetsY, std::size_t nodes = 41) {
+  std::vector<std::vector<std::array<float, 3>>> lines;
+  for (const float y : offsetsY) {
+    auto& line = lines.emplace_back();
+    for (std::size_t i = 0; i < nodes; ++i) line.push_back({0.5F * static_cast<float>(i), y, 0});
+  }
+  return makeTubesAlong(lines);
 }
 
 inline Model makeTube() {
