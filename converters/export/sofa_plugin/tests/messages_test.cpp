@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of SOFA about scenes that cannot run; such scenes stop.
+#include <LumenSofa/BlobPose.h>
 #include <gtest/gtest.h>
 #include <sofa/helper/logging/MessageDispatcher.h>
 #include <sofa/helper/logging/MessageHandler.h>
@@ -20,8 +21,10 @@ struct Errors : sofa::helper::logging::MessageHandler {
 };
 
 struct Messages : sofa::testing::BaseSimulationTest {
-  /// Loads a scene and runs some steps. Returns the errors that were reported.
-  std::string run(const std::string& content) {
+  /// Loads a scene and runs some steps, in which the component of a node is invalid. Returns the
+  /// errors that were reported.
+  template <class Component = BeamBlobContact>
+  std::string run(const std::string& content, const std::string& node = "instrument") {
     EXPECT_MSG_EMIT(Error);
     Errors errors;
     MessageDispatcher::addHandler(&errors);
@@ -30,7 +33,7 @@ struct Messages : sofa::testing::BaseSimulationTest {
     EXPECT_FALSE(s.root->getAnimate());
     for (int i = 0; i < 5; ++i) s.simulate(0.01);
     MessageDispatcher::rmHandler(&errors);
-    EXPECT_FALSE(find<BeamBlobContact>(s.root, "instrument")->isComponentStateValid());
+    EXPECT_FALSE(find<Component>(s.root, node)->isComponentStateValid());
     const auto* state = s.root->getChild("instrument")->getMechanicalState();
     for (sofa::Size i = 0; i < state->getSize(); ++i)
       EXPECT_NEAR(state->getPX(i), 5, 1.1) << "nothing has moved";
@@ -83,6 +86,34 @@ TEST_F(Messages, StateWhichNumbersAreAllowed) {
   expectMessage(run(with("alarmDistance='-0.5'")),
                 "alarmDistance is -0.5; expected a number from 0");
   expectMessage(run(with("radius='-0.5'")), "radius is -0.5; expected a number from 0");
+}
+
+std::string withPose(const std::string& frames, const std::string& attributes) {
+  return "<Node name='vessel'>" + frames + "<BlobField name='wall' filename='" +
+         caseFile("tube.lumen") + "'/><BlobPose name='pose' " + attributes + "/></Node>" +
+         wire("0 0 0 1", kContact);
+}
+
+const char* const kTwoFrames =
+    "<MechanicalObject template='Rigid3d' position='0 0 0 0 0 0 1  60 0 0 0 0 0 1'/>";
+
+TEST_F(Messages, StateWhichFramesCarryAVessel) {
+  const auto runPose = [this](const std::string& content) {
+    return run<lumensofa::BlobPose>(content, "vessel");
+  };
+  expectMessage(runPose(withPose(kTwoFrames, "field='@wall'")),
+                "there are 2 frames; expected one for each of the 31 nodes of the case");
+  expectMessage(runPose(withPose(kTwoFrames, "field='@wall' nodes='0 5 30'")),
+                "there are 2 frames; expected one for each of the 3 listed nodes");
+  expectMessage(runPose(withPose(kTwoFrames, "field='@wall' nodes='0 31'")),
+                "nodes has 31; expected different numbers from 0 to 30");
+  expectMessage(runPose(withPose(kTwoFrames, "field='@wall' nodes='7 7'")),
+                "nodes has 7 twice; expected different numbers from 0 to 30");
+  expectMessage(runPose(withPose(kTwoFrames, "field='@wall' nodes='0 30' tolerance='-1'")),
+                "tolerance is -1; expected a number from 0");
+  expectMessage(runPose(withPose(kTwoFrames, "nodes='0 30'")), "no field: link a BlobField");
+  expectMessage(runPose(withPose("", "field='@wall' nodes='0 30'")),
+                "no frames: link a MechanicalObject");
 }
 
 }  // namespace

@@ -158,6 +158,7 @@ void BeamBlobContact::findContacts() {
   blob_query_many(model, l_field->flags(), count, packed(m_next), m_cursorBuffer.data(),
                   m_walls.data());
   m_contacts.clear();
+  m_shares.clear();
   for (std::size_t i = 0; i < count; ++i) {
     // a point that is not finite or has no normal cannot be held
     const Vec3 normal = inwards(m_walls[i]);
@@ -205,12 +206,32 @@ double BeamBlobContact::shareOfSlide(double before, double after, double motion)
   return after < 0 ? after / (after - before) : 0;
 }
 
+// How far the wall goes without contact where it moves, mm; it notes the frames that carry it.
+Vec3 BeamBlobContact::motionOfWall(Contact& contact) {
+  contact.firstShare = m_shares.size();
+  const BlobPose* pose = l_field->pose();
+  if (pose == nullptr) return Vec3(0, 0, 0);
+  pose->addShares(contact.point, m_cursorBuffer[contact.sample], m_shares);
+  namespace access = sofa::core::vec_id::read_access;
+  const auto& start = pose->state()->read(access::position)->getValue();
+  const auto& free = pose->state()->read(access::freePosition)->getValue();
+  if (free.size() != start.size()) return Vec3(0, 0, 0);  // frames that no solver moves
+  return BlobPose::motion(m_shares.data() + contact.firstShare,
+                          m_shares.size() - contact.firstShare, contact.point, start, free);
+}
+
+std::size_t BeamBlobContact::endOfShares(std::size_t contact) const {
+  return contact + 1 < m_contacts.size() ? m_contacts[contact + 1].firstShare : m_shares.size();
+}
+
 void BeamBlobContact::addContact(std::size_t sample, const Vec3& normal) {
-  const double before = gap(sample) + normal * (m_start[sample] - m_next[sample]);
-  const double after = gap(sample) + normal * (m_free[sample] - m_next[sample]);
-  const Vec3 motion = m_free[sample] - m_start[sample];
   Contact contact;
   contact.sample = sample;
+  contact.point = m_next[sample] + normal * m_walls[sample].distance;
+  const Vec3 wall = motionOfWall(contact);
+  const double before = gap(sample) + normal * (m_start[sample] - m_next[sample]);
+  const double after = gap(sample) + normal * (m_free[sample] - wall - m_next[sample]);
+  const Vec3 motion = m_free[sample] - wall - m_start[sample];
   contact.axis[0] = normal;
   setTangents(contact.axis);
   const double share = shareOfSlide(before, after, motion.norm());
@@ -218,6 +239,34 @@ void BeamBlobContact::addContact(std::size_t sample, const Vec3& normal) {
   contact.violation[1] = contact.axis[1] * motion * share;
   contact.violation[2] = contact.axis[2] * motion * share;
   m_contacts.push_back(contact);
+}
+
+void BeamBlobContact::buildConstraintMatrix(const ConstraintParams* params,
+                                            sofa::core::MultiMatrixDerivId jacobians,
+                                            unsigned int& row) {
+  Constraint<Rigid3>::buildConstraintMatrix(params, jacobians, row);
+  if (m_contacts.empty() || l_field->pose() == nullptr) return;
+  addVesselRows(*jacobians[l_field->pose()->state()].write());
+}
+
+// The rows of the contacts, seen from the vessel: the opposite of the instrument's.
+void BeamBlobContact::addVesselRows(DataMatrixDeriv& jacobian) const {
+  namespace access = sofa::core::vec_id::read_access;
+  const auto& frames = l_field->pose()->state()->read(access::position)->getValue();
+  const int rows = d_friction.getValue() > 0 ? 3 : 1;
+  auto matrix = sofa::helper::getWriteAccessor(jacobian);
+  auto row = static_cast<int>(m_firstRow);
+  for (std::size_t i = 0; i < m_contacts.size(); ++i)
+    for (int k = 0; k < rows; ++k) {
+      auto line = matrix->writeLine(row++);
+      const Contact& contact = m_contacts[i];
+      for (std::size_t n = contact.firstShare; n < endOfShares(i); ++n) {
+        const Vec3 force = contact.axis[k] * -m_shares[n].share;
+        const Vec3 arm = contact.point - frames[m_shares[n].frame].getCenter();
+        line.addCol(static_cast<int>(m_shares[n].frame),
+                    Deriv(force, sofa::type::cross(arm, force)));
+      }
+    }
 }
 
 void BeamBlobContact::buildConstraintMatrix(const ConstraintParams*, DataMatrixDeriv& jacobian,
@@ -265,6 +314,13 @@ void BeamBlobContact::getConstraintResolution(
     resolutions[offset] = newResolution(friction, contact.axis, force);
     offset += resolutions[offset]->getNbLines();
   }
+}
+
+Vec3 BeamBlobContact::forceOnWall() const {
+  Vec3 sum(0, 0, 0);
+  for (const Vec3& force : m_forces) sum -= force;
+  const double dt = getContext()->getDt();
+  return sum / dt;
 }
 
 void BeamBlobContact::getConstraintInfo(const ConstraintParams*, VecConstraintBlockInfo& blocks,

@@ -23,6 +23,10 @@ void BlobField::init() {
 }
 
 void BlobField::reinit() {
+  if (m_pose != nullptr) {
+    msg_error() << "a field that a BlobPose moves stays as it is: load a scene with the other case";
+    return stopScene(*this);
+  }
   m_tried = false;
   load();
 }
@@ -55,7 +59,7 @@ bool BlobField::load() {
 std::uint32_t BlobField::locateCursor(const Vec3d& point, int domain) const {
   if (domain >= 0 && static_cast<std::size_t>(domain) < m_vessel.nodeCount)
     return static_cast<std::uint32_t>(domain);
-  return locate(m_vessel, point.data());
+  return locate(m_vessel, model(), point.data());
 }
 
 int BlobField::getDomain(Vec3d& point, int domain) {

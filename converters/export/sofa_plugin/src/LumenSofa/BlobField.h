@@ -11,6 +11,8 @@
 
 namespace lumensofa {
 
+class BlobPose;
+
 /// The wall of a case as a scalar field: f - T in mm, positive in the lumen, negative in the wall,
 /// so its gradient points inwards. Lengths are millimetres in the frame of the case. `domain` is a
 /// point's cursor (see blob.h): the node it was in, from which it moves along the tree only; -1 for
@@ -46,13 +48,21 @@ public:
   using ScalarField::getValueAndGradient;
   using ScalarField::projectPointonSurface;
 
-  /// Null if there is none.
-  [[nodiscard]] const blob_model* model() const { return m_vessel.model.get(); }
+  /// The model where it is: at rest, or posed. Null if there is none.
+  [[nodiscard]] const blob_model* model() const {
+    return m_posed != nullptr ? m_posed : m_vessel.model.get();
+  }
+  /// Component that moves the wall; null for a wall at rest.
+  [[nodiscard]] BlobPose* pose() const { return m_pose; }
+  void setPose(BlobPose* pose, const blob_model* posed) {
+    m_pose = pose;
+    m_posed = posed;
+  }
   /// Flags of libblob's queries: BLOB_BLENDED or BLOB_LOCAL.
   [[nodiscard]] std::uint32_t flags() const { return m_flags; }
   /// Node at which a point that has no cursor begins; see load().
   [[nodiscard]] std::uint32_t locatePoint(const double point[3]) const {
-    return locate(m_vessel, point);
+    return locate(m_vessel, model(), point);
   }
 
   sofa::core::objectmodel::DataFileName d_filename;
@@ -68,6 +78,8 @@ private:
   std::uint32_t locateCursor(const Vec3d& point, int domain) const;
 
   VesselCase m_vessel;
+  BlobPose* m_pose = nullptr;
+  const blob_model* m_posed = nullptr;
   std::uint32_t m_flags = BLOB_BLENDED;
   bool m_tried = false;
 };

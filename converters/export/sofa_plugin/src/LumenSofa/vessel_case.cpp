@@ -102,12 +102,12 @@ VesselCase openVesselCase(const std::string& path, const std::string& branch) {
   return vessel;
 }
 
-std::uint32_t locate(const VesselCase& vessel, const double point[3]) {
-  if (vessel.branch.count == vessel.nodeCount) return blob_cursor_locate(vessel.model.get(), point);
+std::uint32_t locate(const VesselCase& vessel, const blob_model* model, const double point[3]) {
+  if (vessel.branch.count == vessel.nodeCount) return blob_cursor_locate(model, point);
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t found = BLOB_NOWHERE;
   for (std::uint32_t i = 0; i < vessel.branch.count; ++i) {
-    const double here = power(blob_model_node(vessel.model.get(), vessel.branch.first + i), point);
+    const double here = power(blob_model_node(model, vessel.branch.first + i), point);
     if (!(here < least)) continue;
     least = here;
     found = vessel.branch.first + i;

@@ -34,7 +34,7 @@ struct VesselCase {
 VesselCase openVesselCase(const std::string& path, const std::string& branch);
 
 /// The node of least power among those of the branch, the lowest index among equals; of the whole
-/// tree by libblob's own search.
-std::uint32_t locate(const VesselCase& vessel, const double point[3]);
+/// tree by libblob's own search. `model`: the vessel's, or that of a pose of it.
+std::uint32_t locate(const VesselCase& vessel, const blob_model* model, const double point[3]);
 
 }  // namespace lumensofa

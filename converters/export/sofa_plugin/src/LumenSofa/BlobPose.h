@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <LumenSofa/BlobField.h>
+#include <LumenSofa/config.h>
+#include <blob_pose.h>
+#include <sofa/core/behavior/MechanicalState.h>
+#include <sofa/core/objectmodel/BaseObject.h>
+#include <sofa/defaulttype/RigidTypes.h>
+
+namespace lumensofa {
+
+struct ClosePose {
+  void operator()(blob_pose* pose) const { blob_pose_close(pose); }
+};
+
+/// A frame that carries a point of the wall, and its share of the point: the shares of a point add
+/// up to 1. A force F at the point X is, on this frame, the force share * F and the torque
+/// (X - frame) x share * F.
+struct FrameShare {
+  sofa::Index frame = 0;
+  double share = 0;
+};
+
+/// A vessel that moves: frames of a MechanicalObject carry the nodes of a case's tree, and with them
+/// the wall of its BlobField. A node between two frames of a vessel follows both, by the distances
+/// along it; a node that has frames on one side only follows the nearest as a rigid body; a tree
+/// without a frame rests. The pose is set at the start of each step; contacts give their forces
+/// back to the frames.
+class LUMENSOFA_API BlobPose : public sofa::core::objectmodel::BaseObject {
+public:
+  SOFA_CLASS(BlobPose, sofa::core::objectmodel::BaseObject);
+  using Rigid3 = sofa::defaulttype::Rigid3Types;
+  using State = sofa::core::behavior::MechanicalState<Rigid3>;
+  using Vec3 = sofa::type::Vec3;
+
+  void init() override;
+  void handleEvent(sofa::core::objectmodel::Event* event) override;
+
+  /// The state of the frames; null before init() and without one.
+  [[nodiscard]] State* state() const { return l_state.get(); }
+  /// Sets the pose to the frames as they are.
+  void update();
+  /// Adds the frames that carry a point of the wall, whose node is `cursor`, to `shares`.
+  void addShares(const Vec3& point, std::uint32_t cursor, std::vector<FrameShare>& shares) const;
+  /// The motion, mm, of a point that `shares` carry while the frames move.
+  static Vec3 motion(const FrameShare* shares, std::size_t count, const Vec3& point,
+                     const Rigid3::VecCoord& from, const Rigid3::VecCoord& to);
+
+  sofa::Data<sofa::type::vector<sofa::Index>> d_nodes;
+  sofa::Data<double> d_tolerance;
+  sofa::Data<double> d_displacement;
+  sofa::SingleLink<BlobPose, BlobField,
+                   sofa::BaseLink::FLAG_STOREPATH | sofa::BaseLink::FLAG_STRONGLINK>
+      l_field;
+  sofa::SingleLink<BlobPose, State,
+                   sofa::BaseLink::FLAG_STOREPATH | sofa::BaseLink::FLAG_STRONGLINK>
+      l_state;
+
+protected:
+  BlobPose();
+  ~BlobPose() override;
+
+private:
+  static constexpr int kNone = -1;
+  /// The frames of a node: the second is kNone where one carries it alone, both in a tree at rest.
+  struct Carrier {
+    int frame[2] = {kNone, kNone};
+    double share = 0;  ///< of the second
+  };
+
+  bool hasValidNodes();
+  void findCarriers();
+  [[nodiscard]] blob_transform transformOf(std::uint32_t node, const Rigid3::VecCoord& x) const;
+
+  std::unique_ptr<blob_pose, ClosePose> m_pose;
+  std::vector<Carrier> m_carriers;    ///< one for each node of the tree
+  std::vector<Vec3> m_rest;           ///< mm: its centre at rest
+  std::vector<blob_transform> m_set;  ///< as the pose has them
+  Rigid3::VecCoord m_restFrames;
+  std::vector<std::uint32_t> m_changed;  ///< nodes of the last step
+  std::vector<blob_transform> m_buffer;
+};
+
+}  // namespace lumensofa
