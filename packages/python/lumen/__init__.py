@@ -14,7 +14,7 @@ clinical use.
 from ._errors import Error, Warning  # pylint: disable=redefined-builtin
 from ._lumen import version as __version__
 from ._inputs import Volume
-from ._parts import Branch, Change, Mesh, Models, Picture, Points, Tree
+from ._parts import Branch, Change, Mesh, Models, Motion, Picture, Points, Tree
 from ._editing import Editor
 from ._running import Answer, run
 from ._case import Case
@@ -22,7 +22,7 @@ from ._operations import (Phantom, check, convert, export, find_vessels, fit, me
                           options_of, phantom, picture, read, targets, track, validate)
 from . import blob
 
-__all__ = ["Answer", "Branch", "Case", "Change", "Editor", "Error", "Mesh", "Models", "Phantom",
-           "Picture", "Points", "Tree", "Volume", "Warning", "blob", "check", "convert", "export",
+__all__ = ["Answer", "Branch", "Case", "Change", "Editor", "Error", "Mesh", "Models", "Motion",
+           "Phantom", "Picture", "Points", "Tree", "Volume", "Warning", "blob", "check", "convert", "export",
            "find_vessels", "fit", "measure", "mesh", "options_of", "phantom", "picture", "read", "run",
            "targets", "track", "validate"]

@@ -13,7 +13,7 @@ from ._editing import Editor
 from ._inputs import Staging
 from ._mesh_file import read_mesh
 from ._options import document
-from ._parts import Change, Mesh, Models, Picture, Points, Tree
+from ._parts import Change, Mesh, Models, Motion, Picture, Points, Tree
 from ._running import Answer, called, run_staged, warn
 
 
@@ -90,6 +90,47 @@ class Case:
     def models(self) -> Optional[Models]:
         """The implicit surfaces, or None before the fit."""
         return None if self._core.kernel is None else Models(self._core)
+
+    @property
+    def motion(self) -> Optional[Motion]:
+        """The poses of nodes over time, or None."""
+        return None if self._core.motion_time is None else Motion(self._core)
+
+    def with_motion(self, time, node, centre, rotation, factor=1.0, *, period=None) -> "Case":
+        """A new case with a motion in place of the one of this case.
+
+        Parameters
+        ----------
+        time : (k,)
+            s, ascending.
+        node : (m,)
+            Moving nodes, ascending.
+        centre : (k, m, 3)
+            mm, LPS.
+        rotation : (k, m, 4)
+            Unit quaternions x, y, z, w.
+        factor : (k, m), or a number
+            > 0, of the radius.
+        period : float, optional
+            s, longer than from the first time to the last; without it, the motion is not periodic.
+
+        Raises
+        ------
+        Error
+            With the place of the first rule that is broken.
+        """
+        # pylint: disable=too-many-arguments
+        times, nodes = np.asarray(time, float), np.asarray(node)
+        if times.ndim != 1 or len(times) == 0 or nodes.ndim != 1:
+            raise ValueError(f"found times of shape {times.shape} and nodes of shape {nodes.shape}, "
+                             "expected (k,) with k > 0, and (m,)")
+        poses = np.empty((len(times), len(nodes), 8), np.float32)
+        poses[..., :3], poses[..., 3:7], poses[..., 7] = centre, rotation, factor
+        return Case(called(self._core.with_motion, times.tolist(), nodes.tolist(), poses, period or 0.0))
+
+    def without_motion(self) -> "Case":
+        """A new case, at rest."""
+        return Case(called(self._core.with_motion, [], [], np.empty(0, np.float32), 0.0))
 
     @property
     def branches(self):

@@ -29,7 +29,7 @@ class Change(NamedTuple):
     sentence: str               #: the edit for people, as the case's "edit" step records it
     before: np.ndarray          #: (n,) uint32, index before of each node; 0xFFFFFFFF for a new one
     stale: np.ndarray           #: (m,) uint32, nodes whose models were out of date
-    dropped_arrays: List[str]   #: names of node arrays that were dropped
+    dropped_arrays: List[str]   #: names of node arrays that were dropped; "motion" for the motion
 
 
 class Tree:
@@ -108,6 +108,34 @@ class Models:
 
     def __repr__(self):
         return f"<lumen.Models {len(self)} blobs, kernel {self.kernel}>"
+
+
+class Motion:
+    """Poses of some nodes over time; all other nodes rest. The pose of a node carries a point X at
+    rest to ``centre + factor * R (X - centre at rest)``."""
+
+    def __init__(self, core):
+        self._core = core
+
+    time = property(lambda self: self._core.motion_time, doc="(k,) float64, s, ascending.")
+    node = property(lambda self: self._core.motion_node,
+                    doc="(m,) uint32, the moving nodes, ascending.")
+    centre = property(lambda self: self._core.motion_centre, doc="(k, m, 3) float32, mm, LPS.")
+    rotation = property(lambda self: self._core.motion_rotation,
+                        doc="(k, m, 4) float32, unit quaternions x, y, z, w.")
+    factor = property(lambda self: self._core.motion_factor,
+                      doc="(k, m) float32, > 0, of the radius.")
+
+    @property
+    def period(self) -> Optional[float]:
+        """s, or None if the motion is not periodic."""
+        return self._core.motion_period or None
+
+    def __len__(self):
+        return len(self.time)
+
+    def __repr__(self):
+        return f"<lumen.Motion {len(self)} times, {len(self.node)} nodes>"
 
 
 class Picture(bytes):

@@ -168,6 +168,61 @@ void requireValid(const CaseObject& self) {
   if (!valid) raise(valid.error(), "");
 }
 
+/// Numbers of all poses, of which each has `columns` from the float `first` of its record on:
+/// (times, nodes, columns), or (times, nodes) for one.
+py::object posesOf(const py::object& self, std::size_t first, py::ssize_t columns) {
+  const std::optional<formats::Motion>& motion = caseOf(self).motion;
+  if (!motion) return py::none();
+  constexpr auto kPose = static_cast<py::ssize_t>(sizeof(formats::Pose));
+  const auto nodes = static_cast<py::ssize_t>(motion->node.size());
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(motion->time.size()), nodes};
+  std::vector<py::ssize_t> strides{kPose * nodes, kPose};
+  if (columns > 1) {
+    shape.push_back(columns);
+    strides.push_back(static_cast<py::ssize_t>(sizeof(float)));
+  }
+  static const formats::Pose nothing{};
+  const auto* const at =
+      reinterpret_cast<const float*>(motion->pose.empty() ? &nothing : motion->pose.data());
+  py::array view(py::dtype::of<float>(), shape, strides, at + first, self);
+  if (!self.cast<const CaseObject&>().isWritable) view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+using Numbers = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+/// A copy with another motion, or without one.
+SharedCase withMotion(const CaseObject& self, const std::vector<double>& times,
+                      const std::vector<std::uint32_t>& nodes, const Numbers& poses,
+                      double period) {
+  std::optional<formats::Motion> motion;
+  if (!times.empty()) {
+    motion = formats::Motion{times, period, nodes, {}};
+    motion->pose.resize(static_cast<std::size_t>(poses.size()) / 8);
+    std::memcpy(static_cast<void*>(motion->pose.data()), poses.data(),
+                motion->pose.size() * sizeof(formats::Pose));
+  }
+  SharedCase made = sharedCase(self.value);
+  made->value.motion = std::move(motion);
+  requireValid(*made);
+  return made;
+}
+
+void addMotion(py::class_<CaseObject, SharedCase>& type) {
+  addArray(type, "motion_time", &Case::motion, &formats::Motion::time);
+  addArray(type, "motion_node", &Case::motion, &formats::Motion::node);
+  type.def_property_readonly("motion_period", [](const CaseObject& self) {
+    return self.value.motion ? self.value.motion->period : 0.0;
+  });
+  type.def_property_readonly("motion_centre",
+                             [](const py::object& self) { return posesOf(self, 0, 3); });
+  type.def_property_readonly("motion_rotation",
+                             [](const py::object& self) { return posesOf(self, 3, 4); });
+  type.def_property_readonly("motion_factor",
+                             [](const py::object& self) { return posesOf(self, 7, 1); });
+  type.def("with_motion", &withMotion);
+}
+
 py::bytes encodeBytes(const CaseObject& self, bool isJson, bool compress, int pointBits) {
   requireValid(self);
   if (pointBits != 0 && isJson) {
@@ -211,6 +266,7 @@ void addCase(py::module_& module) {
   py::class_<CaseObject, SharedCase> type(module, "Case", "A case in memory, and views of it.");
   addTree(type);
   addParts(type);
+  addMotion(type);
   type.def_readonly("writable", &CaseObject::isWritable);
   type.def_static("read", &readCase);
   type.def_static("decode", &decodeBytes);

@@ -72,6 +72,42 @@ class ViewsTest(unittest.TestCase):
         self.assertEqual(names[-1], "fit")
 
 
+class MotionTest(unittest.TestCase):
+    def setUp(self):
+        self.case = sample().case
+        self.nodes = [2, 5]
+        self.centre = np.stack([self.case.tree.centre[self.nodes]] * 3)
+        self.centre[1:, :, 1] += 0.5
+        self.rotation = np.tile(np.float32([0, 0, 0.6, 0.8]), (3, 2, 1))
+
+    def moving(self, **more):
+        return self.case.with_motion([0, 0.25, 0.5], self.nodes, self.centre, self.rotation, **more)
+
+    def test_a_motion_is_given_back_by_the_file(self):
+        case = lumen.Case.from_bytes(self.moving(period=0.8).to_bytes())
+        motion = case.motion
+        self.assertIsNone(self.case.motion)
+        self.assertEqual((len(motion), motion.period), (3, 0.8))
+        np.testing.assert_array_equal(motion.node, self.nodes)
+        np.testing.assert_array_equal(motion.centre, self.centre)
+        np.testing.assert_array_equal(motion.rotation, self.rotation)
+        np.testing.assert_array_equal(motion.factor, np.ones((3, 2)))
+        self.assertEqual(case.without_motion(), self.case)
+
+    def test_views_of_poses_write_into_a_copy(self):
+        copy = self.moving().copy()
+        copy.motion.factor[2, 1] = 1.5
+        self.assertEqual(lumen.Case.from_bytes(copy.to_bytes()).motion.factor[2, 1], 1.5)
+        with self.assertRaises(ValueError):
+            self.moving().motion.centre[0, 0, 0] = 1
+
+    def test_a_motion_that_breaks_a_rule_is_refused_with_its_place(self):
+        with self.assertRaisesRegex(lumen.Error, "MOTION_PERIOD at /motion/period"):
+            self.moving(period=0.5)
+        with self.assertRaises(ValueError):
+            self.case.with_motion([], self.nodes, self.centre, self.rotation)
+
+
 class FilesTest(unittest.TestCase):
     def setUp(self):
         self.case = sample().case
