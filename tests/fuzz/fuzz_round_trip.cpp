@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Differential: a case that our reader accepts is the same after every way of writing and reading
 // it again, and its canonical bytes are a fixed point.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -34,8 +35,15 @@ void compareView(const Case& value, const CaseView& view) {
   for (std::size_t i = 0; i < tree.branches.size(); ++i)
     expect(view.label(view.branch(i)) == tree.branches[i].label, "the view has the same labels");
   expect(view.hasPoints == value.points.has_value() &&
-             view.models.has_value() == value.models.has_value(),
+             view.models.has_value() == value.models.has_value() &&
+             view.motion.has_value() == value.motion.has_value(),
          "the view has the same parts");
+  if (!view.motion) return;
+  expect(view.motion->pose.size() == value.motion->pose.size() &&
+             view.motion->period == value.motion->period &&
+             std::ranges::equal(view.motion->time, value.motion->time) &&
+             std::ranges::equal(view.motion->node, value.motion->node),
+         "the view has the same motion");
 }
 
 void pushThrough(const Case& value) {

@@ -84,7 +84,9 @@ ImageFitReport fitToImage(formats::Case& target, const Volume& volume,
     points.offset.push_back(static_cast<std::uint32_t>(points.position.size()));
   }
   target.tree = std::move(tree);
-  target.motion.reset();  // it is one of the centres before
+  if (target.motion)
+    progress.warn("the motion is dropped, because its poses are those of the centres before");
+  target.motion.reset();
   target.points = std::move(points);
   target.metadata.pointQuantisation.reset();
   formats::setNodeOrigins(target, origins);
