@@ -20,6 +20,19 @@ constexpr double kStrainCost = 1;
 /// Stations in one place would be tied without bound: the least gap, in radii.
 constexpr double kLeastGap = 0.25;
 
+/// The least usual contrast, as a share of the median: below, it is noise.
+constexpr double kFaintest = 0.2;
+
+// The contrast of a station at a place, on a grid of `step` mm: a step must not leap over a vessel.
+double contrastOf(const StationShape& shape, const Vector3d& move, double step,
+                  const Evidence& evidence) {
+  const Vector3d place = shape.centre + move;
+  const double radius = std::max(shape.radius, 0.6 * step);
+  return shape.outward.isZero()
+             ? evidence.contrastAt(place, shape.direction, radius)
+             : evidence.contrastOfEnd(place, shape.direction, shape.outward, radius);
+}
+
 // The energies of all moves of one station, x fastest.
 using Energies = std::vector<float>;
 
@@ -29,31 +42,28 @@ public:
          const std::vector<Vector3d>& around, const MoveGrid& grid)
       : m_stations(stations), m_shapes(shapes), m_around(around), m_grid(grid) {}
 
-  // Contrasts, as shares of the median of the best that the stations have, which is usual.
-  void see(const Evidence& evidence, Progress& progress) {
+  // Contrasts, as shares of the usual ones.
+  void see(const std::vector<double>& usual, const Evidence& evidence, Progress& progress) {
     m_seen.assign(m_stations.size(), Energies(m_grid.count()));
     std::vector<double> best(m_stations.size());
-    const double blunt = 0.6 * m_grid.step;  // a step must not leap over a vessel
     tbb::parallel_for(std::size_t{0}, m_stations.size(), [&](std::size_t i) {
       progress.check();
-      const StationShape& shape = m_shapes[i];
-      for (std::size_t label = 0; label < m_grid.count(); ++label) {
-        const Vector3d place = shape.centre + m_around[i] + m_grid.move(label);
-        const double radius = std::max(shape.radius, blunt);
+      for (std::size_t label = 0; label < m_grid.count(); ++label)
         m_seen[i][label] = static_cast<float>(
-            shape.outward.isZero()
-                ? evidence.contrastAt(place, shape.direction, radius)
-                : evidence.contrastOfEnd(place, shape.direction, shape.outward, radius));
-      }
+            contrastOf(m_shapes[i], m_around[i] + m_grid.move(label), m_grid.step, evidence));
       best[i] = double{*std::max_element(m_seen[i].begin(), m_seen[i].end())};
       progress.advance();
     });
-    const double usual = upperMedian(best);
-    if (!(usual > 0))
+    if (!(*std::max_element(best.begin(), best.end()) > 0))
       throw invalidInput(
           "no vessel of the case is seen in the volume, within the way that it may move");
-    for (Energies& seen : m_seen)
-      for (float& value : seen) value = static_cast<float>(std::clamp(value / usual, 0.0, 1.0));
+    std::vector<double> sorted = usual.empty() ? best : usual;
+    const double middle = std::max(upperMedian(sorted), 0.0);
+    for (std::size_t i = 0; i < m_seen.size(); ++i) {
+      const double whole = usual.empty() ? middle : std::max(usual[i], kFaintest * middle);
+      for (float& value : m_seen[i])
+        value = whole > 0 ? static_cast<float>(std::clamp(value / whole, 0.0, 1.0)) : 0.0F;
+    }
   }
 
   SearchResult solve() {
@@ -151,11 +161,20 @@ Vector3d MoveGrid::move(std::size_t label) const {
 }
 
 SearchResult searchMoves(const Stations& stations, const std::vector<StationShape>& shapes,
-                         const std::vector<Vector3d>& around, const MoveGrid& grid,
-                         const Evidence& evidence, Progress& progress) {
+                         const std::vector<Vector3d>& around, const std::vector<double>& usual,
+                         const MoveGrid& grid, const Evidence& evidence, Progress& progress) {
   Search search(stations, shapes, around, grid);
-  search.see(evidence, progress);
+  search.see(usual, evidence, progress);
   return search.solve();
+}
+
+std::vector<double> contrastsAt(const std::vector<StationShape>& shapes,
+                                const std::vector<Vector3d>& around, double step,
+                                const Evidence& evidence) {
+  std::vector<double> contrasts;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    contrasts.push_back(contrastOf(shapes[i], around[i], step, evidence));
+  return contrasts;
 }
 
 }  // namespace lumen::convert

@@ -43,10 +43,17 @@ struct SearchResult {
 
 /// The moves of least energy: the length of the vessel without evidence, plus kStrainCost times the
 /// square of the strain along it, in mm. Exact, by messages from the tips to the roots. `around`: one move
-/// for each station. Throws Error(InvalidInput) where no station has any contrast, and
-/// Error(Cancelled). Advances `progress` by one for each station.
+/// for each station. `usual`: the contrast that each station has where it is right, as in another
+/// volume; empty: the median of the best that the stations have. Throws Error(InvalidInput) where no
+/// station has any contrast, and Error(Cancelled). Advances `progress` by one for each station.
 SearchResult searchMoves(const Stations& stations, const std::vector<StationShape>& shapes,
-                         const std::vector<Eigen::Vector3d>& around, const MoveGrid& grid,
+                         const std::vector<Eigen::Vector3d>& around,
+                         const std::vector<double>& usual, const MoveGrid& grid,
                          const Evidence& evidence, Progress& progress);
+
+/// Contrasts of stations at `around`, one move for each, as searchMoves() sees them on a grid of this step.
+std::vector<double> contrastsAt(const std::vector<StationShape>& shapes,
+                                const std::vector<Eigen::Vector3d>& around, double step,
+                                const Evidence& evidence);
 
 }  // namespace lumen::convert

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/io/volume/write_volume.h"
 #include "converters/stages/fitting/image/fit_to_image.h"
 #include "converters/stages/motion/posing.h"
 #include "converters/stages/motion/search.h"
@@ -58,6 +61,27 @@ public:
     return report;
   }
 
+  // Takes a volume, in which the stations are where they are by now, for that of the usual contrasts.
+  void learn(Volume volume) {
+    m_known = std::move(volume);
+    m_knownShapes = shapes();
+    m_knownMoves = m_moves;
+  }
+  [[nodiscard]] bool hasLearnt() const { return m_known.has_value(); }
+
+  // The report on the volume that the case was tracked in.
+  [[nodiscard]] PhaseReport rest() const {
+    const double voxel = m_known->geometry.voxelSize();
+    const std::vector<double> contrasts = usualContrasts(kLastStep * voxel, 0.5 * voxel);
+    std::vector<double> sorted = contrasts;
+    const double middle = upperMedian(sorted);
+    std::vector<double> evidence;
+    for (const double contrast : contrasts) evidence.push_back(middle > 0 ? contrast / middle : 0);
+    PhaseReport report;
+    report.seen = shareSeen(evidence);
+    return report;
+  }
+
   [[nodiscard]] std::vector<formats::Pose> poses() const {
     return posesFromCentres(m_rest.tree, m_centres, m_factors);
   }
@@ -73,8 +97,10 @@ private:
     int steps = kFirstSteps;
     SearchResult found;
     for (double step = m_options.reach / kFirstSteps;; step *= 0.5) {
-      const Evidence evidence(volume, m_options.dark, 0.5 * std::max(step, voxel));
-      found = searchMoves(m_stations, shapes(), m_moves, {step, steps}, evidence, m_progress);
+      const double smoothing = 0.5 * std::max(step, voxel);
+      const Evidence evidence(volume, m_options.dark, smoothing);
+      found = searchMoves(m_stations, shapes(), m_moves, usualContrasts(step, smoothing),
+                          {step, steps}, evidence, m_progress);
       m_moves = found.moves;
       const std::vector<Vector3d> spread = m_stations.spread(m_moves);
       for (std::uint32_t i = 0; i < m_centres.size(); ++i)
@@ -84,10 +110,21 @@ private:
       if (step <= last) break;
     }
     m_progress.end();
+    return shareSeen(found.evidence);
+  }
+
+  // The contrast of each station in the volume that was learnt; empty if none was.
+  [[nodiscard]] std::vector<double> usualContrasts(double step, double smoothing) const {
+    if (!m_known) return {};
+    return contrastsAt(m_knownShapes, m_knownMoves, step,
+                       Evidence(*m_known, m_options.dark, smoothing));
+  }
+
+  [[nodiscard]] double shareSeen(const std::vector<double>& evidence) const {
     double seen = 0, all = 0;
     for (std::size_t s = 0; s < m_stations.size(); ++s) {
       all += m_stations.length[s];
-      if (found.evidence[s] > kSeen) seen += m_stations.length[s];
+      if (evidence[s] > kSeen) seen += m_stations.length[s];
     }
     return all > 0 ? seen / all : 1.0;
   }
@@ -169,7 +206,15 @@ private:
   std::vector<Vector3d> m_centres;  ///< of all nodes, mm
   std::vector<double> m_factors;
   double m_lastStep = 0;
+  std::optional<Volume> m_known;  ///< the volume of the usual contrasts
+  std::vector<StationShape> m_knownShapes;
+  std::vector<Vector3d> m_knownMoves;
 };
+
+// Whether a case was tracked in a volume.
+bool isOf(const formats::Case& rest, const Volume& volume) {
+  return rest.metadata.source && rest.metadata.source->sha256 == describeSource(volume).sha256;
+}
 
 }  // namespace
 
@@ -179,14 +224,27 @@ TrackedMotion trackMotion(const formats::Case& rest, const std::vector<double>& 
   TrackedMotion result;
   result.motion.time = time;
   result.motion.period = period;
-  for (std::uint32_t i = 0; i < rest.tree.nodeCount(); ++i) result.motion.node.push_back(i);
+  const std::size_t nodes = rest.tree.nodeCount();
+  for (std::uint32_t i = 0; i < nodes; ++i) result.motion.node.push_back(i);
+  result.motion.pose.resize(time.size() * nodes);
+  result.phases.resize(time.size());
   MotionTracker tracker(rest, options, progress);
-  for (std::size_t phase = 0; phase < time.size(); ++phase) {
-    const Volume volume = read(phase);
-    result.phases.push_back(tracker.follow(
-        volume, "phase " + std::to_string(phase + 1) + " of " + std::to_string(time.size())));
+  const auto keep = [&](std::size_t phase, const PhaseReport& report) {
     const std::vector<formats::Pose> poses = tracker.poses();
-    result.motion.pose.insert(result.motion.pose.end(), poses.begin(), poses.end());
+    std::copy(poses.begin(), poses.end(),
+              result.motion.pose.begin() + static_cast<std::ptrdiff_t>(phase * nodes));
+    result.phases[phase] = report;
+  };
+  for (std::size_t phase = 0; phase < time.size(); ++phase) {
+    Volume volume = read(phase);
+    if (phase == 0 && isOf(rest, volume)) {
+      tracker.learn(std::move(volume));
+      keep(phase, tracker.rest());
+      continue;
+    }
+    keep(phase, tracker.follow(volume, "phase " + std::to_string(phase + 1) + " of " +
+                                           std::to_string(time.size())));
+    if (!tracker.hasLearnt()) tracker.learn(std::move(volume));
   }
   return result;
 }

@@ -46,7 +46,7 @@ struct Scene {
                                   const MoveGrid& grid) const {
     const Volume volume = draw(drawn);
     Progress silent;
-    return searchMoves(stations, shapes, around, grid, Evidence(volume, false, 0.4), silent);
+    return searchMoves(stations, shapes, around, {}, grid, Evidence(volume, false, 0.4), silent);
   }
 };
 
@@ -95,7 +95,7 @@ TEST(MotionSearch, RefusesAVolumeWithoutVessels) {
   Volume empty = draw(moved(scene.rest, {100, 0, 0}));
   empty.voxels = std::vector<float>(empty.geometry.voxelCount(), 3.0F);
   Progress silent;
-  EXPECT_THROW(searchMoves(scene.stations, scene.shapes, scene.around, {1.0, 2},
+  EXPECT_THROW(searchMoves(scene.stations, scene.shapes, scene.around, {}, {1.0, 2},
                            Evidence(empty, false, 0.4), silent),
                Error);
 }

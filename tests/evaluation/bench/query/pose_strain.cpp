@@ -89,9 +89,11 @@ void compare(const blob_model* rest, const Waves& waves) {
     }
   std::sort(errors.begin(), errors.end());
   const double share = 100.0 / static_cast<double>(errors.size());
-  std::printf("strain %.2f: %zu points, %.4f %% at another node, %.4f %% farther off than 0.001 radii, worst %.3f\n",
-              strain, errors.size(), share * static_cast<double>(nodes),
-              share * static_cast<double>(far), errors.back());
+  std::printf(
+      "strain %.2f: %zu points, %.4f %% at another node, %.4f %% farther off than 0.001 radii, "
+      "worst %.3f\n",
+      strain, errors.size(), share * static_cast<double>(nodes), share * static_cast<double>(far),
+      errors.back());
 }
 
 }  // namespace
