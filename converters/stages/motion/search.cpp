@@ -15,12 +15,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A strain of one costs as much as vessel that is not seen.
-constexpr double kStrainCost = 1;
+/// A strain of 0.7 costs as much as vessel that is not seen.
+constexpr double kStrainCost = 2;
 /// Stations in one place would be tied without bound: the least gap, in radii.
 constexpr double kLeastGap = 0.25;
 
-/// The least usual contrast, as a share of the median: below, it is noise.
+/// The least usual contrast, as a share of the median: below, a station has nothing to be followed by, as
+/// in a sac, and goes with its neighbours.
 constexpr double kFaintest = 0.2;
 
 // The contrast of a station at a place, on a grid of `step` mm: a step must not leap over a vessel.
@@ -60,9 +61,10 @@ public:
     std::vector<double> sorted = usual.empty() ? best : usual;
     const double middle = std::max(upperMedian(sorted), 0.0);
     for (std::size_t i = 0; i < m_seen.size(); ++i) {
-      const double whole = usual.empty() ? middle : std::max(usual[i], kFaintest * middle);
+      const double whole = usual.empty() ? middle : usual[i];
+      const bool isFaint = !(whole > kFaintest * middle);
       for (float& value : m_seen[i])
-        value = whole > 0 ? static_cast<float>(std::clamp(value / whole, 0.0, 1.0)) : 0.0F;
+        value = isFaint ? 0.0F : static_cast<float>(std::clamp(double{value} / whole, 0.0, 1.0));
     }
   }
 

@@ -5,10 +5,11 @@
   motions.py DATA FOLDER LUMEN [SEEDS [NAME ...]]
 
 Draws phantoms that move, SEEDS (3) noise seeds each, tracks the phase at rest without a click (`lumen track`), and follows it
-(`lumen motion`). The error of a wall point is its distance from the true wall of the phase: the round cones of the true tree,
+(`lumen motion`). *warped* is the 3DRA of DATA, whose voxels a known motion moves. The error of a wall point is its distance from the true wall of the phase: the round cones of the true tree,
 moved as the phantom's motion has it. The rest's own error is there in every phase. Trees of DATA/arteries are drawn with the
 motion of the heart. NAME: coronary, hepatic, noise, fast or arteries; all without one. Writes FOLDER/motions.md and prints it.
 (`python3-numpy`, `python3-scipy`)"""
+import gzip
 import json
 import os
 import subprocess
@@ -16,6 +17,7 @@ import sys
 from pathlib import Path
 
 import numpy
+from scipy.ndimage import map_coordinates
 from scipy.spatial import cKDTree
 
 NEAR = 24  # edges of the true tree that are tried for a point
@@ -49,7 +51,7 @@ class Case:
         text.unlink()
         tree, self.motion = value["tree"], value["motion"]
         self.centre, self.radius = numpy.array(tree["centre"]), numpy.array(tree["radius"])
-        self.parent = numpy.array(tree["parent"])
+        self.parent, self.along = numpy.array(tree["parent"]), numpy.array(tree["direction"])
         if "points" in value:
             offset = numpy.array(value["points"]["offset"])
             self.points = numpy.array(value["points"]["position"])
@@ -105,6 +107,42 @@ def follow(words, folder, lumen, phases, voxel):
             "beyond": 100 * numpy.mean(others > 2), "seconds": seconds / phases}
 
 
+def waves(points, height):
+    """Moves of points, in voxels: waves of 160 voxels."""
+    x, y, z = (2 * numpy.pi / 160 * points[..., k] for k in range(3))
+    return height * numpy.stack([numpy.sin(y) + 0.6 * numpy.sin(z + 1), 0.8 * numpy.sin(z + 0.5), numpy.cos(x) + 0.4], -1)
+
+
+def warped(data, folder, lumen):
+    """A row of the table for each phase of a real volume that is moved by waves."""
+    raw = (data / "aneurism-3dra.nrrd").read_bytes()
+    voxels = numpy.frombuffer(gzip.decompress(raw[raw.index(b"\n\n") + 2:]), numpy.uint8).reshape(256, 256, 256)
+    grid = numpy.stack(numpy.meshgrid(*[numpy.arange(256, dtype=numpy.float32)] * 3, indexing="ij"), -1)[..., ::-1]
+    heights, files = (0, 2.5, 5, 7.5), []
+    for number, height in enumerate(heights):
+        source = grid
+        for _ in range(8):
+            source = (grid - waves(source, height)).astype(numpy.float32)
+        moved = map_coordinates(voxels, [source[..., k] for k in (2, 1, 0)], order=3, mode="nearest", output=numpy.float32) if height else voxels
+        files.append(folder / f"warped-{number}.nrrd")
+        head = ("NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 256 256 256\nspace directions: (1,0,0) (0,1,0) "
+                "(0,0,1)\nkinds: domain domain domain\nencoding: raw\nspace origin: (0,0,0)\n\n")
+        files[-1].write_bytes(head.encode() + numpy.clip(numpy.round(moved), 0, 255).astype(numpy.uint8).tobytes())
+    run(lumen, "track", files[0], folder / "rest.lumen", "--quiet")
+    _, seconds = run(lumen, "motion", folder / "rest.lumen", *files, "--out", folder / "moving.lumen", "--quiet")
+    found = Case(folder / "moving.lumen", lumen)
+    out = found.points - found.centre[found.owner]
+    out -= numpy.einsum("ij,ij->i", out, found.along[found.owner])[:, None] * found.along[found.owner]
+    out /= numpy.linalg.norm(out, axis=1)[:, None] + 1e-9
+    for phase, height in enumerate(heights):
+        way = found.wall_points(phase) - found.points - waves(found.points, height)
+        across = numpy.einsum("ij,ij->i", way, rotated(found.pose(phase)[1][found.owner], out))
+        errors = quantiles(numpy.abs(across))
+        moved = numpy.linalg.norm(waves(found.centre, height), axis=1).max()
+        yield (f"| 3DRA, warped | 1 | {moved:.1f} | - | " + " / ".join(f"{e:.3f}" for e in errors) +
+               f" | {errors[1]:.3f} | {across.mean():.3f} | {100 * numpy.mean(numpy.abs(across) > 2):.3f} | {seconds / len(heights):.3f} |")
+
+
 def quantiles(errors):
     return [numpy.quantile(errors, q) for q in (0.5, 0.9, 0.99)]
 
@@ -140,6 +178,9 @@ def main():
         rows = [follow(("--tree", tree, folder / "phase.nrrd", "--motion", "heart"), folder, lumen, 4, 0.5)]
         lines.append(line(tree.stem, rows))
         print(lines[-1], flush=True)
+    for row in warped(data, folder, lumen) if not names or "warped" in names else []:
+        lines.append(row)
+        print(row, flush=True)
     (folder / "motions.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
