@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files of docs/mistakes/cases.md."""
-import re
+import json, re
 
 from fixtures import fixture
 
@@ -42,6 +42,16 @@ def negative(store):
 @fixture("future.lumen.json")
 def future(store):
     return re.sub(r'"(version|minimumReader)": "[^"]*"', r'"\1": "2.0"', store.text("plain.lumen.json"), count=2).encode()
+
+
+@fixture("hurried.lumen.json")
+def hurried(store):
+    """A case whose first node moves for a second, with a period of 0.8 s."""
+    case = json.loads(store.text("plain.lumen.json"))
+    first = case["tree"]["centre"][0]
+    case.update(version="1.2", motion=dict(period=0.8, time=[0, 1], node=[0], centre=[[first], [first]],
+                                           rotation=[[[0, 0, 0, 1]]] * 2, factor=[[1], [1]]))
+    return json.dumps(case).encode()
 
 
 @fixture("empty.lumen")
