@@ -6,6 +6,7 @@ lumen_test(editing_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/edit_request_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/find_inlets_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/hints_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/motion_edits_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/posed_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/random_edits_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/smooth_axes_test.cpp

@@ -393,48 +393,6 @@ TEST(Edits, KeepValuesOfExtensionsWithTheirNodesAndDropWhatMayBeWrong) {
   EXPECT_TRUE(value.otherChunks[0].independent);
 }
 
-// A motion of nodes 4 and 18, with centres of their own.
-formats::Motion motionOf(const Case& value) {
-  formats::Motion motion{{0, 1}, 0, {4, 18}, {}};
-  for (int t = 0; t < 2; ++t)
-    for (const std::uint32_t node : motion.node) {
-      formats::Pose pose{value.tree.centre[node], {0, 0, 0, 1}, 1};
-      pose.centre.z += static_cast<float>(t) + static_cast<float>(node);
-      motion.pose.push_back(pose);
-    }
-  return motion;
-}
-
-// spec: M53
-TEST(Edits, KeepTheMotionOfNodesThatStayWhereTheyAre) {
-  Case value = smallTree();
-  value.motion = motionOf(value);
-  const formats::Motion before = *value.motion;
-  const Change change = deleteBranch(value, named(value, "b"), Hanging::Go);
-  ASSERT_TRUE(value.motion);
-  EXPECT_TRUE(change.droppedArrays.empty());
-  ASSERT_EQ(value.motion->node.size(), 2U);
-  for (std::size_t n = 0; n < 2; ++n) {
-    EXPECT_EQ(change.before[value.motion->node[n]], before.node[n]);
-    EXPECT_EQ(value.motion->pose[2 + n], before.pose[2 + n]);
-  }
-  EXPECT_LT(value.motion->node[1], 18U);
-}
-
-// spec: M53
-TEST(Edits, DropTheMotionWhereNodesAreNewOrMoved) {
-  Case joined = smallTree();
-  joined.motion = motionOf(joined);
-  ASSERT_TRUE(cutBefore(joined, 7).droppedArrays.empty());
-  EXPECT_TRUE(joined.motion);
-  EXPECT_EQ(joinBranch(joined, 1, 0).droppedArrays, std::vector<std::string>{"motion"});
-  EXPECT_FALSE(joined.motion);
-  Case moved = smallTree();
-  moved.motion = motionOf(moved);
-  moveNode(moved, 4, {2, 0.25, 0}, 1);
-  EXPECT_FALSE(moved.motion);
-}
-
 TEST(Edits, SayWhichValuesOfExtensionsNewNodesHaveMadeThemDrop) {
   Case value = smallTree();
   value.metadata.extensionsUsed = {"ACME_flow"};
