@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <set>
+#include <string_view>
 
 #include "converters/base/option_name.h"
 #include "converters/cli/command_line.h"
@@ -91,6 +92,8 @@ TEST(OptionsTest, EveryNumberIsRefusedWithWhatWasFoundAndWhatIsExpected) {
     for (const char* value : {"many", "nan", "inf", "1e999", "-1", "1 2", "0x10", ""}) {
       const auto [code, text] = runHere({argument.command, argument.name + "=" + value});
       const std::string found = *value == '\0' ? "nothing" : value;
+      // times of a motion may be before 0
+      if (argument.name == "--time" && std::string_view(value) == "-1") continue;
       // an empty value that is attached to its option is none at all
       if (*value == '\0' && text.find("needs a value") != std::string::npos) continue;
       EXPECT_EQ(code, 2) << argument.command << " " << argument.name << "=" << value;
