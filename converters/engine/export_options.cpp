@@ -27,8 +27,10 @@ const std::map<std::string, InstrumentKind> kInstruments = {
     {"guidewire", InstrumentKind::Guidewire},
     {"catheter", InstrumentKind::Catheter},
     {"coil", InstrumentKind::Coil}};
-const std::map<std::string, WallKind> kWalls = {
-    {"mesh", WallKind::Mesh}, {"implicit", WallKind::Implicit}, {"grid", WallKind::Grid}};
+const std::map<std::string, WallKind> kWalls = {{"mesh", WallKind::Mesh},
+                                                {"implicit", WallKind::Implicit},
+                                                {"grid", WallKind::Grid},
+                                                {"soft", WallKind::Soft}};
 const std::map<std::string, SofaDialect> kDialects = {{"current", SofaDialect::Current},
                                                       {"v23.06", SofaDialect::V23_06}};
 
@@ -56,9 +58,10 @@ void addSofaRows(OptionTable& table, convert::ExportOptions& options) {
   table.group("SOFA");
   table.choice(kOption.instrument.name, sofa.instrument, kInstruments,
                "Instrument that is inserted; a guidewire lies within a catheter");
-  table.choice(kOption.wall.name, sofa.wall, kWalls,
-               "Wall that it touches: triangles, the models by the plugin LumenSofa, or distances "
-               "on a grid");
+  table.choice(
+      kOption.wall.name, sofa.wall, kWalls,
+      "Wall that it touches: triangles, the models by the plugin LumenSofa, distances on a "
+      "grid, or the models of vessels that give way (soft), by LumenSofa");
   table.choice(kOption.dialect.name, sofa.dialect, kDialects, "Version of SOFA");
   table
       .add(kOption.step.name, &sofa.step, "MM",

@@ -10,7 +10,7 @@ Exit status: 0 all held, 1 something did not, 77 the list is not there."""
 import ast, itertools, json, pathlib, subprocess, sys, tempfile, xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ELSEWHERE = {"LightManager", "DirectionalLight", "BlobField", "BeamBlobContact"}  # not in the list
+ELSEWHERE = {"LightManager", "DirectionalLight", "BlobField", "BlobPose", "BeamBlobContact"}  # not in the list
 OLD = {"DefaultPipeline": "CollisionPipeline", "DefaultContactManager": "CollisionResponse", "FixedConstraint": "FixedProjectiveConstraint"}
 # data of WireRestShape before v23.12
 OLD_SHAPE = {"length", "straightLength", "spireDiameter", "spireHeight", "youngModulus", "youngModulusExtremity", "poissonRatio",
@@ -56,7 +56,7 @@ def main():
         run = lambda *a: subprocess.run([lumen, *a, "--quiet"], cwd=folder, check=True)
         run("phantom", "bifurcation", "v.nrrd", "--size", "64", "--seeds", "s.json")
         run("convert", "v.nrrd", "c.lumen", "--seeds", "s.json", "--seeds-only")
-        for dialect, wall, tool in itertools.product(("current", "v23.06"), ("mesh", "implicit", "grid"), ("guidewire", "coil")):
+        for dialect, wall, tool in itertools.product(("current", "v23.06"), ("mesh", "implicit", "grid", "soft"), ("guidewire", "coil")):
             what = f"{dialect}-{wall}-{tool}"
             run("export", "sofa", "c.lumen", what, "--dialect", dialect, "--wall", wall, "--instrument", tool)
             check(xml.etree.ElementTree.parse(folder / what / "scene.scn").getroot(), known, dialect, what)

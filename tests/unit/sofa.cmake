@@ -12,6 +12,12 @@ if(HAS_NUMPY)
   python_test(Sofa.RunsScenesAndInstrumentsStayInside foreign
     ${CMAKE_CURRENT_SOURCE_DIR}/sofa/run_exports.py --lumen $<TARGET_FILE:lumen>
     --blob $<TARGET_FILE:blob> --steps 200 --case bifurcation --wall mesh grid --instrument guidewire coil)
+  if(TARGET LumenSofa)
+    python_test(Sofa.RunsAVesselThatGivesWay foreign
+      ${CMAKE_CURRENT_SOURCE_DIR}/sofa/run_exports.py --lumen $<TARGET_FILE:lumen>
+      --blob $<TARGET_FILE:blob> --steps 200 --case bifurcation --wall soft --instrument guidewire
+      --plugin $<TARGET_FILE:LumenSofa>)
+  endif()
   python_test(Steve.ReadsPathsMeshAndBranches foreign
     ${CMAKE_CURRENT_SOURCE_DIR}/sofa/check_steve.py $<TARGET_FILE:lumen>)
 endif()

@@ -65,7 +65,8 @@ std::vector<std::uint32_t> widestPath(const CenterlineTree& tree, std::uint32_t 
 Insertion findInsertion(const CenterlineTree& tree, const std::string& label, double clearance) {
   Insertion result;
   result.branch = branchToEnter(tree, label);
-  const auto path = widestPath(tree, tree.branches[result.branch].firstNode);
+  result.path = widestPath(tree, tree.branches[result.branch].firstNode);
+  const auto& path = result.path;
   std::vector<double> along = {0};
   for (std::size_t k = 1; k < path.size(); ++k)
     along.push_back(along.back() + (centreOf(tree, path[k]) - centreOf(tree, path[k - 1])).norm());

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -17,6 +18,8 @@ struct Insertion {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, into the vessels
   double radius = 0;                                     ///< radius of the vessel there, mm
   double pathLength = 0;  ///< mm, along the widest branches, to a radius before the last one's end
+  /// Nodes from the branch's first one along the widest branches to the last one's end.
+  std::vector<std::uint32_t> path;
 };
 
 /// The insertion at the beginning of the branch called `label`, or, if that is empty, of the first

@@ -139,6 +139,38 @@ TEST(Scene, HasNoCharacterOfALabelThatXmlForbids) {
   EXPECT_EQ(xml.find("\xef\xbf"), std::string::npos);
 }
 
+/// A straight vessel along x, of nodes a millimetre apart and a radius of 1.5 mm.
+formats::CenterlineTree straightVessel(int nodes) {
+  formats::CenterlineTree tree;
+  for (int i = 0; i < nodes; ++i) {
+    tree.centre.push_back({static_cast<float>(i), 0, 0});
+    tree.radius.push_back(1.5F);
+  }
+  return tree;
+}
+
+TEST(Scene, AVesselThatGivesWayHasFramesAlongThePathAndTissueForAllOfIt) {
+  const formats::CenterlineTree tree = straightVessel(10);
+  SceneInput in = input(InstrumentKind::Catheter);
+  in.frames = framesAlong(tree, {1, 2, 3, 4, 5, 6, 7, 8, 9});
+  ASSERT_EQ(in.frames.size(), 5U);  // 1.95 mm apart at least: at 1, 3, 5, 7 and 9
+  const SceneItem scene =
+      makeScene(in, {.instrument = InstrumentKind::Catheter, .wall = WallKind::Soft});
+  EXPECT_EQ(valueOf(scene, "BlobPose", "nodes"), "1 3 5 7 9");
+  EXPECT_EQ(valueOf(scene, "MeshTopology", "edges"), "0 1 1 2 2 3 3 4");
+  // 10 mN / mm for each of 8 mm, half of an edge at the ends; times 1.5^2 against turns
+  SceneItem tissue;
+  each(scene, [&](const SceneItem& item) {
+    if (item.value("name") == "tissue") tissue = item;
+  });
+  EXPECT_EQ(tissue.value("stiffness"), "10 20 20 20 10");
+  EXPECT_EQ(tissue.value("angularStiffness"), "22.5 45 45 45 22.5");
+  EXPECT_EQ(valueOf(scene, "BeamInterpolation", "innerRadius"), "1.5 1.5 1.5 1.5");
+  EXPECT_EQ(valueOf(scene, "BeamInterpolation", "radius"), "1.875 1.875 1.875 1.875");
+  EXPECT_EQ(count(scene, "BeamBlobContact"), 1U);
+  EXPECT_EQ(count(makeScene(in, {.wall = WallKind::Implicit}), "BlobPose"), 0U);
+}
+
 TEST(Scene, NamesThePluginsOfItsComponents) {
   const SceneItem mesh = makeScene(input(InstrumentKind::Guidewire), {});
   const SceneItem implicit =

@@ -46,6 +46,7 @@ SceneInput makeSceneInput(const ExportInput& asked, const SofaOptions& options) 
       kCurlShare * input.insertion.radius);
   if (options.instrument == InstrumentKind::Coil)
     input.insertion.pathLength = input.instruments.front().length();
+  if (options.wall == WallKind::Soft) input.frames = framesAlong(tree, input.insertion.path);
   // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil,
   // whose beams are short and soft, is pressed through with shorter ones (tests/sofa/results.md)
   constexpr double kBeamsOnGrid = 2;
@@ -56,7 +57,7 @@ SceneInput makeSceneInput(const ExportInput& asked, const SofaOptions& options) 
 }
 
 std::string pluginsOf(WallKind wall) {
-  if (wall == WallKind::Implicit)
+  if (isOfCase(wall))
     return ", and LumenSofa, which the folder converters/export/sofa_plugin of lumen's source "
            "builds (README.md there)";
   return wall == WallKind::Grid ? ", SofaDistanceGrid and SofaImplicitField" : "";
@@ -67,7 +68,7 @@ std::string startText(const SceneInput& input, const SofaOptions& options) {
   for (const std::string& line : aboutScene(input, options)) about += markdownText(line) + "\n";
   return exportText("sofa/README.md",
                     {{"about", about},
-                     {"plugin", options.wall == WallKind::Implicit ? " -l libLumenSofa.so" : ""},
+                     {"plugin", isOfCase(options.wall) ? " -l libLumenSofa.so" : ""},
                      {"steps", std::to_string(stepCount(input, options))},
                      {"plugins", pluginsOf(options.wall)},
                      {"release", options.dialect == SofaDialect::V23_06 ? "v23.06" : "v25.06"}});

@@ -117,7 +117,7 @@ void addInstruments(SceneItem& root, const SceneInput& input, const SofaOptions&
       .set("controlledInstrument", static_cast<int>(input.instruments.size()) - 1);
   addActions(node, input, options);
   addEntry(node);
-  if (options.wall == WallKind::Implicit)
+  if (isOfCase(options.wall))
     for (const Instrument& instrument : input.instruments)
       addBlobContact(node, instrument, kAlarm + instrument.radius());
   addContactPoints(node, options.wall, greatestRadius(input) + kGridSlack);

@@ -10,6 +10,7 @@
 #include "converters/export/targets/sofa/instrument.h"
 #include "converters/export/targets/sofa/scene_tree.h"
 #include "converters/export/targets/sofa/sofa_options.h"
+#include "converters/export/targets/sofa/vessel_tube.h"
 #include "converters/geometry/box.h"
 
 namespace lumen::convert {
@@ -26,8 +27,9 @@ struct SceneInput {
   Insertion insertion;
   std::string branch;  ///< its label
   std::vector<Instrument> instruments;
-  Box3d box;       ///< around the vessels, mm, LPS
-  SceneGrid grid;  ///< grid of WallKind::Grid
+  Box3d box;                        ///< around the vessels, mm, LPS
+  SceneGrid grid;                   ///< grid of WallKind::Grid
+  std::vector<VesselFrame> frames;  ///< frames of WallKind::Soft
 };
 
 /// Distance from the wall, mm, that the insertion of instruments of such a radius needs.

@@ -75,7 +75,7 @@ void addLoop(SceneItem& root, WallKind wall, double radius, double alarm) {
       .set("tolerance", 1e-6)
       .set("maxIt", 1000)
       .set("build_lcp", 0);
-  if (wall == WallKind::Implicit) return;
+  if (isOfCase(wall)) return;
   root.add("CollisionPipeline").set("name", "pipeline");
   root.add("BruteForceBroadPhase").set("name", "broad");
   root.add("BVHNarrowPhase").set("name", "narrow");
@@ -117,12 +117,13 @@ void addView(SceneItem& root, const Box3d& box) {
 
 void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
   SceneItem& vessel = root.addNode("vessel", "The wall");
-  if (wall == WallKind::Implicit)
+  if (isOfCase(wall))
     vessel.add("BlobField", "The models of the case: negative in the wall, positive in the lumen")
         .set("name", "wall")
         .setFile("filename", "case.lumen")
         .set("domain", "local")
         .set("branch", input.branch);
+  if (wall == WallKind::Soft) addTube(vessel, input.frames);
   vessel
       .add("MeshOBJLoader", wall == WallKind::Mesh ? "The surface in mm; its normals point out of "
                                                      "the lumen, and are turned to where the "
