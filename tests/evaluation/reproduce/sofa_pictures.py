@@ -2,7 +2,9 @@
 """Pictures of instruments in a vessel from recorded frames, beside the points of its surface, in two projections."""
 import numpy as np
 
-COLOURS = {"implicit": "#0072b2", "mesh 100k": "#d55e00", "mesh 24k": "#e69f00"}
+COLOURS = {"implicit": "#0072b2", "mesh 100k": "#d55e00", "mesh 24k": "#e69f00",
+           "soft": "#009e73", "mesh": "#d55e00", "soft-stiff": "#cc79a7", "implicit-stiff": "#56b4e9",
+           "vessel at rest": "#999999", "vessel": "#000000", "vessel, stiff wire": "#f0e442"}
 NEAR = 12  # mm: how much of the vessel is drawn around the instrument
 
 

@@ -29,6 +29,20 @@ class Instrument:
 
 
 @dataclass
+class SoftVessel:
+    """A tube of frames in elastic tissue. Sources of the values: docs/sofa.md."""
+    nodes: list             # of the case's tree, one for each frame
+    centres: np.ndarray     # mm
+    radii: np.ndarray       # mm, of the lumen
+    record: str = "vessel"
+    wall_young: float = 800.0   # kPa
+    wall_share: float = 0.25    # thickness of the wall over the radius
+    tissue: float = 10.0        # kPa: mN / mm for each mm of vessel
+    damping: float = 0.05       # s
+    density: float = 1.06e-6    # kg / mm^3
+
+
+@dataclass
 class Scene:
     instrument: Instrument
     start: np.ndarray      # mm: where it comes out
@@ -47,6 +61,7 @@ class Scene:
     record: str = "instrument"
     iterations: int = 1000
     initial: float = 1.0   # mm that are out at the beginning
+    soft: SoftVessel = None  # the vessel gives way
 
 
 PLUGINS = """BeamAdapter Sofa.Component.AnimationLoop Sofa.Component.Constraint.Lagrangian.Correction
@@ -81,13 +96,45 @@ def sections_text(instrument):
     return "\n".join(lines), " ".join(names)
 
 
+def numbers(values):
+    return " ".join(f"{v:.6g}" for v in values)
+
+
+def tube_text(vessel, dt):
+    """The components that make frames of a vessel a tube in tissue; they stand for half of the edges at each."""
+    c = np.asarray(vessel.centres)
+    along = np.gradient(c, axis=0)
+    place = [(*p, *quaternion(d)) for p, d in zip(c, along)]
+    edge = np.linalg.norm(np.diff(c, axis=0), axis=1)
+    half = 0.5 * (np.append(edge, 0) + np.insert(edge, 0, 0))
+    hold = vessel.tissue * half
+    radius = 0.5 * (vessel.radii[1:] + vessel.radii[:-1])
+    # lists of one value each, or all but the radii would be taken from the first
+    every = np.ones(len(edge))
+    edges = " ".join(f"{i} {i + 1}" for i in range(len(c) - 1))
+    return f"""    <EulerImplicitSolver rayleighStiffness="{vessel.damping}" rayleighMass="0"/>
+    <BTDLinearSolver/>
+    <MeshTopology name="lines" position="{numbers(c.ravel())}" edges="{edges}"/>
+    <MechanicalObject name="frames" template="Rigid3d" position="{numbers(np.ravel(place))}"/>
+    <BeamInterpolation name="interpolation" crossSectionShape="circular" straight="0"
+        radius="{numbers(radius * (1 + vessel.wall_share))}" innerRadius="{numbers(radius)}"
+        lengthY="{numbers(every)}" lengthZ="{numbers(every)}"
+        defaultYoungModulus="{numbers(every * vessel.wall_young)}" defaultPoissonRatio="{numbers(every * 0.49)}"/>
+    <AdaptiveBeamForceFieldAndMass interpolation="@interpolation" massDensity="{vessel.density}" computeMass="1"/>
+    <RestShapeSpringsForceField name="tissue" stiffness="{numbers(hold)}" angularStiffness="{numbers(hold * vessel.radii ** 2)}"/>
+    <LinearSolverConstraintCorrection wire_optimization="1"/>
+    <BlobPose name="pose" field="@wall" nodes="{' '.join(str(n) for n in vessel.nodes)}"/>
+    <WriteState filename="{vessel.record}" writeX="1" time="0" period="{dt}"/>
+"""
+
+
 def wall_text(scene):
     """The vessel's node."""
     if scene.case:
         branch = f' branch="{scene.branch}"' if scene.branch else ""
         return f"""  <Node name="vessel">
     <BlobField name="wall" filename="{scene.case}" domain="{scene.domain}"{branch}/>
-  </Node>"""
+{tube_text(scene.soft, scene.dt) if scene.soft else ""}  </Node>"""
     return f"""  <Node name="vessel">
     <MeshOBJLoader name="loader" filename="{scene.mesh}" flipNormals="1"/>
     <MeshTopology src="@loader"/>
@@ -129,6 +176,8 @@ def pipeline_text(scene):
 
 def scene_text(scene):
     plugins = PLUGINS + (["LumenSofa"] if scene.case else OF_MESH)
+    if scene.soft:
+        plugins = plugins + ["Sofa.Component.Topology.Container.Constant"]
     required = "\n".join(f'  <RequiredPlugin name="{p}"/>' for p in plugins)
     sections, names = sections_text(scene.instrument)
     nodes = sum(s.beams for s in scene.instrument.sections) + 1

@@ -160,6 +160,30 @@ void BlobPose::findCarriers() {
     carrier.frame[1] = below[i];
     carrier.share = up[i] / (up[i] + down[i]);
   }
+  m_seenFrames = m_restFrames;
+  m_moving.assign(m_restFrames.size(), 0);
+  m_levers.assign(m_restFrames.size(), 0);
+  for (std::size_t i = 0; i < count; ++i)
+    for (const int frame : m_carriers[i].frame) {
+      if (frame == kNone) continue;
+      const auto k = static_cast<std::size_t>(frame);
+      const double radius = blob_model_node(model, static_cast<std::uint32_t>(i)).radius;
+      m_levers[k] =
+          std::max(m_levers[k], radius + (m_rest[i] - m_restFrames[k].getCenter()).norm());
+    }
+}
+
+// A frame that has moved too little to take any of its nodes out of the tolerance is passed over,
+// with all of them.
+void BlobPose::findMovingFrames(const Rigid3::VecCoord& x) {
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const Coord &now = x[k], &seen = m_seenFrames[k];
+    const Quat<double> turn = now.getOrientation() * seen.getOrientation().inverse();
+    const double sine = std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]);
+    const double most = (now.getCenter() - seen.getCenter()).norm() + 2 * sine * m_levers[k];
+    m_moving[k] = most < 0.5 * d_tolerance.getValue() ? 0 : 1;
+    if (m_moving[k] != 0) m_seenFrames[k] = now;
+  }
 }
 
 blob_transform BlobPose::transformOf(std::uint32_t node, const Rigid3::VecCoord& x) const {
@@ -181,8 +205,12 @@ void BlobPose::update() {
   m_changed.clear();
   m_buffer.clear();
   const double tolerance = d_tolerance.getValue();
+  findMovingFrames(x);
+  const auto isMoving = [this](int frame) {
+    return frame != kNone && m_moving[static_cast<std::size_t>(frame)] != 0;
+  };
   for (std::uint32_t i = 0; i < m_carriers.size(); ++i) {
-    if (m_carriers[i].frame[0] == kNone) continue;
+    if (!isMoving(m_carriers[i].frame[0]) && !isMoving(m_carriers[i].frame[1])) continue;
     const blob_transform now = transformOf(i, x);
     const double radius = blob_model_node(l_field->model(), i).radius;
     if (isNear(now, m_set[i], radius, tolerance)) continue;

@@ -75,6 +75,7 @@ private:
 
   bool hasValidNodes();
   void findCarriers();
+  void findMovingFrames(const Rigid3::VecCoord& x);
   [[nodiscard]] blob_transform transformOf(std::uint32_t node, const Rigid3::VecCoord& x) const;
 
   std::unique_ptr<blob_pose, ClosePose> m_pose;
@@ -82,6 +83,9 @@ private:
   std::vector<Vec3> m_rest;           ///< mm: its centre at rest
   std::vector<blob_transform> m_set;  ///< as the pose has them
   Rigid3::VecCoord m_restFrames;
+  Rigid3::VecCoord m_seenFrames;         ///< as they were when their nodes were looked at
+  std::vector<double> m_levers;          ///< mm: how far the nodes of each frame are from it
+  std::vector<char> m_moving;            ///< frames whose nodes may have moved by the tolerance
   std::vector<std::uint32_t> m_changed;  ///< nodes of the last step
   std::vector<blob_transform> m_buffer;
 };
