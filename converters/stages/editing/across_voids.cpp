@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr double kVoidRadii = 3;     // of both ends together: no longer gap is bridged unseen
 constexpr double kVoidAhead = 0.85;  // of an end and the line to the other
 constexpr double kVoidFacing = 0.8;  // of both ends: a vessel may bend within the gap
-constexpr double kVoidRatio = 1.25;  // of the radii on both sides
+constexpr double kVoidRatio = 1.25;  // of the radii on both sides, and of those on one
 constexpr double kLongRadii = 8;     // a tree that is shorter than that has no sure direction
 
 struct FreeEnd {
@@ -37,7 +37,8 @@ std::vector<FreeEnd> freeEnds(const NodeGraph& graph) {
   for (const std::vector<std::uint32_t>& nodes : graph.endsOfTrees()) {
     const double length = nodes.empty() ? 0 : graph.treeLength(nodes.front());
     for (const std::uint32_t node : nodes)
-      if (const auto arm = graph.armFrom(node))
+      // radii that differ as much on one side as they may across show no vessel that goes on
+      if (const auto arm = graph.armFrom(node); arm && arm->radiusRatio <= kVoidRatio)
         ends.push_back(
             {node, tree, graph.position(node), graph.outwardAt(node), arm->radius, length});
     ++tree;

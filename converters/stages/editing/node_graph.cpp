@@ -15,6 +15,7 @@ using formats::BranchKind;
 
 // Radii: what lies nearer to a fork is its own shape, what lies farther may have turned.
 constexpr double kArmBeginRadii = 1, kArmEndRadii = 4;
+constexpr double kMostRadii = 0.75;  // share of an arm's radii that its ratio holds for
 
 }  // namespace
 
@@ -87,7 +88,11 @@ std::optional<Arm> NodeGraph::armAlong(std::span<const std::uint32_t> nodes) con
     radii.push_back(m_draft.nodes[nodes[i]].radius);
   }
   if (!from || (to - *from).norm() < 0.5 * width) return std::nullopt;
-  return Arm{(to - *from).normalized(), double{upperMedian(radii)}};
+  const double median = double{upperMedian(radii)};
+  std::vector<double> ratios;
+  for (const float radius : radii)
+    ratios.push_back(std::max(double{radius} / median, median / double{radius}));
+  return Arm{(to - *from).normalized(), median, nearestRank(ratios, kMostRadii)};
 }
 
 std::vector<std::uint32_t> NodeGraph::follow(std::uint32_t node,
@@ -166,6 +171,17 @@ Vector3d NodeGraph::outwardAt(std::uint32_t end) const {
   return sum.normalized();
 }
 
+std::vector<NodeGraph::Width> NodeGraph::widthsAlong(std::span<const std::uint32_t> nodes) const {
+  std::vector<Width> widths;
+  const double width = radius(nodes.front());
+  double along = 0;
+  for (std::size_t i = 1; i < nodes.size() && along < kArmEndRadii * width; ++i) {
+    along += (position(nodes[i]) - position(nodes[i - 1])).norm();
+    if (along >= kArmBeginRadii * width) widths.push_back({along, radius(nodes[i])});
+  }
+  return widths;
+}
+
 std::optional<std::pair<double, double>> NodeGraph::widthsAround(std::uint32_t a,
                                                                  std::uint32_t b) const {
   const auto isAbove = [&](std::uint32_t up, std::uint32_t down) {
@@ -174,10 +190,22 @@ std::optional<std::pair<double, double>> NodeGraph::widthsAround(std::uint32_t a
   };
   const bool isAFirst = isAbove(a, b);
   if (!isAFirst && !isAbove(b, a)) return std::nullopt;
-  const auto before = armAlong(follow(isAFirst ? a : b, m_parent));
-  const auto after = armAlong(follow(isAFirst ? b : a, m_main));
-  if (!before || !after) return std::nullopt;
-  return std::pair(before->radius, after->radius);
+  std::vector<Width> before = widthsAlong(follow(isAFirst ? a : b, m_parent));
+  const std::vector<Width> after = widthsAlong(follow(isAFirst ? b : a, m_main));
+  if (before.empty() || after.empty()) return std::nullopt;
+  for (Width& width : before) width.at = -width.at;
+  std::vector<double> slopes;
+  for (const std::span<const Width> side : {std::span<const Width>(before), std::span(after)})
+    for (std::size_t i = 0; i < side.size(); ++i)
+      for (std::size_t k = i + 1; k < side.size(); ++k)
+        slopes.push_back((side[k].radius - side[i].radius) / (side[k].at - side[i].at));
+  const double slope = slopes.empty() ? 0 : upperMedian(slopes);
+  const auto here = [&](const std::vector<Width>& side) {
+    std::vector<double> radii;
+    for (const Width& width : side) radii.push_back(width.radius - slope * width.at);
+    return upperMedian(radii);
+  };
+  return std::pair(here(before), here(after));
 }
 
 void NodeGraph::detach(std::uint32_t node, std::span<const std::uint32_t> stem) {

@@ -25,6 +25,8 @@ struct Chain {
 struct Arm {
   Eigen::Vector3d direction;  ///< unit, into the vessel
   double radius = 0;          ///< median, mm
+  /// three quarters of its radii differ from the median by this ratio at most
+  double radiusRatio = 1;
 };
 
 class NodeGraph {
@@ -54,7 +56,9 @@ public:
   [[nodiscard]] double radius(std::uint32_t node) const;  ///< mm
   /// Whether more than one vessel leads on from a node.
   [[nodiscard]] bool isFork(std::uint32_t node) const { return m_beside[node].size() > 2; }
-  /// Radii of a vessel before and behind two of its nodes, mm; empty if they are not of one.
+  /// Radii of a vessel just before and behind two of its nodes, mm; empty if they are not of one.
+  /// Both are extrapolated by the usual taper of both sides (H. Theil, "A rank-invariant method of
+  /// linear and polynomial regression analysis", 1950), so that a step remains alone.
   [[nodiscard]] std::optional<std::pair<double, double>> widthsAround(std::uint32_t a,
                                                                       std::uint32_t b) const;
 
@@ -72,6 +76,11 @@ public:
   void turnDirections();
 
 private:
+  struct Width {
+    double at = 0, radius = 0;  ///< mm along a vessel, and there
+  };
+  /// The radii of a vessel from one to four radii behind the first of its nodes.
+  [[nodiscard]] std::vector<Width> widthsAlong(std::span<const std::uint32_t> nodes) const;
   void connect(std::uint32_t a, std::uint32_t b);
   /// The nodes of the tree that a node belongs to, from it on.
   [[nodiscard]] std::vector<std::uint32_t> treeOf(std::uint32_t node) const;

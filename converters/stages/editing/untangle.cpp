@@ -77,7 +77,7 @@ private:
       const std::vector<std::uint32_t> back(nodes.rbegin(), nodes.rend());
       add(back, c, kNoNode, {});
       if (chains[c].parent == kNoNode) continue;
-      const std::size_t stem = countStem(chains[c]);
+      const std::size_t stem = skipBridge(nodes, countStem(chains[c]));
       add(std::span(nodes).subspan(stem), c, chains[c].parent,
           {nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(stem)});
     }
@@ -100,6 +100,18 @@ private:
     for (std::size_t k = 0; k < chain.nodes.size() && touches(chain.nodes[k]); ++k)
       if (m_graph.isFork(chain.nodes[k])) stem = k;
     return stem;
+  }
+
+  /// The first node from `first` on that was measured: the bridge from a parent's axis shows no
+  /// direction. A node that another vessel leaves ends it.
+  [[nodiscard]] std::size_t skipBridge(std::span<const std::uint32_t> nodes,
+                                       std::size_t first) const {
+    const auto isBridge = [&](std::uint32_t node) {
+      return m_draft.nodes[node].origin == formats::NodeOrigin::Bridged && !m_graph.isFork(node);
+    };
+    std::size_t at = first;
+    while (at < nodes.size() && isBridge(nodes[at])) ++at;
+    return at < nodes.size() ? at : first;
   }
 
   /// Cost of one vessel through two ends; empty if they are none.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "unit/formats/beads.h"
 
@@ -96,6 +97,36 @@ TEST(Untangle, AVesselThatLosesWhatItsBranchesCarryDivides) {
   EXPECT_EQ(value.tree.branches.size(), 3U);
 }
 
+/// A vessel that narrows evenly from 1.24 to 0.84, by as much from one side of the crossing to the
+/// other as it would lose to branches of radius 0.56.
+TEST(Untangle, AVesselThatNarrowsEvenlyIsCrossed) {
+  Case value = crossing(1);
+  for (std::size_t n = 0; n < 41; ++n) value.tree.radius[n] = 1.24F - 0.01F * static_cast<float>(n);
+  for (std::size_t n = 41; n < 81; ++n) value.tree.radius[n] = 0.56F;
+  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(rootsOf(value), 2U);
+}
+
+/// A vessel that another hides for 5 mm, beside which it goes on. Bridges lead to its parts from the
+/// axis of that one, across its lumen.
+TEST(Untangle, ABridgeFromAParentsAxisShowsNoDirection) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "first", alongX(-10, 0.5F, 41), 1);
+  std::vector<Vec3f> on = along({0, 0.5, 0}, {0.3, 1, 0}, 3);
+  for (const Vec3f& place : along({1, 1.7, 0}, {1, 0, 0}, 20)) on.push_back(place);
+  addBeads(value, "on", on, 0.7F, 20);
+  addBeads(value, "before", along({-10, 1.7, 0}, {1, 0, 0}, 20), 0.7F);
+  value = withoutModels(value);
+  std::vector<formats::NodeOrigin> origins(value.tree.nodeCount(), formats::NodeOrigin::Measured);
+  EXPECT_TRUE(untangle(value, kEverywhere).empty());  // the bridge looks aside
+  for (std::size_t n = 41; n < 44; ++n) origins[n] = formats::NodeOrigin::Bridged;
+  formats::setNodeOrigins(value, origins);
+  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(findFault(value), "");
+  EXPECT_EQ(value.tree.branches.size(), 2U);
+  EXPECT_EQ(rootsOf(value), 2U);
+}
+
 TEST(Untangle, NothingIsJoinedThroughTheBackground) {
   Case value = crossing(1);
   Surrounding apart = kEverywhere;
@@ -153,6 +184,14 @@ TEST(Untangle, ALongVoidStaysOpen) {
 
 TEST(Untangle, NoShortPieceIsJoinedAcrossAVoid) {
   Case value = aroundAVoid(5, 11);  // 5 mm of vessel
+  EXPECT_TRUE(untangle(value, kDark).empty());
+}
+
+TEST(Untangle, AVesselOfUnsteadyWidthIsNotJoinedAcrossAVoid) {
+  Case value = aroundAVoid(5);
+  // radii of a track in texture: their median is that of the other side
+  for (std::size_t n = 0; n < 21; ++n)
+    value.tree.radius[n] = n % 3 == 0 ? 1.0F : n % 3 == 1 ? 0.6F : 1.6F;
   EXPECT_TRUE(untangle(value, kDark).empty());
 }
 
