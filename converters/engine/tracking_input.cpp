@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
@@ -153,7 +154,10 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   candidates = found.courses.size();
   if (found.courses.empty()) return {};
   convert::TrackResult result =
-      convert::trackAlongCourses(volume, found.courses, placesOfBone(found), options, progress);
+      convert::trackAlongCourses(volume, found.courses, placesOfBone(found), options, progress,
+                                 [&](std::span<const convert::WorldBall> vessels) {
+                                   return convert::coursesBeside(found, vessels, progress);
+                                 });
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
   const convert::Surrounding around{

@@ -50,6 +50,18 @@ public:
     });
   }
 
+  /// Calls visit(j) for each voxel of the set within `mm` of a point, mm, LPS.
+  template <class Visit>
+  void eachIn(const Eigen::Vector3d& centre, double mm, Visit&& visit) const {
+    const Cell at = m_geometry.indexFromWorld(centre).array().round().cast<int>().matrix();
+    const Eigen::Array3d most = m_geometry.cells().size.cast<double>();
+    const Cell reach =
+        ((mm / m_geometry.spacing.array()).ceil() + 1).min(most).cast<int>().matrix();
+    eachInBox(at, reach, [&](std::uint32_t j, const Eigen::Vector3d&) {
+      if ((position(j) - centre).squaredNorm() <= mm * mm) visit(j);
+    });
+  }
+
 private:
   template <class Visit>
   void eachInBox(const Cell& at, const Cell& reach, Visit&& visit) const {

@@ -27,6 +27,7 @@ constexpr double kLeastOfParent = 1;    // of the parent's depth: less is a bump
 constexpr int kMostPasses = 10;         // of which each takes bone away
 constexpr int kSmoothing = 6;           // passes of (1, 2, 1)/4 over a course
 constexpr double kSacStep = 0.5;        // radii from one point of an aneurysm to the next
+constexpr double kRimVoxels = 1;        // of a vessel: half for its wall, half for its section
 
 /// From voxels of the lumen to courses.
 class CourseFinder {
@@ -37,18 +38,24 @@ public:
         m_paths(set, m_depths, m_isOpen, progress, kLeastOfParent),
         m_progress(progress) {}
 
-  /// The voxels that are no vessels' (boneVoxels()). Call it first.
-  std::vector<bool> findPaths(std::span<const std::size_t> bone,
-                              const std::function<float(std::size_t)>& brightness) {
+  /// Call it first.
+  void findPaths() {
     std::vector<bool> isSeen(m_set.size(), false);
-    std::vector<VesselPath> all;
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
       const std::vector<std::uint32_t> part = connectedPart(i, isSeen);
       if (part.size() < kLeastPart) continue;
       m_trees.push_back(m_paths.find(m_paths.widestTip(i, m_progress), m_progress));
-      all.insert(all.end(), m_trees.back().begin(), m_trees.back().end());
     }
+  }
+
+  /// The voxels that are no vessels' (boneVoxels()).
+  [[nodiscard]] std::vector<bool> isBone(
+      std::span<const std::size_t> bone,
+      const std::function<float(std::size_t)>& brightness) const {
+    std::vector<VesselPath> all;
+    for (const std::vector<VesselPath>& tree : m_trees)
+      all.insert(all.end(), tree.begin(), tree.end());
     return boneVoxels({m_set, m_depths, all, brightness}, bone, m_progress);
   }
 
@@ -141,6 +148,28 @@ private:
   std::vector<SeedBranch> m_out;
 };
 
+/// Moves courses from the frame of the grid to LPS.
+void toWorld(const VolumeGeometry& grid, const VolumeGeometry& world,
+             std::vector<SeedBranch>& courses) {
+  for (SeedBranch& course : courses)
+    for (SeedPoint& point : course.points) point.position = inFrame(grid, world, point.position);
+}
+
+/// The voxels whose centres lie in no ball.
+std::vector<std::size_t> outside(const VolumeGeometry& grid, const std::vector<std::size_t>& voxels,
+                                 std::span<const WorldBall> balls, const Progress& progress) {
+  std::vector<bool> isIn(voxels.size(), false);
+  const VoxelSet set(grid, voxels);
+  for (const WorldBall& ball : balls) {
+    progress.check();
+    set.eachIn(ball.centre, ball.radius, [&](std::uint32_t i) { isIn[i] = true; });
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    if (!isIn[i]) out.push_back(voxels[i]);
+  return out;
+}
+
 }  // namespace
 
 bool FoundVessels::isIn(const std::vector<std::size_t>& voxels, const Vector3d& point) const {
@@ -167,7 +196,8 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   for (int pass = 0;; ++pass) {
     const VoxelSet set(grid, std::move(found.lumen));
     CourseFinder finder(set, progress);
-    const std::vector<bool> isBone = finder.findPaths(found.bone, brightness);
+    finder.findPaths();
+    const std::vector<bool> isBone = finder.isBone(found.bone, brightness);
     found.lumen.clear();
     for (std::uint32_t i = 0; i < set.size(); ++i)
       (!isBone.empty() && isBone[i] ? found.bone : found.lumen).push_back(set.index(i));
@@ -176,14 +206,25 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
     found.courses = finder.courses();
     break;
   }
-  for (SeedBranch& course : found.courses)
-    for (SeedPoint& point : course.points)
-      point.position = inFrame(grid, volume.geometry, point.position);
+  toWorld(grid, volume.geometry, found.courses);
   if (!found.bone.empty())
     progress.detail("bone, or other bright tissue without background around it: " +
                     std::to_string(found.bone.size()) + " voxels");
   progress.end();
   return found;
+}
+
+std::vector<SeedBranch> coursesBeside(const FoundVessels& found, std::span<const WorldBall> vessels,
+                                      Progress& progress) {
+  const VolumeGeometry grid = gridGeometry(found.geometry);
+  std::vector<WorldBall> balls(vessels.begin(), vessels.end());
+  for (WorldBall& ball : balls) ball.radius += kRimVoxels * grid.voxelSize();
+  const VoxelSet set(grid, outside(grid, found.lumen, balls, progress));
+  CourseFinder finder(set, progress);
+  finder.findPaths();
+  std::vector<SeedBranch> courses = finder.courses();
+  toWorld(grid, found.geometry, courses);
+  return courses;
 }
 
 }  // namespace lumen::convert

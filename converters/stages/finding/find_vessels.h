@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/voxels/cube_search.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -35,5 +37,12 @@ private:
 /// coarse as the voxels; the tracker measures them. `dark`: vessels are darker than their
 /// background. Throws Error(Cancelled).
 FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress);
+
+/// The courses through the lumen that vessels leave over, as those of findVessels(): of two vessels
+/// that touch, the courses of a whole lumen may follow one alone. `vessels`: balls along them in the
+/// frame of gridGeometry(). A voxel counts as theirs up to a voxel beyond a ball. Throws
+/// Error(Cancelled).
+std::vector<SeedBranch> coursesBeside(const FoundVessels& found, std::span<const WorldBall> vessels,
+                                      Progress& progress);
 
 }  // namespace lumen::convert

@@ -26,21 +26,25 @@ struct BranchLumen {
   explicit BranchLumen(const TrackedBranch& branch) : nodes(branch.nodes) {
     for (const TrackedNode& node : nodes) box.add(node.centre, node.radius);
   }
-  /// The radius of the vessel around a point (mm, LPS) in its lumen; 0 outside.
-  [[nodiscard]] double radiusAround(const Eigen::Vector3d& point) const {
-    if (!box.contains(point)) return 0;
+  /// The radius of the vessel around a point (mm, LPS) in its lumen or within `rim` mm of it; 0
+  /// farther outside.
+  [[nodiscard]] double radiusAround(const Eigen::Vector3d& point, double rim = 0) const {
+    if ((box.gap(point).array() > rim).any()) return 0;
     const ChainPoint at = closestOnChain(nodes, point);
-    return at.distance < at.radius ? at.radius : 0;
+    return at.distance < at.radius + rim ? at.radius : 0;
   }
 
   std::span<const TrackedNode> nodes;
   Box3d box;
 };
 
-/// The greatest radius of the vessels in whose lumen a point lies; 0 if there is none.
-inline double radiusAround(std::span<const BranchLumen> vessels, const Eigen::Vector3d& point) {
+/// The greatest radius of the vessels in whose lumen, or within `rim` mm of it, a point lies; 0 if
+/// there is none.
+inline double radiusAround(std::span<const BranchLumen> vessels, const Eigen::Vector3d& point,
+                           double rim = 0) {
   double radius = 0;
-  for (const BranchLumen& vessel : vessels) radius = std::max(radius, vessel.radiusAround(point));
+  for (const BranchLumen& vessel : vessels)
+    radius = std::max(radius, vessel.radiusAround(point, rim));
   return radius;
 }
 

@@ -24,13 +24,12 @@ namespace {
 using Eigen::Vector3d;
 using formats::StopReason;
 
-constexpr double kThinnestVoxels = 1;     // voxels: what is thinner is blurred to that
-constexpr double kLeastFitted = 1.0 / 3;  // share of the nodes of a vessel that are cylinders
-constexpr double kShortestVoxels = 4;     // length of a vessel beyond the wall that it leaves
+constexpr double kThinnestVoxels = 1;  // voxels: what is thinner is blurred to that
+constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall that it leaves
 
-/// Leaves the longest stretch that begins and ends with a cylinder and has the least share of them; the first of
-/// several. A course that follows a vessel and then something else is a vessel as far as cylinders bear it out.
-void keepSupported(std::vector<TrackedNode>& nodes) {
+/// Leaves the longest stretch that begins and ends with a cylinder and has the least share of them, `leastFitted`; the
+/// first of several. A course that follows a vessel and then something else is a vessel as far as cylinders bear it out.
+void keepSupported(std::vector<TrackedNode>& nodes, double leastFitted) {
   struct Stretch {
     std::size_t first = 0, end = 0;
   } best;
@@ -41,7 +40,7 @@ void keepSupported(std::vector<TrackedNode>& nodes) {
       if (!isFitted(nodes[i])) continue;
       ++fitted;
       const std::size_t length = i + 1 - first;
-      if (static_cast<double>(fitted) < kLeastFitted * static_cast<double>(length)) continue;
+      if (static_cast<double>(fitted) < leastFitted * static_cast<double>(length)) continue;
       if (length > best.end - best.first) best = {first, i + 1};
     }
   }
@@ -57,11 +56,12 @@ struct OutsideStretch {
 };
 
 OutsideStretch findOutside(std::span<const BranchLumen> before,
-                           const std::vector<TrackedNode>& nodes) {
+                           const std::vector<TrackedNode>& nodes, double apart) {
   OutsideStretch best, here;
   double widest = 0;
   for (std::size_t i = 0; i <= nodes.size(); ++i) {
-    const double around = i < nodes.size() ? radiusAround(before, nodes[i].centre) : 0;
+    const double around =
+        i < nodes.size() ? radiusAround(before, nodes[i].centre, apart * nodes[i].radius) : 0;
     widest = std::max(widest, around);
     if (i < nodes.size() && around == 0) continue;
     here.end = i;
@@ -75,9 +75,10 @@ OutsideStretch findOutside(std::span<const BranchLumen> before,
 
 /// Leaves the stretch of a vessel outside of those that it hangs on. A stretch that is shorter than
 /// these are wide, or than it is wide itself, is a bump of their wall.
-void dropInside(std::span<const BranchLumen> before, double voxel, TrackedBranch& branch) {
+void dropInside(std::span<const BranchLumen> before, double voxel, double apart,
+                TrackedBranch& branch) {
   if (branch.nodes.empty() || before.empty()) return;
-  const OutsideStretch out = findOutside(before, branch.nodes);
+  const OutsideStretch out = findOutside(before, branch.nodes, apart);
   std::vector<double> radii;
   for (std::size_t i = out.first; i < out.end; ++i) radii.push_back(branch.nodes[i].radius);
   const double own = radii.empty() ? 0 : upperMedian(radii);
@@ -106,7 +107,7 @@ TrackedBranch follow(TrackRun& run, const SeedBranch& seed) {
   TrackedBranch branch;
   branch.nodes = nodesAlong(run, line, radii);
   const std::size_t places = branch.nodes.size();
-  keepSupported(branch.nodes);
+  keepSupported(branch.nodes, run.context.rules.leastFitted);
   const auto fitted =
       static_cast<std::size_t>(std::count_if(branch.nodes.begin(), branch.nodes.end(), isFitted));
   if (fitted < kFewestFitted) {
@@ -201,7 +202,8 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
     for (int p = parent[i]; p >= static_cast<int>(tree.known);
          p = parent[static_cast<std::size_t>(p)])
       before.emplace_back(tree.branches[static_cast<std::size_t>(p)]);
-    dropInside(before, context.volume.geometry().voxelSize(), tree.branches[i]);
+    dropInside(before, context.volume.geometry().voxelSize(), context.rules.apart,
+               tree.branches[i]);
   }
   if (context.isNoVessel) addParts(takeWithoutEdges(context, tree), tree, parent);
   count = tree.seeds.size();
@@ -254,7 +256,7 @@ std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const 
   return out;
 }
 
-void dropUnsupported(TrackedTree& tree) {
+void dropUnsupported(const TrackContext& context, TrackedTree& tree) {
   std::vector<int> children(tree.branches.size(), 0);
   for (const TrackedBranch& branch : tree.branches)
     if (branch.parentBranch >= 0 && !branch.nodes.empty())
@@ -264,8 +266,8 @@ void dropUnsupported(TrackedTree& tree) {
     TrackedBranch& branch = tree.branches[i];
     if (!tree.isVessel(i) || branch.nodes.empty() || children[i] > 0) continue;
     const auto fitted = std::count_if(branch.nodes.begin(), branch.nodes.end(), isFitted);
-    if (static_cast<double>(fitted) >= kLeastFitted * static_cast<double>(branch.nodes.size()))
-      continue;
+    const auto count = static_cast<double>(branch.nodes.size());
+    if (static_cast<double>(fitted) >= context.rules.leastFitted * count) continue;
     branch.failure = "most of it is a bridge through places where no cylinder fits";
     branch.nodes.clear();
     if (branch.parentBranch >= 0) --children[static_cast<std::size_t>(branch.parentBranch)];

@@ -20,7 +20,8 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
 /// its parent, of which a stretch is left, keeps it; all others have none.
 std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const TrackedTree& tree);
 
-/// Drops the vessels without children most of whose nodes are bridges, once all are joined.
-void dropUnsupported(TrackedTree& tree);
+/// Drops the vessels without children that have too few cylinders for the context's rules, once all
+/// are joined.
+void dropUnsupported(const TrackContext& context, TrackedTree& tree);
 
 }  // namespace lumen::convert

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
 #include "converters/stages/tracking/node_fit.h"
 
@@ -96,6 +97,23 @@ TrackedNode bridgedNode(const Station& station) {
   return node;
 }
 
+/// True if no half of the section through a node is without wall: a vessel's wall lies around its
+/// axis, that of a bump on another vessel on one side.
+bool isSurrounded(const TrackedNode& node) {
+  const Vector3d u = node.direction.unitOrthogonal(), v = node.direction.cross(u);
+  std::vector<double> angles;
+  for (const formats::Vec3f& point : node.points) {
+    const Vector3d out = toEigen(point) - node.centre;
+    angles.push_back(std::atan2(out.dot(v), out.dot(u)));
+  }
+  if (angles.empty()) return false;
+  std::sort(angles.begin(), angles.end());
+  double last = angles.back() - 2 * std::numbers::pi;
+  for (const double angle : angles)
+    if (angle - std::exchange(last, angle) >= std::numbers::pi) return false;
+  return true;
+}
+
 /// The node that fits at a station, of about its radius and course; empty if there is none.
 std::optional<TrackedNode> nodeAt(TrackRun& run, const Station& station, double narrow,
                                   double wide) {
@@ -106,7 +124,8 @@ std::optional<TrackedNode> nodeAt(TrackRun& run, const Station& station, double 
   const Vector3d aside = node->centre - station.position;
   if (aside.norm() > kAsideRadii * station.radius || node->radius < narrow * station.radius ||
       node->radius > wide * station.radius ||
-      node->direction.dot(station.direction) < std::numbers::sqrt2 / 2)
+      node->direction.dot(station.direction) < std::numbers::sqrt2 / 2 ||
+      (run.context.rules.isSurrounded && !isSurrounded(*node)))
     node.reset();
   return node;
 }

@@ -2,17 +2,21 @@
 #include "converters/stages/tracking/track_case.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/base/vectors.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/tracking/corrections.h"
 #include "converters/stages/tracking/follow_courses.h"
 #include "converters/stages/tracking/grid_frame.h"
+#include "converters/stages/tracking/path_rules.h"
 #include "converters/stages/tracking/sac_walls.h"
 #include "converters/stages/tracking/track_by_depth.h"
 #include "converters/stages/tracking/tree_joins.h"
@@ -49,22 +53,31 @@ void correctAdded(TrackedBranch& branch, const TrackedBranch& before, BranchKind
 /// The first nodes of all branches: trackByDepth() or followCourses().
 using TrackBranches = void (*)(const TrackContext&, TrackedTree&, Progress&);
 
+/// Conditions under which a tree is tracked.
+struct TrackPlan {
+  TrackBranches trackBranches;
+  PlaceTest isNoVessel;
+  std::optional<WallShape> shape;  ///< by which walls are corrected; measured if empty
+  CourseRules rules = {};
+};
+
 /// Tracks the seeds of a tree that are not known, and joins and corrects their branches. Known
 /// branches get wall points only, where new aneurysms open into them. Returns the shape by which
 /// walls were corrected. Throws Error(Cancelled).
-WallShape trackTree(const TrackingVolume& volume, TrackBranches trackBranches,
-                    const PlaceTest& isNoVessel, TrackedTree& tree, Progress& progress) {
-  const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
-                             isNoVessel);
+WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, TrackedTree& tree,
+                    Progress& progress) {
+  TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
+                       plan.isNoVessel);
+  context.rules = plan.rules;
   progress.begin("track", tree.seeds.size() - tree.known);
-  trackBranches(context, tree, progress);
-  const bool isFound = trackBranches == followCourses;
+  plan.trackBranches(context, tree, progress);
+  const bool isFound = plan.trackBranches == followCourses;
   isFound ? trimTips(context, tree) : extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
-  if (isFound) dropUnsupported(tree);
+  if (isFound) dropUnsupported(context, tree);
   progress.end();
-  const WallShape shape = volume.wallShape() ? *volume.wallShape() : measureWallShape(volume, tree);
+  const WallShape shape = plan.shape ? *plan.shape : measureWallShape(volume, tree);
   const std::vector<TrackedBranch> before(
       tree.branches.begin(), tree.branches.begin() + static_cast<std::ptrdiff_t>(tree.known));
   captureSacs(context, tree);
@@ -160,9 +173,76 @@ void dropOtherArrays(AddedTracks& out) {
 
 namespace {
 
+/// Vessels beside others need more, as no skeleton of a whole lumen bears them out.
+constexpr CourseRules kRulesBeside{0.5, true, 0.5};
+
+/// Adds balls from one place to another, a step of a quarter of the lesser radius apart, so that
+/// what lies between two of them is within their rim. `from` itself is left out unless it is `to`.
+void addBalls(const WorldBall& from, const WorldBall& to, std::vector<WorldBall>& balls) {
+  constexpr double kStepRadii = 0.25;
+  const Eigen::Vector3d way = to.centre - from.centre;
+  const double count = 1 + std::floor(way.norm() / (kStepRadii * std::min(from.radius, to.radius)));
+  for (double k = 1; k <= count; ++k)
+    balls.push_back(
+        {from.centre + k / count * way, from.radius + k / count * (to.radius - from.radius)});
+}
+
+/// Balls that hold the lumen of a tree: along its vessels, from the parent of each on and to the
+/// faces of the volume, and in its sacs, which are not round, from the nodes to their wall.
+std::vector<WorldBall> ballsIn(const TrackedTree& tree, const VolumeGeometry& geometry) {
+  const double voxel = geometry.voxelSize();
+  std::vector<WorldBall> balls;
+  const auto ballOf = [](const TrackedNode& node) { return WorldBall{node.centre, node.radius}; };
+  const auto addBeyond = [&](const TrackedNode& end, double sign) {
+    const Eigen::Vector3d on = end.centre + sign * kAtFaceRadii * end.radius * end.direction;
+    if (!geometry.containsWorld(on)) addBalls(ballOf(end), {on, end.radius}, balls);
+  };
+  for (std::size_t i = 0; i < tree.branches.size(); ++i) {
+    const TrackedBranch& branch = tree.branches[i];
+    const TrackedNode* last = nullptr;
+    if (branch.parentBranch >= 0 && branch.parentNode >= 0)
+      last = &tree.branches[static_cast<std::size_t>(branch.parentBranch)]
+                  .nodes[static_cast<std::size_t>(branch.parentNode)];
+    for (const TrackedNode& node : branch.nodes) {
+      addBalls(ballOf(last ? *last : node), ballOf(node), balls);
+      last = &node;
+      if (tree.isVessel(i)) continue;
+      for (const formats::Vec3f& point : node.points)
+        addBalls({node.centre, voxel}, {toEigen(point), voxel}, balls);
+    }
+    if (branch.nodes.empty() || !tree.isVessel(i)) continue;
+    addBeyond(branch.nodes.back(), 1);
+    if (branch.parentBranch < 0) addBeyond(branch.nodes.front(), -1);
+  }
+  return balls;
+}
+
+/// Adds the vessels along the courses beside those of a tree to it.
+void addBeside(const TrackingVolume& volume, const GridFrame& frame, const CoursesBeside& beside,
+               const PlaceTest& isNoVessel, const WallShape& shape, TrackedTree& tree,
+               Progress& progress) {
+  std::vector<SeedBranch> courses = frame.toGrid(beside(ballsIn(tree, frame.geometry())));
+  std::erase_if(courses, [](const SeedBranch& c) { return c.kind != BranchKind::Vessel; });
+  if (courses.empty()) return;
+  std::set<std::string> labels;
+  for (SeedBranch& course : courses) {
+    labels.insert(course.label);
+    if (course.parent && !labels.contains(*course.parent)) course.parent.reset();
+  }
+  tree.known = tree.seeds.size();
+  for (SeedBranch& course : courses) {
+    for (std::string* name : {&course.label, course.parent ? &*course.parent : nullptr})
+      if (name) *name = "beside-" + *name;
+    tree.seeds.push_back(std::move(course));
+  }
+  trackTree(volume, {followCourses, isNoVessel, shape, kRulesBeside}, tree, progress);
+  tree.known = 0;
+}
+
 TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
                     const TrackOptions& options, TrackBranches trackBranches,
-                    const PlaceTest& isNoVessel, Progress& progress) {
+                    const PlaceTest& isNoVessel, Progress& progress,
+                    const CoursesBeside& beside = {}) {
   const GridFrame frame(volume.geometry);
   const TrackingVolume tracking(volume, frame, seeds, options, progress);
   TrackedTree tree{frame.toGrid(seeds)};
@@ -170,7 +250,10 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   PlaceTest inGrid;
   if (isNoVessel)
     inGrid = [&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); };
-  used.pointSpread = trackTree(tracking, trackBranches, inGrid, tree, progress).pointSpread;
+  const WallShape shape =
+      trackTree(tracking, {trackBranches, inGrid, tracking.wallShape()}, tree, progress);
+  used.pointSpread = shape.pointSpread;
+  if (beside) addBeside(tracking, frame, beside, inGrid, shape, tree, progress);
   for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
 
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
@@ -191,8 +274,8 @@ TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& 
 
 TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
                               const PlaceTest& isNoVessel, const TrackOptions& options,
-                              Progress& progress) {
-  return newCase(volume, courses, options, followCourses, isNoVessel, progress);
+                              Progress& progress, const CoursesBeside& beside) {
+  return newCase(volume, courses, options, followCourses, isNoVessel, progress, beside);
 }
 
 namespace {
@@ -206,7 +289,7 @@ AddedTracks intoCase(const TrackingVolume& volume, const formats::Case& known, T
   out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
   const std::size_t added = tree.seeds.size() - tree.known;
   if (added == 0) return out;
-  trackTree(volume, trackBranches, isNoVessel, tree, progress);
+  trackTree(volume, {trackBranches, isNoVessel, volume.wallShape()}, tree, progress);
   static_cast<TrackRemarks&>(out) = remarksOn(tree);
   if (out.failures.size() == added) return out;
   out.changed = replacePoints(tree, out.result);

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "converters/stages/tracking/track_run.h"
 #include "converters/stages/tracking/tracked_tree.h"
 #include "converters/stages/tracking/tracking_volume.h"
+#include "converters/voxels/cube_search.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
@@ -28,13 +31,16 @@ struct TrackResult : TrackRemarks {
 TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
                            const TrackOptions& options, Progress& progress);
 
+/// The courses beside vessels: balls along these, in the frame of gridGeometry(), hold their lumen.
+using CoursesBeside = std::function<std::vector<SeedBranch>(std::span<const WorldBall>)>;
+
 /// Fits vessels along courses: the points of each seed, with radii, lead along the whole vessel, from
 /// its parent's axis to its tip. Vessels whose walls the volume does not show are left out, as
-/// failures. No node is put where `isNoVessel`. The result does not depend on the
-/// number of threads. Throws as trackFromSeeds() does.
+/// failures. No node is put where `isNoVessel`. Then vessels are fitted along the courses of
+/// `beside`, if there is one. The result does not depend on the number of threads. Throws as trackFromSeeds() does.
 TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
                               const PlaceTest& isNoVessel, const TrackOptions& options,
-                              Progress& progress);
+                              Progress& progress, const CoursesBeside& beside = {});
 
 struct AddedTracks : TrackRemarks {
   /// The known nodes and branches, under their indices, and the new ones behind them. New nodes

@@ -23,6 +23,13 @@ namespace lumen::convert {
 /// Whether a place, mm, LPS, is known to be no vessel. An empty one knows of none.
 using PlaceTest = std::function<bool(const Eigen::Vector3d&)>;
 
+/// The evidence that a vessel along a course needs.
+struct CourseRules {
+  double leastFitted = 1.0 / 3;  ///< share of its nodes that are cylinders
+  bool isSurrounded = false;     ///< a cylinder has wall on all sides of its axis
+  double apart = 0;              ///< radii between its axis and the wall of a known vessel
+};
+
 /// Data that all tracks of one volume share. Any number of threads may read one. The referenced
 /// objects must outlive it.
 struct TrackContext {
@@ -41,6 +48,7 @@ struct TrackContext {
   double noiseFloor;  ///< see smoothing.h
   const Progress& progress;
   PlaceTest isNoVessel;
+  CourseRules rules;
   CylinderSearch search;
   std::vector<Eigen::Vector3d> rays;  ///< unit directions
 };

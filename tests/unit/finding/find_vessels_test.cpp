@@ -214,5 +214,48 @@ TEST(FindVessels, ThreadsDoNotChangeTheCourses) {
   }
 }
 
+/// Two vessels along z that touch; `from`: z at which the second begins.
+FoundVessels touching(double from) {
+  FoundVessels found;
+  found.geometry.size = {40, 40, 60};
+  found.geometry.origin = {-7, 30, 100};
+  const VolumeGeometry& geometry = found.geometry;
+  for (std::size_t i = 0; i < geometry.voxelCount(); ++i) {
+    const Vector3d p = geometry.cell(i).cast<double>();
+    if (std::min(capsule(p, {15, 20, 6}, {15, 20, 54}, 6),
+                 capsule(p, {25, 20, from}, {25, 20, 54}, 4)) < 0)
+      found.lumen.push_back(i);
+  }
+  return found;
+}
+
+std::vector<WorldBall> ballsAlong(double x, double radius) {
+  std::vector<WorldBall> balls;
+  for (int z = 6; z <= 54; ++z) balls.push_back({{x, 20, static_cast<double>(z)}, radius});
+  return balls;
+}
+
+TEST(CoursesBeside, FollowTheVesselThatTouchesAKnownOne) {
+  Progress silent;
+  const FoundVessels found = touching(6);
+  const auto courses = coursesBeside(found, ballsAlong(15, 6), silent);
+  ASSERT_EQ(courses.size(), 1U);
+  for (const double z : {10.0, 30.0, 50.0})
+    EXPECT_LT(distanceFrom(courses[0], found.geometry.worldFromIndex({25, 20, z})), 1.5) << z;
+}
+
+TEST(CoursesBeside, AreNoneWhereVesselsHoldTheLumen) {
+  Progress silent;
+  std::vector<WorldBall> balls = ballsAlong(15, 5.5);  // half a voxel of rim is a vessel's own
+  const std::vector<WorldBall> second = ballsAlong(25, 3.5);
+  balls.insert(balls.end(), second.begin(), second.end());
+  EXPECT_TRUE(coursesBeside(touching(6), balls, silent).empty());
+}
+
+TEST(CoursesBeside, AStretchOfLessThanTenVoxelsIsNone) {
+  Progress silent;
+  EXPECT_TRUE(coursesBeside(touching(53.5), ballsAlong(15, 6), silent).empty());
+}
+
 }  // namespace
 }  // namespace lumen::convert

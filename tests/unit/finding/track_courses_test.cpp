@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole trees from volumes without a click, against the truth of phantoms.
 #include <algorithm>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,59 @@ TEST(WholeTreeInBone, HasHardlyAnyOfIt) {
     EXPECT_LT(comparison.score.falseLength, 20) << name;
     EXPECT_LT(comparison.score.missed, 5) << name;
   }
+}
+
+/// A vessel of radius 1.6 along z, and one of radius 1 that comes from the side, runs along it with
+/// walls that touch for 7 mm, and goes off again.
+double kiss(const Vector3d& p) {
+  return std::min(
+      {capsule(p, {7, 8, 0.6}, {7, 8, 18.6}, 1.6), capsule(p, {15, 8, 0.6}, {9.6, 8, 6}, 1),
+       capsule(p, {9.6, 8, 6}, {9.6, 8, 13}, 1), capsule(p, {9.6, 8, 13}, {15, 8, 18.4}, 1)});
+}
+
+/// Places a millimetre apart, where that vessel touches, that are on no axis of a tree.
+int missedWhereTheyTouch(const formats::CenterlineTree& tree) {
+  int count = 0;
+  for (int z = 6; z <= 13; ++z) {
+    const Vector3d place(9.6, 8, z);
+    count += std::none_of(tree.centre.begin(), tree.centre.end(), [&](const formats::Vec3f& c) {
+      return (toEigen(c) - place).norm() < 0.6;
+    });
+  }
+  return count;
+}
+
+TEST(TrackCourses, TheLumenThatKnownVesselsLeaveIsTrackedToo) {
+  const Volume volume = drawVolume(96, 0.2, kiss);
+  Progress silent;
+  const FoundVessels found = findVessels(volume, false, silent);
+  SeedBranch host;
+  host.label = "host";
+  for (int i = 0; i <= 60; ++i) host.points.push_back({{7, 8, 0.8 + i * 0.29}, 1.6});
+  const auto tracked = [&](const CoursesBeside& beside) {
+    return trackAlongCourses(volume, {host}, {}, {}, silent, beside).result.tree;
+  };
+  EXPECT_EQ(missedWhereTheyTouch(tracked({})), 8);
+  const formats::CenterlineTree both = tracked(
+      [&](std::span<const WorldBall> vessels) { return coursesBeside(found, vessels, silent); });
+  EXPECT_EQ(missedWhereTheyTouch(both), 0);
+  EXPECT_EQ(both.branches.size(), 2U);
+  EXPECT_EQ(both.branches[0].label, "host");
+}
+
+/// The first patient has a vessel that touches a wider one for 9 mm, along which its course leads.
+TEST(WholePatient, HasTheVesselThatAnotherHides) {
+  Progress silent;
+  const Phantom made = phantom("patient");
+  const FoundVessels found = findVessels(made.volume, false, silent);
+  const formats::Case tree = trackAlongCourses(made.volume, found.courses, {}, {}, silent,
+                                               [&](std::span<const WorldBall> vessels) {
+                                                 return coursesBeside(found, vessels, silent);
+                                               })
+                                 .result;
+  const CenterlineScore score = compareCases(tree, made.truth, silent).score;
+  EXPECT_LT(score.missed, 1);
+  EXPECT_LT(score.falseLength, 3);
 }
 
 TEST(TrackCourses, ACandidateWithoutAWallIsNoVesselAndItsChildrenHangOnTheOneBefore) {
