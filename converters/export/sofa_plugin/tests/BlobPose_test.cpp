@@ -147,7 +147,7 @@ TEST_F(BlobPose, AWireMovesASoftVesselAndStaysInIt) {
   EXPECT_GT(contact->d_contacts.getValue(), 0U);
   // at rest the springs of the tissue bear the contact forces: what the solver gave the vessel
   s.instance.root->getChild("instrument")->getObject("controller")->findData("speed")->read("0");
-  s.run(200);
+  s.run(500);
   const Vec3 tissue = tissueForce(s, kTissue);
   const Vec3 wall = contact->forceOnWall();
   EXPECT_GT(wall.norm(), 1);
