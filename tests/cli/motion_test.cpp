@@ -99,7 +99,8 @@ TEST_F(MotionTest, TimeIsRefusedForACaseWithoutAMotion) {
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"convert", "still.lumen", "at.lumen"},
         {"picture", "still.lumen", "at.png"},
-        {"measure", "still.lumen"}}) {
+        {"measure", "still.lumen"},
+        {"view", "still.lumen", "--html", "at.html"}}) {
     std::vector<std::string> arguments = command;
     arguments.insert(arguments.end(), {"--time", "0.25"});
     const Outcome refused = lumen(arguments);

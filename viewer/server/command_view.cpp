@@ -2,6 +2,7 @@
 // lumen view: the viewer, as a page that this program serves.
 #include "viewer/server/command_view.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "converters/engine/remote_library.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
+#include "converters/engine/time_option.h"
 #include "formats/container/printable.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"
@@ -46,6 +48,7 @@ public:
     return "  lumen view head.nrrd head.lumen\n"
            "  lumen view ct.nrrd head.lumen mr.nii.gz\n"
            "  lumen view cases/\n"
+           "  lumen view heart.lumen --time 0.3\n"
            "  lumen view https://example.org/siphons/ --case siphon-01   # fetches this case "
            "alone\n"
            "  lumen view head.lumen --html head.html\n"
@@ -77,6 +80,8 @@ public:
             "Place at which the page looks first, mm, LPS [the widest vessel]; a first minus needs "
             "an equals sign: --at=-3,1,2")
         .checkedBy(engine::placeFault);
+    engine::addTimeRow(table, m_options.time).help =
+        "Time of the case's motion that the page shows first, s; without it, the case at rest";
     table.flag("no-browser", m_noBrowser, "Print the address only, and open no browser")
         .without("html");
     table.flag("keep", m_keep, "Go on when the last page has been gone for a minute")
@@ -105,6 +110,7 @@ public:
     if (!m_at.empty()) m_options.look = engine::placeIn(m_at);
     Session session(m_options);
     if (!openFolder(session)) openFiles(session, around);
+    requireMotion(session, around);
     warnOfUnsaved(session, around);
     if (!m_html.empty()) return writeHtml(session, around);
     return serve(session, around);
@@ -165,6 +171,26 @@ private:
                   m_files.front() + ": --html shows one case, not a folder of them");
     session.openLibrary(casesIn(m_files.front()));
     return true;
+  }
+
+  /// Refuses a time for a case that does not move.
+  void requireMotion(const Session& session, engine::Surroundings& around) const {
+    if (!m_options.time) return;
+    const auto value = session.now().document.value;
+    if (value && value->motion) return;
+    const std::string file = formats::printable(value ? caseFile() : filesText());
+    engine::refuseIdle(*around.table->find("time"),
+                       isFolderOfCases() ? "is for one case, and " + file + " is a folder of them"
+                                         : "is for cases with a motion, and " + file + " has none",
+                       around.progress);
+  }
+
+  /// The first case among the files.
+  [[nodiscard]] std::string caseFile() const {
+    const auto found = std::find_if(m_files.begin(), m_files.end(), [](const std::string& file) {
+      return openingRole({file, file}) == FileRole::Case;
+    });
+    return found == m_files.end() ? filesText() : *found;
   }
 
   /// Warns of unsaved work of an earlier program.

@@ -2,6 +2,9 @@
 #include "viewer/session/case_pack.h"
 
 #include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include "formats/case/enum_names.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"
+#include "formats/field/pose.h"
 #include "viewer/session/pack.h"
 
 namespace lumen::viewer {
@@ -97,6 +101,29 @@ void addEdited(PackWriter& pack, const formats::Case& value) {
     pack.add("edited", std::vector<std::uint8_t>(edited.begin(), edited.end()));
 }
 
+/// Poses of the moving nodes, time by time; the rotations have the length 1.
+void addMotion(PackWriter& pack, const std::optional<formats::Motion>& motion) {
+  if (!motion) {
+    pack.set("motion", nullptr);
+    return;
+  }
+  std::vector<formats::Vec3f> centre;
+  std::vector<float> rotation, factor;
+  for (const formats::Pose& pose : motion->pose) {
+    const auto& [x, y, z, w] = pose.rotation;
+    for (const double part : field::unit({x, y, z, w}))
+      rotation.push_back(static_cast<float>(part));
+    centre.push_back(pose.centre);
+    factor.push_back(pose.factor);
+  }
+  pack.set("motion", {{"times", motion->time},
+                      {"period", motion->period > 0 ? Json(motion->period) : Json(nullptr)}});
+  pack.add("motionNode", motion->node);
+  pack.add("motionCentre", std::span(std::as_const(centre)));
+  pack.add("motionRotation", std::span(std::as_const(rotation)), {motion->pose.size(), 4});
+  pack.add("motionFactor", factor);
+}
+
 }  // namespace
 
 std::string casePack(const formats::Case& value, bool withPoints, Progress& progress) {
@@ -111,6 +138,7 @@ std::string casePack(const formats::Case& value, bool withPoints, Progress& prog
     pack.add("pointOffset", value.points->offset);
     pack.add("point", std::span(value.points->position));
   }
+  addMotion(pack, value.motion);
   pack.set("branches", branchesJson(value.tree));
   const auto& voxel = value.metadata.voxelSize;
   pack.set("voxelSize", voxel ? engine::jsonNumber(*voxel) : Json(nullptr));

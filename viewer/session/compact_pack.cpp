@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -147,6 +148,17 @@ void addSteps(PackWriter& pack, const std::string& name, const std::vector<float
                   {"step", step}});
 }
 
+/// Rows of four numbers, in the new order of their vertices.
+void addFours(PackWriter& pack, const std::string& name, const std::vector<std::uint16_t>& values,
+              const std::vector<std::uint32_t>& old) {
+  std::vector<std::uint16_t> rows;
+  rows.reserve(4 * old.size());
+  for (const std::uint32_t vertex : old)
+    rows.insert(rows.end(), values.begin() + 4 * std::ptrdiff_t{vertex},
+                values.begin() + 4 * (std::ptrdiff_t{vertex} + 1));
+  pack.add(name, std::span(std::as_const(rows)), {old.size(), 4});
+}
+
 }  // namespace
 
 std::string compactPack(std::string_view bytes) {
@@ -167,6 +179,11 @@ std::string compactPack(std::string_view bytes) {
     pack.addStored(
         "node", planes(node, 1),
         {{"type", "u32"}, {"shape", {node.size()}}, {"stored", "u32"}, {"coding", "differences"}});
+  }
+  if (read.has("jointNode")) {
+    pack.add("jointNode", read.get<std::int32_t>("jointNode"));
+    for (const char* const name : {"joint", "weight"})
+      addFours(pack, name, read.get<std::uint16_t>(name), old);
   }
   addTriangles(pack, "triangle", std::move(triangle));
   if (read.has("moving")) {

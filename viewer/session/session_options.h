@@ -22,6 +22,8 @@ struct SessionOptions {
   std::filesystem::path unnamed = "lumen";
   /// Where a page looks at first, mm, LPS; none: at the widest vessel.
   std::optional<Eigen::Vector3d> look;
+  /// Time of the case's motion that a page shows first, s; none: the case at rest.
+  std::optional<double> time;
 };
 
 }  // namespace lumen::viewer

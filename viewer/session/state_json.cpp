@@ -150,6 +150,8 @@ Json stateJson(const Workspace& workspace) {
   json["figures"] = workspace.findings.figures(document);
   const auto& look = workspace.options.look;
   json["look"] = look ? Json({look->x(), look->y(), look->z()}) : Json(nullptr);
+  const auto& time = workspace.options.time;
+  json["time"] = time ? Json(*time) : Json(nullptr);
   json["measuresAreOld"] = workspace.findings.areMeasuresOld(document);
   return json;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -83,6 +85,26 @@ void addMoving(PackWriter& pack, Parts& parts, const convert::SurfaceMesh& surfa
   pack.add("moving", std::span(std::as_const(moving.triangle)));
 }
 
+/// The node that a joint rides on by its name, or -1 for the joint of all that rests.
+std::int32_t nodeOfJoint(const std::string& name) {
+  constexpr std::string_view kMoving = "node-";  // of the names that skinOf() gives
+  return name.starts_with(kMoving) ? std::stoi(name.substr(kMoving.size())) : -1;
+}
+
+void addSkin(PackWriter& pack, const convert::MeshSkin& skin) {
+  std::vector<std::int32_t> nodes;
+  for (const std::string& name : skin.name) nodes.push_back(nodeOfJoint(name));
+  pack.add("jointNode", nodes);
+  const convert::MeshSkin::Vertices& vertices = skin.levels.front();
+  const auto add = [&pack](const char* name, const std::vector<convert::MeshSkin::Four>& rows) {
+    std::vector<std::uint16_t> values;
+    for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+    pack.add(name, std::span(std::as_const(values)), {rows.size(), 4});
+  };
+  add("joint", vertices.joint);
+  add("weight", vertices.weight);
+}
+
 Json overlapsJson(const convert::SurfaceReport& report) {
   Json list = Json::array();
   for (const convert::Overlap& overlap : report.overlaps)
@@ -96,7 +118,7 @@ Json overlapsJson(const convert::SurfaceReport& report) {
 }  // namespace
 
 std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel& level,
-                        const convert::SurfaceReport& report) {
+                        const convert::SurfaceReport& report, const convert::MeshSkin* skin) {
   PackWriter pack;
   pack.add("position", std::span(surface.position));
   pack.add("node", surface.node);
@@ -110,6 +132,7 @@ std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel&
   });
   addMoving(pack, parts, surface);
   addParts(pack, std::move(parts));
+  if (skin != nullptr) addSkin(pack, *skin);
   pack.set("kind", level.kind);
   pack.set("level", level.level);
   pack.set("levels", level.levels);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/mesh_skin.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/stages/surface/closed_surface.h"
 
@@ -18,9 +19,11 @@ struct SurfaceLevel {
   int levels = 1;         ///< number of levels in the end
 };
 
-/// The pack `surface` of a case's surface, its triangles sorted by group and branch.
+/// The pack `surface` of a case's surface, its triangles sorted by group and branch. `skin`: the
+/// bones of this surface alone, or null where it does not move.
 std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel& level,
-                        const convert::SurfaceReport& report);
+                        const convert::SurfaceReport& report,
+                        const convert::MeshSkin* skin = nullptr);
 
 /// The pack `surface` of a mesh that was opened, in mm.
 std::string meshPack(const convert::MeshFile& mesh);

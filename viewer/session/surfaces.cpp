@@ -3,8 +3,11 @@
 
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "converters/stages/surface/skin.h"
 #include "viewer/session/surface_pack.h"
 
 namespace lumen::viewer {
@@ -12,6 +15,16 @@ namespace lumen::viewer {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{100};  // between two looks whether somebody still waits
+
+constexpr std::size_t kMostJoints = 65536;  // that a vertex can name, the resting one included
+
+/// Bones of the first surface of a case that moves; none where they are more than a vertex can name.
+std::optional<convert::MeshSkin> skinOfFirst(const formats::Case& value,
+                                             std::vector<convert::SurfaceMesh>& levels) {
+  levels.resize(1);
+  if (!value.motion || value.motion->node.size() >= kMostJoints) return std::nullopt;
+  return convert::skinOf(value, levels);
+}
 
 bool hasSurface(const std::shared_ptr<const formats::Case>& value) {
   return value && value->models && value->tree.nodeCount() > 0;
@@ -122,8 +135,9 @@ std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, i
     options.edge.share *= 1 << level;
     made = convert::closedSurface(value, options, progress);
   }
-  result->pack =
-      surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels}, made.report);
+  const std::optional<convert::MeshSkin> skin = skinOfFirst(value, made.levels);
+  result->pack = surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels},
+                             made.report, skin ? &*skin : nullptr);
   result->mesh = std::make_shared<const convert::SurfaceMesh>(std::move(made.levels.front()));
   return result;
 }
