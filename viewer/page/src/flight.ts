@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A flight along the centerline inside of the lumen, from the root to the end of the selected vessel. */
 import type { App } from "./model";
+import { goToRest } from "./posing";
 import type { SceneView } from "./scene_view";
 import type { Vec3 } from "./types";
 import { across, cross, distance, dot, mix, scale, sub, unit } from "./vec";
@@ -60,6 +61,9 @@ export class Flight {
     app.store.watch(["tree"], () => {
       if (this.running) this.stop();
     });
+    app.store.watch(["time"], ({ time }) => {
+      if (time !== null && this.running) this.stop(); // its way is that of the vessel at rest
+    });
   }
 
   get running(): boolean {
@@ -78,6 +82,7 @@ export class Flight {
       this.app.inform("Select the vessel to fly into first.", "warning");
       return;
     }
+    goToRest(this.app);
     const nodes = tree.pathTo(selected);
     if (nodes.length < 3) {
       this.app.inform("This vessel is too short for a flight.", "warning");

@@ -63,6 +63,7 @@ const kGroups: Group[] = [
       ["Double click", "Turn about this point"],
       ["C", "Clip at the crosshair"],
       ["M", "Projection, volume, or neither"],
+      ["Space", "Play the motion of a case that has one, or stop it"],
       ["Colour by deviation", "A mesh by its distance from the wall (Meshes)"],
       ["0", "Fit"],
     ],

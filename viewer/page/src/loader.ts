@@ -94,6 +94,7 @@ export class Loader {
       crosshair:
         state.look ?? (tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre()),
       cast: tree === null && volume !== null ? "mip" : "off",
+      ...(state.time !== null && tree?.motion ? { time: tree.motion.within(state.time) } : {}),
     });
     stage.invalidate();
   }

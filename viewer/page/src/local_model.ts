@@ -80,7 +80,7 @@ export class LocalModel {
   private mesh: Mesh<BufferGeometry, PartMaterial> | null = null;
 
   constructor(app: App, scene: SceneView) {
-    app.store.watch(["layers", "node", "blob", "tree"], view => {
+    app.store.watch(["layers", "node", "blob", "tree", "time"], view => {
       if (this.mesh !== null) {
         scene.extra.remove(this.mesh);
         this.mesh.geometry.dispose();
@@ -88,7 +88,14 @@ export class LocalModel {
         this.mesh = null;
       }
       app.stage.invalidate(scene);
-      if (!view.layers.local || view.blob === null || view.tree === null || view.node < 0) return;
+      if (
+        !view.layers.local ||
+        view.time !== null ||
+        view.blob === null ||
+        view.tree === null ||
+        view.node < 0
+      )
+        return;
       const { position, normal } = localSurface(view.blob, view.tree, view.node),
         geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(position, 3));

@@ -19,7 +19,9 @@ import { LocalModel } from "./local_model";
 import { MeshLayer } from "./mesh_layer";
 import { measurePanel } from "./measure_panel";
 import { newStore, type App } from "./model";
+import { motionBar } from "./motion_bar";
 import { Performer } from "./performer";
+import { mayChange, Posing } from "./posing";
 import { offerUnsaved } from "./recover";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
@@ -52,6 +54,7 @@ function makeApp(source: Source, shell: Shell): App {
     stage: new Stage(shell.canvas),
     inform: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
+      if (!mayChange(app, operation.op)) return false;
       try {
         await performer.perform(operation);
         return true;
@@ -80,6 +83,8 @@ async function start(root: HTMLElement): Promise<void> {
     ),
     scene = new SceneView(shell.scene, app);
   for (const view of [...slices, scene]) app.stage.add(view);
+  new Posing(app);
+  shell.scene.append(motionBar(app));
   const hand = new Hand(app);
   const flight = new Flight(app, scene);
   const wire = new WireTool(app);
@@ -140,6 +145,7 @@ async function start(root: HTMLElement): Promise<void> {
   app.store.watch(
     [
       "surface",
+      "posed",
       "hidden",
       "solo",
       "selected",

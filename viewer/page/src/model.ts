@@ -66,6 +66,12 @@ export interface View {
   proposal: string | null;
   /** Id of the place of the check that was shown last. */
   place: number | null;
+  /** Time of the case's motion that is shown, s; null: the case at rest. */
+  time: number | null;
+  /** The time goes on. */
+  playing: boolean;
+  /** The tree at that time; null at rest. */
+  posed: Tree | null;
   surface: Surface | null;
   volume: Volume | null;
   /** Slices of the volume that can be shown. */
@@ -142,6 +148,9 @@ export const kInitial: View = {
   proposals: null,
   proposal: null,
   place: null,
+  time: null,
+  playing: false,
+  posed: null,
   surface: null,
   volume: null,
   volumeReady: 0,
@@ -215,6 +224,9 @@ export interface App {
   /** Changes the document and reports a refusal. True if it was done. */
   perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
 }
+
+/** The tree where the views show it: at the time of its motion, or at rest. */
+export const shownTree = ({ tree, posed }: Pick<View, "tree" | "posed">): Tree | null => posed ?? tree;
 
 /** The colour of a branch: chosen, or of the number that its name has. */
 export function colourOf(view: View, branch: number): Rgb {

@@ -11,7 +11,7 @@ export interface Answer {
   value: number;
   /** Intensity of the volume beside the first, or NaN. */
   second: number;
-  /** Null without a model. */
+  /** Null without a model, and at a time of the motion: libblob answers for the case at rest. */
   wall: Wall | null;
 }
 
@@ -57,7 +57,7 @@ export function probe(view: View, p: Vec3, cursor = NOWHERE): Answer {
     position: p,
     value: view.volume?.sample(p) ?? NaN,
     second: view.second?.sample(p) ?? NaN,
-    wall: view.blob === null ? null : ask(view.blob, p, cursor, Flags.DISTANCE_EXACT),
+    wall: view.blob === null || view.time !== null ? null : ask(view.blob, p, cursor, Flags.DISTANCE_EXACT),
   };
 }
 

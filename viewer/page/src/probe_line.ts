@@ -94,7 +94,7 @@ export class ProbeLine {
       if (answer !== null) this.show(answer);
       else this.rest();
     });
-    app.store.watch(["crosshair", "blob", "volumeReady", "secondReady"], () => {
+    app.store.watch(["crosshair", "blob", "time", "volumeReady", "secondReady"], () => {
       if (!this.pointing) this.rest();
     });
     const second = this.fields.second.parentElement!;

@@ -86,7 +86,8 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
     { passive: false },
   );
   element.addEventListener("keydown", e => {
-    if (e.altKey || e.metaKey || e.ctrlKey || !sceneKey(scene, tools, e)) return;
+    const isOnControl = (e.target as HTMLElement).closest("button, input, select") !== null; // has keys of its own
+    if (isOnControl || e.altKey || e.metaKey || e.ctrlKey || !sceneKey(scene, tools, e)) return;
     scene.moved();
     e.preventDefault();
     e.stopPropagation();

@@ -2,7 +2,7 @@
 /** Letters and lines over the 3D view: orientation, scale, measurements, seeds, the place of the crosshair. */
 import type { OrbitCamera } from "./camera";
 import { toCss } from "./colour";
-import { colourOf, isShown, type View } from "./model";
+import { colourOf, isShown, shownTree, type View } from "./model";
 import { drawProposalsInScene } from "./proposal_lines";
 import { strokeAxis } from "./scene_lines";
 import { drawMeasurements, drawScaleBar, drawWire, label, wirePoints } from "./slice_overlay";
@@ -69,7 +69,8 @@ function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View
 
 /** The centerline of the selected vessel, also through walls. Here, because a line costs nothing where the scene does. */
 function drawSelected(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
-  const { tree, selected } = view,
+  const { selected } = view,
+    tree = shownTree(view),
     branch = tree?.branches[selected];
   if (tree === null || branch === undefined || !isShown(view, selected)) return;
   c.strokeStyle = toCss(colourOf(view, selected).map(x => 0.3 * x + 0.7) as [number, number, number], 0.95);
@@ -93,8 +94,11 @@ export function drawSceneOverlay(
   drawProposalsInScene(c, camera, view);
   drawNamesInScene(c, camera, view);
   drawPoints(c, camera, view);
-  drawMeasurements(c, view, project, Infinity);
-  drawWire(c, wirePoints.points, project, Infinity);
+  if (view.time === null) {
+    // both are of the case at rest
+    drawMeasurements(c, view, project, Infinity);
+    drawWire(c, wirePoints.points, project, Infinity);
+  }
   drawCompass(c, camera, height);
   drawScaleBar(c, camera.mmPerPixel, width, height);
   const branch = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;

@@ -16,14 +16,14 @@ import {
   SphereGeometry,
   Vector3,
 } from "three";
-import { colourOf, isShown, type View } from "./model";
+import { colourOf, isShown, shownTree, type View } from "./model";
 import { kNoClip, PartMaterial } from "./part_material";
 import type { Tree } from "./tree";
 import type { Vec3 } from "./types";
 
 /** The centerlines of branches that are shown, each in its colour. */
 export function centerlines(view: View): LineSegments {
-  const tree = view.tree!,
+  const tree = shownTree(view)!,
     position: number[] = [],
     colour: number[] = [],
     one = new Color(),
@@ -55,12 +55,19 @@ export function centerlines(view: View): LineSegments {
 
 /** One cylinder for each node of one branch, as long as the node is high. */
 function cylindersOf(tree: Tree, branch: number, sides: number): InstancedMesh {
-  const record = tree.branches[branch],
-    mesh = new InstancedMesh(
-      new CylinderGeometry(1, 1, 1, sides, 1, true),
-      new PartMaterial(false),
-      record.nodeCount,
-    );
+  const mesh = new InstancedMesh(
+    new CylinderGeometry(1, 1, 1, sides, 1, true),
+    new PartMaterial(false),
+    tree.branches[branch].nodeCount,
+  );
+  placeCylinders(mesh, tree, branch);
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+/** Puts the cylinders of a branch where its nodes are. */
+export function placeCylinders(mesh: InstancedMesh, tree: Tree, branch: number): void {
+  const record = tree.branches[branch];
   const up = new Vector3(0, 1, 0),
     matrix = new Matrix4(),
     turn = new Quaternion();
@@ -76,8 +83,7 @@ function cylindersOf(tree: Tree, branch: number, sides: number): InstancedMesh {
     );
     mesh.setMatrixAt(i, matrix);
   }
-  mesh.frustumCulled = false;
-  return mesh;
+  mesh.instanceMatrix.needsUpdate = true;
 }
 
 function spacing(tree: Tree, node: number): number {
@@ -91,7 +97,7 @@ export const cylinders = (tree: Tree, sides: number): InstancedMesh[] =>
 
 /** Wall points, drawn as squares of a few pixels. */
 export function wallPoints(view: View): Points | null {
-  const tree = view.tree!;
+  const tree = shownTree(view)!;
   if (tree.point === null || tree.pointOffset === null) return null;
   const colour = new Uint8Array(tree.point.length),
     kept: number[] = [];

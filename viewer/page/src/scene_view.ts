@@ -15,14 +15,15 @@ import {
 import { OrbitCamera } from "./camera";
 import { Caster } from "./cast";
 import { colouring } from "./colouring";
-import { colourOf, isShown, opacityOf, type App, type View } from "./model";
+import { colourOf, isShown, opacityOf, shownTree, type App, type View } from "./model";
 import { kFade, PartMaterial } from "./part_material";
 import { drawSceneOverlay } from "./scene_overlay";
-import { ball, centerlines, cylinders, wallPoints } from "./scene_parts";
+import { ball, centerlines, cylinders, placeCylinders, wallPoints } from "./scene_parts";
 import { SlicePlanes } from "./slice_planes";
 import { ScenePicture } from "./scene_picture";
 import type { StageView } from "./stage";
 import type { Surface } from "./surface";
+import type { Tree } from "./tree";
 import type { Vec3 } from "./types";
 import { dot, scale } from "./vec";
 import type { VolumeTexture } from "./volume_texture";
@@ -40,6 +41,7 @@ export class SceneView implements StageView {
   private readonly planes = new SlicePlanes();
   private walls: Mesh<Surface["parts"][number]["geometry"], PartMaterial>[] = [];
   private tubes: InstancedMesh[] = [];
+  private tubesOf: Tree | null = null; // the tree whose nodes they lie at
   private readonly lines = new Group();
   private readonly points = new Group();
   private readonly marks = new Group();
@@ -68,13 +70,15 @@ export class SceneView implements StageView {
     };
     all(["surface"], view => this.setSurface(view));
     all(["tree"], view => this.setTubes(view));
-    all(["tree", "layers", "hidden", "solo", "colours"], view => this.setLines(view));
-    all(["tree", "layers", "hidden", "solo", "colours"], view => this.setPoints(view));
+    all(["tree", "posed", "layers", "hidden", "solo", "colours"], view => this.setLines(view));
+    all(["tree", "posed", "layers", "hidden", "solo", "colours"], view => this.setPoints(view));
+    store.watch(["time"], () => this.busy());
     all(["state", "layers", "crosshair"], view => this.setMarks(view));
     all(
       [
         "surface",
         "tree",
+        "posed",
         "layers",
         "hidden",
         "solo",
@@ -134,6 +138,7 @@ export class SceneView implements StageView {
       tube.dispose();
       tube.geometry.dispose();
     }
+    this.tubesOf = view.tree;
     this.tubes = view.tree === null ? [] : cylinders(view.tree, this.app.stage.software ? 6 : 20);
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
@@ -177,6 +182,11 @@ export class SceneView implements StageView {
     const clip = this.clip(view),
       { mapped, range, map } = colouring(view),
       asTubes = view.surface === null || view.layers.nodes;
+    const shown = shownTree(view);
+    if (asTubes && shown !== this.tubesOf && shown?.branches.length === this.tubes.length) {
+      this.tubes.forEach((tube, branch) => placeCylinders(tube, shown, branch));
+      this.tubesOf = shown;
+    }
     if (view.tree !== null && this.tubes.length === view.tree.branches.length)
       this.tubes.forEach((tube, branch) => {
         const alpha = opacityOf(view, branch);
@@ -244,6 +254,11 @@ export class SceneView implements StageView {
   /** The camera moved: coarse pictures of the volume until it rests. */
   moved(): void {
     this.touched = true;
+    this.busy();
+  }
+
+  /** Something of the scene moves. */
+  private busy(): void {
     window.clearTimeout(this.moving);
     this.moving = window.setTimeout(() => this.rest(), this.isHeld ? kHeld : kStill);
     this.app.stage.invalidate(this);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selected vessel and the cursor along it; list, views, plot and keys share them. */
-import { isShown, type App, type View } from "./model";
+import { isShown, shownTree, type App, type View } from "./model";
 import { vesselFrame } from "./slice_frame";
 import type { Vec3 } from "./types";
 import { length, sub } from "./vec";
@@ -19,7 +19,8 @@ export function select(app: App, branch: number): void {
 /** Puts cursor and crosshair on a node of the tree, and turns the planes with it if they follow the vessel. */
 export function goToNode(app: App, node: number): void {
   const { store } = app,
-    { tree, planes } = store.get();
+    { planes } = store.get(),
+    tree = shownTree(store.get());
   if (tree === null || node < 0 || node >= tree.count) return;
   const branch = tree.branch[node];
   store.set({
@@ -39,7 +40,9 @@ export function showBranch(app: App, branch: number): void {
 }
 
 /** Whether the crosshair, through which all slices go, lies in the lumen of the cursor's node. */
-export function isCursorShown({ tree, node, crosshair }: Pick<View, "tree" | "node" | "crosshair">): boolean {
+export function isCursorShown(view: Pick<View, "tree" | "posed" | "node" | "crosshair">): boolean {
+  const { node, crosshair } = view,
+    tree = shownTree(view);
   return (
     tree !== null &&
     node >= 0 &&
@@ -80,7 +83,7 @@ export function followVessel(app: App): void {
   const { store } = app,
     view = store.get();
   if (view.tree === null) return;
-  const node = view.node >= 0 ? view.node : view.tree.nearest(view.crosshair, b => isShown(view, b));
+  const node = view.node >= 0 ? view.node : shownTree(view)!.nearest(view.crosshair, b => isShown(view, b));
   if (node < 0) return;
   store.set({ planes: "vessel" });
   goToNode(app, node);

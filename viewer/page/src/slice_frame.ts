@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The planes of the three linked slices. */
-import type { View } from "./model";
+import { shownTree, type View } from "./model";
 import type { Vec3 } from "./types";
 import { cross, dot, scale, sub, unit, type Frame } from "./vec";
 
@@ -35,7 +35,7 @@ export interface SliceProjection {
 
 /** The shared frame at a node of a vessel: the axial plane is its cross-section. */
 export function vesselFrame(view: View, node: number): Frame {
-  const tree = view.tree!,
+  const tree = shownTree(view)!,
     axis = unit(tree.axis(node)),
     normal = scale(axis, axis[2] > 0 ? -1 : 1); // seen from the feet
   // up is as near as possible to the patient's front, so neighbouring sections have nearly the same turn

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Lines and letters over a slice. */
 import { toCss } from "./colour";
-import { colourOf, isShown, type View } from "./model";
+import { colourOf, isShown, shownTree, type View } from "./model";
 import type { Pixel, SliceProjection } from "./slice_frame";
 import { reachOf } from "./slab";
 import { drawStroke } from "./stroke";
@@ -22,7 +22,7 @@ const cuts = new WeakMap<SliceProjection, Cut>();
 function outlines(slice: SliceProjection, surface: Surface): (number[] | null)[] {
   const { normal } = slice.frame,
     origin = slice.centre(),
-    key = [...normal, dot(normal, origin)].map(x => x.toFixed(5)).join();
+    key = [surface.poses, ...[...normal, dot(normal, origin)].map(x => x.toFixed(5))].join();
   let cut = cuts.get(slice);
   if (cut?.surface !== surface || cut.key !== key) {
     cut = { surface, key, parts: surface.parts.map(() => null) };
@@ -66,7 +66,7 @@ function drawOutlines(c: Context, slice: SliceProjection, view: View): void {
 }
 
 function drawLines(c: Context, slice: SliceProjection, view: View): void {
-  const { tree } = view;
+  const tree = shownTree(view);
   if (tree === null || !view.layers.lines) return;
   const near = reachOf(view, slice, 2 * slice.mmPerPixel + (tree.voxelSize || 0.5)),
     { x, y, depth } = slice.toPixels(),

@@ -3,7 +3,9 @@
  * built when somebody asks or when nothing else is to be done. */
 import { Box3, BufferAttribute, BufferGeometry, Plane, Vector3, type Ray, DoubleSide } from "three";
 import { MeshBVH } from "three-mesh-bvh";
+import type { Poses } from "./motion";
 import type { Pack } from "./pack";
+import { Skin } from "./skin";
 import type { Vec3 } from "./types";
 
 export interface Part {
@@ -16,6 +18,8 @@ export interface Part {
   moving: BufferGeometry | null;
   box: Box3;
   bvh: MeshBVH | null;
+  /** Box and hierarchy are those of another time. */
+  isStale: boolean;
 }
 
 /** A part as a pack lists it. */
@@ -86,6 +90,13 @@ export class Surface {
   readonly kind: string;
   readonly level: number;
   readonly levels: number;
+  /** Counts the poses that it was in: outlines of another one are no longer right. */
+  poses = 0;
+  private readonly skin: Skin | null;
+  private readonly drawn: { position: BufferAttribute; normal: BufferAttribute };
+  /** Positions and normals at rest, once it has moved. */
+  private atRest: { position: Float32Array; normal: Int8Array } | null = null;
+  private isPosed = false;
 
   constructor(pack: Pack) {
     this.position = pack.get("position", "f32");
@@ -104,6 +115,8 @@ export class Surface {
       4,
       true,
     );
+    this.skin = Skin.of(pack, vertices);
+    this.drawn = { position, normal };
     this.value = new BufferAttribute(new Float32Array(vertices), 1);
     const moving = pack.optional("moving", "u32");
     if (moving?.some(v => v >= vertices) === true)
@@ -129,6 +142,7 @@ export class Surface {
           moving: moving === null || movingCount === 0 ? null : geometryOf(moving, movingFirst, movingCount),
           box: this.boxOf(part),
           bvh: null,
+          isStale: false,
         };
       });
   }
@@ -156,8 +170,40 @@ export class Surface {
     this.value.needsUpdate = true;
   }
 
+  /** Moves the vertices with the nodes that they hang on; `centre`: of all nodes at rest. */
+  pose(poses: Poses, centre: Float32Array): void {
+    if (this.skin === null) return;
+    const { position, normal } = this.drawnArrays();
+    this.atRest ??= { position: position.slice(), normal: normal.slice() };
+    this.skin.carry(this.skin.matrices(poses, centre), this.atRest, { position, normal });
+    this.isPosed = true;
+    this.moved();
+  }
+  /** Moves the vertices back to their places at rest. */
+  rest(): void {
+    if (!this.isPosed || this.atRest === null) return;
+    const { position, normal } = this.drawnArrays();
+    position.set(this.atRest.position);
+    normal.set(this.atRest.normal);
+    this.isPosed = false;
+    this.moved();
+  }
+  private drawnArrays(): { position: Float32Array; normal: Int8Array } {
+    return { position: this.position, normal: this.drawn.normal.array as Int8Array };
+  }
+  private moved(): void {
+    ++this.poses;
+    this.drawn.position.needsUpdate = true;
+    this.drawn.normal.needsUpdate = true;
+    for (const part of this.parts) part.isStale = true;
+  }
+
   tree(part: Part): MeshBVH {
-    return (part.bvh ??= new MeshBVH(part.geometry));
+    if (part.bvh === null) part.bvh = new MeshBVH(part.geometry);
+    else if (part.isStale) part.bvh.refit();
+    if (part.isStale) part.bvh.getBoundingBox(part.box);
+    part.isStale = false;
+    return part.bvh;
   }
 
   /** Builds the tree of one part that has none; true if more are missing. */
@@ -173,6 +219,7 @@ export class Surface {
     const target = new Vector3();
     this.parts.forEach((part, index) => {
       if (!shown(part.branch)) return;
+      if (part.isStale) this.tree(part);
       const { box } = part;
       if (ray.intersectBox(box, target) === null) return;
       if (best !== null && !box.containsPoint(ray.origin) && target.distanceTo(ray.origin) > best.distance)
@@ -201,6 +248,7 @@ export class Surface {
   cut(part: Part, normal: Vec3, origin: Vec3): number[] {
     const plane = new Plane().setFromNormalAndCoplanarPoint(new Vector3(...normal), new Vector3(...origin)),
       out: number[] = [];
+    if (part.isStale) this.tree(part);
     if (!plane.intersectsBox(part.box)) return out;
     this.tree(part).shapecast({
       intersectsBounds: box => plane.intersectsBox(box),

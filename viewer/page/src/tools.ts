@@ -2,7 +2,8 @@
 /** Actions of the pointer with the chosen tool. */
 import type { Flight } from "./flight";
 import type { Hand } from "./hand";
-import { isShown, opacityOf, type App, type Tool, type View } from "./model";
+import { isShown, opacityOf, shownTree, type App, type Tool, type View } from "./model";
+import { playOrPause } from "./posing";
 import { probe, type Answer } from "./probe";
 import type { SceneView } from "./scene_view";
 import { goTo, goToNode, select } from "./selection";
@@ -101,12 +102,13 @@ export class Tools {
   releaseInSlice(slice: SliceView): void {
     if (this.hand.release() || this.tool !== "navigate") return;
     const view = this.app.store.get(); // a click on a vessel selects it
-    if (view.tree === null) return;
-    const node = view.tree.nearest(view.crosshair, b => isShown(view, b));
+    const tree = shownTree(view);
+    if (tree === null) return;
+    const node = tree.nearest(view.crosshair, b => isShown(view, b));
     if (node < 0) return;
-    const away = length(sub(view.tree.position(node), view.crosshair));
-    if (away <= 1.15 * view.tree.radius[node]) {
-      select(this.app, view.tree.branch[node]);
+    const away = length(sub(tree.position(node), view.crosshair));
+    if (away <= 1.15 * tree.radius[node]) {
+      select(this.app, tree.branch[node]);
       if (view.planes !== "vessel") this.app.store.set({ node });
     }
     this.app.stage.invalidate(slice);
@@ -187,7 +189,7 @@ export class Tools {
   /** The node whose ball a ray passes nearest the eye: where there is no surface. */
   private pickTube(scene: SceneView, x: number, y: number): Hit | null {
     const view = this.app.store.get(),
-      { tree } = view;
+      tree = shownTree(view);
     if (tree === null || scene.camera.flight !== null) return null;
     const ray = scene.camera.ray(x, y),
       o = ray.origin.toArray() as Vec3,
@@ -243,7 +245,7 @@ export class Tools {
     }
     if (hit.branch >= 0) {
       select(this.app, hit.branch);
-      const { tree } = this.app.store.get();
+      const tree = shownTree(this.app.store.get());
       if (tree !== null && hit.node < tree.count && hit.node >= 0 && tree.branch[hit.node] === hit.branch)
         goToNode(this.app, hit.node);
       else if (tree !== null)
@@ -324,6 +326,10 @@ export class Tools {
     return false;
   }
   keyInScene(key: string): boolean {
-    return this.flight.key(key) || (this.tool === "wire" && this.wire.key(key));
+    return (
+      this.flight.key(key) ||
+      (this.tool === "wire" && this.wire.key(key)) ||
+      (key === " " && playOrPause(this.app))
+    );
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The centerline tree of a case: the arrays of its pack, and what follows from them. */
+import { Motion, poseMatrix, type Poses } from "./motion";
 import type { Pack } from "./pack";
 import type { BranchRecord, Vec3 } from "./types";
 import { at } from "./vec";
@@ -34,6 +35,8 @@ export class Tree {
   readonly voxelSize: number;
   readonly reachable: { reached: number; total: number; trees: number } | null;
   readonly count: number;
+  /** Null: the case does not move. */
+  readonly motion: Motion | null;
 
   constructor(pack: Pack) {
     this.centre = pack.get("centre", "f32");
@@ -53,6 +56,7 @@ export class Tree {
     this.voxelSize = typeof pack.meta.voxelSize === "number" ? pack.meta.voxelSize : 0;
     this.reachable = (pack.meta.reachable ?? null) as Tree["reachable"];
     this.count = this.radius.length;
+    this.motion = Motion.of(pack);
     this.branches = (pack.meta.branches as BranchRecord[]).map((record, index) =>
       this.describe(record, index),
     );
@@ -112,6 +116,35 @@ export class Tree {
       }
     }
     return best;
+  }
+
+  /** The tree with nodes and wall points where poses carry them. */
+  posed(poses: Poses): Tree {
+    const moved = {
+      centre: this.centre.slice(),
+      direction: this.direction.slice(),
+      radius: this.radius.slice(),
+      height: this.height.slice(),
+      point: this.point?.slice() ?? null,
+      whole: null,
+    };
+    for (const [node, pose] of poses) {
+      const m = poseMatrix(pose, this.centre.subarray(3 * node, 3 * node + 3)),
+        d = this.axis(node);
+      moved.centre.set(pose.centre, 3 * node);
+      for (let a = 0; a < 3; ++a)
+        moved.direction[3 * node + a] =
+          (m[4 * a] * d[0] + m[4 * a + 1] * d[1] + m[4 * a + 2] * d[2]) / pose.factor;
+      moved.radius[node] *= pose.factor;
+      moved.height[node] *= pose.factor;
+      if (moved.point === null || this.pointOffset === null) continue;
+      for (let k = this.pointOffset[node]; k < this.pointOffset[node + 1]; ++k) {
+        const [x, y, z] = at(this.point!, k);
+        for (let a = 0; a < 3; ++a)
+          moved.point[3 * k + a] = m[4 * a] * x + m[4 * a + 1] * y + m[4 * a + 2] * z + m[4 * a + 3];
+      }
+    }
+    return Object.assign(Object.create(Tree.prototype) as Tree, this, moved);
   }
 
   private whole: { low: Vec3; high: Vec3 } | null = null;

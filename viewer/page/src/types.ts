@@ -185,6 +185,8 @@ export interface State {
   formats: string[];
   /** Where the page looks first; null: at the widest vessel. */
   look: Vec3 | null;
+  /** Time of the case's motion that the page shows first, s; null: the case at rest. */
+  time: number | null;
 }
 
 export const kEmptyState: State = {
@@ -213,6 +215,7 @@ export const kEmptyState: State = {
   work: null,
   checkIsOld: false,
   look: null,
+  time: null,
   measuresAreOld: false,
   figures: null,
   formats: [],

@@ -53,6 +53,7 @@ const kIcons: Record<string, string> = {
   check: "M3 8.5L6.5 12 13 4.5",
   play: "M4 3l9 5-9 5z",
   stop: "M4 4h8v8H4z",
+  pause: "M5 3v10M11 3v10",
   download: "M8 2v8M5 7l3 3 3-3M3 13h10",
   edit: "M3 13l1-3 7-7 2 2-7 7z",
   trash: "M3 4h10M6 4V2.5h4V4M4.5 4l.5 9.5h6l.5-9.5",

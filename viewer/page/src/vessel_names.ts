@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Names of vessels in the views: the longest first, and none over another. */
 import type { OrbitCamera } from "./camera";
-import { isShown, type View } from "./model";
+import { isShown, shownTree, type View } from "./model";
 import type { SliceProjection } from "./slice_frame";
 import { label } from "./slice_overlay";
 import type { BranchRecord } from "./types";
@@ -50,7 +50,7 @@ function draw(c: Context, names: Name[]): void {
 
 /** In the middle of every vessel that is shown. */
 export function drawNamesInScene(c: Context, camera: OrbitCamera, view: View): void {
-  const { tree } = view;
+  const tree = shownTree(view);
   if (tree === null) return;
   draw(
     c,
@@ -63,7 +63,7 @@ export function drawNamesInScene(c: Context, camera: OrbitCamera, view: View): v
 
 /** Beside every vessel that the slice meets: at its node that is nearest to the plane, within a radius. */
 export function drawNamesInSlice(c: Context, slice: SliceProjection, view: View): void {
-  const { tree } = view;
+  const tree = shownTree(view);
   if (tree === null) return;
   draw(
     c,
