@@ -8,5 +8,6 @@ lumen_test(finding_test
 
 # Finding and tracking together.
 lumen_test(whole_tree_test
-  LIBS lumen_compare lumen_finding lumen_phantom lumen_tracking
+  LIBS lumen_compare lumen_editing lumen_finding lumen_phantom lumen_tracking
+  SLOW WholePatient.HasTheVesselThatAnotherHidesAsOne
   SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/finding/track_courses_test.cpp)
