@@ -309,6 +309,8 @@ const std::vector<Trial> kCaseTrials = {
 const std::map<std::string, std::string> kElsewhere = {
     {"check series", "as of track, below"},
     {"fit series", "as of track, below"},
+    {"motion out", "where the case goes"},
+    {"motion series", "as of track, below"},
     {"info series", "as of track, below"},
     {"picture series", "as of track, below"},
     {"report series", "as of track, below"},

@@ -70,7 +70,7 @@ TEST_F(UsageTest, TheVersionAsJsonNamesThatOfTheLineAndOfTheFormats) {
   const auto answer = nlohmann::json::parse(version.out);
   EXPECT_EQ("lumen " + answer.at("version").get<std::string>() + "\n", lumen({"--version"}).out);
   EXPECT_EQ(answer.at("version"), answer.at("libblob"));
-  EXPECT_EQ(answer.at("formats").at("case"), "1.1");
+  EXPECT_EQ(answer.at("formats").at("case"), "1.2");
   EXPECT_EQ(lumen({"version", "--json"}).out, version.out);
 }
 

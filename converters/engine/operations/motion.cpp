@@ -49,7 +49,7 @@ public:
         .in(NumberRange{1e-3, 1e6})
         .notBeside(kOption.times.name);
     table
-        .add(kOption.times.name, &m_times, "S,S",
+        .add(kOption.times.name, &m_times, "LIST",
              "Seconds of the phases, ascending, with commas between them: a motion that does not "
              "come back")
         .many()

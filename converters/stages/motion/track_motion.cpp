@@ -211,9 +211,24 @@ private:
   std::vector<Vector3d> m_knownMoves;
 };
 
-// Whether a case was tracked in a volume.
+// Whether a case was tracked in a volume: its voxels are the same, and lie at the same places but for what
+// formats of files round.
 bool isOf(const formats::Case& rest, const Volume& volume) {
-  return rest.metadata.source && rest.metadata.source->sha256 == describeSource(volume).sha256;
+  constexpr double kRounded = 1e-3;  // voxels
+  if (!rest.metadata.source) return false;
+  const formats::SourceVolume &was = *rest.metadata.source, now = describeSource(volume);
+  if (was.sha256 != now.sha256 || was.size != now.size) return false;
+  bool isThere = true;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double near = kRounded * now.spacing[a], most = std::max(1.0, double{now.size[a]} - 1);
+    isThere = isThere && std::abs(was.origin[a] - now.origin[a]) <= near &&
+              most * std::abs(was.spacing[a] - now.spacing[a]) <= near;
+    for (std::size_t row = 0; row < 3; ++row)
+      isThere =
+          isThere &&
+          std::abs(was.direction[3 * row + a] - now.direction[3 * row + a]) * most <= kRounded;
+  }
+  return isThere;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ using PhaseSource = std::function<Volume(std::size_t phase)>;
 
 /// Follows the nodes of `rest` through the phases, one after another, each from where the one before left
 /// them. The first phase shows the contrast of each vessel; if it is the volume that the case was tracked
-/// in, by the digest in the case, its poses are those at rest. `time`: seconds of the phases, ascending; `period`: seconds, or 0. The result does not depend on
+/// in, by the digest and the place in the case, its poses are those at rest. `time`: seconds of the phases, ascending; `period`: seconds, or 0. The result does not depend on
 /// the number of threads. Throws Error(InvalidInput) for a phase that shows no vessel of the case, what
 /// the source throws, and Error(Cancelled).
 TrackedMotion trackMotion(const formats::Case& rest, const std::vector<double>& time, double period,
