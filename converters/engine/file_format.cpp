@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/suggestion.h"
 #include "converters/base/text.h"
 #include "converters/engine/case_losses.h"

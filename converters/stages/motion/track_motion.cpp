@@ -220,7 +220,8 @@ bool isOf(const formats::Case& rest, const Volume& volume) {
   if (was.sha256 != now.sha256 || was.size != now.size) return false;
   bool isThere = true;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double near = kRounded * now.spacing[a], most = std::max(1.0, double{now.size[a]} - 1);
+    const double near = kRounded * now.spacing[a],
+                 most = std::max(1.0, static_cast<double>(now.size[a]) - 1);
     isThere = isThere && std::abs(was.origin[a] - now.origin[a]) <= near &&
               most * std::abs(was.spacing[a] - now.spacing[a]) <= near;
     for (std::size_t row = 0; row < 3; ++row)
