@@ -18,7 +18,7 @@ namespace {
 
 using namespace lumen::blob;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kPoseCookie = 0x626c6f33U;
 constexpr double kFarthestCentre = 1e6;
 
@@ -147,7 +147,7 @@ blob_status blob_pose_set_centres(blob_pose* pose, size_t count, const uint32_t*
 
 blob_transform blob_pose_node(const blob_pose* pose, uint32_t node) noexcept {
   BLOB_REQUIRE(pose != nullptr);
-  if (node >= pose->pose.size()) return {{kNan, kNan, kNan}, {kNan, kNan, kNan, kNan}, kNan};
+  if (node >= pose->pose.size()) return {{kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown, kUnknown}, kUnknown};
   return transformOf(pose->pose[node]);
 }
 
@@ -252,7 +252,7 @@ void blob_pose_velocity(const blob_pose* pose, const blob_pose* before, double s
   BLOB_REQUIRE(pose != nullptr && before != nullptr && point != nullptr && velocity != nullptr);
   BLOB_REQUIRE(pose->rest == before->rest);
   std::uint32_t node;
-  std::fill_n(velocity, 3, kNan);
+  std::fill_n(velocity, 3, kUnknown);
   if (!isFinitePoint(point)) return;
   std::fill_n(velocity, 3, 0.0);
   if (!findQueryNode(pose->model, flags, point, cursor, node)) return;

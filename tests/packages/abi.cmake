@@ -18,7 +18,7 @@ function(abi_library name target script)
 endfunction()
 
 set(blob ${PROJECT_SOURCE_DIR}/libblob)
-abi_library(blob_abi blob ${blob}/src/exports.map ${blob}/src/api.cpp ${blob}/src/device.cpp)
+abi_library(blob_abi blob ${blob}/src/exports.map ${blob}/src/api.cpp ${blob}/src/device.cpp ${blob}/src/pose_api.cpp)
 get_target_property(case_sources lumen_case_shared SOURCES)
 list(TRANSFORM case_sources PREPEND ${PROJECT_SOURCE_DIR}/formats/api/)
 abi_library(case_abi lumen_case_shared ${PROJECT_SOURCE_DIR}/formats/api/exports.map ${case_sources})
