@@ -8,7 +8,7 @@ import { lumen, makeFolder, view } from "./lumen.mjs";
 const proposals = page => page.locator("#proposal-list .item");
 const proposal = (page, label) => page.locator(`#proposal-list .item[data-label="${label}"]`);
 const labels = page => proposals(page).evaluateAll(rows => rows.map(row => row.dataset.label));
-const dashed = (r, g, b) => g > 205 && b > 235 && r < 130; // the cyan of proposals, which no vessel has
+const dashed = (r, g, b) => r > 215 && b > 215 && g < 110; // the magenta of proposals, which no vessel has
 
 /** Waits until N proposals are listed, and the page rests. */
 async function waiting(page, count) {

@@ -7,7 +7,7 @@ import type { SliceProjection } from "./slice_frame";
 import { label } from "./slice_overlay";
 import type { Branch, Tree } from "./tree";
 
-const kColour = "#3fe0ff",
+const kColour = "#ff3dff", // of twice the chroma of branchColour()
   kChosen = "#ffffff",
   kDash = [5, 4];
 
