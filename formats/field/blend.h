@@ -139,6 +139,32 @@ struct Mixture {
   }
 };
 
+/// The node where following a point from `node` ends. The walk never steps straight back: by rounding, two
+/// nodes could each see less power in the other. `Nodes` is described at blend().
+template <class Nodes>
+std::uint32_t followNodes(const Nodes& nodes, const double* point, std::uint32_t node) {
+  constexpr int kMaxSteps = 256;
+  std::uint32_t before = node;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const double* c = nodes.centre(node);
+    const double x[3] = {point[0] - c[0], point[1] - c[1], point[2] - c[2]};
+    std::uint32_t next = node;
+    double least = 0;
+    nodes.eachRival(node, [&](const Rival& rival) {
+      const double difference = powerDifference(rival, x);
+      if (difference < least) {
+        least = difference;
+        next = rival.node;
+      }
+      return true;
+    });
+    if (next == node || next == before) break;
+    before = node;
+    node = next;
+  }
+  return node;
+}
+
 /// The blended field at a point, for the cursor at `node`; the node's own model where no weight is
 /// left. `Nodes` has centre(k), which points to three numbers; eachRival(k, visit), which visits
 /// the neighbours until visit(rival) is false and returns whether it never was; and model<order>(k,

@@ -68,29 +68,9 @@ std::uint32_t BlendedField::locate(const Vec& point) const {
   return best;
 }
 
-// The walk never steps straight back: by rounding, two nodes could each see less power in the
-// other.
 std::uint32_t BlendedField::follow(const Vec& point, std::uint32_t node) const {
-  constexpr int kMaxSteps = 256;
-  std::uint32_t before = node;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const double* c = m_nodes[node].centre;
-    const double x[3] = {point.x - c[0], point.y - c[1], point.z - c[2]};
-    std::uint32_t next = node;
-    double least = 0;
-    eachRival(node, [&](const Rival& rival) {
-      const double difference = powerDifference(rival, x);
-      if (difference < least) {
-        least = difference;
-        next = rival.node;
-      }
-      return true;
-    });
-    if (next == node || next == before) break;
-    before = node;
-    node = next;
-  }
-  return node;
+  const double p[3] = {point.x, point.y, point.z};
+  return followNodes(*this, p, node);
 }
 
 template <int order>

@@ -59,25 +59,8 @@ std::uint32_t PosedField::locate(const Vec& point) const {
 }
 
 std::uint32_t PosedField::follow(const Vec& point, std::uint32_t node) const {
-  constexpr int kMaxSteps = 256;
-  std::uint32_t before = node;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const Vec from = point - vec(m_nodes[node].centre);
-    const double x[3] = {from.x, from.y, from.z};
-    std::uint32_t next = node;
-    double least = 0;
-    eachRival(node, [&](const Rival& rival) {
-      const double difference = powerDifference(rival, x);
-      if (difference < least) {
-        least = difference;
-        next = rival.node;
-      }
-      return true;
-    });
-    if (next == node || next == before) break;
-    before = std::exchange(node, next);
-  }
-  return node;
+  const double p[3] = {point.x, point.y, point.z};
+  return followNodes(*this, p, node);
 }
 
 Jet<1> PosedField::local(const Vec& point, std::uint32_t node) const {

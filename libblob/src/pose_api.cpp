@@ -147,7 +147,8 @@ blob_status blob_pose_set_centres(blob_pose* pose, size_t count, const uint32_t*
 
 blob_transform blob_pose_node(const blob_pose* pose, uint32_t node) noexcept {
   BLOB_REQUIRE(pose != nullptr);
-  if (node >= pose->pose.size()) return {{kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown, kUnknown}, kUnknown};
+  if (node >= pose->pose.size())
+    return {{kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown, kUnknown}, kUnknown};
   return transformOf(pose->pose[node]);
 }
 

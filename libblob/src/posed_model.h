@@ -19,7 +19,7 @@ struct alignas(16) PosedPlace {
   float number[4];
 };
 
-/// What a back end reads of a posed node to find strains: R, with its factor apart.
+/// The rotation R of a posed node, without its factor, as a back end reads it to find strains.
 struct alignas(16) PosedRotation {
   float quaternion[4];
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pose needs of rotations beside formats/field/pose.h.
+// Rotations that a pose needs beside those of formats/field/pose.h.
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ void writeMatrix(const Quaternion& q, double factor, T* m) noexcept {
 }
 
 /// The least rotation that turns one direction into another, of any lengths; none where one is zero.
-/// Of opposite directions, it is half a turn about some axis.
+/// Between opposite directions it is half a turn about some axis.
 inline Quaternion turnBetween(const field::Vec& from, const field::Vec& to) noexcept {
   const double size = field::norm(from) * field::norm(to);
   if (!(size > 0)) return {0, 0, 0, 1};

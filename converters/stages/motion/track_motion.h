@@ -18,7 +18,7 @@ struct MotionOptions {
   bool dark = false;  ///< vessels are darker than their background
 };
 
-/// What was found in one phase.
+/// The findings of one phase.
 struct PhaseReport {
   double farthest = 0;     ///< mm: longest way of a node from its place at rest
   double seen = 0;         ///< share of the length of vessel that the volume shows, 0 to 1

@@ -307,7 +307,7 @@ static void pose_nodes(soft_vessel* v) {
   if (count > 0) blob_pose_set(v->pose, count, s->nodes, s->transforms, NULL);
 }
 
-/* How far the wall gives way along its normal at a point when the force there grows by 1 N, mm/N. */
+/* The way, mm/N, that the wall gives along its normal at a point for each newton more there. */
 static double yield_at(const soft_vessel* v, const wall_load* load, size_t i) {
   const uint32_t node = load->cursors[i];
   const blob_node at = blob_model_node(soft_vessel_model(v), node);

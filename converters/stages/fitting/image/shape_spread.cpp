@@ -14,7 +14,7 @@ constexpr double kLeastSpread = 0.02;
 /// The share of a prior variance beyond which a variance shows that the prior decided.
 constexpr double kDecided = 0.5;
 constexpr std::size_t kFewestValues = 8;
-/// The greatest of so many values is left out: it comes from a fork that was not recognised.
+/// Number of values for each one, the greatest, that is left out: it comes from a fork that was not recognised.
 constexpr std::size_t kWildest = 50;
 
 /// The squares, less their variances, of one kind of parameter.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tables of neighbours at rest are worth on a pose, against tables that are made anew:
-// pose_strain MODEL.lumen WAVE. The space is moved by waves of WAVE mm and growing height; points lie about the
+// Tables of neighbours at rest on a pose, beside tables that are made anew: pose_strain MODEL.lumen WAVE. The space is moved by waves of WAVE mm and growing height; points lie about the
 // nodes, up to 0.2 radii outside of the wall.
 #include <algorithm>
 #include <array>

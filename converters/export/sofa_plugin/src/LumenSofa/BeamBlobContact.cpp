@@ -206,7 +206,7 @@ double BeamBlobContact::shareOfSlide(double before, double after, double motion)
   return after < 0 ? after / (after - before) : 0;
 }
 
-// How far the wall goes without contact where it moves, mm; it notes the frames that carry it.
+// The way, mm, that the wall goes without contact where it moves; it notes the frames that carry it.
 Vec3 BeamBlobContact::motionOfWall(Contact& contact) {
   contact.firstShare = m_shares.size();
   const BlobPose* pose = l_field->pose();
