@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // libblob's query in WGSL, and blob_query_points(): an invocation for each tool point. Generated
-// from blob_device.h and blob_device_model.h, which explain each function and the buffer, by
+// from blob_device.h and the headers that it includes, which explain each function and the buffer, by
 // libblob/device/translate/translate.py; change those.
 //
 // A pointer of C into the buffer is the index of a word here: words is that of the buffer's first
@@ -10,19 +10,21 @@
 @group(0) @binding(0) var<storage, read> blob_device_buffer: array<u32>;
 
 const BLOB_DEVICE_MAGIC: u32 = 0x5642424cu;
-const BLOB_DEVICE_VERSION: u32 = 1u;
+const BLOB_DEVICE_VERSION: u32 = 2u;
 const BLOB_DEVICE_HEADER_WORDS: u32 = 4u;
 const BLOB_DEVICE_VESSEL_WORDS: u32 = 8u;
-const BLOB_DEVICE_NODE_WORDS: u32 = 12u;
-const BLOB_DEVICE_NEIGHBOUR_WORDS: u32 = 6u;
-const BLOB_DEVICE_BLOB_WORDS: u32 = 5u;
+const BLOB_DEVICE_NODE_WORDS: u32 = 16u;
+const BLOB_DEVICE_NEIGHBOUR_WORDS: u32 = 48u;
+const BLOB_DEVICE_BLOB_WORDS: u32 = 40u;
 const BLOB_DEVICE_ALIGN_WORDS: u32 = 16u;
 const BLOB_DEVICE_BLENDED: u32 = 0u;
 const BLOB_DEVICE_LOCAL: u32 = 1u;
 const BLOB_DEVICE_HOLD: u32 = 4u;
 const BLOB_DEVICE_INSIDE: u32 = 1u;
 const BLOB_DEVICE_NOWHERE: u32 = 0xffffffffu;
+const BLOB_DEVICE_WIDE: i32 = 0;
 const BLOB_DEVICE_MOST_ACTIVE: i32 = 24;
+const BLOB_DEVICE_MANY: u32 = 0xffffffffu;
 
 struct blob_device_sample {
   value: f32,
@@ -44,10 +46,15 @@ struct blob_device_vessel {
   transformed_level: f32,
 }
 
+struct blob_device_place {
+  point: array<f32, 3>,
+  step: array<f32, 3>,
+}
+
 struct blob_device_node {
   record: u32,
   neighbour: u32,
-  neighbours: u32,
+  blocks: u32,
   x: array<f32, 3>,
 }
 
@@ -57,16 +64,23 @@ struct blob_device_lane {
   radius: f32,
 }
 
-struct blob_device_mixture {
+struct blob_device_eight {
+  of: array<f32, 8>,
+}
+
+struct blob_device_active {
   nodes: array<u32, BLOB_DEVICE_MOST_ACTIVE>,
   count: i32,
-  is_empty: i32,
+}
+
+struct blob_device_mixture {
   weight: array<f32, 4>,
   excess: array<f32, 4>,
   field: array<f32, 4>,
   f0: f32,
   shift: f32,
   radius: f32,
+  is_empty: i32,
 }
 
 fn blob_device_lesser(a: f32, b: f32) -> f32 {
@@ -83,7 +97,9 @@ fn blob_device_norm(v: array<f32, 3>) -> f32 {
 
 fn blob_device_exp(unbounded: f32) -> f32 {
   let x: f32 = select(select(unbounded, 88.0f, unbounded > 88.0f), -87.0f, unbounded < -87.0f);
-  let n: i32 = i32(x * 1.44269504f + select(0.5f, -0.5f, x < 0.0f));
+  let scaled: f32 = x * 1.44269504f;
+  let rest: f32 = scaled - f32(i32(scaled));
+  let n: i32 = i32(scaled) + select(select(0, -1, rest < -0.5f), 1, rest > 0.5f);
   let r: f32 = x - f32(n) * 0.693359375f - f32(n) * -2.12194440e-4f;
   var p: f32 = 1.9875691500e-4f;
   var power: u32;
@@ -140,59 +156,42 @@ fn blob_device_open(words: u32, index: u32) -> blob_device_vessel {
   return v;
 }
 
-fn blob_device_at(v: blob_device_vessel, index: u32, point: array<f32, 3>) -> blob_device_node {
+fn blob_device_place_at(point: array<f32, 3>) -> blob_device_place {
+  var place: blob_device_place;
+  place.point[0] = point[0];
+  place.point[1] = point[1];
+  place.point[2] = point[2];
+  place.step[0] = 0.0f;
+  place.step[1] = 0.0f;
+  place.step[2] = 0.0f;
+  return place;
+}
+
+fn blob_device_at(v: blob_device_vessel, index: u32, place: blob_device_place) -> blob_device_node {
   var node: blob_device_node;
   var square: f32;
   node.record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index;
-  node.x[0] = point[0] - bitcast<f32>(blob_device_buffer[node.record]);
-  node.x[1] = point[1] - bitcast<f32>(blob_device_buffer[node.record + 1u]);
-  node.x[2] = point[2] - bitcast<f32>(blob_device_buffer[node.record + 2u]);
+  node.x[0] = place.point[0] - bitcast<f32>(blob_device_buffer[node.record]) -
+      bitcast<f32>(blob_device_buffer[node.record + 12u]) + place.step[0];
+  node.x[1] = place.point[1] - bitcast<f32>(blob_device_buffer[node.record + 1u]) -
+      bitcast<f32>(blob_device_buffer[node.record + 13u]) + place.step[1];
+  node.x[2] = place.point[2] - bitcast<f32>(blob_device_buffer[node.record + 2u]) -
+      bitcast<f32>(blob_device_buffer[node.record + 14u]) + place.step[2];
   square = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2];
-  node.neighbours = blob_device_buffer[node.record + 11u];
-  if (node.neighbours > 8u && square < bitcast<f32>(blob_device_buffer[node.record + 7u])) {
-    node.neighbours = 8u;
+  node.blocks = blob_device_buffer[node.record + 11u];
+  if (node.blocks > 1u && square < bitcast<f32>(blob_device_buffer[node.record + 7u])) {
+    node.blocks = 1u;
   }
   node.neighbour = v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
       blob_device_buffer[node.record + 10u];
   return node;
 }
 
-fn blob_device_difference(node: blob_device_node, e: u32) -> f32 {
-  let k: u32 = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e;
-  return bitcast<f32>(blob_device_buffer[k]) * node.x[0] + bitcast<f32>(blob_device_buffer[k + 1u])
-      * node.x[1] + bitcast<f32>(blob_device_buffer[k + 2u]) * node.x[2] +
-      bitcast<f32>(blob_device_buffer[k + 3u]);
-}
-
-fn blob_device_follow(v: blob_device_vessel, point: array<f32, 3>, start: u32) -> u32 {
-  var before: u32 = start;
-  var node: u32 = start;
-  for (var step: i32 = 0; step < 256; step += 1) {
-    let here: blob_device_node = blob_device_at(v, node, point);
-    var next: u32 = node;
-    var least: f32 = 0.0f;
-    for (var e: u32 = 0u; e < here.neighbours; e += 1u) {
-      let difference: f32 = blob_device_difference(here, e);
-      let k: u32 = blob_device_buffer[here.neighbour + (BLOB_DEVICE_NEIGHBOUR_WORDS * e + 5u)];
-      if (difference < least || ((difference == least && next != node) && k < next)) {
-        least = difference;
-        next = k;
-      }
-    }
-    if (next == node || next == before) {
-      break;
-    }
-    before = node;
-    node = next;
-  }
-  return node;
-}
-
-fn blob_device_locate(v: blob_device_vessel, point: array<f32, 3>) -> u32 {
+fn blob_device_locate(v: blob_device_vessel, place: blob_device_place) -> u32 {
   var best: u32 = 0u;
   var least: f32 = 3e38f;
   for (var i: u32 = 0u; i < v.node_count; i += 1u) {
-    let node: blob_device_node = blob_device_at(v, i, point);
+    let node: blob_device_node = blob_device_at(v, i, place);
     let r: f32 = bitcast<f32>(blob_device_buffer[node.record + 3u]);
     let power: f32 = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2] - r * r;
     if (power < least) {
@@ -201,6 +200,25 @@ fn blob_device_locate(v: blob_device_vessel, point: array<f32, 3>) -> u32 {
     }
   }
   return best;
+}
+
+fn blob_device_difference(block: u32, lane: u32, x: array<f32, 3>) -> f32 {
+  let k: u32 = block + lane;
+  return bitcast<f32>(blob_device_buffer[k]) * x[0] + bitcast<f32>(blob_device_buffer[k + 8u]) *
+      x[1] + bitcast<f32>(blob_device_buffer[k + 16u]) * x[2] +
+      bitcast<f32>(blob_device_buffer[k + 24u]);
+}
+
+fn blob_device_step(s: f32) -> f32 {
+  return (6.0f * s - 15.0f) * s + 10.0f;
+}
+
+fn blob_device_exponent(blob: u32, at: array<f32, 3>, d: ptr<function, array<f32, 3>>) -> f32 {
+  (*d)[0] = at[0] - bitcast<f32>(blob_device_buffer[blob]);
+  (*d)[1] = at[1] - bitcast<f32>(blob_device_buffer[blob + 8u]);
+  (*d)[2] = at[2] - bitcast<f32>(blob_device_buffer[blob + 16u]);
+  return bitcast<f32>(blob_device_buffer[blob + 24u]) *
+      ((*d)[0] * (*d)[0] + (*d)[1] * (*d)[1] + (*d)[2] * (*d)[2]);
 }
 
 fn blob_device_term(phi: u32, u: f32, a: f32, w: f32, slope: ptr<function, f32>) -> f32 {
@@ -226,11 +244,123 @@ fn blob_device_term(phi: u32, u: f32, a: f32, w: f32, slope: ptr<function, f32>)
   return w * (q * q) * (5.0f + 4.0f * q) * (1.0f / 9.0f);
 }
 
-fn blob_device_square(blob: u32, at: array<f32, 3>, d: ptr<function, array<f32, 3>>) -> f32 {
-  (*d)[0] = at[0] - bitcast<f32>(blob_device_buffer[blob]);
-  (*d)[1] = at[1] - bitcast<f32>(blob_device_buffer[blob + 1u]);
-  (*d)[2] = at[2] - bitcast<f32>(blob_device_buffer[blob + 2u]);
-  return (*d)[0] * (*d)[0] + (*d)[1] * (*d)[1] + (*d)[2] * (*d)[2];
+fn blob_device_total(e: blob_device_eight) -> f32 {
+  return e.of[0] + e.of[2] + (e.of[1] + e.of[3]) + (e.of[4] + e.of[6] + (e.of[5] + e.of[7]));
+}
+
+fn blob_device_first(bits: u32) -> u32 {
+  var found: u32 = 8u;
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    if (found == 8u && ((bits >> i) & 1u) != 0u) {
+      found = i;
+    }
+  }
+  return found;
+}
+
+fn blob_device_below(block: u32, x: array<f32, 3>, limit: f32) -> u32 {
+  var bits: u32 = 0u;
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    if (blob_device_difference(block, i, x) * bitcast<f32>(blob_device_buffer[block + (i + 32u)]) <
+        limit) {
+      bits = bits | (1u << i);
+    }
+  }
+  return bits;
+}
+
+fn blob_device_lower(block: u32, x: array<f32, 3>, node: u32, least: ptr<function, f32>,
+    next: ptr<function, u32>) {
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    let difference: f32 = blob_device_difference(block, i, x);
+    let k: u32 = blob_device_buffer[block + (i + 40u)];
+    if (difference < (*least) || ((difference == (*least) && (*next) != node) && k < (*next))) {
+      (*least) = difference;
+      (*next) = k;
+    }
+  }
+}
+
+fn blob_device_holds(block: u32, k: u32) -> i32 {
+  var found: i32 = 0;
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    if (blob_device_buffer[block + (i + 40u)] == k) {
+      found = 1;
+    }
+  }
+  return found;
+}
+
+fn blob_device_weigh_against(block: u32, x: array<f32, 3>, part: ptr<function, array<f32, 3>>) ->
+    f32 {
+  var psi: blob_device_eight;
+  var along_x: blob_device_eight;
+  var along_y: blob_device_eight;
+  var along_z: blob_device_eight;
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    let inverse_tau: f32 = bitcast<f32>(blob_device_buffer[block + (i + 32u)]);
+    let t: f32 = blob_device_difference(block, i, x) * inverse_tau;
+    let s: f32 = blob_device_lesser(blob_device_greater(0.5f + 0.5f * t, 0.0f), 1.0f);
+    let sp: f32 = s * blob_device_step(s);
+    let rest: f32 = 1.0f - s;
+    let q: f32 = 15.0f * (rest * rest) * inverse_tau / sp;
+    psi.of[i] = s * s * sp;
+    along_x.of[i] = q * bitcast<f32>(blob_device_buffer[block + i]);
+    along_y.of[i] = q * bitcast<f32>(blob_device_buffer[block + (i + 8u)]);
+    along_z.of[i] = q * bitcast<f32>(blob_device_buffer[block + (i + 16u)]);
+  }
+  (*part)[0] = blob_device_total(along_x);
+  (*part)[1] = blob_device_total(along_y);
+  (*part)[2] = blob_device_total(along_z);
+  return psi.of[0] * psi.of[2] * (psi.of[1] * psi.of[3]) *
+      (psi.of[4] * psi.of[6] * (psi.of[5] * psi.of[7]));
+}
+
+fn blob_device_least_exponent(first: u32, count: u32, at: array<f32, 3>) -> f32 {
+  var least: f32 = 3e38f;
+  var d: array<f32, 3>;
+  for (var b: u32 = 0u; b < count; b += 1u) {
+    for (var i: u32 = 0u; i < 8u; i += 1u) {
+      let blob: u32 = first + BLOB_DEVICE_BLOB_WORDS * b + i;
+      let u: f32 = blob_device_exponent(blob, at, &d);
+      if (bitcast<f32>(blob_device_buffer[blob + 32u]) > 0.0f) {
+        least = blob_device_lesser(u, least);
+      }
+    }
+  }
+  return least;
+}
+
+fn blob_device_sum_blobs(phi: u32, first: u32, count: u32, at: array<f32, 3>, shift: f32,
+    lane: ptr<function, blob_device_lane>) {
+  var f: blob_device_eight;
+  var along_x: blob_device_eight;
+  var along_y: blob_device_eight;
+  var along_z: blob_device_eight;
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    along_z.of[i] = 0.0f;
+    along_y.of[i] = 0.0f;
+    along_x.of[i] = 0.0f;
+    f.of[i] = 0.0f;
+  }
+  for (var b: u32 = 0u; b < count; b += 1u) {
+    for (var i: u32 = 0u; i < 8u; i += 1u) {
+      let blob: u32 = first + BLOB_DEVICE_BLOB_WORDS * b + i;
+      var d: array<f32, 3>;
+      var slope: f32;
+      var u: f32 = blob_device_exponent(blob, at, &d);
+      u = select(u, blob_device_greater(u - shift, 0.0f), phi == 1u);
+      f.of[i] += blob_device_term(phi, u, bitcast<f32>(blob_device_buffer[blob + 24u]),
+          bitcast<f32>(blob_device_buffer[blob + 32u]), &slope);
+      along_x.of[i] += slope * d[0];
+      along_y.of[i] += slope * d[1];
+      along_z.of[i] += slope * d[2];
+    }
+  }
+  (*lane).field[0] = blob_device_total(f);
+  (*lane).field[1] = blob_device_total(along_x);
+  (*lane).field[2] = blob_device_total(along_y);
+  (*lane).field[3] = blob_device_total(along_z);
 }
 
 fn blob_device_evaluate(v: blob_device_vessel, node: blob_device_node) -> blob_device_lane {
@@ -239,52 +369,47 @@ fn blob_device_evaluate(v: blob_device_vessel, node: blob_device_node) -> blob_d
       blob_device_buffer[node.record + 8u];
   var lane: blob_device_lane;
   var at: array<f32, 3>;
-  var d: array<f32, 3>;
-  lane.shift = 0.0f;
-  lane.radius = bitcast<f32>(blob_device_buffer[node.record + 3u]);
   at[0] = node.x[0] + bitcast<f32>(blob_device_buffer[node.record + 4u]);
   at[1] = node.x[1] + bitcast<f32>(blob_device_buffer[node.record + 5u]);
   at[2] = node.x[2] + bitcast<f32>(blob_device_buffer[node.record + 6u]);
-  lane.field[0] = 0.0f;
-  lane.field[1] = 0.0f;
-  lane.field[2] = 0.0f;
-  lane.field[3] = 0.0f;
+  lane.shift = 0.0f;
   if (v.phi == 1u && count > 0u) {
-    lane.shift = 3e38f;
-    for (var j: u32 = 0u; j < count; j += 1u) {
-      let blob: u32 = first + BLOB_DEVICE_BLOB_WORDS * j;
-      lane.shift = blob_device_lesser(bitcast<f32>(blob_device_buffer[blob + 3u]) *
-          blob_device_square(blob, at, &d), lane.shift);
-    }
+    lane.shift = blob_device_least_exponent(first, count, at);
   }
-  for (var j: u32 = 0u; j < count; j += 1u) {
-    let blob: u32 = first + BLOB_DEVICE_BLOB_WORDS * j;
-    let a: f32 = bitcast<f32>(blob_device_buffer[blob + 3u]);
-    var slope: f32;
-    var u: f32 = a * blob_device_square(blob, at, &d);
-    u = select(u, blob_device_greater(u - lane.shift, 0.0f), v.phi == 1u);
-    lane.field[0] += blob_device_term(v.phi, u, a, bitcast<f32>(blob_device_buffer[blob + 4u]),
-        &slope);
-    lane.field[1] += slope * d[0];
-    lane.field[2] += slope * d[1];
-    lane.field[3] += slope * d[2];
-  }
+  lane.radius = bitcast<f32>(blob_device_buffer[node.record + 3u]);
+  blob_device_sum_blobs(v.phi, first, count, at, lane.shift, &lane);
   return lane;
 }
 
-fn blob_device_step(s: f32) -> f32 {
-  return (6.0f * s - 15.0f) * s + 10.0f;
+fn blob_device_follow(v: blob_device_vessel, place: blob_device_place, start: u32) -> u32 {
+  var before: u32 = start;
+  var node: u32 = start;
+  for (var step: i32 = 0; step < 256; step += 1) {
+    let here: blob_device_node = blob_device_at(v, node, place);
+    var next: u32 = node;
+    var least: f32 = 0.0f;
+    for (var b: u32 = 0u; b < here.blocks; b += 1u) {
+      blob_device_lower(here.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, here.x, node, &least,
+          &next);
+    }
+    if (next == node || next == before) {
+      break;
+    }
+    before = node;
+    node = next;
+  }
+  return node;
 }
 
-fn blob_device_add_active(sum: ptr<function, blob_device_mixture>, k: u32) {
-  for (var i: i32 = 0; i < (*sum).count; i += 1) {
-    if ((*sum).nodes[i] == k) {
+fn blob_device_add_active(active: ptr<function, blob_device_active>, k: u32) {
+  for (var i: i32 = 0; i < (*active).count; i += 1) {
+    if ((*active).nodes[i] == k) {
       return;
     }
   }
-  if ((*sum).count < BLOB_DEVICE_MOST_ACTIVE) {
-    (*sum).nodes[(*sum).count] = k;
-    (*sum).count += 1;
+  if ((*active).count < BLOB_DEVICE_MOST_ACTIVE) {
+    (*active).nodes[(*active).count] = k;
+    (*active).count += 1;
   }
 }
 
@@ -292,42 +417,53 @@ fn blob_device_is_neighbour(v: blob_device_vessel, node: u32, k: u32) -> i32 {
   let record: u32 = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * node;
   let first: u32 = v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
       blob_device_buffer[record + 10u];
-  for (var e: u32 = 0u; e < blob_device_buffer[record + 11u]; e += 1u) {
-    if (blob_device_buffer[first + (BLOB_DEVICE_NEIGHBOUR_WORDS * e + 5u)] == k) {
+  for (var b: u32 = 0u; b < blob_device_buffer[record + 11u]; b += 1u) {
+    if (blob_device_holds(first + BLOB_DEVICE_NEIGHBOUR_WORDS * b, k) != 0) {
       return 1;
     }
   }
   return 0;
 }
 
-fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node, sum: ptr<function,
-    blob_device_mixture>, gradient: ptr<function, array<f32, 3>>) -> f32 {
+fn blob_device_rivals(node: blob_device_node) -> u32 {
+  for (var b: u32 = 1u; b < node.blocks; b += 1u) {
+    if (blob_device_below(node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node.x, 1.0f) != 0u) {
+      return BLOB_DEVICE_MANY;
+    }
+  }
+  return blob_device_below(node.neighbour, node.x, 1.0f);
+}
+
+fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node,
+    active: ptr<function, blob_device_active>, gradient: ptr<function, array<f32, 3>>) -> f32 {
   var u: f32 = 1.0f;
+  var part: array<f32, 3>;
   (*gradient)[0] = 0.0f;
   (*gradient)[1] = 0.0f;
   (*gradient)[2] = 0.0f;
-  for (var e: u32 = 0u; e < node.neighbours; e += 1u) {
-    let k: u32 = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e;
-    let inverse_tau: f32 = bitcast<f32>(blob_device_buffer[k + 4u]);
-    let t: f32 = blob_device_difference(node, e) * inverse_tau;
-    let s: f32 = 0.5f + 0.5f * t;
-    let sp: f32 = s * blob_device_step(s);
-    if (!(t < 1.0f)) {
+  for (var b: u32 = 0u; b < node.blocks; b += 1u) {
+    let block: u32 = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b;
+    let rivals: u32 = blob_device_below(block, node.x, 1.0f);
+    if (rivals == 0u) {
       continue;
     }
-    u = select(u * (s * s * sp), 0.0f, t < -1.0f || s <= 0.0f);
+    if (blob_device_below(block, node.x, -1.0f) != 0u) {
+      return 0.0f;
+    }
+    u *= blob_device_weigh_against(block, node.x, &part);
     if (!(u > 1e-20f)) {
       return 0.0f;
     }
-    (*gradient)[0] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
-        bitcast<f32>(blob_device_buffer[k]);
-    (*gradient)[1] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
-        bitcast<f32>(blob_device_buffer[k + 1u]);
-    (*gradient)[2] += 15.0f * ((1.0f - s) * (1.0f - s)) * inverse_tau / sp *
-        bitcast<f32>(blob_device_buffer[k + 2u]);
-    if (index == (*sum).nodes[0] || blob_device_is_neighbour(v, (*sum).nodes[0],
-        blob_device_buffer[k + 5u]) == 0) {
-      blob_device_add_active(sum, blob_device_buffer[k + 5u]);
+    (*gradient)[0] += part[0];
+    (*gradient)[1] += part[1];
+    (*gradient)[2] += part[2];
+    for (var i: u32 = 0u; i < 8u; i += 1u) {
+      if (((rivals >> i) & 1u) != 0u) {
+        if (index == (*active).nodes[0] || blob_device_is_neighbour(v, (*active).nodes[0],
+            blob_device_buffer[block + (i + 40u)]) == 0) {
+          blob_device_add_active(active, blob_device_buffer[block + (i + 40u)]);
+        }
+      }
     }
   }
   (*gradient)[0] *= u;
@@ -388,34 +524,50 @@ fn blob_device_add(v: blob_device_vessel, own: blob_device_lane, u: f32, gradien
   (*sum).radius += u * own.radius;
 }
 
-fn blob_device_blend(v: blob_device_vessel, point: array<f32, 3>, start: u32, lane: ptr<function,
-    blob_device_lane>) {
+fn blob_device_clear(sum: ptr<function, blob_device_mixture>) {
+  (*sum).field[0] = 0.0f;
+  (*sum).excess[0] = 0.0f;
+  (*sum).weight[0] = 0.0f;
+  (*sum).field[1] = 0.0f;
+  (*sum).excess[1] = 0.0f;
+  (*sum).weight[1] = 0.0f;
+  (*sum).field[2] = 0.0f;
+  (*sum).excess[2] = 0.0f;
+  (*sum).weight[2] = 0.0f;
+  (*sum).field[3] = 0.0f;
+  (*sum).excess[3] = 0.0f;
+  (*sum).weight[3] = 0.0f;
+  (*sum).shift = 0.0f;
+  (*sum).f0 = 0.0f;
+  (*sum).radius = 0.0f;
+  (*sum).is_empty = 1;
+}
+
+fn blob_device_quotient(sum: blob_device_mixture) -> blob_device_lane {
+  let inverse: f32 = 1.0f / sum.weight[0];
+  let excess: f32 = sum.excess[0] * inverse;
+  var lane: blob_device_lane;
+  lane.field[0] = sum.f0 + excess;
+  lane.field[1] = (sum.field[1] + (sum.excess[1] - excess * sum.weight[1])) * inverse;
+  lane.field[2] = (sum.field[2] + (sum.excess[2] - excess * sum.weight[2])) * inverse;
+  lane.field[3] = (sum.field[3] + (sum.excess[3] - excess * sum.weight[3])) * inverse;
+  lane.shift = sum.shift;
+  lane.radius = sum.radius * inverse;
+  return lane;
+}
+
+fn blob_device_blend_all(v: blob_device_vessel, place: blob_device_place, start: u32,
+    lane: ptr<function, blob_device_lane>) {
+  var active: blob_device_active;
   var sum: blob_device_mixture;
   var gradient: array<f32, 3>;
-  var inverse: f32;
-  var excess: f32;
-  sum.field[0] = 0.0f;
-  sum.excess[0] = 0.0f;
-  sum.weight[0] = 0.0f;
-  sum.field[1] = 0.0f;
-  sum.excess[1] = 0.0f;
-  sum.weight[1] = 0.0f;
-  sum.field[2] = 0.0f;
-  sum.excess[2] = 0.0f;
-  sum.weight[2] = 0.0f;
-  sum.field[3] = 0.0f;
-  sum.excess[3] = 0.0f;
-  sum.weight[3] = 0.0f;
-  sum.shift = 0.0f;
-  sum.f0 = 0.0f;
-  sum.radius = 0.0f;
-  sum.is_empty = 1;
-  sum.nodes[0] = start;
-  sum.count = 1;
-  for (var n: i32 = 0; n < sum.count; n += 1) {
-    let before: i32 = sum.count;
-    let node: blob_device_node = blob_device_at(v, sum.nodes[n], point);
-    let u: f32 = blob_device_weigh(v, sum.nodes[n], node, &sum, &gradient);
+  blob_device_clear(&sum);
+  active.nodes[0] = start;
+  active.count = 1;
+  for (var n: i32 = 0; n < active.count; n += 1) {
+    let before: i32 = active.count;
+    let node: blob_device_node = blob_device_at(v, active.nodes[n], place);
+    let u: f32 = blob_device_weigh(v, active.nodes[n], node, &active, &gradient);
     if (u > 0.0f) {
       var own: blob_device_lane;
       if (n == 0) {
@@ -425,20 +577,118 @@ fn blob_device_blend(v: blob_device_vessel, point: array<f32, 3>, start: u32, la
       }
       blob_device_add(v, own, u, gradient, &sum);
     } else {
-      sum.count = before;
+      active.count = before;
     }
   }
-  if (sum.is_empty != 0) {
+  if (sum.is_empty == 0) {
+    (*lane) = blob_device_quotient(sum);
+  }
+}
+
+fn blob_device_pair(v: blob_device_vessel, node: u32, other: blob_device_node, rivals: u32, t: f32)
+    -> i32 {
+  if (rivals == BLOB_DEVICE_MANY || !(t > -0.999f)) {
+    return 0;
+  }
+  if ((rivals & (rivals - 1u)) == 0u) {
+    if (rivals == 0u || blob_device_buffer[other.neighbour + (blob_device_first(rivals) + 40u)] ==
+        node) {
+      return 1;
+    }
+  }
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    if (((rivals >> i) & 1u) != 0u && blob_device_buffer[other.neighbour + (i + 40u)] != node) {
+      if (blob_device_is_neighbour(v, node, blob_device_buffer[other.neighbour + (i + 40u)]) == 0) {
+        return 0;
+      }
+    }
+  }
+  return 2;
+}
+
+fn blob_device_mix(v: blob_device_vessel, rival: u32, t: f32, other: blob_device_lane,
+    lane: ptr<function, blob_device_lane>) {
+  let s: f32 = 0.5f + 0.5f * t;
+  let rest: f32 = 1.0f - s;
+  let psi: f32 = s * s * s * blob_device_step(s);
+  let slope: f32 = 15.0f * (s * s * (rest * rest)) * bitcast<f32>(blob_device_buffer[rival + 32u]);
+  var of_own: f32 = 1.0f;
+  var of_other: f32 = 1.0f;
+  var excess: array<f32, 4>;
+  if (v.phi == 1u) {
+    var copy_1 = (*lane).shift;
+    blob_device_share_shift(&copy_1, other.shift, &of_own, &of_other);
+    (*lane).shift = copy_1;
+  }
+  excess[0] = (*lane).field[0] * of_own - other.field[0] * of_other;
+  excess[1] = (*lane).field[1] * of_own - other.field[1] * of_other;
+  excess[2] = (*lane).field[2] * of_own - other.field[2] * of_other;
+  excess[3] = (*lane).field[3] * of_own - other.field[3] * of_other;
+  (*lane).field[0] = other.field[0] * of_other + psi * excess[0];
+  (*lane).field[1] = other.field[1] * of_other + psi * excess[1];
+  (*lane).field[2] = other.field[2] * of_other + psi * excess[2];
+  (*lane).field[3] = other.field[3] * of_other + psi * excess[3];
+  (*lane).field[1] += slope * excess[0] * bitcast<f32>(blob_device_buffer[rival + u32(8 * 0)]);
+  (*lane).field[2] += slope * excess[0] * bitcast<f32>(blob_device_buffer[rival + u32(8 * 1)]);
+  (*lane).field[3] += slope * excess[0] * bitcast<f32>(blob_device_buffer[rival + u32(8 * 2)]);
+  (*lane).radius = other.radius + psi * ((*lane).radius - other.radius);
+}
+
+fn blob_device_mix_two(v: blob_device_vessel, rival: u32, t: f32, node: blob_device_node,
+    other: blob_device_lane, lane: ptr<function, blob_device_lane>) {
+  let s: f32 = 0.5f + 0.5f * t;
+  let rest: f32 = 1.0f - s;
+  let sp: f32 = s * blob_device_step(s);
+  let u: f32 = s * s * sp;
+  let q: f32 = 15.0f * (rest * rest) * bitcast<f32>(blob_device_buffer[rival + 32u]) / sp;
+  let own: blob_device_lane = (*lane);
+  var sum: blob_device_mixture;
+  var gradient: array<f32, 3>;
+  var product: f32;
+  blob_device_clear(&sum);
+  gradient[0] = u * (q * bitcast<f32>(blob_device_buffer[rival + u32(8 * 0)]));
+  gradient[1] = u * (q * bitcast<f32>(blob_device_buffer[rival + u32(8 * 1)]));
+  gradient[2] = u * (q * bitcast<f32>(blob_device_buffer[rival + u32(8 * 2)]));
+  blob_device_add(v, own, u, gradient, &sum);
+  product = blob_device_weigh_against(node.neighbour, node.x, &gradient);
+  if (product > 1e-20f) {
+    gradient[0] *= product;
+    gradient[1] *= product;
+    gradient[2] *= product;
+    blob_device_add(v, other, product, gradient, &sum);
+  }
+  (*lane) = blob_device_quotient(sum);
+}
+
+fn blob_device_blend(v: blob_device_vessel, place: blob_device_place, index: u32,
+    node: blob_device_node, lane: ptr<function, blob_device_lane>) {
+  let rivals: u32 = blob_device_rivals(node);
+  var rival: u32;
+  var other: blob_device_node;
+  var second: blob_device_lane;
+  var t: f32;
+  var kind: i32;
+  if (rivals == 0u) {
     return;
   }
-  inverse = 1.0f / sum.weight[0];
-  excess = sum.excess[0] * inverse;
-  (*lane).field[0] = sum.f0 + excess;
-  (*lane).field[1] = (sum.field[1] + (sum.excess[1] - excess * sum.weight[1])) * inverse;
-  (*lane).field[2] = (sum.field[2] + (sum.excess[2] - excess * sum.weight[2])) * inverse;
-  (*lane).field[3] = (sum.field[3] + (sum.excess[3] - excess * sum.weight[3])) * inverse;
-  (*lane).shift = sum.shift;
-  (*lane).radius = sum.radius * inverse;
+  if ((rivals & (rivals - 1u)) != 0u) {
+    blob_device_blend_all(v, place, index, lane);
+    return;
+  }
+  rival = node.neighbour + blob_device_first(rivals);
+  t = blob_device_difference(rival, 0u, node.x) * bitcast<f32>(blob_device_buffer[rival + 32u]);
+  other = blob_device_at(v, blob_device_buffer[rival + 40u], place);
+  kind = blob_device_pair(v, index, other, blob_device_rivals(other), t);
+  if (kind == 0) {
+    blob_device_blend_all(v, place, index, lane);
+    return;
+  }
+  second = blob_device_evaluate(v, other);
+  if (kind == 1) {
+    blob_device_mix(v, rival, t, second, lane);
+  } else {
+    blob_device_mix_two(v, rival, t, other, second, lane);
+  }
 }
 
 fn blob_device_level(phi: u32, f: f32, shift: f32, relative: f32, slope: ptr<function, f32>) -> f32
@@ -503,52 +753,61 @@ fn blob_device_finish(v: blob_device_vessel, lane: blob_device_lane, at: array<f
   (*sample).state = select(0u, BLOB_DEVICE_INSIDE, inside != 0);
 }
 
-fn blob_device_query(words: u32, vessel: u32, flags: u32, point: array<f32, 3>,
-    cursor: ptr<function, u32>, sample: ptr<function, blob_device_sample>) {
-  let v: blob_device_vessel = blob_device_open(words, vessel);
-  var node: blob_device_node;
-  var lane: blob_device_lane;
+fn blob_device_is_out_of_range(node: blob_device_node, sample: ptr<function, blob_device_sample>) ->
+    i32 {
+  var length: f32;
   var in_range: i32 = 1;
-  if ((*cursor) >= v.node_count) {
-    (*cursor) = blob_device_locate(v, point);
-  }
-  node = blob_device_at(v, (*cursor), point);
   in_range = select(0, 1, (in_range != 0 && node.x[0] <= 1e9f) && node.x[0] >= -1e9f);
   in_range = select(0, 1, (in_range != 0 && node.x[1] <= 1e9f) && node.x[1] >= -1e9f);
   in_range = select(0, 1, (in_range != 0 && node.x[2] <= 1e9f) && node.x[2] >= -1e9f);
-  if (in_range == 0) {
-    let length: f32 = blob_device_norm(node.x);
-    (*sample).value = select(select(length, 0.0f, length > 0.0f), 0.0f, length - length == 0.0f);
-    (*sample).distance = length - bitcast<f32>(blob_device_buffer[node.record + 3u]);
-    (*sample).gradient[0] = (*sample).value;
-    (*sample).normal[0] = select((*sample).value, node.x[0] / length, length > 0.0f && length <=
-        3e38f);
-    (*sample).gradient[1] = (*sample).value;
-    (*sample).normal[1] = select((*sample).value, node.x[1] / length, length > 0.0f && length <=
-        3e38f);
-    (*sample).gradient[2] = (*sample).value;
-    (*sample).normal[2] = select((*sample).value, node.x[2] / length, length > 0.0f && length <=
-        3e38f);
-    (*sample).node = (*cursor);
-    (*sample).state = 0u;
-    return;
+  if (in_range != 0) {
+    return 0;
+  }
+  length = blob_device_norm(node.x);
+  (*sample).value = select(select(length, 0.0f, length > 0.0f), 0.0f, length - length == 0.0f);
+  (*sample).distance = length - bitcast<f32>(blob_device_buffer[node.record + 3u]);
+  (*sample).gradient[0] = (*sample).value;
+  (*sample).normal[0] = select((*sample).value, node.x[0] / length, length > 0.0f && length <=
+      3e38f);
+  (*sample).gradient[1] = (*sample).value;
+  (*sample).normal[1] = select((*sample).value, node.x[1] / length, length > 0.0f && length <=
+      3e38f);
+  (*sample).gradient[2] = (*sample).value;
+  (*sample).normal[2] = select((*sample).value, node.x[2] / length, length > 0.0f && length <=
+      3e38f);
+  (*sample).state = 0u;
+  return 1;
+}
+
+fn blob_device_sample_at(v: blob_device_vessel, flags: u32, place: blob_device_place,
+    cursor: ptr<function, u32>, sample: ptr<function, blob_device_sample>) -> i32 {
+  var node: blob_device_node = blob_device_at(v, (*cursor), place);
+  var lane: blob_device_lane;
+  (*sample).node = (*cursor);
+  if (blob_device_is_out_of_range(node, sample) != 0) {
+    return 0;
   }
   if ((flags & BLOB_DEVICE_HOLD) == 0u) {
-    (*cursor) = blob_device_follow(v, point, (*cursor));
-    node = blob_device_at(v, (*cursor), point);
+    (*cursor) = blob_device_follow(v, place, (*cursor));
+    node = blob_device_at(v, (*cursor), place);
   }
   lane = blob_device_evaluate(v, node);
   if ((flags & BLOB_DEVICE_LOCAL) == 0u) {
-    for (var e: u32 = 0u; e < node.neighbours; e += 1u) {
-      if (blob_device_difference(node, e) * bitcast<f32>(blob_device_buffer[node.neighbour +
-          (BLOB_DEVICE_NEIGHBOUR_WORDS * e + 4u)]) < 1.0f) {
-        blob_device_blend(v, point, (*cursor), &lane);
-        break;
-      }
-    }
+    blob_device_blend(v, place, (*cursor), node, &lane);
   }
   blob_device_finish(v, lane, node.x, sample);
   (*sample).node = (*cursor);
+  return 1;
+}
+
+fn blob_device_query(words: u32, vessel: u32, flags: u32, point: array<f32, 3>,
+    cursor: ptr<function, u32>, sample: ptr<function, blob_device_sample>) {
+  let v: blob_device_vessel = blob_device_open(words, vessel);
+  let place: blob_device_place = blob_device_place_at(point);
+  if ((*cursor) >= v.node_count) {
+    (*cursor) = blob_device_locate(v, place);
+  }
+  blob_device_sample_at(v, flags, place, cursor, sample);
 }
 
 // ---------------------------------------------------------------- a kernel

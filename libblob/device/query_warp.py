@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """libblob's query for NVIDIA Warp, and blob_query_points(), a thread for each tool point.
 
-Generated from blob_device.h and blob_device_model.h, which explain each function and the buffer, by
+Generated from blob_device.h and the headers that it includes, which explain each function and the buffer, by
 libblob/device/translate/translate.py; change those. A pointer of C into the buffer is the index of a
 word here: `words` is that of the buffer's first word, 0 unless other data lie before it. Functions
 return what C writes through pointers, after their result. Needs wp.where and wp.cast (Warp 1.7).
@@ -12,20 +12,23 @@ import warp as wp
 wp.set_module_options({"fuse_fp": False, "enable_backward": False})
 
 BLOB_DEVICE_MAGIC = wp.constant(wp.uint32(0x5642424c))
-BLOB_DEVICE_VERSION = wp.constant(wp.uint32(1))
+BLOB_DEVICE_VERSION = wp.constant(wp.uint32(2))
 BLOB_DEVICE_HEADER_WORDS = wp.constant(wp.uint32(4))
 BLOB_DEVICE_VESSEL_WORDS = wp.constant(wp.uint32(8))
-BLOB_DEVICE_NODE_WORDS = wp.constant(wp.uint32(12))
-BLOB_DEVICE_NEIGHBOUR_WORDS = wp.constant(wp.uint32(6))
-BLOB_DEVICE_BLOB_WORDS = wp.constant(wp.uint32(5))
+BLOB_DEVICE_NODE_WORDS = wp.constant(wp.uint32(16))
+BLOB_DEVICE_NEIGHBOUR_WORDS = wp.constant(wp.uint32(48))
+BLOB_DEVICE_BLOB_WORDS = wp.constant(wp.uint32(40))
 BLOB_DEVICE_ALIGN_WORDS = wp.constant(wp.uint32(16))
 BLOB_DEVICE_BLENDED = wp.constant(wp.uint32(0))
 BLOB_DEVICE_LOCAL = wp.constant(wp.uint32(1))
 BLOB_DEVICE_HOLD = wp.constant(wp.uint32(4))
 BLOB_DEVICE_INSIDE = wp.constant(wp.uint32(1))
 BLOB_DEVICE_NOWHERE = wp.constant(wp.uint32(0xffffffff))
+BLOB_DEVICE_WIDE = wp.constant(0)
 BLOB_DEVICE_MOST_ACTIVE = wp.constant(24)
+BLOB_DEVICE_MANY = wp.constant(wp.uint32(0xffffffff))
 
+blob_device_floats = wp.types.vector(length=8, dtype=wp.float32)
 blob_device_nodes = wp.types.vector(length=24, dtype=wp.uint32)
 
 
@@ -52,10 +55,16 @@ class blob_device_vessel:
 
 
 @wp.struct
+class blob_device_place:
+    point: wp.vec3
+    step: wp.vec3
+
+
+@wp.struct
 class blob_device_node:
     record: wp.uint32
     neighbour: wp.uint32
-    neighbours: wp.uint32
+    blocks: wp.uint32
     x: wp.vec3
 
 
@@ -67,16 +76,25 @@ class blob_device_lane:
 
 
 @wp.struct
-class blob_device_mixture:
+class blob_device_eight:
+    of: blob_device_floats
+
+
+@wp.struct
+class blob_device_active:
     nodes: blob_device_nodes
     count: wp.int32
-    is_empty: wp.int32
+
+
+@wp.struct
+class blob_device_mixture:
     weight: wp.vec4
     excess: wp.vec4
     field: wp.vec4
     f0: wp.float32
     shift: wp.float32
     radius: wp.float32
+    is_empty: wp.int32
 
 
 @wp.func
@@ -107,7 +125,9 @@ def blob_device_norm(v: wp.vec3):
 @wp.func
 def blob_device_exp(unbounded: wp.float32):
     x = wp.where(unbounded < -87.0, -87.0, wp.where(unbounded > 88.0, 88.0, unbounded))
-    n = wp.int32(x * 1.44269504 + wp.where(x < 0.0, -0.5, 0.5))
+    scaled = x * 1.44269504
+    rest = scaled - wp.float32(wp.int32(scaled))
+    n = wp.int32(scaled) + wp.where(rest > 0.5, 1, wp.where(rest < -0.5, -1, 0))
     r = x - wp.float32(n) * 0.693359375 - wp.float32(n) * -2.12194440e-4
     p = wp.float32(1.9875691500e-4)
     power = wp.uint32(0)
@@ -166,68 +186,72 @@ def blob_device_open(buffer: wp.array(dtype=wp.uint32), words: wp.uint32, index:
 
 
 @wp.func
+def blob_device_place_at(point: wp.vec3):
+    place = blob_device_place()
+    for i in range(3):
+        place.point[i] = point[i]
+    for i in range(3):
+        place.step[i] = wp.float32(0.0)
+    return place
+
+
+@wp.func
 def blob_device_at(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, index: wp.uint32,
-        point: wp.vec3):
+        place: blob_device_place):
     node = blob_device_node()
     square = wp.float32(0.0)
     node.record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index
     for i in range(3):
-        node.x[i] = point[i] - blob_device_number(buffer, node.record + wp.uint32(i))
+        node.x[i] = (place.point[i] - blob_device_number(buffer, node.record + wp.uint32(i)) -
+                blob_device_number(buffer, node.record + wp.uint32(i + 12)) + place.step[i])
     square = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2]
-    node.neighbours = blob_device_load(buffer, node.record + wp.uint32(11))
-    if node.neighbours > wp.uint32(8) and square < blob_device_number(buffer, node.record +
+    node.blocks = blob_device_load(buffer, node.record + wp.uint32(11))
+    if node.blocks > wp.uint32(1) and square < blob_device_number(buffer, node.record +
             wp.uint32(7)):
-        node.neighbours = wp.uint32(8)
+        node.blocks = wp.uint32(1)
     node.neighbour = (v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
             blob_device_load(buffer, node.record + wp.uint32(10)))
     return node
 
 
 @wp.func
-def blob_device_difference(buffer: wp.array(dtype=wp.uint32), node: blob_device_node, e: wp.uint32):
-    k = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e
-    return (blob_device_number(buffer, k) * node.x[0] + blob_device_number(buffer, k + wp.uint32(1))
-            * node.x[1] + blob_device_number(buffer, k + wp.uint32(2)) * node.x[2] +
-            blob_device_number(buffer, k + wp.uint32(3)))
-
-
-@wp.func
-def blob_device_follow(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, point: wp.vec3,
-        start: wp.uint32):
-    before = start
-    node = start
-    for step in range(256):
-        here = blob_device_at(buffer, v, node, point)
-        next = node
-        least = wp.float32(0.0)
-        for index_2 in range(wp.int32(here.neighbours)):
-            e = wp.uint32(index_2)
-            difference = blob_device_difference(buffer, here, e)
-            k = blob_device_load(buffer, here.neighbour +
-                    (BLOB_DEVICE_NEIGHBOUR_WORDS * e + wp.uint32(5)))
-            if difference < least or ((difference == least and next != node) and k < next):
-                least = difference
-                next = k
-        if next == node or next == before:
-            break
-        before = node
-        node = next
-    return node
-
-
-@wp.func
-def blob_device_locate(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, point: wp.vec3):
+def blob_device_locate(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        place: blob_device_place):
     best = wp.uint32(0)
     least = wp.float32(3e38)
     for index_1 in range(wp.int32(v.node_count)):
         i = wp.uint32(index_1)
-        node = blob_device_at(buffer, v, i, point)
+        node = blob_device_at(buffer, v, i, place)
         r = blob_device_number(buffer, node.record + wp.uint32(3))
         power = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2] - r * r
         if power < least:
             least = power
             best = i
     return best
+
+
+@wp.func
+def blob_device_difference(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, lane: wp.uint32,
+        x: wp.vec3):
+    k = block + lane
+    return (blob_device_number(buffer, k) * x[0] + blob_device_number(buffer, k + wp.uint32(8)) *
+            x[1] + blob_device_number(buffer, k + wp.uint32(16)) * x[2] +
+            blob_device_number(buffer, k + wp.uint32(24)))
+
+
+@wp.func
+def blob_device_step(s: wp.float32):
+    return (6.0 * s - 15.0) * s + 10.0
+
+
+@wp.func
+def blob_device_exponent(buffer: wp.array(dtype=wp.uint32), blob: wp.uint32, at: wp.vec3,
+        d: wp.vec3):
+    d[0] = at[0] - blob_device_number(buffer, blob)
+    d[1] = at[1] - blob_device_number(buffer, blob + wp.uint32(8))
+    d[2] = at[2] - blob_device_number(buffer, blob + wp.uint32(16))
+    return blob_device_number(buffer, blob + wp.uint32(24)) * (d[0] * d[0] + d[1] * d[1] + d[2] *
+            d[2]), d
 
 
 @wp.func
@@ -253,10 +277,132 @@ def blob_device_term(phi: wp.uint32, u: wp.float32, a: wp.float32, w: wp.float32
 
 
 @wp.func
-def blob_device_square(buffer: wp.array(dtype=wp.uint32), blob: wp.uint32, at: wp.vec3, d: wp.vec3):
-    for i in range(3):
-        d[i] = at[i] - blob_device_number(buffer, blob + wp.uint32(i))
-    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2], d
+def blob_device_total(e: blob_device_eight):
+    return e.of[0] + e.of[2] + (e.of[1] + e.of[3]) + (e.of[4] + e.of[6] + (e.of[5] + e.of[7]))
+
+
+@wp.func
+def blob_device_first(bits: wp.uint32):
+    found = wp.uint32(8)
+    for index_1 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_1)
+        if found == wp.uint32(8) and ((bits >> i) & wp.uint32(1)) != wp.uint32(0):
+            found = i
+    return found
+
+
+@wp.func
+def blob_device_below(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, x: wp.vec3,
+        limit: wp.float32):
+    bits = wp.uint32(0)
+    for index_1 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_1)
+        if blob_device_difference(buffer, block, i, x) * blob_device_number(buffer, block +
+                (i + wp.uint32(32))) < limit:
+            bits = bits | (wp.uint32(1) << i)
+    return bits
+
+
+@wp.func
+def blob_device_lower(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, x: wp.vec3,
+        node: wp.uint32, least: wp.float32, next: wp.uint32):
+    for index_1 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_1)
+        difference = blob_device_difference(buffer, block, i, x)
+        k = blob_device_load(buffer, block + (i + wp.uint32(40)))
+        if difference < least or ((difference == least and next != node) and k < next):
+            least = difference
+            next = k
+    return least, next
+
+
+@wp.func
+def blob_device_holds(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, k: wp.uint32):
+    found = wp.int32(0)
+    for index_1 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_1)
+        if blob_device_load(buffer, block + (i + wp.uint32(40))) == k:
+            found = wp.int32(1)
+    return found
+
+
+@wp.func
+def blob_device_weigh_against(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, x: wp.vec3,
+        part: wp.vec3):
+    psi = blob_device_eight()
+    along_x = blob_device_eight()
+    along_y = blob_device_eight()
+    along_z = blob_device_eight()
+    for index_1 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_1)
+        inverse_tau = blob_device_number(buffer, block + (i + wp.uint32(32)))
+        t = blob_device_difference(buffer, block, i, x) * inverse_tau
+        s = blob_device_lesser(blob_device_greater(0.5 + 0.5 * t, 0.0), 1.0)
+        sp = s * blob_device_step(s)
+        rest = 1.0 - s
+        q = 15.0 * (rest * rest) * inverse_tau / sp
+        psi.of[i] = s * s * sp
+        along_x.of[i] = q * blob_device_number(buffer, block + i)
+        along_y.of[i] = q * blob_device_number(buffer, block + (i + wp.uint32(8)))
+        along_z.of[i] = q * blob_device_number(buffer, block + (i + wp.uint32(16)))
+    part[0] = blob_device_total(along_x)
+    part[1] = blob_device_total(along_y)
+    part[2] = blob_device_total(along_z)
+    return psi.of[0] * psi.of[2] * (psi.of[1] * psi.of[3]) * (psi.of[4] * psi.of[6] *
+            (psi.of[5] * psi.of[7])), part
+
+
+@wp.func
+def blob_device_least_exponent(buffer: wp.array(dtype=wp.uint32), first: wp.uint32,
+        count: wp.uint32, at: wp.vec3):
+    least = wp.float32(3e38)
+    d = wp.vec3()
+    for index_1 in range(wp.int32(count)):
+        b = wp.uint32(index_1)
+        for index_2 in range(wp.int32(wp.uint32(8))):
+            i = wp.uint32(index_2)
+            blob = first + BLOB_DEVICE_BLOB_WORDS * b + i
+            result_3, d = blob_device_exponent(buffer, blob, at, d)
+            u = result_3
+            if blob_device_number(buffer, blob + wp.uint32(32)) > 0.0:
+                least = blob_device_lesser(u, least)
+    return least
+
+
+@wp.func
+def blob_device_sum_blobs(buffer: wp.array(dtype=wp.uint32), phi: wp.uint32, first: wp.uint32,
+        count: wp.uint32, at: wp.vec3, shift: wp.float32, lane: blob_device_lane):
+    f = blob_device_eight()
+    along_x = blob_device_eight()
+    along_y = blob_device_eight()
+    along_z = blob_device_eight()
+    for index_1 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_1)
+        along_z.of[i] = wp.float32(0.0)
+        along_y.of[i] = wp.float32(0.0)
+        along_x.of[i] = wp.float32(0.0)
+        f.of[i] = wp.float32(0.0)
+    for index_2 in range(wp.int32(count)):
+        b = wp.uint32(index_2)
+        for index_3 in range(wp.int32(wp.uint32(8))):
+            i = wp.uint32(index_3)
+            blob = first + BLOB_DEVICE_BLOB_WORDS * b + i
+            d = wp.vec3()
+            slope = wp.float32(0.0)
+            result_4, d = blob_device_exponent(buffer, blob, at, d)
+            u = result_4
+            u = wp.where(phi == wp.uint32(1), blob_device_greater(u - shift, 0.0), u)
+            result_6, slope = blob_device_term(phi, u, blob_device_number(buffer, blob +
+                    wp.uint32(24)), blob_device_number(buffer, blob + wp.uint32(32)), slope)
+            f.of[i] += result_6
+            along_x.of[i] += slope * d[0]
+            along_y.of[i] += slope * d[1]
+            along_z.of[i] += slope * d[2]
+    lane.field[0] = blob_device_total(f)
+    lane.field[1] = blob_device_total(along_x)
+    lane.field[2] = blob_device_total(along_y)
+    lane.field[3] = blob_device_total(along_z)
+    return lane
 
 
 @wp.func
@@ -267,51 +413,45 @@ def blob_device_evaluate(buffer: wp.array(dtype=wp.uint32), v: blob_device_vesse
             blob_device_load(buffer, node.record + wp.uint32(8)))
     lane = blob_device_lane()
     at = wp.vec3()
-    d = wp.vec3()
-    lane.shift = wp.float32(0.0)
-    lane.radius = blob_device_number(buffer, node.record + wp.uint32(3))
     for i in range(3):
         at[i] = node.x[i] + blob_device_number(buffer, node.record + wp.uint32(4 + i))
-    for i in range(4):
-        lane.field[i] = wp.float32(0.0)
+    lane.shift = wp.float32(0.0)
     if v.phi == wp.uint32(1) and count > wp.uint32(0):
-        lane.shift = wp.float32(3e38)
-        for index_1 in range(wp.int32(count)):
-            j = wp.uint32(index_1)
-            blob = first + BLOB_DEVICE_BLOB_WORDS * j
-            result_2, d = blob_device_square(buffer, blob, at, d)
-            lane.shift = blob_device_lesser(blob_device_number(buffer, blob + wp.uint32(3)) *
-                    result_2, lane.shift)
-    for index_4 in range(wp.int32(count)):
-        j = wp.uint32(index_4)
-        blob = first + BLOB_DEVICE_BLOB_WORDS * j
-        a = blob_device_number(buffer, blob + wp.uint32(3))
-        slope = wp.float32(0.0)
-        result_5, d = blob_device_square(buffer, blob, at, d)
-        u = a * result_5
-        u = wp.where(v.phi == wp.uint32(1), blob_device_greater(u - lane.shift, 0.0), u)
-        result_7, slope = blob_device_term(v.phi, u, a,
-                blob_device_number(buffer, blob + wp.uint32(4)), slope)
-        lane.field[0] += result_7
-        for i in range(3):
-            lane.field[1 + i] += slope * d[i]
+        lane.shift = blob_device_least_exponent(buffer, first, count, at)
+    lane.radius = blob_device_number(buffer, node.record + wp.uint32(3))
+    lane = blob_device_sum_blobs(buffer, v.phi, first, count, at, lane.shift, lane)
     return lane
 
 
 @wp.func
-def blob_device_step(s: wp.float32):
-    return (6.0 * s - 15.0) * s + 10.0
+def blob_device_follow(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        place: blob_device_place, start: wp.uint32):
+    before = start
+    node = start
+    for step in range(256):
+        here = blob_device_at(buffer, v, node, place)
+        next = node
+        least = wp.float32(0.0)
+        for index_2 in range(wp.int32(here.blocks)):
+            b = wp.uint32(index_2)
+            least, next = blob_device_lower(buffer, here.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS *
+                    b, here.x, node, least, next)
+        if next == node or next == before:
+            break
+        before = node
+        node = next
+    return node
 
 
 @wp.func
-def blob_device_add_active(sum: blob_device_mixture, k: wp.uint32):
-    for i in range(sum.count):
-        if sum.nodes[i] == k:
-            return sum
-    if sum.count < BLOB_DEVICE_MOST_ACTIVE:
-        sum.nodes[sum.count] = k
-        sum.count += 1
-    return sum
+def blob_device_add_active(active: blob_device_active, k: wp.uint32):
+    for i in range(active.count):
+        if active.nodes[i] == k:
+            return active
+    if active.count < BLOB_DEVICE_MOST_ACTIVE:
+        active.nodes[active.count] = k
+        active.count += 1
+    return active
 
 
 @wp.func
@@ -321,39 +461,53 @@ def blob_device_is_neighbour(buffer: wp.array(dtype=wp.uint32), v: blob_device_v
     first = (v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
             blob_device_load(buffer, record + wp.uint32(10)))
     for index_1 in range(wp.int32(blob_device_load(buffer, record + wp.uint32(11)))):
-        e = wp.uint32(index_1)
-        if blob_device_load(buffer, first + (BLOB_DEVICE_NEIGHBOUR_WORDS * e + wp.uint32(5))) == k:
+        b = wp.uint32(index_1)
+        if blob_device_holds(buffer, first + BLOB_DEVICE_NEIGHBOUR_WORDS * b, k) != 0:
             return wp.int32(1)
     return wp.int32(0)
 
 
 @wp.func
+def blob_device_rivals(buffer: wp.array(dtype=wp.uint32), node: blob_device_node):
+    for index_1 in range(wp.int32(node.blocks)):
+        b = wp.uint32(index_1)
+        if blob_device_below(buffer, node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node.x,
+                1.0) != wp.uint32(0):
+            return BLOB_DEVICE_MANY
+    return blob_device_below(buffer, node.neighbour, node.x, 1.0)
+
+
+@wp.func
 def blob_device_weigh(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, index: wp.uint32,
-        node: blob_device_node, sum: blob_device_mixture, gradient: wp.vec3):
+        node: blob_device_node, active: blob_device_active, gradient: wp.vec3):
     u = wp.float32(1.0)
-    for i in range(3):
-        gradient[i] = wp.float32(0.0)
-    for index_1 in range(wp.int32(node.neighbours)):
-        e = wp.uint32(index_1)
-        k = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e
-        inverse_tau = blob_device_number(buffer, k + wp.uint32(4))
-        t = blob_device_difference(buffer, node, e) * inverse_tau
-        s = 0.5 + 0.5 * t
-        sp = s * blob_device_step(s)
-        if not (t < 1.0):
+    part = wp.vec3()
+    for axis in range(3):
+        gradient[axis] = wp.float32(0.0)
+    for index_1 in range(wp.int32(node.blocks)):
+        b = wp.uint32(index_1)
+        block = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b
+        rivals = blob_device_below(buffer, block, node.x, 1.0)
+        if rivals == wp.uint32(0):
             continue
-        u = wp.where(t < -1.0 or s <= 0.0, 0.0, u * (s * s * sp))
+        if blob_device_below(buffer, block, node.x, -1.0) != wp.uint32(0):
+            return wp.float32(0.0), active, gradient
+        result_4, part = blob_device_weigh_against(buffer, block, node.x, part)
+        u *= result_4
         if not (u > 1e-20):
-            return wp.float32(0.0), sum, gradient
-        for i in range(3):
-            gradient[i] += (15.0 * ((1.0 - s) * (1.0 - s)) * inverse_tau / sp *
-                    blob_device_number(buffer, k + wp.uint32(i)))
-        if index == sum.nodes[0] or blob_device_is_neighbour(buffer, v, sum.nodes[0],
-                blob_device_load(buffer, k + wp.uint32(5))) == 0:
-            sum = blob_device_add_active(sum, blob_device_load(buffer, k + wp.uint32(5)))
-    for i in range(3):
-        gradient[i] *= u
-    return u, sum, gradient
+            return wp.float32(0.0), active, gradient
+        for axis in range(3):
+            gradient[axis] += part[axis]
+        for index_5 in range(wp.int32(wp.uint32(8))):
+            i = wp.uint32(index_5)
+            if ((rivals >> i) & wp.uint32(1)) != wp.uint32(0):
+                if index == active.nodes[0] or blob_device_is_neighbour(buffer, v, active.nodes[0],
+                        blob_device_load(buffer, block + (i + wp.uint32(40)))) == 0:
+                    active = blob_device_add_active(active, blob_device_load(buffer, block +
+                            (i + wp.uint32(40))))
+    for axis in range(3):
+        gradient[axis] *= u
+    return u, active, gradient
 
 
 @wp.func
@@ -400,12 +554,7 @@ def blob_device_add(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, ow
 
 
 @wp.func
-def blob_device_blend(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, point: wp.vec3,
-        start: wp.uint32, lane: blob_device_lane):
-    sum = blob_device_mixture()
-    gradient = wp.vec3()
-    inverse = wp.float32(0.0)
-    excess = wp.float32(0.0)
+def blob_device_clear(sum: blob_device_mixture):
     for i in range(4):
         sum.field[i] = wp.float32(0.0)
         sum.excess[i] = wp.float32(0.0)
@@ -414,13 +563,37 @@ def blob_device_blend(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, 
     sum.f0 = wp.float32(0.0)
     sum.radius = wp.float32(0.0)
     sum.is_empty = wp.int32(1)
-    sum.nodes[0] = start
-    sum.count = wp.int32(1)
+    return sum
+
+
+@wp.func
+def blob_device_quotient(sum: blob_device_mixture):
+    inverse = 1.0 / sum.weight[0]
+    excess = sum.excess[0] * inverse
+    lane = blob_device_lane()
+    lane.field[0] = sum.f0 + excess
+    for i in range(1, 4):
+        lane.field[i] = (sum.field[i] + (sum.excess[i] - excess * sum.weight[i])) * inverse
+    lane.shift = sum.shift
+    lane.radius = sum.radius * inverse
+    return lane
+
+
+@wp.func
+def blob_device_blend_all(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        place: blob_device_place, start: wp.uint32, lane: blob_device_lane):
+    active = blob_device_active()
+    sum = blob_device_mixture()
+    gradient = wp.vec3()
+    sum = blob_device_clear(sum)
+    active.nodes[0] = start
+    active.count = wp.int32(1)
     n = wp.int32(0)
-    while n < sum.count:
-        before = sum.count
-        node = blob_device_at(buffer, v, sum.nodes[n], point)
-        result_2, sum, gradient = blob_device_weigh(buffer, v, sum.nodes[n], node, sum, gradient)
+    while n < active.count:
+        before = active.count
+        node = blob_device_at(buffer, v, active.nodes[n], place)
+        result_2, active, gradient = blob_device_weigh(buffer, v, active.nodes[n], node, active,
+                gradient)
         u = result_2
         if u > 0.0:
             own = blob_device_lane()
@@ -430,17 +603,110 @@ def blob_device_blend(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, 
                 own = blob_device_evaluate(buffer, v, node)
             sum = blob_device_add(buffer, v, own, u, gradient, sum)
         else:
-            sum.count = before
+            active.count = before
         n += 1
-    if sum.is_empty != 0:
+    if sum.is_empty == 0:
+        lane = blob_device_quotient(sum)
+    return lane
+
+
+@wp.func
+def blob_device_pair(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, node: wp.uint32,
+        other: blob_device_node, rivals: wp.uint32, t: wp.float32):
+    if rivals == BLOB_DEVICE_MANY or not (t > -0.999):
+        return wp.int32(0)
+    if (rivals & (rivals - wp.uint32(1))) == wp.uint32(0):
+        if rivals == wp.uint32(0) or blob_device_load(buffer, other.neighbour +
+                (blob_device_first(rivals) + wp.uint32(40))) == node:
+            return wp.int32(1)
+    for index_2 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_2)
+        if ((rivals >> i) & wp.uint32(1)) != wp.uint32(0) and blob_device_load(buffer,
+                other.neighbour + (i + wp.uint32(40))) != node:
+            if blob_device_is_neighbour(buffer, v, node, blob_device_load(buffer, other.neighbour +
+                    (i + wp.uint32(40)))) == 0:
+                return wp.int32(0)
+    return wp.int32(2)
+
+
+@wp.func
+def blob_device_mix(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, rival: wp.uint32,
+        t: wp.float32, other: blob_device_lane, lane: blob_device_lane):
+    s = 0.5 + 0.5 * t
+    rest = 1.0 - s
+    psi = s * s * s * blob_device_step(s)
+    slope = 15.0 * (s * s * (rest * rest)) * blob_device_number(buffer, rival + wp.uint32(32))
+    of_own = wp.float32(1.0)
+    of_other = wp.float32(1.0)
+    excess = wp.vec4()
+    if v.phi == wp.uint32(1):
+        copy_2, of_own, of_other = blob_device_share_shift(lane.shift, other.shift, of_own,
+                of_other)
+        lane.shift = copy_2
+    for i in range(4):
+        excess[i] = lane.field[i] * of_own - other.field[i] * of_other
+    for i in range(4):
+        lane.field[i] = other.field[i] * of_other + psi * excess[i]
+    for i in range(3):
+        lane.field[i + 1] += (slope * excess[0] * blob_device_number(buffer, rival +
+                wp.uint32(8 * i)))
+    lane.radius = other.radius + psi * (lane.radius - other.radius)
+    return lane
+
+
+@wp.func
+def blob_device_mix_two(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, rival: wp.uint32,
+        t: wp.float32, node: blob_device_node, other: blob_device_lane, lane: blob_device_lane):
+    s = 0.5 + 0.5 * t
+    rest = 1.0 - s
+    sp = s * blob_device_step(s)
+    u = s * s * sp
+    q = 15.0 * (rest * rest) * blob_device_number(buffer, rival + wp.uint32(32)) / sp
+    own = lane
+    sum = blob_device_mixture()
+    gradient = wp.vec3()
+    product = wp.float32(0.0)
+    sum = blob_device_clear(sum)
+    for i in range(3):
+        gradient[i] = u * (q * blob_device_number(buffer, rival + wp.uint32(8 * i)))
+    sum = blob_device_add(buffer, v, own, u, gradient, sum)
+    result_2, gradient = blob_device_weigh_against(buffer, node.neighbour, node.x, gradient)
+    product = result_2
+    if product > 1e-20:
+        for i in range(3):
+            gradient[i] *= product
+        sum = blob_device_add(buffer, v, other, product, gradient, sum)
+    lane = blob_device_quotient(sum)
+    return lane
+
+
+@wp.func
+def blob_device_blend(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        place: blob_device_place, index: wp.uint32, node: blob_device_node, lane: blob_device_lane):
+    rivals = blob_device_rivals(buffer, node)
+    rival = wp.uint32()
+    other = blob_device_node()
+    second = blob_device_lane()
+    t = wp.float32(0.0)
+    kind = wp.int32(0)
+    if rivals == wp.uint32(0):
         return lane
-    inverse = 1.0 / sum.weight[0]
-    excess = sum.excess[0] * inverse
-    lane.field[0] = sum.f0 + excess
-    for i in range(1, 4):
-        lane.field[i] = (sum.field[i] + (sum.excess[i] - excess * sum.weight[i])) * inverse
-    lane.shift = sum.shift
-    lane.radius = sum.radius * inverse
+    if (rivals & (rivals - wp.uint32(1))) != wp.uint32(0):
+        lane = blob_device_blend_all(buffer, v, place, index, lane)
+        return lane
+    rival = node.neighbour + blob_device_first(rivals)
+    t = (blob_device_difference(buffer, rival, wp.uint32(0), node.x) *
+            blob_device_number(buffer, rival + wp.uint32(32)))
+    other = blob_device_at(buffer, v, blob_device_load(buffer, rival + wp.uint32(40)), place)
+    kind = blob_device_pair(buffer, v, index, other, blob_device_rivals(buffer, other), t)
+    if kind == 0:
+        lane = blob_device_blend_all(buffer, v, place, index, lane)
+        return lane
+    second = blob_device_evaluate(buffer, v, other)
+    if kind == 1:
+        lane = blob_device_mix(buffer, v, rival, t, second, lane)
+    else:
+        lane = blob_device_mix_two(buffer, v, rival, t, other, second, lane)
     return lane
 
 
@@ -505,41 +771,54 @@ def blob_device_finish(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
 
 
 @wp.func
+def blob_device_is_out_of_range(buffer: wp.array(dtype=wp.uint32), node: blob_device_node,
+        sample: blob_device_sample):
+    length = wp.float32(0.0)
+    in_range = wp.int32(1)
+    for i in range(3):
+        in_range = wp.where((in_range != 0 and node.x[i] <= 1e9) and node.x[i] >= -1e9, 1, 0)
+    if in_range != 0:
+        return wp.int32(0), sample
+    length = blob_device_norm(node.x)
+    sample.value = wp.where(length - length == 0.0, 0.0, wp.where(length > 0.0, 0.0, length))
+    sample.distance = length - blob_device_number(buffer, node.record + wp.uint32(3))
+    for i in range(3):
+        sample.gradient[i] = sample.value
+        sample.normal[i] = wp.where(length > 0.0 and length <= 3e38, node.x[i] / length,
+                sample.value)
+    sample.state = wp.uint32(0)
+    return wp.int32(1), sample
+
+
+@wp.func
+def blob_device_sample_at(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        flags: wp.uint32, place: blob_device_place, cursor: wp.uint32, sample: blob_device_sample):
+    node = blob_device_at(buffer, v, cursor, place)
+    lane = blob_device_lane()
+    sample.node = cursor
+    result_2, sample = blob_device_is_out_of_range(buffer, node, sample)
+    if result_2 != 0:
+        return wp.int32(0), cursor, sample
+    if (flags & BLOB_DEVICE_HOLD) == wp.uint32(0):
+        cursor = blob_device_follow(buffer, v, place, cursor)
+        node = blob_device_at(buffer, v, cursor, place)
+    lane = blob_device_evaluate(buffer, v, node)
+    if (flags & BLOB_DEVICE_LOCAL) == wp.uint32(0):
+        lane = blob_device_blend(buffer, v, place, cursor, node, lane)
+    sample = blob_device_finish(buffer, v, lane, node.x, sample)
+    sample.node = cursor
+    return wp.int32(1), cursor, sample
+
+
+@wp.func
 def blob_device_query(buffer: wp.array(dtype=wp.uint32), words: wp.uint32, vessel: wp.uint32,
         flags: wp.uint32, point: wp.vec3, cursor: wp.uint32, sample: blob_device_sample):
     v = blob_device_open(buffer, words, vessel)
-    node = blob_device_node()
-    lane = blob_device_lane()
-    in_range = wp.int32(1)
+    place = blob_device_place_at(point)
     if cursor >= v.node_count:
-        cursor = blob_device_locate(buffer, v, point)
-    node = blob_device_at(buffer, v, cursor, point)
-    for i in range(3):
-        in_range = wp.where((in_range != 0 and node.x[i] <= 1e9) and node.x[i] >= -1e9, 1, 0)
-    if in_range == 0:
-        length = blob_device_norm(node.x)
-        sample.value = wp.where(length - length == 0.0, 0.0, wp.where(length > 0.0, 0.0, length))
-        sample.distance = length - blob_device_number(buffer, node.record + wp.uint32(3))
-        for i in range(3):
-            sample.gradient[i] = sample.value
-            sample.normal[i] = wp.where(length > 0.0 and length <= 3e38, node.x[i] / length,
-                    sample.value)
-        sample.node = cursor
-        sample.state = wp.uint32(0)
-        return cursor, sample
-    if (flags & BLOB_DEVICE_HOLD) == wp.uint32(0):
-        cursor = blob_device_follow(buffer, v, point, cursor)
-        node = blob_device_at(buffer, v, cursor, point)
-    lane = blob_device_evaluate(buffer, v, node)
-    if (flags & BLOB_DEVICE_LOCAL) == wp.uint32(0):
-        for index_8 in range(wp.int32(node.neighbours)):
-            e = wp.uint32(index_8)
-            if blob_device_difference(buffer, node, e) * blob_device_number(buffer, node.neighbour +
-                    (BLOB_DEVICE_NEIGHBOUR_WORDS * e + wp.uint32(4))) < 1.0:
-                lane = blob_device_blend(buffer, v, point, cursor, lane)
-                break
-    sample = blob_device_finish(buffer, v, lane, node.x, sample)
-    sample.node = cursor
+        cursor = blob_device_locate(buffer, v, place)
+    result_4, cursor, sample = blob_device_sample_at(buffer, v, flags, place, cursor, sample)
+    result_4
     return cursor, sample
 
 

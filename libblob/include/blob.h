@@ -480,7 +480,7 @@ BLOB_API void blob_capsule_approach(const blob_model* model, uint32_t flags, con
  * The caller provides `count` models, at least one, and `capacity` bytes at `buffer`, aligned to 4
  * (64 for fastest access); null if `capacity` is 0.
  * Returns the bytes that the models take, and writes them if `capacity` suffices. Returns 0 for no
- * model, for models that take 16 GiB or more, and where memory runs out.
+ * model, and for models that take 16 GiB or more.
  * O(bytes). */
 BLOB_API size_t blob_device_pack(const blob_model* const* models, size_t count, void* buffer,
                                  size_t capacity) BLOB_NOEXCEPT;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Part of blob_device.h: numbers, the layout of the buffer, the walk, and the model of one node.
+ * Part of blob_device.h: numbers, the layout of the buffer, nodes and their neighbours.
  */
 #ifndef LUMEN_BLOB_DEVICE_MODEL_H
 #define LUMEN_BLOB_DEVICE_MODEL_H
@@ -8,12 +8,12 @@
 /* clang-format off */
 
 #define BLOB_DEVICE_MAGIC 0x5642424cu /* "LBBV" */
-#define BLOB_DEVICE_VERSION 1u
+#define BLOB_DEVICE_VERSION 2u
 #define BLOB_DEVICE_HEADER_WORDS 4u
 #define BLOB_DEVICE_VESSEL_WORDS 8u
-#define BLOB_DEVICE_NODE_WORDS 12u
-#define BLOB_DEVICE_NEIGHBOUR_WORDS 6u
-#define BLOB_DEVICE_BLOB_WORDS 5u
+#define BLOB_DEVICE_NODE_WORDS 16u
+#define BLOB_DEVICE_NEIGHBOUR_WORDS 48u /* a block of eight */
+#define BLOB_DEVICE_BLOB_WORDS 40u      /* a block of eight */
 #define BLOB_DEVICE_ALIGN_WORDS 16u
 
 /* Flags and states: the values of blob.h. */
@@ -87,7 +87,8 @@ BLOB_DEVICE_FN float blob_device_norm(const float* v) {
 /* exp(x), x cut to -87..88, to a few units in the last place; S. Moshier, Cephes library, 1989. */
 BLOB_DEVICE_FN float blob_device_exp(float unbounded) {
   const float x = unbounded < -87.0f ? -87.0f : unbounded > 88.0f ? 88.0f : unbounded;
-  const int n = (int)(x * 1.44269504f + (x < 0 ? -0.5f : 0.5f));
+  const float scaled = x * 1.44269504f, rest = scaled - (float)(int)scaled;
+  const int n = (int)scaled + (rest > 0.5f ? 1 : rest < -0.5f ? -1 : 0);
   const float r = (x - (float)n * 0.693359375f) - (float)n * -2.12194440e-4f;
   float p = 1.9875691500e-4f;
   blob_device_bits power;
@@ -152,67 +153,51 @@ BLOB_DEVICE_FN blob_device_vessel blob_device_open(blob_device_words words,
   return v;
 }
 
-/* A node, and a point relative to its centre. */
+/* A point and a step from it, mm: a short step keeps its digits far from zero. */
+typedef struct blob_device_place {
+  float point[3], step[3];
+} blob_device_place;
+
+BLOB_DEVICE_FN blob_device_place blob_device_place_at(const float* point) {
+  blob_device_place place;
+  int i;
+  for (i = 0; i < 3; ++i) place.point[i] = point[i];
+  for (i = 0; i < 3; ++i) place.step[i] = 0;
+  return place;
+}
+
+/* A node, and a place relative to its centre. */
 typedef struct blob_device_node {
-  blob_device_words record;    /* 12 words */
-  blob_device_words neighbour; /* of those that count at x */
-  blob_device_word neighbours; /* number of them */
+  blob_device_words record;    /* 16 words */
+  blob_device_words neighbour; /* first block */
+  blob_device_word blocks;     /* number of blocks that count at x */
   float x[3];
 } blob_device_node;
 
 BLOB_DEVICE_FN blob_device_node blob_device_at(const blob_device_vessel* v, blob_device_word index,
-                                               const float* point) {
+                                               const blob_device_place* place) {
   blob_device_node node;
   float square;
   int i;
   node.record = v->words + v->nodes + BLOB_DEVICE_NODE_WORDS * index;
-  for (i = 0; i < 3; ++i) node.x[i] = point[i] - blob_device_float(node.record[i]);
+  for (i = 0; i < 3; ++i)
+    node.x[i] = ((place->point[i] - blob_device_float(node.record[i])) -
+                 blob_device_float(node.record[i + 12])) +
+                place->step[i];
   square = (node.x[0] * node.x[0] + node.x[1] * node.x[1]) + node.x[2] * node.x[2];
-  node.neighbours = node.record[11];
-  if (node.neighbours > 8 && square < blob_device_float(node.record[7])) node.neighbours = 8;
+  node.blocks = node.record[11];
+  if (node.blocks > 1 && square < blob_device_float(node.record[7])) node.blocks = 1;
   node.neighbour = v->words + v->neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS * node.record[10];
-  return node;
-}
-
-/* p_k - p_i for neighbour e, mm^2. */
-BLOB_DEVICE_FN float blob_device_difference(const blob_device_node* node, blob_device_word e) {
-  blob_device_words k = node->neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * e;
-  return ((blob_device_float(k[0]) * node->x[0] + blob_device_float(k[1]) * node->x[1]) +
-          blob_device_float(k[2]) * node->x[2]) +
-         blob_device_float(k[3]);
-}
-
-/* Walks to the neighbour of least power while that falls: blob_cursor_follow(). */
-BLOB_DEVICE_FN blob_device_word blob_device_follow(const blob_device_vessel* v, const float* point,
-                                                   blob_device_word start) {
-  blob_device_word before = start, node = start;
-  int step;
-  for (step = 0; step < 256; ++step) {
-    const blob_device_node here = blob_device_at(v, node, point);
-    blob_device_word next = node, e;
-    float least = 0;
-    for (e = 0; e < here.neighbours; ++e) {
-      const float difference = blob_device_difference(&here, e);
-      const blob_device_word k = here.neighbour[BLOB_DEVICE_NEIGHBOUR_WORDS * e + 5];
-      if (difference < least || (difference == least && next != node && k < next)) {
-        least = difference;
-        next = k;
-      }
-    }
-    if (next == node || next == before) break;
-    before = node;
-    node = next;
-  }
   return node;
 }
 
 /* The node of least power by a look at each: O(n). blob_cursor_locate() on the host is faster. */
 BLOB_DEVICE_FN blob_device_word blob_device_locate(const blob_device_vessel* v,
-                                                   const float* point) {
+                                                   const blob_device_place* place) {
   blob_device_word best = 0, i;
   float least = 3e38f;
   for (i = 0; i < v->node_count; ++i) {
-    const blob_device_node node = blob_device_at(v, i, point);
+    const blob_device_node node = blob_device_at(v, i, place);
     const float r = blob_device_float(node.record[3]);
     const float power =
         ((node.x[0] * node.x[0] + node.x[1] * node.x[1]) + node.x[2] * node.x[2]) - r * r;
@@ -224,7 +209,29 @@ BLOB_DEVICE_FN blob_device_word blob_device_locate(const blob_device_vessel* v,
   return best;
 }
 
-/* ---------------------------------------------------------------- one model */
+/* p_k - p_node of neighbour `lane` of a block, mm^2. */
+BLOB_DEVICE_FN float blob_device_difference(blob_device_words block, blob_device_word lane,
+                                            const float* x) {
+  blob_device_words k = block + lane;
+  return ((blob_device_float(k[0]) * x[0] + blob_device_float(k[8]) * x[1]) +
+          blob_device_float(k[16]) * x[2]) +
+         blob_device_float(k[24]);
+}
+
+/* S(s) / s^3 of the smooth step; formats/field/blend_formulas.h. */
+BLOB_DEVICE_FN float blob_device_step(float s) {
+  return (6.0f * s - 15.0f) * s + 10.0f;
+}
+
+/* ---------------------------------------------------------------- kernels */
+
+/* X - C and u = a |X - C|^2 of the blob whose first word is given; `at` is X. */
+BLOB_DEVICE_FN float blob_device_exponent(blob_device_words blob, const float* at, float* d) {
+  d[0] = at[0] - blob_device_float(blob[0]);
+  d[1] = at[1] - blob_device_float(blob[8]);
+  d[2] = at[2] - blob_device_float(blob[16]);
+  return blob_device_float(blob[24]) * ((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
+}
 
 /* A blob's part of f and the factor of X - C in its part of grad f; u = a |X - C|^2. The formulas
  * are those of formats/field/kernel_formulas.h. */
@@ -255,43 +262,5 @@ BLOB_DEVICE_FN float blob_device_term(blob_device_word phi, float u, float a, fl
 typedef struct blob_device_lane {
   float field[4], shift, radius;
 } blob_device_lane;
-
-BLOB_DEVICE_FN float blob_device_square(blob_device_words blob, const float* at, float* d) {
-  int i;
-  for (i = 0; i < 3; ++i) d[i] = at[i] - blob_device_float(blob[i]);
-  return (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
-}
-
-/* The model of one node. */
-BLOB_DEVICE_FN blob_device_lane blob_device_evaluate(const blob_device_vessel* v,
-                                                     const blob_device_node* node) {
-  const blob_device_word count = node->record[9];
-  blob_device_words first = v->words + v->blobs + BLOB_DEVICE_BLOB_WORDS * node->record[8];
-  blob_device_lane lane;
-  blob_device_word j;
-  float at[3], d[3];
-  int i;
-  lane.shift = 0;
-  lane.radius = blob_device_float(node->record[3]);
-  for (i = 0; i < 3; ++i) at[i] = node->x[i] + blob_device_float(node->record[4 + i]);
-  for (i = 0; i < 4; ++i) lane.field[i] = 0;
-  if (v->phi == 1 && count > 0) {
-    lane.shift = 3e38f;
-    for (j = 0; j < count; ++j) {
-      blob_device_words blob = first + BLOB_DEVICE_BLOB_WORDS * j;
-      lane.shift = blob_device_lesser(blob_device_float(blob[3]) * blob_device_square(blob, at, d),
-                                      lane.shift);
-    }
-  }
-  for (j = 0; j < count; ++j) {
-    blob_device_words blob = first + BLOB_DEVICE_BLOB_WORDS * j;
-    const float a = blob_device_float(blob[3]);
-    float slope, u = a * blob_device_square(blob, at, d);
-    u = v->phi == 1 ? blob_device_greater(u - lane.shift, 0.0f) : u;
-    lane.field[0] += blob_device_term(v->phi, u, a, blob_device_float(blob[4]), &slope);
-    for (i = 0; i < 3; ++i) lane.field[1 + i] += slope * d[i];
-  }
-  return lane;
-}
 
 #endif

@@ -2,8 +2,6 @@
 // The flat buffer of blob_device.h: written from models, and checked.
 #include <cmath>
 #include <cstring>
-#include <memory>
-#include <new>
 #include <vector>
 
 #include "blob_device.h"
@@ -20,29 +18,14 @@ std::size_t alignedUp(std::size_t words) {
   return (words + BLOB_DEVICE_ALIGN_WORDS - 1) / BLOB_DEVICE_ALIGN_WORDS * BLOB_DEVICE_ALIGN_WORDS;
 }
 
-std::size_t blobsIn(const BlobBlock& block) {
-  std::size_t count = 0;
-  for (const float w : block.w) count += w > 0 ? 1 : 0;
-  return count;
-}
-
-std::size_t neighboursIn(const NeighbourBlock& block) {
-  std::size_t count = 0;
-  for (int lane = 0; lane < kLanes; ++lane) count += isPadding(block, lane) ? 0 : 1;
-  return count;
-}
-
-template <class Block, class Count>
-std::size_t countIn(const std::vector<Block>& blocks, Count count) {
-  std::size_t sum = 0;
-  for (const Block& block : blocks) sum += count(block);
-  return sum;
-}
+// Blocks of the buffer are those of a model, byte for byte.
+static_assert(sizeof(BlobBlock) == sizeof(Word) * BLOB_DEVICE_BLOB_WORDS &&
+              sizeof(NeighbourBlock) == sizeof(Word) * BLOB_DEVICE_NEIGHBOUR_WORDS);
 
 std::size_t wordsOf(const blob_model& model) {
   return BLOB_DEVICE_NODE_WORDS * model.nodes.size() +
-         BLOB_DEVICE_NEIGHBOUR_WORDS * countIn(model.neighbours, neighboursIn) +
-         BLOB_DEVICE_BLOB_WORDS * countIn(model.field.blocks, blobsIn);
+         BLOB_DEVICE_NEIGHBOUR_WORDS * model.neighbours.size() +
+         BLOB_DEVICE_BLOB_WORDS * model.field.blocks.size();
 }
 
 // Writes words one after another.
@@ -55,6 +38,12 @@ public:
     const Word stored = static_cast<Word>(word);
     std::memcpy(m_buffer + sizeof stored * m_at++, &stored, sizeof stored);
   }
+  template <class Block>
+  void put(const std::vector<Block>& blocks) {
+    const std::size_t size = blocks.size() * sizeof(Block);
+    std::memcpy(m_buffer + sizeof(Word) * m_at, blocks.data(), size);
+    m_at += size / sizeof(Word);
+  }
   void put(float number) { std::memcpy(m_buffer + sizeof number * m_at++, &number, sizeof number); }
 
 private:
@@ -62,64 +51,33 @@ private:
   std::size_t m_at = 0;
 };
 
-void putBlobs(const blob_model& model, Writer& to) {
-  for (const BlobBlock& block : model.field.blocks)
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (block.w[lane] > 0)
-        for (const float number :
-             {block.x[lane], block.y[lane], block.z[lane], block.a[lane], block.w[lane]})
-          to.put(number);
+// The least float that is no less than a number: floats below the one are below the other.
+float roundedUp(double number) {
+  const float nearest = static_cast<float>(number);
+  return double{nearest} < number ? std::nextafter(nearest, INFINITY) : nearest;
 }
 
-void putNeighbours(const blob_model& model, Writer& to) {
-  for (const NeighbourBlock& block : model.neighbours)
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (!isPadding(block, lane)) {
-        for (const float number : {block.nx[lane], block.ny[lane], block.nz[lane], block.c[lane],
-                                   block.inverseTau[lane]})
-          to.put(number);
-        to.put(std::size_t{block.node[lane]});
-      }
-}
-
-// Number of blobs before each block, and of all; null without memory.
-std::unique_ptr<Word[]> countBlobsBefore(const blob_model& model) {
-  const std::size_t blocks = model.field.blocks.size();
-  std::unique_ptr<Word[]> before(new (std::nothrow) Word[blocks + 1]);
-  if (before == nullptr) return before;
-  before[0] = 0;
-  for (std::size_t b = 0; b < blocks; ++b)
-    before[b + 1] = before[b] + static_cast<Word>(blobsIn(model.field.blocks[b]));
-  return before;
-}
-
-// The nodes, whose neighbours and blobs are numbered without the padding of blocks.
-void putNodes(const blob_model& model, const Word* blobsBefore, Writer& to) {
-  std::size_t neighbours = 0;
+void putNodes(const blob_model& model, Writer& to) {
   for (const NodeRecord& node : model.nodes) {
     for (int axis = 0; axis < 3; ++axis) to.put(static_cast<float>(node.centre[axis]));
     to.put(node.radius());
     for (int axis = 0; axis < 3; ++axis) to.put(node.field.place[axis]);
-    to.put(static_cast<float>(node.quietSquare()));
-    const Word first = blobsBefore[node.field.block];
-    to.put(std::size_t{first});
-    to.put(std::size_t{blobsBefore[node.field.block + node.field.blockCount] - first});
-    const std::size_t before = neighbours;
-    for (Word b = 0; b < node.neighbourBlocks; ++b)
-      neighbours += neighboursIn(model.neighbours[node.firstNeighbours + b]);
-    to.put(before);
-    to.put(neighbours - before);
+    to.put(roundedUp(node.quietSquare()));
+    for (const Word word : {node.field.block, Word{node.field.blockCount}, node.firstNeighbours,
+                            node.neighbourBlocks})
+      to.put(std::size_t{word});
+    for (int axis = 0; axis < 3; ++axis) {
+      const double centre = node.centre[axis];
+      to.put(static_cast<float>(centre - double{static_cast<float>(centre)}));
+    }
+    to.put(std::size_t{0});
   }
 }
 
-// Writes a vessel's row of the table, and its arrays from `first` on; returns the word after them,
-// or 0 without memory.
+// Writes a vessel's row of the table, and its arrays from `first` on; returns the word after them.
 std::size_t putVessel(const blob_model& model, std::size_t row, std::size_t first, Writer& to) {
-  const std::unique_ptr<Word[]> blobsBefore = countBlobsBefore(model);
-  if (blobsBefore == nullptr) return 0;
   const std::size_t neighbours = first + BLOB_DEVICE_NODE_WORDS * model.nodes.size();
-  const std::size_t blobs =
-      neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS * countIn(model.neighbours, neighboursIn);
+  const std::size_t blobs = neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS * model.neighbours.size();
   const std::size_t end = first + wordsOf(model);
   to.goTo(BLOB_DEVICE_HEADER_WORDS + BLOB_DEVICE_VESSEL_WORDS * row);
   to.put(static_cast<std::size_t>(model.field.kernel));
@@ -128,9 +86,9 @@ std::size_t putVessel(const blob_model& model, std::size_t row, std::size_t firs
   to.put(static_cast<float>(model.field.transformedLevel));
   to.put(end);
   to.goTo(first);
-  putNodes(model, blobsBefore.get(), to);
-  putNeighbours(model, to);
-  putBlobs(model, to);
+  putNodes(model, to);
+  to.put(model.neighbours);
+  to.put(model.field.blocks);
   while (to.at() < alignedUp(end)) to.put(std::size_t{0});
   return to.at();
 }
@@ -190,22 +148,42 @@ struct Vessel {
 blob_status checkNodes(const Reader& from, const Vessel& v) {
   for (std::size_t i = 0; i < v.nodeCount; ++i) {
     const std::size_t at = v.nodes + BLOB_DEVICE_NODE_WORDS * i;
-    if (!from.areFinite(at, 8) || !(from.number(at + 3) > 0)) return BLOB_ERROR_RANGE;
+    if (!from.areFinite(at, 8) || !from.areFinite(at + 12, 3) || !(from.number(at + 3) > 0))
+      return BLOB_ERROR_RANGE;
     if (!isRangeIn(from.word(at + 8), from.word(at + 9), v.blobCount()) ||
-        !isRangeIn(from.word(at + 10), from.word(at + 11), v.neighbourCount()))
+        !isRangeIn(from.word(at + 10), from.word(at + 11), v.neighbourCount()) ||
+        from.word(at + 11) == 0)
       return BLOB_ERROR_TOPOLOGY;
   }
   return BLOB_OK;
 }
 
+// The neighbour whose first word is at `at`.
+blob_status checkNeighbour(const Reader& from, const Vessel& v, std::size_t at) {
+  const float n[3] = {from.number(at), from.number(at + 8), from.number(at + 16)};
+  const float c = from.number(at + 24), inverseTau = from.number(at + 32);
+  for (const float number : {n[0], n[1], n[2], c, inverseTau})
+    if (!std::isfinite(number)) return BLOB_ERROR_RANGE;
+  if (!(inverseTau > 0)) return BLOB_ERROR_RANGE;
+  const Word node = from.word(at + 40);
+  if (node < v.nodeCount) return BLOB_OK;
+  // padding is never reached
+  const bool isNever = c == kNeverLess && n[0] == 0 && n[1] == 0 && n[2] == 0 && inverseTau == 1;
+  return node == BLOB_NOWHERE && isNever ? BLOB_OK : BLOB_ERROR_TOPOLOGY;
+}
+
 blob_status checkElements(const Reader& from, const Vessel& v) {
-  for (std::size_t at = v.neighbours; at < v.blobs; at += BLOB_DEVICE_NEIGHBOUR_WORDS) {
-    if (!from.areFinite(at, 5) || !(from.number(at + 4) > 0)) return BLOB_ERROR_RANGE;
-    if (from.word(at + 5) >= v.nodeCount) return BLOB_ERROR_TOPOLOGY;
+  for (std::size_t block = v.neighbours; block < v.blobs; block += BLOB_DEVICE_NEIGHBOUR_WORDS)
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      if (const blob_status status = checkNeighbour(from, v, block + lane); status != BLOB_OK)
+        return status;
+  for (std::size_t block = v.blobs; block < v.end; block += BLOB_DEVICE_BLOB_WORDS) {
+    if (!from.areFinite(block, BLOB_DEVICE_BLOB_WORDS)) return BLOB_ERROR_RANGE;
+    for (std::size_t lane = block; lane < block + kLanes; ++lane) {
+      const float a = from.number(lane + 24), w = from.number(lane + 32);
+      if (!(a >= 0) || !(w >= 0) || (a > 0) != (w > 0)) return BLOB_ERROR_RANGE;
+    }
   }
-  for (std::size_t at = v.blobs; at < v.end; at += BLOB_DEVICE_BLOB_WORDS)
-    if (!from.areFinite(at, 5) || !(from.number(at + 3) > 0) || !(from.number(at + 4) > 0))
-      return BLOB_ERROR_RANGE;
   return BLOB_OK;
 }
 
@@ -241,10 +219,7 @@ size_t blob_device_pack(const blob_model* const* models, size_t count, void* buf
        {std::size_t{BLOB_DEVICE_MAGIC}, std::size_t{BLOB_DEVICE_VERSION}, words, count})
     to.put(word);
   std::size_t first = start;
-  for (std::size_t i = 0; i < count; ++i) {
-    first = putVessel(*models[i], i, first, to);
-    if (first == 0) return 0;
-  }
+  for (std::size_t i = 0; i < count; ++i) first = putVessel(*models[i], i, first, to);
   return words * sizeof(Word);
 }
 

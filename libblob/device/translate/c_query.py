@@ -11,6 +11,7 @@ from collections import namedtuple
 from pycparser import c_ast, c_parser
 
 INCLUDE = pathlib.Path(__file__).resolve().parents[2] / "include"
+HEADERS = ("blob_device_model.h", "blob_device_lanes.h", "blob_device_blend.h", "blob_device.h")
 PREFIX = "blob_device_"
 BITS = "bits"  # the union that shows a float as a word
 AXES = 3  # elements of each array that is a parameter
@@ -30,8 +31,8 @@ def array(element, count):
 
 
 def source_text():
-    """The text of both headers without comments and directives, and the constants that they define."""
-    text = "".join((INCLUDE / name).read_text(encoding="utf-8") for name in ("blob_device_model.h", "blob_device.h"))
+    """The text of all headers without comments and directives, and the constants that they define."""
+    text = "".join((INCLUDE / name).read_text(encoding="utf-8") for name in HEADERS)
     text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
     constants = dict(re.findall(r"^#define (BLOB_DEVICE_\w+) ((?:0x[0-9a-f]+|\d+)u?) *$", text, flags=re.M))
     text = re.sub(r"^#.*$|^typedef \w+ blob_device_word;$", "", text, flags=re.M)

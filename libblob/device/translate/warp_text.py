@@ -11,7 +11,7 @@ from c_query import Expression, Names, root_of
 from writer import Writer
 
 TYPES = {"float": "wp.float32", "int": "wp.int32", "word": "wp.uint32", "words": "wp.uint32", "bits": "wp.uint32"}
-VECTORS = {3: "wp.vec3", 4: "wp.vec4"}
+VECTORS = {3: "wp.vec3", 4: "wp.vec4", 8: "blob_device_floats"}
 LOAD, NUMBER = "blob_device_load(", "blob_device_number("
 BUFFER = "buffer: wp.array(dtype=wp.uint32)"
 
@@ -19,7 +19,7 @@ HEAD = '''\
 # SPDX-License-Identifier: Apache-2.0
 """libblob's query for NVIDIA Warp, and blob_query_points(), a thread for each tool point.
 
-Generated from blob_device.h and blob_device_model.h, which explain each function and the buffer, by
+Generated from blob_device.h and the headers that it includes, which explain each function and the buffer, by
 libblob/device/translate/translate.py; change those. A pointer of C into the buffer is the index of a
 word here: `words` is that of the buffer's first word, 0 unless other data lie before it. Functions
 return what C writes through pointers, after their result. Needs wp.where and wp.cast (Warp 1.7).
@@ -83,7 +83,8 @@ class Warp(Writer):
         for name, value in self.query.constants.items():
             value = f"wp.uint32({value[:-1]})" if value.endswith("u") else value
             self.lines.append(f"{name} = wp.constant({value})")
-        self.lines += ["", "blob_device_nodes = wp.types.vector(length=24, dtype=wp.uint32)"]
+        self.lines += ["", "blob_device_floats = wp.types.vector(length=8, dtype=wp.float32)",
+                       "blob_device_nodes = wp.types.vector(length=24, dtype=wp.uint32)"]
         for name, fields in self.query.records.items():
             self.lines += ["", "", "@wp.struct", f"class blob_device_{name}:"]
             self.lines += [f"    {field}: {self.type(kind)}" for field, kind in fields.items()]

@@ -11,7 +11,7 @@ TYPES = {"float": "f32", "int": "i32", "word": "u32", "words": "u32", "bits": "u
 HEAD = """\
 // SPDX-License-Identifier: Apache-2.0
 // libblob's query in WGSL, and blob_query_points(): an invocation for each tool point. Generated
-// from blob_device.h and blob_device_model.h, which explain each function and the buffer, by
+// from blob_device.h and the headers that it includes, which explain each function and the buffer, by
 // libblob/device/translate/translate.py; change those.
 //
 // A pointer of C into the buffer is the index of a word here: words is that of the buffer's first

@@ -27,7 +27,7 @@ namespace lumen::blob::test {
 namespace {
 
 constexpr int kSkipped = 77;
-constexpr double kDistance = 1e-5;  // radii, at points within a radius of the wall
+constexpr double kDistance = 1e-5;  // mm, at points within a radius of the wall
 constexpr double kSameNode = 0.99999;
 
 struct NoDevice : std::runtime_error {
@@ -202,9 +202,9 @@ private:
   cl_kernel m_kernel = nullptr;
 };
 
-// Prints how the answers agree, distances in radii R, or relative to themselves more than R
+// Prints how the answers agree, distances in mm, or in radii where they are more than a radius R
 // outside; whether they do so as closely as promised. A leak is a point that one side has in the
-// lumen and the other outside, farther from the wall than the promised distance.
+// lumen and the other outside.
 bool compare(const std::string& name, const blob_model* model, std::size_t count, OpenCl& device) {
   const blob_model* models[1] = {model};
   std::vector<std::uint32_t> words(blob_device_pack(models, 1, nullptr, 0) / 4);
@@ -216,15 +216,15 @@ bool compare(const std::string& name, const blob_model* model, std::size_t count
   double greatest = 0;
   for (std::size_t i = 0; i < count; ++i) {
     same += here.cursor[i] == there.cursor[i] ? 1 : 0;
-    leaks += here.state[i] != there.state[i] && std::abs(here.distance[i]) > kDistance ? 1 : 0;
+    leaks += here.state[i] != there.state[i] ? 1 : 0;
     if (here.cursor[i] != there.cursor[i]) continue;
     const double radius = blob_model_node(model, here.cursor[i]).radius;
-    const double scale = std::max(radius, here.distance[i]);
+    const double scale = std::max(1.0, here.distance[i] / radius);
     greatest = std::max(greatest, std::abs(here.distance[i] - there.distance[i]) / scale);
   }
   const auto number = static_cast<double>(count);
   std::printf(
-      "%s: %zu points, same node %.6f %%, distance within %.2g R, %zu leaks; "
+      "%s: %zu points, same node %.6f %%, distance within %.2g mm, %zu leaks; "
       "processor time of %.1f ns a point there, %.1f by the library; %zu bytes\n",
       name.c_str(), count, 100 * static_cast<double>(same) / number, greatest, leaks,
       1e9 * there.seconds / number, 1e9 * here.seconds / number, 4 * words.size());

@@ -64,7 +64,7 @@ async function compare({ name, count, flags, near }) {
   let seed = 7;
   const random = () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) / 2 ** 32;
   for (let i = 0; i < count; ++i) {
-    const node = Math.floor((i * nodes) / count), at = first + 12 * node;
+    const node = Math.floor((i * nodes) / count), at = first + 16 * node;
     for (let k = 0; k < 3; ++k) there.points[3 * i + k] = floats[at + k] + floats[at + 3] * (3 * random() - 1.5);
     there.cursors[i] = i % 1000 === 0 ? NOWHERE : node;
   }
@@ -80,7 +80,7 @@ async function compare({ name, count, flags, near }) {
     result.leaks += Number(a.inside !== b.inside && Math.abs(a.distance) > near);
     if (a.node !== b.node) continue;
     ++result.same;
-    const radius = floats[first + 12 * a.node + 3], steep = Math.hypot(...a.gradient);
+    const radius = floats[first + 16 * a.node + 3], steep = Math.hypot(...a.gradient);
     result.distance = Math.max(result.distance, Math.abs(a.distance - b.distance) / Math.max(radius, a.distance));
     result.value = Math.max(result.value, Math.abs(a.value - b.value) / (1 + a.value));
     for (let k = 0; k < 3 && steep > 0.1; ++k) result.normal = Math.max(result.normal, Math.abs(a.normal[k] - b.normal[k]));
