@@ -188,10 +188,14 @@ private:
   }
 
   void run(std::size_t count) {
-    constexpr std::size_t kGroup = 64;
-    const std::size_t size = (count + kGroup - 1) / kGroup * kGroup;
+    cl_device_type type = 0;
+    clGetDeviceInfo(m_device, CL_DEVICE_TYPE, sizeof type, &type, nullptr);
+    constexpr std::size_t kItemsOfProcessor = 64;
+    const bool isGraphics = (type & CL_DEVICE_TYPE_CPU) == 0;
+    const std::size_t group = isGraphics ? 64 : 1;
+    const std::size_t size = isGraphics ? (count + group - 1) / group * group : kItemsOfProcessor;
     require(
-        clEnqueueNDRangeKernel(m_queue, m_kernel, 1, nullptr, &size, &kGroup, 0, nullptr, nullptr),
+        clEnqueueNDRangeKernel(m_queue, m_kernel, 1, nullptr, &size, &group, 0, nullptr, nullptr),
         "run");
     require(clFinish(m_queue), "finish");
   }
