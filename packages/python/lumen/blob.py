@@ -53,7 +53,7 @@ def check_packed(words) -> None:
 
 
 def device_sources() -> pathlib.Path:
-    """The folder with the query of a packed buffer as sources: blob_device.h and blob_device_model.h, which
+    """The folder with the query of a packed buffer as sources: blob_device.h and its parts, which
     query.cl (OpenCL) and query.cu (CUDA) include, and query.wgsl (WebGPU)."""
     return pathlib.Path(__file__).resolve().parent / "device"
 
