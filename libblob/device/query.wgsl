@@ -65,7 +65,7 @@ struct blob_device_lane {
 }
 
 struct blob_device_eight {
-  of: array<f32, 8>,
+  lanes: array<f32, 8>,
 }
 
 struct blob_device_active {
@@ -245,7 +245,8 @@ fn blob_device_term(phi: u32, u: f32, a: f32, w: f32, slope: ptr<function, f32>)
 }
 
 fn blob_device_total(e: blob_device_eight) -> f32 {
-  return e.of[0] + e.of[2] + (e.of[1] + e.of[3]) + (e.of[4] + e.of[6] + (e.of[5] + e.of[7]));
+  return e.lanes[0] + e.lanes[2] + (e.lanes[1] + e.lanes[3]) +
+      (e.lanes[4] + e.lanes[6] + (e.lanes[5] + e.lanes[7]));
 }
 
 fn blob_device_first(bits: u32) -> u32 {
@@ -304,16 +305,16 @@ fn blob_device_weigh_against(block: u32, x: array<f32, 3>, part: ptr<function, a
     let sp: f32 = s * blob_device_step(s);
     let rest: f32 = 1.0f - s;
     let q: f32 = 15.0f * (rest * rest) * inverse_tau / sp;
-    psi.of[i] = s * s * sp;
-    along_x.of[i] = q * bitcast<f32>(blob_device_buffer[block + i]);
-    along_y.of[i] = q * bitcast<f32>(blob_device_buffer[block + (i + 8u)]);
-    along_z.of[i] = q * bitcast<f32>(blob_device_buffer[block + (i + 16u)]);
+    psi.lanes[i] = s * s * sp;
+    along_x.lanes[i] = q * bitcast<f32>(blob_device_buffer[block + i]);
+    along_y.lanes[i] = q * bitcast<f32>(blob_device_buffer[block + (i + 8u)]);
+    along_z.lanes[i] = q * bitcast<f32>(blob_device_buffer[block + (i + 16u)]);
   }
   (*part)[0] = blob_device_total(along_x);
   (*part)[1] = blob_device_total(along_y);
   (*part)[2] = blob_device_total(along_z);
-  return psi.of[0] * psi.of[2] * (psi.of[1] * psi.of[3]) *
-      (psi.of[4] * psi.of[6] * (psi.of[5] * psi.of[7]));
+  return psi.lanes[0] * psi.lanes[2] * (psi.lanes[1] * psi.lanes[3]) *
+      (psi.lanes[4] * psi.lanes[6] * (psi.lanes[5] * psi.lanes[7]));
 }
 
 fn blob_device_least_exponent(first: u32, count: u32, at: array<f32, 3>) -> f32 {
@@ -338,10 +339,10 @@ fn blob_device_sum_blobs(phi: u32, first: u32, count: u32, at: array<f32, 3>, sh
   var along_y: blob_device_eight;
   var along_z: blob_device_eight;
   for (var i: u32 = 0u; i < 8u; i += 1u) {
-    along_z.of[i] = 0.0f;
-    along_y.of[i] = 0.0f;
-    along_x.of[i] = 0.0f;
-    f.of[i] = 0.0f;
+    along_z.lanes[i] = 0.0f;
+    along_y.lanes[i] = 0.0f;
+    along_x.lanes[i] = 0.0f;
+    f.lanes[i] = 0.0f;
   }
   for (var b: u32 = 0u; b < count; b += 1u) {
     for (var i: u32 = 0u; i < 8u; i += 1u) {
@@ -350,11 +351,11 @@ fn blob_device_sum_blobs(phi: u32, first: u32, count: u32, at: array<f32, 3>, sh
       var slope: f32;
       var u: f32 = blob_device_exponent(blob, at, &d);
       u = select(u, blob_device_greater(u - shift, 0.0f), phi == 1u);
-      f.of[i] += blob_device_term(phi, u, bitcast<f32>(blob_device_buffer[blob + 24u]),
+      f.lanes[i] += blob_device_term(phi, u, bitcast<f32>(blob_device_buffer[blob + 24u]),
           bitcast<f32>(blob_device_buffer[blob + 32u]), &slope);
-      along_x.of[i] += slope * d[0];
-      along_y.of[i] += slope * d[1];
-      along_z.of[i] += slope * d[2];
+      along_x.lanes[i] += slope * d[0];
+      along_y.lanes[i] += slope * d[1];
+      along_z.lanes[i] += slope * d[2];
     }
   }
   (*lane).field[0] = blob_device_total(f);
@@ -401,15 +402,15 @@ fn blob_device_follow(v: blob_device_vessel, place: blob_device_place, start: u3
   return node;
 }
 
-fn blob_device_add_active(active: ptr<function, blob_device_active>, k: u32) {
-  for (var i: i32 = 0; i < (*active).count; i += 1) {
-    if ((*active).nodes[i] == k) {
+fn blob_device_add_active(blending: ptr<function, blob_device_active>, k: u32) {
+  for (var i: i32 = 0; i < (*blending).count; i += 1) {
+    if ((*blending).nodes[i] == k) {
       return;
     }
   }
-  if ((*active).count < BLOB_DEVICE_MOST_ACTIVE) {
-    (*active).nodes[(*active).count] = k;
-    (*active).count += 1;
+  if ((*blending).count < BLOB_DEVICE_MOST_ACTIVE) {
+    (*blending).nodes[(*blending).count] = k;
+    (*blending).count += 1;
   }
 }
 
@@ -435,7 +436,7 @@ fn blob_device_rivals(node: blob_device_node) -> u32 {
 }
 
 fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node,
-    active: ptr<function, blob_device_active>, gradient: ptr<function, array<f32, 3>>) -> f32 {
+    blending: ptr<function, blob_device_active>, gradient: ptr<function, array<f32, 3>>) -> f32 {
   var u: f32 = 1.0f;
   var part: array<f32, 3>;
   (*gradient)[0] = 0.0f;
@@ -459,9 +460,9 @@ fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node,
     (*gradient)[2] += part[2];
     for (var i: u32 = 0u; i < 8u; i += 1u) {
       if (((rivals >> i) & 1u) != 0u) {
-        if (index == (*active).nodes[0] || blob_device_is_neighbour(v, (*active).nodes[0],
+        if (index == (*blending).nodes[0] || blob_device_is_neighbour(v, (*blending).nodes[0],
             blob_device_buffer[block + (i + 40u)]) == 0) {
-          blob_device_add_active(active, blob_device_buffer[block + (i + 40u)]);
+          blob_device_add_active(blending, blob_device_buffer[block + (i + 40u)]);
         }
       }
     }
@@ -558,16 +559,16 @@ fn blob_device_quotient(sum: blob_device_mixture) -> blob_device_lane {
 
 fn blob_device_blend_all(v: blob_device_vessel, place: blob_device_place, start: u32,
     lane: ptr<function, blob_device_lane>) {
-  var active: blob_device_active;
+  var blending: blob_device_active;
   var sum: blob_device_mixture;
   var gradient: array<f32, 3>;
   blob_device_clear(&sum);
-  active.nodes[0] = start;
-  active.count = 1;
-  for (var n: i32 = 0; n < active.count; n += 1) {
-    let before: i32 = active.count;
-    let node: blob_device_node = blob_device_at(v, active.nodes[n], place);
-    let u: f32 = blob_device_weigh(v, active.nodes[n], node, &active, &gradient);
+  blending.nodes[0] = start;
+  blending.count = 1;
+  for (var n: i32 = 0; n < blending.count; n += 1) {
+    let before: i32 = blending.count;
+    let node: blob_device_node = blob_device_at(v, blending.nodes[n], place);
+    let u: f32 = blob_device_weigh(v, blending.nodes[n], node, &blending, &gradient);
     if (u > 0.0f) {
       var own: blob_device_lane;
       if (n == 0) {
@@ -577,7 +578,7 @@ fn blob_device_blend_all(v: blob_device_vessel, place: blob_device_place, start:
       }
       blob_device_add(v, own, u, gradient, &sum);
     } else {
-      active.count = before;
+      blending.count = before;
     }
   }
   if (sum.is_empty == 0) {

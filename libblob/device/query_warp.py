@@ -77,7 +77,7 @@ class blob_device_lane:
 
 @wp.struct
 class blob_device_eight:
-    of: blob_device_floats
+    lanes: blob_device_floats
 
 
 @wp.struct
@@ -278,7 +278,8 @@ def blob_device_term(phi: wp.uint32, u: wp.float32, a: wp.float32, w: wp.float32
 
 @wp.func
 def blob_device_total(e: blob_device_eight):
-    return e.of[0] + e.of[2] + (e.of[1] + e.of[3]) + (e.of[4] + e.of[6] + (e.of[5] + e.of[7]))
+    return (e.lanes[0] + e.lanes[2] + (e.lanes[1] + e.lanes[3]) +
+            (e.lanes[4] + e.lanes[6] + (e.lanes[5] + e.lanes[7])))
 
 
 @wp.func
@@ -341,15 +342,15 @@ def blob_device_weigh_against(buffer: wp.array(dtype=wp.uint32), block: wp.uint3
         sp = s * blob_device_step(s)
         rest = 1.0 - s
         q = 15.0 * (rest * rest) * inverse_tau / sp
-        psi.of[i] = s * s * sp
-        along_x.of[i] = q * blob_device_number(buffer, block + i)
-        along_y.of[i] = q * blob_device_number(buffer, block + (i + wp.uint32(8)))
-        along_z.of[i] = q * blob_device_number(buffer, block + (i + wp.uint32(16)))
+        psi.lanes[i] = s * s * sp
+        along_x.lanes[i] = q * blob_device_number(buffer, block + i)
+        along_y.lanes[i] = q * blob_device_number(buffer, block + (i + wp.uint32(8)))
+        along_z.lanes[i] = q * blob_device_number(buffer, block + (i + wp.uint32(16)))
     part[0] = blob_device_total(along_x)
     part[1] = blob_device_total(along_y)
     part[2] = blob_device_total(along_z)
-    return psi.of[0] * psi.of[2] * (psi.of[1] * psi.of[3]) * (psi.of[4] * psi.of[6] *
-            (psi.of[5] * psi.of[7])), part
+    return psi.lanes[0] * psi.lanes[2] * (psi.lanes[1] * psi.lanes[3]) * (psi.lanes[4] *
+            psi.lanes[6] * (psi.lanes[5] * psi.lanes[7])), part
 
 
 @wp.func
@@ -378,10 +379,10 @@ def blob_device_sum_blobs(buffer: wp.array(dtype=wp.uint32), phi: wp.uint32, fir
     along_z = blob_device_eight()
     for index_1 in range(wp.int32(wp.uint32(8))):
         i = wp.uint32(index_1)
-        along_z.of[i] = wp.float32(0.0)
-        along_y.of[i] = wp.float32(0.0)
-        along_x.of[i] = wp.float32(0.0)
-        f.of[i] = wp.float32(0.0)
+        along_z.lanes[i] = wp.float32(0.0)
+        along_y.lanes[i] = wp.float32(0.0)
+        along_x.lanes[i] = wp.float32(0.0)
+        f.lanes[i] = wp.float32(0.0)
     for index_2 in range(wp.int32(count)):
         b = wp.uint32(index_2)
         for index_3 in range(wp.int32(wp.uint32(8))):
@@ -394,10 +395,10 @@ def blob_device_sum_blobs(buffer: wp.array(dtype=wp.uint32), phi: wp.uint32, fir
             u = wp.where(phi == wp.uint32(1), blob_device_greater(u - shift, 0.0), u)
             result_6, slope = blob_device_term(phi, u, blob_device_number(buffer, blob +
                     wp.uint32(24)), blob_device_number(buffer, blob + wp.uint32(32)), slope)
-            f.of[i] += result_6
-            along_x.of[i] += slope * d[0]
-            along_y.of[i] += slope * d[1]
-            along_z.of[i] += slope * d[2]
+            f.lanes[i] += result_6
+            along_x.lanes[i] += slope * d[0]
+            along_y.lanes[i] += slope * d[1]
+            along_z.lanes[i] += slope * d[2]
     lane.field[0] = blob_device_total(f)
     lane.field[1] = blob_device_total(along_x)
     lane.field[2] = blob_device_total(along_y)
@@ -444,14 +445,14 @@ def blob_device_follow(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
 
 
 @wp.func
-def blob_device_add_active(active: blob_device_active, k: wp.uint32):
-    for i in range(active.count):
-        if active.nodes[i] == k:
-            return active
-    if active.count < BLOB_DEVICE_MOST_ACTIVE:
-        active.nodes[active.count] = k
-        active.count += 1
-    return active
+def blob_device_add_active(blending: blob_device_active, k: wp.uint32):
+    for i in range(blending.count):
+        if blending.nodes[i] == k:
+            return blending
+    if blending.count < BLOB_DEVICE_MOST_ACTIVE:
+        blending.nodes[blending.count] = k
+        blending.count += 1
+    return blending
 
 
 @wp.func
@@ -479,7 +480,7 @@ def blob_device_rivals(buffer: wp.array(dtype=wp.uint32), node: blob_device_node
 
 @wp.func
 def blob_device_weigh(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, index: wp.uint32,
-        node: blob_device_node, active: blob_device_active, gradient: wp.vec3):
+        node: blob_device_node, blending: blob_device_active, gradient: wp.vec3):
     u = wp.float32(1.0)
     part = wp.vec3()
     for axis in range(3):
@@ -491,23 +492,24 @@ def blob_device_weigh(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, 
         if rivals == wp.uint32(0):
             continue
         if blob_device_below(buffer, block, node.x, -1.0) != wp.uint32(0):
-            return wp.float32(0.0), active, gradient
+            return wp.float32(0.0), blending, gradient
         result_4, part = blob_device_weigh_against(buffer, block, node.x, part)
         u *= result_4
         if not (u > 1e-20):
-            return wp.float32(0.0), active, gradient
+            return wp.float32(0.0), blending, gradient
         for axis in range(3):
             gradient[axis] += part[axis]
         for index_5 in range(wp.int32(wp.uint32(8))):
             i = wp.uint32(index_5)
             if ((rivals >> i) & wp.uint32(1)) != wp.uint32(0):
-                if index == active.nodes[0] or blob_device_is_neighbour(buffer, v, active.nodes[0],
-                        blob_device_load(buffer, block + (i + wp.uint32(40)))) == 0:
-                    active = blob_device_add_active(active, blob_device_load(buffer, block +
-                            (i + wp.uint32(40))))
+                if index == blending.nodes[0] or blob_device_is_neighbour(buffer, v,
+                        blending.nodes[0], blob_device_load(buffer, block +
+                        (i + wp.uint32(40)))) == 0:
+                    blending = blob_device_add_active(blending,
+                            blob_device_load(buffer, block + (i + wp.uint32(40))))
     for axis in range(3):
         gradient[axis] *= u
-    return u, active, gradient
+    return u, blending, gradient
 
 
 @wp.func
@@ -582,18 +584,18 @@ def blob_device_quotient(sum: blob_device_mixture):
 @wp.func
 def blob_device_blend_all(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
         place: blob_device_place, start: wp.uint32, lane: blob_device_lane):
-    active = blob_device_active()
+    blending = blob_device_active()
     sum = blob_device_mixture()
     gradient = wp.vec3()
     sum = blob_device_clear(sum)
-    active.nodes[0] = start
-    active.count = wp.int32(1)
+    blending.nodes[0] = start
+    blending.count = wp.int32(1)
     n = wp.int32(0)
-    while n < active.count:
-        before = active.count
-        node = blob_device_at(buffer, v, active.nodes[n], place)
-        result_2, active, gradient = blob_device_weigh(buffer, v, active.nodes[n], node, active,
-                gradient)
+    while n < blending.count:
+        before = blending.count
+        node = blob_device_at(buffer, v, blending.nodes[n], place)
+        result_2, blending, gradient = blob_device_weigh(buffer, v, blending.nodes[n], node,
+                blending, gradient)
         u = result_2
         if u > 0.0:
             own = blob_device_lane()
@@ -603,7 +605,7 @@ def blob_device_blend_all(buffer: wp.array(dtype=wp.uint32), v: blob_device_vess
                 own = blob_device_evaluate(buffer, v, node)
             sum = blob_device_add(buffer, v, own, u, gradient, sum)
         else:
-            active.count = before
+            blending.count = before
         n += 1
     if sum.is_empty == 0:
         lane = blob_device_quotient(sum)

@@ -76,13 +76,13 @@ typedef struct blob_device_mixture {
   int is_empty;
 } blob_device_mixture;
 
-BLOB_DEVICE_FN void blob_device_add_active(blob_device_active* active, blob_device_word k) {
+BLOB_DEVICE_FN void blob_device_add_active(blob_device_active* blending, blob_device_word k) {
   int i;
-  for (i = 0; i < active->count; ++i)
-    if (active->nodes[i] == k) return;
-  if (active->count < BLOB_DEVICE_MOST_ACTIVE) {
-    active->nodes[active->count] = k;
-    active->count += 1;
+  for (i = 0; i < blending->count; ++i)
+    if (blending->nodes[i] == k) return;
+  if (blending->count < BLOB_DEVICE_MOST_ACTIVE) {
+    blending->nodes[blending->count] = k;
+    blending->count += 1;
   }
 }
 
@@ -109,7 +109,7 @@ BLOB_DEVICE_FN blob_device_word blob_device_rivals(const blob_device_node* node)
 /* The weight u of a node and its gradient; 0 if another beats it by tau. Its rivals are added to
  * those that blend, but for neighbours of the first node, which has added its own. */
 BLOB_DEVICE_FN float blob_device_weigh(const blob_device_vessel* v, blob_device_word index,
-                                       const blob_device_node* node, blob_device_active* active,
+                                       const blob_device_node* node, blob_device_active* blending,
                                        float* gradient) {
   blob_device_word b, i;
   float u = 1, part[3];
@@ -125,9 +125,9 @@ BLOB_DEVICE_FN float blob_device_weigh(const blob_device_vessel* v, blob_device_
     for (axis = 0; axis < 3; ++axis) gradient[axis] += part[axis];
     for (i = 0; i < 8; ++i)
       if (((rivals >> i) & 1u) != 0)
-        if (index == active->nodes[0] ||
-            !blob_device_is_neighbour(v, active->nodes[0], block[i + 40]))
-          blob_device_add_active(active, block[i + 40]);
+        if (index == blending->nodes[0] ||
+            !blob_device_is_neighbour(v, blending->nodes[0], block[i + 40]))
+          blob_device_add_active(blending, block[i + 40]);
   }
   for (axis = 0; axis < 3; ++axis) gradient[axis] *= u;
   return u;
@@ -198,22 +198,22 @@ BLOB_DEVICE_FN blob_device_lane blob_device_quotient(const blob_device_mixture* 
 BLOB_DEVICE_FN void blob_device_blend_all(const blob_device_vessel* v,
                                           const blob_device_place* place, blob_device_word start,
                                           blob_device_lane* lane) {
-  blob_device_active active;
+  blob_device_active blending;
   blob_device_mixture sum;
   float gradient[3];
   int n;
   blob_device_clear(&sum);
-  active.nodes[0] = start;
-  active.count = 1;
-  for (n = 0; n < active.count; ++n) {
-    const int before = active.count;
-    const blob_device_node node = blob_device_at(v, active.nodes[n], place);
-    const float u = blob_device_weigh(v, active.nodes[n], &node, &active, gradient);
+  blending.nodes[0] = start;
+  blending.count = 1;
+  for (n = 0; n < blending.count; ++n) {
+    const int before = blending.count;
+    const blob_device_node node = blob_device_at(v, blending.nodes[n], place);
+    const float u = blob_device_weigh(v, blending.nodes[n], &node, &blending, gradient);
     if (u > 0) {
       const blob_device_lane own = n == 0 ? *lane : blob_device_evaluate(v, &node);
       blob_device_add(v, &own, u, gradient, &sum);
     } else {
-      active.count = before;
+      blending.count = before;
     }
   }
   if (sum.is_empty == 0) *lane = blob_device_quotient(&sum);

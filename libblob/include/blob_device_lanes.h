@@ -9,12 +9,12 @@
 #include "blob_device_model.h"
 
 typedef struct blob_device_eight {
-  float of[8];
+  float lanes[8];
 } blob_device_eight;
 
 BLOB_DEVICE_FN float blob_device_total(const blob_device_eight* e) {
-  return ((e->of[0] + e->of[2]) + (e->of[1] + e->of[3])) +
-         ((e->of[4] + e->of[6]) + (e->of[5] + e->of[7]));
+  return ((e->lanes[0] + e->lanes[2]) + (e->lanes[1] + e->lanes[3])) +
+         ((e->lanes[4] + e->lanes[6]) + (e->lanes[5] + e->lanes[7]));
 }
 
 /* Index of the lowest bit of eight, of which one is set. */
@@ -69,16 +69,16 @@ BLOB_DEVICE_FN float blob_device_weigh_against(blob_device_words block, const fl
     const float s = blob_device_lesser(blob_device_greater(0.5f + 0.5f * t, 0.0f), 1.0f);
     const float sp = s * blob_device_step(s), rest = 1.0f - s;
     const float q = (15.0f * (rest * rest)) * inverse_tau / sp;
-    psi.of[i] = (s * s) * sp;
-    along_x.of[i] = q * blob_device_float(block[i]);
-    along_y.of[i] = q * blob_device_float(block[i + 8]);
-    along_z.of[i] = q * blob_device_float(block[i + 16]);
+    psi.lanes[i] = (s * s) * sp;
+    along_x.lanes[i] = q * blob_device_float(block[i]);
+    along_y.lanes[i] = q * blob_device_float(block[i + 8]);
+    along_z.lanes[i] = q * blob_device_float(block[i + 16]);
   }
   part[0] = blob_device_total(&along_x);
   part[1] = blob_device_total(&along_y);
   part[2] = blob_device_total(&along_z);
-  return ((psi.of[0] * psi.of[2]) * (psi.of[1] * psi.of[3])) *
-         ((psi.of[4] * psi.of[6]) * (psi.of[5] * psi.of[7]));
+  return ((psi.lanes[0] * psi.lanes[2]) * (psi.lanes[1] * psi.lanes[3])) *
+         ((psi.lanes[4] * psi.lanes[6]) * (psi.lanes[5] * psi.lanes[7]));
 }
 
 /* The least a |X - C|^2 of the blobs of `count` blocks; padding counts as far away. */
@@ -101,17 +101,17 @@ BLOB_DEVICE_FN void blob_device_sum_blobs(blob_device_word phi, blob_device_word
                                           blob_device_lane* lane) {
   blob_device_eight f, along_x, along_y, along_z;
   blob_device_word i, b;
-  for (i = 0; i < 8; ++i) f.of[i] = along_x.of[i] = along_y.of[i] = along_z.of[i] = 0;
+  for (i = 0; i < 8; ++i) f.lanes[i] = along_x.lanes[i] = along_y.lanes[i] = along_z.lanes[i] = 0;
   for (b = 0; b < count; ++b)
     for (i = 0; i < 8; ++i) {
       blob_device_words blob = first + BLOB_DEVICE_BLOB_WORDS * b + i;
       float d[3], slope, u = blob_device_exponent(blob, at, d);
       u = phi == 1 ? blob_device_greater(u - shift, 0.0f) : u;
-      f.of[i] += blob_device_term(phi, u, blob_device_float(blob[24]), blob_device_float(blob[32]),
-                                  &slope);
-      along_x.of[i] += slope * d[0];
-      along_y.of[i] += slope * d[1];
-      along_z.of[i] += slope * d[2];
+      f.lanes[i] += blob_device_term(phi, u, blob_device_float(blob[24]),
+                                     blob_device_float(blob[32]), &slope);
+      along_x.lanes[i] += slope * d[0];
+      along_y.lanes[i] += slope * d[1];
+      along_z.lanes[i] += slope * d[2];
     }
   lane->field[0] = blob_device_total(&f);
   lane->field[1] = blob_device_total(&along_x);

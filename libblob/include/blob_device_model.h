@@ -34,9 +34,9 @@ typedef uint blob_device_word;
 #define BLOB_DEVICE_GLOBAL
 #if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIP__)
 #if defined(__host__) && defined(__device__)
-#define BLOB_DEVICE_FN static inline __host__ __device__
+#define BLOB_DEVICE_FN static __forceinline__ __host__ __device__
 #else
-#define BLOB_DEVICE_FN static inline __attribute__((host, device))
+#define BLOB_DEVICE_FN static inline __attribute__((host, device, always_inline))
 #endif
 #define BLOB_DEVICE_SQRT(x) __builtin_sqrtf(x)
 #else
