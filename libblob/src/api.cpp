@@ -30,19 +30,9 @@ constexpr std::uint32_t kModelCookie = 0x626c6f32U;
 
 std::atomic<blob_misuse_handler> g_misuseHandler{nullptr};
 
-blob_columns packedColumns(std::size_t count, const double (*points)[3],
-                           std::uint32_t* cursors) noexcept {
-  blob_columns columns = blob_columns_default();
-  columns.count = count;
-  for (int i = 0; i < 3; ++i) columns.point[i] = &points[0][i];
-  columns.point_stride = 3 * sizeof(double);
-  columns.cursor = cursors;
-  return columns;
-}
-
 // A batch whose points and cursors have been copied: answers may be written over points.
 struct ExactBatch {
-  static constexpr std::size_t kMostPoints = 64;
+  static constexpr std::size_t kMostPoints = kMostRefined;
   double point[kMostPoints][3];
   std::uint32_t cursor[kMostPoints];
   blob_sample sample[kMostPoints];
@@ -61,8 +51,7 @@ struct ExactBatch {
   void answer(const blob_model& model, std::uint32_t flags, std::size_t count) noexcept {
     Job job{packedColumns(count, point, cursor), sample, inRange};
     model.backend->query(model, flags, job);
-    for (std::size_t i = 0; i < count; ++i)
-      if (inRange[i]) refineSample(model, flags, point[i], sample[i]);
+    refineSamples(model, flags, count, point, inRange, sample);
   }
 
   void write(const Job& job, std::size_t first, std::size_t count) const noexcept {

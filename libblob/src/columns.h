@@ -43,4 +43,15 @@ inline bool arePacked(const blob_columns& c) {
          c.point[2] == c.point[0] + 2;
 }
 
+/// Columns of packed points, without answers.
+inline blob_columns packedColumns(std::size_t count, const double (*points)[3],
+                                  std::uint32_t* cursors) noexcept {
+  blob_columns columns = blob_columns_default();
+  columns.count = count;
+  for (int i = 0; i < 3; ++i) columns.point[i] = &points[0][i];
+  columns.point_stride = 3 * sizeof(double);
+  columns.cursor = cursors;
+  return columns;
+}
+
 }  // namespace lumen::blob

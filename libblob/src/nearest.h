@@ -2,6 +2,7 @@
 // Samples with an exact distance, and the nearest point of the wall.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "model.h"
@@ -17,6 +18,13 @@ void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
 /// of f at the point.
 void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
                   blob_sample& sample) noexcept;
+
+constexpr std::size_t kMostRefined = 64;
+
+/// refineSample() for those of at most kMostRefined points that are in range, with the same bits: the
+/// searches ask the back end together, as a batch.
+void refineSamples(const blob_model& model, std::uint32_t flags, std::size_t count,
+                   const double (*points)[3], const bool* inRange, blob_sample* samples) noexcept;
 
 /// blob_nearest() for a finite point in range of its node, which is not moved.
 void findNearest(const blob_model& model, std::uint32_t flags, const double* point,
