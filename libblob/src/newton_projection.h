@@ -111,12 +111,12 @@ private:
 
   static constexpr int kMostGlides = 12;
   static constexpr double kOffWall = 0.1;  // share of the radius: go to the wall first
-  static constexpr double kSlow = 0.4;     // of the step before: the models disagree
+  static constexpr double kSlow = 0.6;     // of the step before: its shape of the wall misleads
+  static constexpr int kMostSlow = 1;      // steps; then second derivatives of the blended field
   static constexpr double kMisjudged =
       0.3;  // of (off / R)^2: error of a distance this far off the wall
-  static constexpr double kLeastShare = 0.1;   // of a step
-  static constexpr double kShorten = 0.4;      // of a step after which the wall is farther
-  static constexpr double kShortGlide = 0.01;  // share of the radius: a step that keeps the shape
+  static constexpr double kLeastShare = 0.1;  // of a step
+  static constexpr double kShorten = 0.4;     // of a step after which the wall is farther
 
   struct Foot {
     Vec at;
@@ -199,11 +199,11 @@ private:
   // next.
   struct Descent {
     Place place;
-    WallShape wall{};
+    WallShape wall;
     WallStep step{};
-    double share = 1, reached = 0;
-    int steps = 0, places = 0;
-    bool isHard = false;  // the models of nodes disagree about the wall
+    Vec foot;  // the point of the wall at which the last step began
+    double share = 1, reached;
+    int steps = 0, places = 0, slowSteps = 0;
   };
 
   // Goes on to the nearest point of the wall by a step to the wall and along it at once, which must
@@ -214,7 +214,6 @@ private:
     if (d.places++ == kMostGlides || !(m_place.here.value > kVanished)) return stop();
     if (d.steps > 0 && lengthAt(m_place) > d.reached) {
       d.share *= kShorten;
-      d.isHard = true;
       if (d.share < kLeastShare) return stop();
       return goOn(d.place, d.step, d.share);
     }
@@ -231,22 +230,27 @@ private:
     m_stage = Stage::Stuck;
   }
 
-  // Finds the next step from the place of a descent; returns whether none is needed.
+  // Finds the next step from the place of a descent; returns whether none is needed. After the
+  // first, the turn of the normal along each step corrects the shape of the wall, without a look at
+  // second derivatives.
   bool stepOn(Descent& d) const {
     const double off = d.place.here.distance, length = lengthAt(d.place);
     const double before = d.share < 1 ? 0 : d.step.length;
-    if (d.steps++ == 0 || d.isHard || d.step.length > kShortGlide * m_radius) {
-      d.wall = shapeAt(d.place, d.isHard);
+    const Vec normal = normalOf(d.place.here), foot = d.place.foot.at - off * normal;
+    if (d.steps++ == 0 || d.slowSteps > kMostSlow) {
+      d.wall = shapeAt(d.place, d.slowSteps > kMostSlow);
     } else {
+      bendWall(d.wall, foot - d.foot, normal - d.wall.normal);
       d.wall.toQuery = m_query - d.place.foot.at;
-      d.wall.normal = normalOf(d.place.here);
-      d.wall.distance = dot(d.wall.toQuery, d.wall.normal) + off;
+      d.wall.normal = normal;
+      d.wall.distance = dot(d.wall.toQuery, normal) + off;
     }
+    d.foot = foot;
     d.reached = length + kMisjudged * off * off / m_radius;
     d.share = 1;
     if (!(d.wall.slope > 0)) return false;
     d.step = stepAlongWall(d.wall, {m_radius, m_tolerance});
-    d.isHard = d.isHard || (before > 0 && d.step.length > kSlow * before);
+    if (before > 0 && d.step.length > kSlow * before) ++d.slowSteps;
     return isNearest(d.step, off, length);
   }
 
@@ -360,9 +364,9 @@ private:
   const blob_model& m_model;
   std::uint32_t m_flags;
   Stage m_stage = Stage::Alone;
-  blob_sample m_first{};  // at the query point
-  Place m_place{};
-  Descent m_descent{};
+  blob_sample m_first;  // at the query point
+  Place m_place;
+  Descent m_descent;
   Vec m_query;
   double m_radius, m_tolerance;
   std::uint32_t m_maxSteps, m_steps = 0;

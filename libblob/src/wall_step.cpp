@@ -38,14 +38,32 @@ Vec alongAxis(const Vec& direction, const Vec& toQuery, double eigenvalue,
 
 }  // namespace
 
+void bendWall(WallShape& wall, const Vec& move, const Vec& turn) noexcept {
+  const double square = dot(move, move);
+  if (!(square > 0)) return;
+  const double inverse = 1.0 / square;
+  const Vec missing = -wall.slope * turn - multiply(wall.hessian, move);
+  const Vec r = inverse * (missing - (0.5 * inverse * dot(missing, move)) * move);
+  double* h = wall.hessian;
+  h[0] += 2.0 * r.x * move.x;
+  h[1] += 2.0 * r.y * move.y;
+  h[2] += 2.0 * r.z * move.z;
+  h[3] += r.x * move.y + move.x * r.y;
+  h[4] += r.x * move.z + move.x * r.z;
+  h[5] += r.y * move.z + move.y * r.z;
+}
+
 Vec stepDownhill(const WallShape& wall, const StepBounds& bounds) noexcept {
   const TangentPlane plane(wall);
   const double scale = -wall.distance / wall.slope;
   const double a = 1.0 + scale * plane.h11, b = scale * plane.h12, c = 1.0 + scale * plane.h22;
-  const double mean = 0.5 * (a + c), root = std::hypot(0.5 * (a - c), b);
-  const double angle = 0.5 * std::atan2(2.0 * b, a - c);
-  const Vec v1 = std::cos(angle) * plane.e1 + std::sin(angle) * plane.e2;
-  const Vec v2 = std::cos(angle) * plane.e2 - std::sin(angle) * plane.e1;
+  const double mean = 0.5 * (a + c), half = 0.5 * (a - c), root = std::sqrt(half * half + b * b);
+  // cosine and sine of half the angle whose cosine is half / root and whose sine has b's sign
+  const double share = root > 0 ? half / root : 1.0;
+  const double cosine = std::sqrt(std::max(0.5 * (1.0 + share), 0.0)),
+               sine = std::copysign(std::sqrt(std::max(0.5 * (1.0 - share), 0.0)), b);
+  const Vec v1 = cosine * plane.e1 + sine * plane.e2;
+  const Vec v2 = cosine * plane.e2 - sine * plane.e1;
   const Vec step = alongAxis(v1, wall.toQuery, mean + root, bounds) +
                    alongAxis(v2, wall.toQuery, mean - root, bounds);
   const double length = norm(step), longest = kLongestStep * bounds.radius;

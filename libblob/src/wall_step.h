@@ -15,6 +15,11 @@ struct WallShape {
   double hessian[6];
 };
 
+/// Corrects the Hessian by what a move along the wall, mm, has turned the normal: the least change of
+/// a symmetric matrix that explains the turn (M. Powell, A new algorithm for unconstrained
+/// optimization, 1970).
+void bendWall(WallShape& wall, const field::Vec& move, const field::Vec& turn) noexcept;
+
 /// Lengths that bound a step, mm.
 struct StepBounds {
   double radius, tolerance;
