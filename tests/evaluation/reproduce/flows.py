@@ -11,28 +11,18 @@ Debian: openfoam, python3-numpy."""
 import csv
 import json
 import math
-import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy
 
+from timed_program import run
+
 DENSITY, VISCOSITY = 1060.0, 4e-3  # kg/m^3, Pa s: as the exports state
 WHITE_FROM = 11.6                  # Dean number from which on a bend counts
 ENTRANCE = 0.33                    # of rho U^2 / 2: friction of a profile that develops, besides its kinetic energy
 CLICKS = Path(__file__).resolve().parents[2] / "data"
-
-
-def run(*words, folder=None):
-    """Standard output, and seconds of the processor."""
-    before = os.times()
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, cwd=folder)
-    after = os.times()
-    if done.returncode != 0:
-        sys.exit(f"flows.py: {' '.join(map(str, words))}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return done.stdout, after.children_user + after.children_system - before.children_user - before.children_system
 
 
 def phantom(kind, *convert):

@@ -13,13 +13,13 @@ standard deviations that the fit states (LUMEN_image.deviation). Then come the r
 truth: the walls' offsets by `lumen check`. NAME: thin, touching, stenosis, fork, helix, intervals or real; all without one. Writes
 FOLDER/image_fits.md and prints it. (`python3-numpy`, `python3-scipy`)"""
 import json
-import os
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy
 from scipy.spatial import cKDTree
+
+from timed_program import run
 
 CLICKS = Path(__file__).resolve().parents[2] / "data"
 REAL = [("3DRA", "aneurism-3dra.nrrd", "aneurism-3dra"), ("aorta", "aorta/aorta.mha", "aorta"), ("fistula", "avf/avf.nii", "avf")]
@@ -29,16 +29,6 @@ TRUNK = 3.0                  # voxels
 TOUCHING = 1.0               # voxels between the walls of two vessels
 EDGES_LEFT_OUT = 3.0         # voxels beside a fork's parent and the ends of the true axis
 BIN = 1.0                    # voxels of a place along an axis
-
-
-def run(*words):
-    """Standard output, and seconds of the processor."""
-    before = os.times()
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False)
-    after = os.times()
-    if done.returncode != 0:
-        sys.exit(f"image_fits.py: {' '.join(map(str, words))}\n{done.stderr}")
-    return done.stdout, after.children_user + after.children_system - before.children_user - before.children_system
 
 
 def swc(vessels):

@@ -11,14 +11,14 @@ motion of the heart. NAME: coronary, hepatic, noise, fast or arteries; all witho
 (`python3-numpy`, `python3-scipy`)"""
 import gzip
 import json
-import os
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy
 from scipy.ndimage import map_coordinates
 from scipy.spatial import cKDTree
+
+from timed_program import run
 
 NEAR = 24  # edges of the true tree that are tried for a point
 
@@ -29,16 +29,6 @@ CASES = {
     "noise": ("coronary", "heart", 10, 0.5, ("--size", 192, "--noise", 0.15, "--psf", 1.0)),
     "fast": ("coronary", "heart", 4, 0.5, ("--size", 192)),
 }
-
-
-def run(*words):
-    """Standard output, and seconds of the processor."""
-    before = os.times()
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False)
-    after = os.times()
-    if done.returncode != 0:
-        sys.exit(f"motions.py: {' '.join(map(str, words))}\n{done.stderr}")
-    return done.stdout, after.children_user + after.children_system - before.children_user - before.children_system
 
 
 class Case:
