@@ -66,6 +66,15 @@ std::vector<std::string> recordedAssumptions(const formats::Metadata& metadata) 
   return all;
 }
 
+std::optional<double> recordedTime(const formats::Metadata& metadata) {
+  const formats::Step* const step = lastStep(metadata, kPoseStep);
+  if (step == nullptr) return std::nullopt;
+  const auto found = step->parameters.find("time");
+  if (found == step->parameters.end()) return std::nullopt;
+  const auto* const time = std::get_if<double>(&found->second);
+  return time == nullptr ? std::nullopt : std::optional(*time);
+}
+
 std::string parameterText(const formats::ParameterValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);

@@ -2,6 +2,7 @@
 // A case's record of manual changes, and of the stages before them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 namespace lumen {
 
 constexpr const char* kEditStep = "edit";
+constexpr const char* kPoseStep = "pose";
 
 /// Adds a step. Throws Error(Unsupported) if the case has no room for another one.
 void addStep(formats::Metadata& metadata, formats::Step step);
@@ -30,6 +32,9 @@ void recordAssumptions(formats::Step& step, const std::vector<std::string>& assu
 
 /// The sentences that recordAssumptions() left in the steps of a case, each once.
 std::vector<std::string> recordedAssumptions(const formats::Metadata& metadata);
+
+/// The time, s, at which a case was taken from its motion, by its last step "pose"; or nothing.
+std::optional<double> recordedTime(const formats::Metadata& metadata);
 
 /// A parameter of a step as text: a number with at most six significant digits, "true" or "false".
 std::string parameterText(const formats::ParameterValue& value);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/case/carried_case.h"
 #include "formats/case/chunk_codec.h"
 #include "formats/view/text_rules.h"
 
@@ -15,11 +16,6 @@ namespace {
 
 field::Vec vec(const Vec3f& v) {
   return {v.x, v.y, v.z};
-}
-
-NodePose valueOf(const Pose& pose) {
-  const auto& q = pose.rotation;
-  return {vec(pose.centre), field::unit({q[0], q[1], q[2], q[3]}), pose.factor};
 }
 
 // The motion of a chunk in version 1, or nothing.
@@ -47,7 +43,7 @@ double between(double a, double b, double u) {
 }
 
 NodePose interpolated(const Pose& from, const Pose& to, double u) {
-  const NodePose a = valueOf(from), b = valueOf(to);
+  const NodePose a = nodePoseOf(from), b = nodePoseOf(to);
   return {(1.0 - u) * a.centre + u * b.centre, field::slerp(a.rotation, b.rotation, u),
           between(a.factor, b.factor, u)};
 }

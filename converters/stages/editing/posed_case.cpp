@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/stages/fitting/refit.h"
+#include "formats/case/carried_case.h"
 #include "formats/case/motion.h"
 #include "formats/case/validate.h"
 
@@ -15,35 +17,9 @@ namespace {
 
 using field::NodePose;
 using formats::Case;
-using formats::Vec3f;
 
 // Change of a radius below which blobs only move: a thousandth of the roundings of a fit.
 constexpr double kSameRadius = 1e-6;
-
-Vec3f rounded(const field::Vec& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-field::Vec exact(const Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
-
-// Moves what the nodes own, element by element.
-void carryOwned(const formats::CenterlineTree& rest, const std::vector<NodePose>& poses,
-                const std::vector<std::uint32_t>& offset, std::vector<Vec3f>& positions) {
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    for (std::uint32_t k = offset[i]; k < offset[i + 1]; ++k)
-      positions[k] = rounded(carried(poses[i], exact(rest.centre[i]), exact(positions[k])));
-}
-
-void poseTree(const std::vector<NodePose>& poses, formats::CenterlineTree& tree) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    tree.centre[i] = rounded(poses[i].centre);
-    tree.direction[i] = rounded(rotated(poses[i].rotation, exact(tree.direction[i])));
-    tree.radius[i] = static_cast<float>(poses[i].factor * tree.radius[i]);
-    tree.height[i] = static_cast<float>(poses[i].factor * tree.height[i]);
-  }
-}
 
 // Moves the blobs, and scales those of nodes whose radius changes, which are returned: they are
 // where a fit starts.
@@ -51,7 +27,7 @@ std::vector<std::uint32_t> poseModels(const formats::CenterlineTree& rest,
                                       const std::vector<NodePose>& poses,
                                       formats::BlobbyModels& models) {
   std::vector<std::uint32_t> due;
-  carryOwned(rest, poses, models.offset, models.centre);
+  formats::carryOwned(rest, poses, models.offset, models.centre);
   for (std::uint32_t i = 0; i < poses.size(); ++i) {
     if (std::abs(poses[i].factor - 1) <= kSameRadius || models.offset[i] == models.offset[i + 1])
       continue;
@@ -77,14 +53,14 @@ Case posedCase(const Case& source, double time, Progress& progress) {
   Case out = source;
   out.motion.reset();
   formats::dropDependentChunks(out);
-  poseTree(poses, out.tree);
+  formats::carryTree(poses, out.tree);
   if (out.points) {
-    carryOwned(source.tree, poses, out.points->offset, out.points->position);
+    formats::carryOwned(source.tree, poses, out.points->offset, out.points->position);
     out.metadata.pointQuantisation.reset();
   }
   std::vector<std::uint32_t> due;
   if (out.models) due = poseModels(source.tree, poses, *out.models);
-  out.metadata.steps.push_back({"pose", "lumen " LUMEN_VERSION, {{"time", time}}});
+  out.metadata.steps.push_back({kPoseStep, "lumen " LUMEN_VERSION, {{"time", time}}});
   requireLegal(out);
   if (!due.empty() && !out.points)
     throw invalidInput("the radius of node " + std::to_string(due.front()) +

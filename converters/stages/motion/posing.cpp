@@ -2,6 +2,7 @@
 #include "converters/stages/motion/posing.h"
 
 #include "converters/base/vectors.h"
+#include "formats/case/carried_case.h"
 
 namespace lumen::convert {
 namespace {
@@ -49,6 +50,13 @@ struct Chain {
   }
 };
 
+std::vector<field::NodePose> exactly(const std::vector<formats::Pose>& poses) {
+  std::vector<field::NodePose> exact;
+  exact.reserve(poses.size());
+  for (const formats::Pose& pose : poses) exact.push_back(formats::nodePoseOf(pose));
+  return exact;
+}
+
 }  // namespace
 
 Quaterniond rotationOf(const formats::Pose& pose) {
@@ -68,12 +76,7 @@ formats::Pose poseOf(const Vector3d& centre, const Quaterniond& rotation, double
 formats::CenterlineTree posedTree(const formats::CenterlineTree& rest,
                                   const std::vector<formats::Pose>& poses) {
   formats::CenterlineTree tree = rest;
-  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
-    tree.centre[i] = poses[i].centre;
-    tree.direction[i] = toVec3f((rotationOf(poses[i]) * toEigen(rest.direction[i])).normalized());
-    tree.radius[i] *= poses[i].factor;
-    tree.height[i] *= poses[i].factor;
-  }
+  formats::carryTree(exactly(poses), tree);
   return tree;
 }
 
@@ -82,16 +85,9 @@ formats::Case posedWalls(const formats::Case& rest, const std::vector<formats::P
   posed.metadata = rest.metadata;
   posed.nodeArrays = rest.nodeArrays;
   posed.tree = posedTree(rest.tree, poses);
-  if (!rest.points) return posed;
   posed.points = rest.points;
-  for (std::uint32_t i = 0; i < rest.tree.nodeCount(); ++i) {
-    const Quaterniond turn = rotationOf(poses[i]);
-    const Vector3d from = toEigen(rest.tree.centre[i]), to = toEigen(poses[i].centre);
-    for (std::uint32_t p = rest.points->offset[i]; p < rest.points->offset[i + 1]; ++p) {
-      const Vector3d point = toEigen(rest.points->position[p]);
-      posed.points->position[p] = toVec3f(to + double{poses[i].factor} * (turn * (point - from)));
-    }
-  }
+  if (posed.points)
+    formats::carryOwned(rest.tree, exactly(poses), posed.points->offset, posed.points->position);
   return posed;
 }
 
