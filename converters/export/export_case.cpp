@@ -7,6 +7,7 @@
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/export/shared/folder_texts.h"
 
@@ -45,6 +46,18 @@ Value choice(const std::optional<Value>& asked, const std::vector<Value>& offere
                                     words + ", which is what " + std::string(target) + " reads");
 }
 
+/// Adds the time of a case that was taken from its motion, or that a motion is not in the folder.
+void addMotion(const formats::Case& source, ExportResult& result) {
+  if (const auto time = recordedTime(source.metadata)) {
+    const std::string at =
+        "the vessels are as they stand at " + numberText(*time) + " s of the motion of the case";
+    result.remarks.push_back(at);
+    result.start += "\nTime: " + at + ".\n";
+  }
+  if (source.motion)
+    result.losses.emplace_back("the vessels are at rest: the folder plays no motion of the case");
+}
+
 }  // namespace
 
 ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
@@ -58,6 +71,7 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
   result.assumptions = recordedAssumptions(source.metadata);
   for (const std::string& assumption : result.assumptions)
     result.remarks.push_back("the file of the case's volume left open: " + assumption);
+  addMotion(source, result);
   result.files.push_back({"README.md", readmeText(target, frame, result), "", ""});
   result.files.push_back(
       {"lumen-export.json", makeManifest(target, frame, source, texts, result), "", ""});

@@ -149,6 +149,7 @@ const std::vector<Trial> kVolumeTrials = {
      {{"volume", "header/tube.nhdr"}},
      {{"allow-detached", "."}}},
     {"report", {"tracked.lumen", "out/r.html"}, {{"volume", "volume"}}, {{"from", "nrrd"}}},
+    {"report", {"moving-tracked.lumen.json", "out/r.html"}, {}, {{"time", "1"}}},
 };
 
 const std::vector<Trial> kCaseTrials = {

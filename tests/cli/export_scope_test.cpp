@@ -63,10 +63,11 @@ protected:
     make({"convert", "long.swc", "long.lumen"});
   }
 
+  /// Those of the targets. --time is one of the case: motion_test.cpp.
   [[nodiscard]] std::vector<std::string> options() const {
     std::vector<std::string> names;
     for (const OptionRow& row : m_export.table->rows())
-      if (!row.isArgument && row.name != "list") names.push_back(row.name);
+      if (!row.isArgument && row.name != "list" && row.name != "time") names.push_back(row.name);
     return names;
   }
 

@@ -100,6 +100,8 @@ TEST_F(MotionTest, TimeIsRefusedForACaseWithoutAMotion) {
        {std::vector<std::string>{"convert", "still.lumen", "at.lumen"},
         {"picture", "still.lumen", "at.png"},
         {"measure", "still.lumen"},
+        {"export", "steve", "still.lumen", "at"},
+        {"report", "still.lumen", "at.html"},
         {"view", "still.lumen", "--html", "at.html"}}) {
     std::vector<std::string> arguments = command;
     arguments.insert(arguments.end(), {"--time", "0.25"});
@@ -110,6 +112,46 @@ TEST_F(MotionTest, TimeIsRefusedForACaseWithoutAMotion) {
         << refused.err;
   }
   EXPECT_FALSE(exists("at.lumen"));
+}
+
+TEST_F(MotionTest, ExportTakesTheCaseAtATimeAsConvertDoes) {
+  ASSERT_EQ(lumen({"convert", "moving.lumen", "at.lumen", "--time", "0.5"}).code, 0);
+  ASSERT_EQ(lumen({"export", "steve", "at.lumen", "converted"}).code, 0);
+  const Outcome made = lumen({"export", "steve", "moving.lumen", "posed", "--time", "0.5"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  for (const char* const file : {"/vessels.py", "/vessel.obj", "/Paths/tube.pth"})
+    EXPECT_EQ(read("posed" + std::string(file)), read("converted" + std::string(file))) << file;
+  EXPECT_NE(read("posed/lumen-export.json").find("as they stand at 0.5 s of the motion"),
+            std::string::npos);
+  EXPECT_NE(read("posed/README.md").find("as they stand at 0.5 s of the motion"),
+            std::string::npos);
+}
+
+TEST_F(MotionTest, ExportAtRestReportsTheMotionAsALoss) {
+  const Outcome made = lumen({"export", "steve", "moving.lumen", "rest"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string loss = "the vessels are at rest: the folder plays no motion of the case";
+  EXPECT_NE(made.err.find(loss), std::string::npos) << made.err;
+  EXPECT_NE(read("rest/lumen-export.json").find(loss), std::string::npos);
+  ASSERT_EQ(lumen({"export", "steve", "still.lumen", "still"}).code, 0);
+  EXPECT_EQ(read("rest/vessel.obj"), read("still/vessel.obj"));
+}
+
+TEST_F(MotionTest, ReportStatesTheTimeAndMeasuresThere) {
+  ASSERT_EQ(lumen({"report", "moving.lumen", "at.html", "--time", "1"}).code, 0);
+  ASSERT_EQ(lumen({"report", "moving.lumen", "rest.html"}).code, 0);
+  ASSERT_EQ(lumen({"report", "still.lumen", "still.html"}).code, 0);
+  const std::string stated = "1 s of the motion of the case";
+  EXPECT_NE(read("at.html").find(stated), std::string::npos);
+  EXPECT_EQ(read("rest.html").find(stated), std::string::npos);
+  const auto measures = [](const std::string& page) {
+    const std::size_t from = page.find("id=\"measures\"");
+    EXPECT_NE(from, std::string::npos);
+    return page.substr(from, page.find("</section>", from) - from);
+  };
+  EXPECT_EQ(measures(read("rest.html")), measures(read("still.html")));
+  EXPECT_NE(measures(read("at.html")), measures(read("rest.html")));
 }
 
 TEST_F(MotionTest, AnotherEncodingKeepsTheMotion) {

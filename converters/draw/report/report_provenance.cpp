@@ -111,6 +111,8 @@ Markup provenanceSection(const ReportFacts& facts) {
   else
     list.emplace_back("Source volume", text("none is recorded"));
   addVolume(facts, list);
+  if (const auto time = recordedTime(metadata))
+    list.emplace_back("Time", text(numberText(*time) + " s of the motion of the case"));
   list.emplace_back("Models", models(facts.value));
   if (const auto& rounded = metadata.pointQuantisation)
     list.emplace_back("Wall points",

@@ -2,6 +2,7 @@
 // lumen export: a case as the folder of files that a simulator loads.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/surface_answer.h"
+#include "converters/engine/time_option.h"
 #include "converters/export/export_case.h"
 #include "converters/judge/facts/reachable.h"
 #include "formats/case/atomic_file.h"
@@ -71,6 +73,7 @@ public:
     return "  lumen export sofa head.lumen head-sofa\n"
            "  lumen export sofa head.lumen coiling --instrument coil --insert aneurysm --wall "
            "implicit\n"
+           "  lumen export mujoco heart.lumen systole --time 0.3\n"
            "  lumen export --list";
   }
 
@@ -85,6 +88,7 @@ public:
       row->isRequired = false;
       row->without("list");
     }
+    addTimeRow(table, m_time);
     addExportRows(table, m_options);
     for (OptionRow& row : table.rows())
       if (!row.isArgument && row.name != "list") row.notBeside("list");
@@ -103,7 +107,8 @@ public:
     const ExportTarget& target = exportTarget(m_target);
     requireTargetOptions(*around.table, target, around.progress);
     requireRoom();
-    const formats::Case value = readCase(m_input);
+    const formats::Case value =
+        atTime(readCase(m_input), m_time, m_input, *around.table, around.progress);
     auto folder =
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
@@ -196,6 +201,7 @@ private:
 
   bool m_list = false;
   std::string m_target, m_input, m_output;
+  std::optional<double> m_time;
   convert::ExportOptions m_options;
 };
 

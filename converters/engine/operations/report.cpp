@@ -20,6 +20,7 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/surface_answer.h"
+#include "converters/engine/time_option.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/judge/check/check.h"
@@ -86,6 +87,7 @@ public:
         "Volume that the case was made from: also its projections, and how far the case agrees "
         "with it, as lumen check reports");
     table.add("title", &m_title, "NAME", "Title of the page [the name of CASE]");
+    addTimeRow(table, m_time);
     table
         .add("point-spread", &m_pointSpread, "MM",
              "Blur of the volume, a standard deviation in mm, as for lumen check [what the "
@@ -99,7 +101,7 @@ public:
 
   Answer run(Surroundings& around) override {
     checkNames(around);
-    ReportFacts facts = factsOfCase(around.progress);
+    ReportFacts facts = factsOfCase(around);
     const OptionRow& spread = *around.table->find("point-spread");
     if (spread.isGiven && !facts.value.models)
       refuseIdle(spread,
@@ -137,7 +139,8 @@ private:
     around.willWrite(m_output);
   }
 
-  [[nodiscard]] ReportFacts factsOfCase(Progress& progress) const {
+  [[nodiscard]] ReportFacts factsOfCase(Surroundings& around) const {
+    Progress& progress = around.progress;
     ReportFacts facts;
     auto [bytes, value] = readCaseAndBytes(m_case);
     facts.caseName = nameOf(m_case);
@@ -145,7 +148,7 @@ private:
     facts.bytes = bytes.size();
     facts.sha256 = sha256(bytes);
     facts.examination = convert::examineBytes(bytes, m_case, kRemarksListed, true, progress);
-    facts.value = std::move(value);
+    facts.value = atTime(std::move(value), m_time, m_case, *around.table, progress);
     facts.info = convert::describeCase(facts.value, progress);
     facts.measures = convert::measureCase(facts.value, {}, progress);
     addNames(facts);
@@ -237,7 +240,7 @@ private:
   }
 
   std::string m_case, m_output, m_input, m_title, m_from;
-  std::optional<double> m_pointSpread;
+  std::optional<double> m_pointSpread, m_time;
   VolumeArguments m_volume;
 };
 
