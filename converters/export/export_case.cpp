@@ -54,7 +54,7 @@ void addMotion(const formats::Case& source, ExportResult& result) {
     result.remarks.push_back(at);
     result.start += "\nTime: " + at + ".\n";
   }
-  if (source.motion)
+  if (source.motion && !result.playsMotion)
     result.losses.emplace_back("the vessels are at rest: the folder plays no motion of the case");
 }
 

@@ -10,7 +10,7 @@ Exit status: 0 all held, 1 something did not, 77 the list is not there."""
 import ast, itertools, json, pathlib, subprocess, sys, tempfile, xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ELSEWHERE = {"LightManager", "DirectionalLight", "BlobField", "BlobPose", "BeamBlobContact"}  # not in the list
+ELSEWHERE = {"LightManager", "DirectionalLight", "BlobField", "BlobMotion", "BlobPose", "BeamBlobContact"}  # not in the list
 OLD = {"DefaultPipeline": "CollisionPipeline", "DefaultContactManager": "CollisionResponse", "FixedConstraint": "FixedProjectiveConstraint"}
 # data of WireRestShape before v23.12
 OLD_SHAPE = {"length", "straightLength", "spireDiameter", "spireHeight", "youngModulus", "youngModulusExtremity", "poissonRatio",

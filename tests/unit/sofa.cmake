@@ -17,6 +17,10 @@ if(HAS_NUMPY)
       ${CMAKE_CURRENT_SOURCE_DIR}/sofa/run_exports.py --lumen $<TARGET_FILE:lumen>
       --blob $<TARGET_FILE:blob> --steps 200 --case bifurcation --wall soft --instrument guidewire
       --plugin $<TARGET_FILE:LumenSofa>)
+    python_test(Sofa.RunsAVesselThatBeats foreign
+      ${CMAKE_CURRENT_SOURCE_DIR}/sofa/run_exports.py --lumen $<TARGET_FILE:lumen>
+      --blob $<TARGET_FILE:blob> --steps 160 --case coronary-beating --wall implicit --instrument guidewire
+      --plugin $<TARGET_FILE:LumenSofa>)
   endif()
   python_test(Steve.ReadsPathsMeshAndBranches foreign
     ${CMAKE_CURRENT_SOURCE_DIR}/sofa/check_steve.py $<TARGET_FILE:lumen>)

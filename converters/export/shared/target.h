@@ -44,6 +44,7 @@ struct ExportResult {
   std::vector<std::string> remarks;      ///< sentences for the answer
   std::vector<std::string> assumptions;  ///< sentences: taken for granted by the volume's reader
   std::vector<std::string> losses;       ///< sentences: parts of the case that the folder lacks
+  bool playsMotion = false;              ///< the folder moves the vessels as the case's motion does
   /// README.md: first steps and facts to know; Markdown, without headings of level 1.
   std::string start;
   /// README.md: rows of its table for files that are many, or made later.

@@ -171,6 +171,23 @@ TEST(Scene, AVesselThatGivesWayHasFramesAlongThePathAndTissueForAllOfIt) {
   EXPECT_EQ(count(makeScene(in, {.wall = WallKind::Implicit}), "BlobPose"), 0U);
 }
 
+TEST(Scene, AVesselThatMovesHasTheMotionAndASurfaceThatGoesAlong) {
+  SceneInput in = input(InstrumentKind::Catheter);
+  in.moves = true;
+  const SofaOptions options{.instrument = InstrumentKind::Catheter, .wall = WallKind::Implicit};
+  const SceneItem scene = makeScene(in, options);
+  EXPECT_EQ(valueOf(scene, "BlobMotion", "field"), "@wall");
+  EXPECT_EQ(valueOf(scene, "BlobField", "domain"), "blended");
+  EXPECT_EQ(valueOf(scene, "BlobMotion", "points"), "@points");
+  EXPECT_EQ(valueOf(scene, "IdentityMapping", "output"), "@surface");
+  EXPECT_EQ(valueOf(scene, "InterventionalRadiologyController", "startingPos"),
+            "@/vessel/motion.carriedPlace");
+  EXPECT_EQ(valueOf(scene, "BlobMotion", "place").substr(0, 6), "1 2 3 ");
+  EXPECT_NE(aboutScene(in, options).back().find("moves as the motion"), std::string::npos);
+  in.moves = false;
+  EXPECT_EQ(count(makeScene(in, options), "BlobMotion"), 0U);
+}
+
 TEST(Scene, NamesThePluginsOfItsComponents) {
   const SceneItem mesh = makeScene(input(InstrumentKind::Guidewire), {});
   const SceneItem implicit =

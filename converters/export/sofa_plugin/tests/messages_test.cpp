@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of SOFA about scenes that cannot run; such scenes stop.
+#include <LumenSofa/BlobMotion.h>
 #include <LumenSofa/BlobPose.h>
 #include <gtest/gtest.h>
 #include <sofa/helper/logging/MessageDispatcher.h>
@@ -96,6 +97,23 @@ std::string withPose(const std::string& frames, const std::string& attributes) {
 
 const char* const kTwoFrames =
     "<MechanicalObject template='Rigid3d' position='0 0 0 0 0 0 1  60 0 0 0 0 0 1'/>";
+
+TEST_F(Messages, StateWhichMotionAVesselHas) {
+  const auto runMotion = [this](const std::string& file, const std::string& more) {
+    return run<lumensofa::BlobMotion>("<Node name='vessel'>" + std::string(kTwoFrames) +
+                                          "<BlobField name='wall' filename='" + caseFile(file) +
+                                          "'/>" + more + "</Node>" + wire("0 0 0 1", kContact),
+                                      "vessel");
+  };
+  expectMessage(runMotion("tube.lumen", "<BlobMotion field='@wall'/>"),
+                "tube.lumen' has no motion: 'lumen motion' makes one from images");
+  expectMessage(runMotion("shifted.lumen", "<BlobMotion/>"), "no field: link a BlobField");
+  expectMessage(runMotion("absent.lumen", "<BlobMotion field='@wall'/>"),
+                "the field '/vessel/wall' is invalid, see its message");
+  expectMessage(runMotion("shifted.lumen",
+                          "<BlobPose field='@wall' nodes='0 30'/><BlobMotion field='@wall'/>"),
+                "the field '/vessel/wall' is moved by another component; expected one");
+}
 
 TEST_F(Messages, StateWhichFramesCarryAVessel) {
   const auto runPose = [this](const std::string& content) {

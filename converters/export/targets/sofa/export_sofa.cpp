@@ -46,6 +46,7 @@ SceneInput makeSceneInput(const ExportInput& asked, const SofaOptions& options) 
       kCurlShare * input.insertion.radius);
   if (options.instrument == InstrumentKind::Coil)
     input.insertion.pathLength = input.instruments.front().length();
+  input.moves = asked.source.motion && options.wall == WallKind::Implicit;
   if (options.wall == WallKind::Soft) input.frames = framesAlong(tree, input.insertion.path);
   // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil,
   // whose beams are short and soft, is pressed through with shorter ones (tests/sofa/results.md)
@@ -124,6 +125,7 @@ ExportResult exportSofa(const ExportInput& input, const SofaOptions& options) {
                           "the case: its tree, radii, names and models",
                           ""});
   result.start = startText(scene, options);
+  result.playsMotion = scene.moves;
   result.remarks.push_back(insertedText(scene, options));
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);

@@ -99,8 +99,6 @@ void addInstruments(SceneItem& root, const SceneInput& input, const SofaOptions&
     names.push_back("interpolation_" + instrument.name);
     zeros.emplace_back("0");
   }
-  const Eigen::Quaterniond turn = turnTo(input.insertion.direction);
-  const Eigen::Vector3d& at = input.insertion.position;
   node.add(
           "InterventionalRadiologyController",
           "startingPos: mm and a quaternion that turns x into the direction of insertion; step: mm")
@@ -108,7 +106,7 @@ void addInstruments(SceneItem& root, const SceneInput& input, const SofaOptions&
       .set("template", "Rigid3d")
       .set("instruments", spaced(names))
       .set("startingPos",
-           sceneNumbers({at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()}))
+           input.moves ? "@/vessel/motion.carriedPlace" : entryPlace(input.insertion))
       .set("xtip", spaced(zeros))
       .set("rotationInstrument", spaced(zeros))
       .set("step", options.step)
@@ -150,7 +148,7 @@ std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& 
   std::string names;
   for (const Instrument& instrument : input.instruments)
     names += (names.empty() ? "A " : " with a ") + instrument.name;
-  return {
+  std::vector<std::string> lines = {
       names + " in the vessels of case.lumen, inserted at the beginning of branch " +
           formats::printable(input.branch) + ".",
       "Positions are those of the case: patient coordinates, LPS, in mm. Masses are in kg and time",
@@ -159,6 +157,11 @@ std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& 
           numberText(kTimeStep) + " s, for " + std::to_string(stepCount(input, options)) +
           " steps.",
       "Sources of the instruments' values: docs/sofa.md of lumen."};
+  if (input.moves)
+    lines.emplace_back(
+        "The wall moves as the motion in case.lumen does, whatever touches it, and with it the "
+        "place where the instrument enters.");
+  return lines;
 }
 
 }  // namespace lumen::convert

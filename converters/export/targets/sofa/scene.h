@@ -30,6 +30,7 @@ struct SceneInput {
   Box3d box;                        ///< around the vessels, mm, LPS
   SceneGrid grid;                   ///< grid of WallKind::Grid
   std::vector<VesselFrame> frames;  ///< frames of WallKind::Soft
+  bool moves = false;               ///< the case's motion moves the wall
 };
 
 /// Distance from the wall, mm, that the insertion of instruments of such a radius needs.

@@ -64,7 +64,31 @@ void addGrid(SceneItem& vessel, const SceneGrid& grid) {
       .setFile("file", "distance.mhd");
 }
 
+/// The motion in the case, which takes the wall along, the surface to be looked at, and the place
+/// where the instruments enter.
+void addMotion(SceneItem& vessel, const Insertion& insertion) {
+  vessel.add("MechanicalObject", "The points of the surface, which go along")
+      .set("name", "points")
+      .set("template", "Vec3d")
+      .set("position", "@loader.position");
+  vessel
+      .add("BlobMotion",
+           "Moves the wall as the motion in case.lumen does; offset: its time, s, at which the "
+           "scene begins; place: where the instruments enter, at rest")
+      .set("name", "motion")
+      .set("field", "@wall")
+      .set("points", "@points")
+      .set("place", entryPlace(insertion))
+      .set("offset", 0);
+}
+
 }  // namespace
+
+std::string entryPlace(const Insertion& insertion) {
+  const Eigen::Quaterniond turn = turnTo(insertion.direction);
+  const Eigen::Vector3d& at = insertion.position;
+  return sceneNumbers({at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()});
+}
 
 void addLoop(SceneItem& root, WallKind wall, double radius, double alarm) {
   root.add("FreeMotionAnimationLoop").set("name", "loop");
@@ -121,7 +145,8 @@ void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
     vessel.add("BlobField", "The models of the case: negative in the wall, positive in the lumen")
         .set("name", "wall")
         .setFile("filename", "case.lumen")
-        .set("domain", "local")
+        // the small jumps of local fields throw an instrument that a moving wall presses on
+        .set("domain", input.moves ? "blended" : "local")
         .set("branch", input.branch);
   if (wall == WallKind::Soft) addTube(vessel, input.frames);
   vessel
@@ -134,11 +159,17 @@ void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
       .set("flipNormals", wall == WallKind::Mesh ? 1 : 0);
   if (wall == WallKind::Mesh) addTriangles(vessel);
   if (wall == WallKind::Grid) addGrid(vessel, input.grid);
-  vessel.addNode("view_vessel")
-      .add("OglModel")
+  if (input.moves) addMotion(vessel, input.insertion);
+  SceneItem& view = vessel.addNode("view_vessel");
+  view.add("OglModel")
       .set("name", "surface")
       .set("src", "@../loader")
       .set("color", "0.8 0.2 0.2 0.25");
+  if (input.moves)
+    view.add("IdentityMapping")
+        .set("name", "mapping")
+        .set("input", "@../points")
+        .set("output", "@surface");
 }
 
 void addRestShape(SceneItem& root, const Instrument& instrument) {

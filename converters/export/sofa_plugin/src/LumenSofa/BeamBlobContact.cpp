@@ -159,10 +159,12 @@ void BeamBlobContact::findContacts() {
                   m_walls.data());
   m_contacts.clear();
   m_shares.clear();
+  const double alarm =
+      d_alarmDistance.getValue() + (l_field->mover() != nullptr ? l_field->mover()->reach() : 0);
   for (std::size_t i = 0; i < count; ++i) {
     // a point that is not finite or has no normal cannot be held
     const Vec3 normal = inwards(m_walls[i]);
-    if (gap(i) < d_alarmDistance.getValue() && normal.norm2() > 0.5) addContact(i, normal);
+    if (gap(i) < alarm && normal.norm2() > 0.5) addContact(i, normal);
   }
   d_contacts.setValue(static_cast<unsigned>(m_contacts.size()));
   forgetOtherForces();
@@ -209,15 +211,9 @@ double BeamBlobContact::shareOfSlide(double before, double after, double motion)
 // The way, mm, that the wall goes without contact where it moves; it notes the frames that carry it.
 Vec3 BeamBlobContact::motionOfWall(Contact& contact) {
   contact.firstShare = m_shares.size();
-  const BlobPose* pose = l_field->pose();
-  if (pose == nullptr) return Vec3(0, 0, 0);
-  pose->addShares(contact.point, m_cursorBuffer[contact.sample], m_shares);
-  namespace access = sofa::core::vec_id::read_access;
-  const auto& start = pose->state()->read(access::position)->getValue();
-  const auto& free = pose->state()->read(access::freePosition)->getValue();
-  if (free.size() != start.size()) return Vec3(0, 0, 0);  // frames that no solver moves
-  return BlobPose::motion(m_shares.data() + contact.firstShare,
-                          m_shares.size() - contact.firstShare, contact.point, start, free);
+  const MovingWall* mover = l_field->mover();
+  if (mover == nullptr) return Vec3(0, 0, 0);
+  return mover->motionInStep(contact.point, m_cursorBuffer[contact.sample], m_shares);
 }
 
 std::size_t BeamBlobContact::endOfShares(std::size_t contact) const {
@@ -245,14 +241,15 @@ void BeamBlobContact::buildConstraintMatrix(const ConstraintParams* params,
                                             sofa::core::MultiMatrixDerivId jacobians,
                                             unsigned int& row) {
   Constraint<Rigid3>::buildConstraintMatrix(params, jacobians, row);
-  if (m_contacts.empty() || l_field->pose() == nullptr) return;
-  addVesselRows(*jacobians[l_field->pose()->state()].write());
+  if (m_contacts.empty() || l_field->mover() == nullptr) return;
+  MovingWall::State* const vessel = l_field->mover()->state();
+  if (vessel != nullptr) addVesselRows(*jacobians[vessel].write());
 }
 
 // The rows of the contacts, seen from the vessel: the opposite of the instrument's.
 void BeamBlobContact::addVesselRows(DataMatrixDeriv& jacobian) const {
   namespace access = sofa::core::vec_id::read_access;
-  const auto& frames = l_field->pose()->state()->read(access::position)->getValue();
+  const auto& frames = l_field->mover()->state()->read(access::position)->getValue();
   const int rows = d_friction.getValue() > 0 ? 3 : 1;
   auto matrix = sofa::helper::getWriteAccessor(jacobian);
   auto row = static_cast<int>(m_firstRow);

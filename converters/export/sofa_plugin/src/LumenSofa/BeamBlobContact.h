@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <LumenSofa/BlobField.h>
-#include <LumenSofa/BlobPose.h>
+#include <LumenSofa/MovingWall.h>
 #include <LumenSofa/beam_samples.h>
 #include <LumenSofa/config.h>
 #include <sofa/core/behavior/Constraint.h>
@@ -19,7 +19,7 @@ namespace lumensofa {
 /// beams are added or nodes placed anew, cursors go on by the abscissa along the instrument. Where a
 /// BlobPose moves the wall, each row also holds the frames that carry the wall at the contact: the
 /// solver finds forces for instrument and vessel at once, and the vessel's frames get the opposite
-/// ones.
+/// ones. Where a BlobMotion moves it, the wall takes the instrument along and gets no force.
 class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Rigid3> {
 public:
   SOFA_CLASS(BeamBlobContact, SOFA_TEMPLATE(sofa::core::behavior::Constraint, Rigid3));

@@ -23,8 +23,8 @@ void BlobField::init() {
 }
 
 void BlobField::reinit() {
-  if (m_pose != nullptr) {
-    msg_error() << "a field that a BlobPose moves stays as it is: load a scene with the other case";
+  if (m_mover != nullptr) {
+    msg_error() << "a field that is moved stays as it is: load a scene with the other case";
     return stopScene(*this);
   }
   m_tried = false;
@@ -43,8 +43,7 @@ bool BlobField::load() {
     return false;
   }
   m_flags = domain == "local" ? BLOB_LOCAL : BLOB_BLENDED;
-  const std::string& found = d_filename.getFullPath();
-  m_vessel = openVesselCase(found.empty() ? d_filename.getValue() : found, d_branch.getValue());
+  m_vessel = openVesselCase(path(), d_branch.getValue());
   if (m_vessel.model == nullptr) {
     msg_error() << m_vessel.problem;
     stopScene(*this);

@@ -11,7 +11,7 @@
 
 namespace lumensofa {
 
-class BlobPose;
+class MovingWall;
 
 /// The wall of a case as a scalar field: f - T in mm, positive in the lumen, negative in the wall,
 /// so its gradient points inwards. Lengths are millimetres in the frame of the case. `domain` is a
@@ -53,10 +53,15 @@ public:
     return m_posed != nullptr ? m_posed : m_vessel.model.get();
   }
   /// Component that moves the wall; null for a wall at rest.
-  [[nodiscard]] BlobPose* pose() const { return m_pose; }
-  void setPose(BlobPose* pose, const blob_model* posed) {
-    m_pose = pose;
+  [[nodiscard]] MovingWall* mover() const { return m_mover; }
+  void setMover(MovingWall* mover, const blob_model* posed) {
+    m_mover = mover;
     m_posed = posed;
+  }
+  /// The file of the case, as SOFA finds it.
+  [[nodiscard]] const std::string& path() const {
+    const std::string& found = d_filename.getFullPath();
+    return found.empty() ? d_filename.getValue() : found;
   }
   /// Flags of libblob's queries: BLOB_BLENDED or BLOB_LOCAL.
   [[nodiscard]] std::uint32_t flags() const { return m_flags; }
@@ -78,7 +83,7 @@ private:
   std::uint32_t locateCursor(const Vec3d& point, int domain) const;
 
   VesselCase m_vessel;
-  BlobPose* m_pose = nullptr;
+  MovingWall* m_mover = nullptr;
   const blob_model* m_posed = nullptr;
   std::uint32_t m_flags = BLOB_BLENDED;
   bool m_tried = false;

@@ -58,7 +58,7 @@ BlobPose::BlobPose()
 }
 
 BlobPose::~BlobPose() {
-  if (l_field && l_field->pose() == this) l_field->setPose(nullptr, nullptr);
+  if (l_field && l_field->mover() == this) l_field->setMover(nullptr, nullptr);
 }
 
 bool BlobPose::hasValidNodes() {
@@ -105,6 +105,11 @@ void BlobPose::init() {
     return stopScene(*this);
   }
   if (!hasValidNodes()) return stopScene(*this);
+  if (l_field->mover() != nullptr) {
+    msg_error() << "the field '" << l_field->getPathName()
+                << "' is moved by another component; expected one for each field";
+    return stopScene(*this);
+  }
   blob_pose* pose = nullptr;
   const blob_status status = blob_pose_create(l_field->model(), nullptr, &pose);
   if (status != BLOB_OK) {
@@ -113,7 +118,7 @@ void BlobPose::init() {
   }
   m_pose.reset(pose);
   findCarriers();
-  l_field->setPose(this, blob_pose_model(pose));
+  l_field->setMover(this, blob_pose_model(pose));
   d_componentState.setValue(sofa::core::objectmodel::ComponentState::Valid);
   update();
 }
@@ -257,6 +262,18 @@ void BlobPose::addShares(const Vec3& point, std::uint32_t cursor,
   }
   std::sort(shares.begin() + static_cast<std::ptrdiff_t>(first), shares.end(),
             [](const FrameShare& a, const FrameShare& b) { return a.frame < b.frame; });
+}
+
+// Frames that no solver moves have no free positions.
+Vec3 BlobPose::motionInStep(const Vec3& point, std::uint32_t cursor,
+                            std::vector<FrameShare>& shares) const {
+  namespace access = sofa::core::vec_id::read_access;
+  const std::size_t first = shares.size();
+  addShares(point, cursor, shares);
+  const auto& start = l_state->read(access::position)->getValue();
+  const auto& free = l_state->read(access::freePosition)->getValue();
+  if (free.size() != start.size()) return Vec3(0, 0, 0);
+  return motion(shares.data() + first, shares.size() - first, point, start, free);
 }
 
 Vec3 BlobPose::motion(const FrameShare* shares, std::size_t count, const Vec3& point,

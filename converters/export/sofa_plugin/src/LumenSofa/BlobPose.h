@@ -6,11 +6,10 @@
 #include <vector>
 
 #include <LumenSofa/BlobField.h>
+#include <LumenSofa/MovingWall.h>
 #include <LumenSofa/config.h>
 #include <blob_pose.h>
-#include <sofa/core/behavior/MechanicalState.h>
 #include <sofa/core/objectmodel/BaseObject.h>
-#include <sofa/defaulttype/RigidTypes.h>
 
 namespace lumensofa {
 
@@ -18,31 +17,23 @@ struct ClosePose {
   void operator()(blob_pose* pose) const { blob_pose_close(pose); }
 };
 
-/// A frame that carries a point of the wall, and its share of the point: the shares of a point add
-/// up to 1. A force F at the point X is, on this frame, the force share * F and the torque
-/// (X - frame) x share * F.
-struct FrameShare {
-  sofa::Index frame = 0;
-  double share = 0;
-};
-
 /// A vessel that moves: frames of a MechanicalObject carry the nodes of a case's tree, and with them
 /// the wall of its BlobField. A node between two frames of a vessel follows both, by the distances
 /// along it; a node that has frames on one side only follows the nearest as a rigid body; a tree
 /// without a frame rests. The pose is set at the start of each step; contacts give their forces
 /// back to the frames.
-class LUMENSOFA_API BlobPose : public sofa::core::objectmodel::BaseObject {
+class LUMENSOFA_API BlobPose : public sofa::core::objectmodel::BaseObject, public MovingWall {
 public:
   SOFA_CLASS(BlobPose, sofa::core::objectmodel::BaseObject);
-  using Rigid3 = sofa::defaulttype::Rigid3Types;
-  using State = sofa::core::behavior::MechanicalState<Rigid3>;
-  using Vec3 = sofa::type::Vec3;
-
   void init() override;
   void handleEvent(sofa::core::objectmodel::Event* event) override;
 
   /// The state of the frames; null before init() and without one.
-  [[nodiscard]] State* state() const { return l_state.get(); }
+  [[nodiscard]] State* state() const override { return l_state.get(); }
+  Vec3 motionInStep(const Vec3& point, std::uint32_t cursor,
+                    std::vector<FrameShare>& shares) const override;
+  /// Frames follow slowly, so the wall of the beginning decides.
+  [[nodiscard]] double reach() const override { return 0; }
   /// Sets the pose to the frames as they are.
   void update();
   /// Adds the frames that carry a point of the wall, whose node is `cursor`, to `shares`.

@@ -6,6 +6,7 @@
 namespace lumensofa {
 
 void registerBlobField(sofa::core::ObjectFactory* factory);
+void registerBlobMotion(sofa::core::ObjectFactory* factory);
 void registerBlobPose(sofa::core::ObjectFactory* factory);
 void registerBeamBlobContact(sofa::core::ObjectFactory* factory);
 
@@ -26,6 +27,7 @@ LUMENSOFA_API const char* getModuleDescription() {
 }
 LUMENSOFA_API void registerObjects(sofa::core::ObjectFactory* factory) {
   registerBlobField(factory);
+  registerBlobMotion(factory);
   registerBlobPose(factory);
   registerBeamBlobContact(factory);
 }
