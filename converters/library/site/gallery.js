@@ -89,7 +89,9 @@
     clearTimeout(writing);
     writing = setTimeout(write, kWriteAfter);
   }
+  /** Writes the state into the address, to which the way back leads. */
   function write() {
+    clearTimeout(writing);
     const fragment = format(state, kFirstPage);
     try { sessionStorage.setItem("lumen-gallery", fragment); } catch { /* a browser may forbid it: then the way back is to all cases */ }
     if (fragment === location.hash.replace(/^#/, "")) return;
@@ -169,6 +171,7 @@
     const link = event.target.closest("a[data-page]");
     if (link === null || event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
+    write();
     history.pushState(null, "", link.getAttribute("href"));
     state = parse(location.hash, kFirstPage);
     draw();

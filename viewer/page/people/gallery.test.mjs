@@ -32,8 +32,11 @@ function library(t, given = cases, about = kAbout) {
 const facet = (page, key, value) =>
   page.locator(`[data-facet=${key}] li`, { has: page.getByText(value, { exact: true }) });
 const countOf = page => page.locator("#count").textContent();
-const fragment = page =>
-  page.waitForFunction(() => location.hash !== "").then(() => page.evaluate(() => location.hash));
+/** The address once it has a part; it follows the search with a delay. */
+const fragment = async (page, part) => {
+  await page.waitForFunction(text => location.hash.includes(text), part);
+  return page.evaluate(() => location.hash);
+};
 
 story(
   "search, facets and ranges find cases from disk by their records, and the address restores them",
@@ -82,8 +85,7 @@ story(
       .reverse();
     assert.ok(expected.length > 1);
     assert.deepEqual(await shownIds(page), expected);
-    await page.waitForFunction(() => location.hash.includes("sort=longest"));
-    const hash = await fragment(page);
+    const hash = await fragment(page, "sort=longest");
     assert.deepEqual(
       [...new URLSearchParams(hash.slice(1))],
       [
@@ -124,7 +126,7 @@ story("measures are ranges, and a case without the measure is in none of them", 
     c => c.figures.geometry.nascet_percent >= 50 && c.figures.geometry.nascet_percent <= 70,
   );
   assert.deepEqual(await shownIds(page), expected.map(c => c.id).reverse());
-  assert.match(await fragment(page), /stenosis=50..70/);
+  await fragment(page, "stenosis=50..70");
   assert.equal(await page.getByLabel("Greatest take-off angle: least").count(), 0, "no case has it");
   await page.locator("#cards h2 a").first().click();
   await page.locator("body.one[data-ready]").waitFor();
