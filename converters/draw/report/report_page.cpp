@@ -186,7 +186,7 @@ Markup warnings(const ReportFacts& facts) {
 }
 
 Markup sides(const ReportFacts& facts) {
-  constexpr const char* kTitle = "From four sides";
+  constexpr const char* kTitle = "From four sides, at one scale";
   if (facts.sides.empty())
     return section("sides", kTitle,
                    paragraph("There are no pictures, as this case has no models, so no "

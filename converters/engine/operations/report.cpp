@@ -56,6 +56,7 @@ DrawnView drawn(const formats::Case& value, View view, convert::ColorBy colour, 
   convert::PictureOptions options;
   options.view = view;
   options.colour = colour;
+  options.allTurns = view != View::Best;  // the sides at one scale
   options.width = kSideWidth;
   options.height = kSideHeight;
   return viewOf(title, convert::drawCase(value, options, nullptr, progress));
