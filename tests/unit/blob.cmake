@@ -14,6 +14,7 @@ lumen_test(blob_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/robust_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/seam_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/wall_step_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/wall_test.cpp)
 target_include_directories(blob_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
 target_compile_definitions(blob_test PRIVATE LUMEN_CONFORMANCE="${PROJECT_SOURCE_DIR}/spec/conformance")
