@@ -9,11 +9,13 @@ Without --case: synthetic phantoms, and it fails if
 - the engine refuses a folder, or its sites are not at the ends that lumen-export.json names,
 - the guidewire does not advance by 0.8 of what was asked in 5 s, or its axis leaves the lumen by more than 0.05 mm,
 - a coordinate is not finite, a speed is above 5 (m/s, rad/s), or a link has more than 4 contacts,
-- it stays although the walls are convex hulls: so nothing above would be said by walls that are not there.
+- it stays although the walls are convex hulls: so nothing above would be said by walls that are not there,
+- the guidewire leaves a tube that bends and straightens by keyframes, or is not touched by it.
 With --case: prints the figures of that case.
 """
 import argparse
 import json
+import math
 import os
 import re
 import shutil
@@ -60,9 +62,9 @@ class Bench:
         with open(os.path.join(folder, "lumen-export.json"), encoding="utf-8") as file:
             return folder, json.load(file)
 
-    def simulate(self, scene, speed):
+    def simulate(self, scene, speed, period=0):
         answer = scene + ".json"
-        done = subprocess.run(["node", os.path.join(HERE, "simulate.mjs"), scene, str(SECONDS), str(speed), answer],
+        done = subprocess.run(["node", os.path.join(HERE, "simulate.mjs"), scene, str(SECONDS), str(speed), answer, str(period)],
                               stderr=subprocess.PIPE, text=True, check=False)
         if done.returncode != 0:
             return None, done.stderr.strip()
@@ -190,6 +192,47 @@ def check_cathsim(bench, case, folder, manifest, speed):
         bench.expect(answer["deepest"] < SUNK, f"cathsim: its axis stays within {SUNK} mm of the lumen")
 
 
+def bending_tube(bench):
+    """A tube of 40 mm and a radius of 1.5 mm, whose end goes 12 mm aside and back in 2.5 s."""
+    count, radius, aside, period = 41, 1.5, 12.0, 2.5
+    line, still, moving = bench.path("straight.swc"), bench.path("straight.lumen.json"), bench.path("bending.lumen")
+    with open(line, "w", encoding="utf-8") as file:
+        for x in range(count): file.write(f"{x + 1} 0 {x} 0 0 {radius} {x if x else -1}\n")
+    bench.run("convert", line, still)
+    with open(still, encoding="utf-8") as file: case = json.load(file)
+    end = count - 1
+    half = [math.atan(2 * aside * x / end**2) / 2 for x in range(count)]
+    case["version"] = "1.2"
+    case["motion"] = {
+        "period": period, "time": [0, period / 2], "node": list(range(count)), "factor": [[1] * count] * 2,
+        "centre": [[[x, 0, 0] for x in range(count)], [[x, aside * (x / end)**2, 0] for x in range(count)]],
+        "rotation": [[[0, 0, 0, 1]] * count, [[0, 0, math.sin(a), math.cos(a)] for a in half]]}
+    with open(still, "w", encoding="utf-8") as file: json.dump(case, file)
+    bench.run("convert", still, moving)
+    return moving, radius, period
+
+
+def check_moving(bench, speed):
+    case, radius, period = bending_tube(bench)
+    folder, manifest = bench.export("mujoco", case, "bending-mujoco")
+    answer, why = bench.simulate(os.path.join(folder, "scene-joints.xml"), speed, period)
+    bench.expect(answer is not None, "bending tube: the engine loads it " + why)
+    if answer is None: return
+    worst, now = [], bench.path("now.lumen")
+    for record in answer["records"][4::5]:
+        bench.run("convert", case, now, "--time", repr(record["time"]))
+        worst.append(deepest(bench.open(now), {"records": [record]}, manifest["ends"][0])[0])
+    off = float(re.search(r"up to ([0-9.]+) radii off", " ".join(manifest["losses"])).group(1)) * radius
+    inserted = answer["records"][-1]["inserted"] * 1e3
+    print(f"      bending tube: {answer['counts']['moving']} bodies, inserted {inserted:.1f} mm, axis at most {max(worst):.3f} mm "
+          f"from the wall, whose bodies are up to {off:.3f} mm off, {answer['contacts']} contacts, speed {answer['speed']:.2f}")
+    bench.expect(answer["counts"]["moving"] > 2 and answer["counts"]["keys"] == 3, "bending tube: keyframes place its bodies")
+    bench.expect(answer["contacts"] > 0, "bending tube: it takes the guidewire along")
+    bench.expect(inserted > 0.8 * speed * SECONDS * 1e3, "bending tube: the guidewire advances")
+    bench.expect(max(worst) < SUNK + off, f"bending tube: its axis stays within {SUNK} mm of the lumen, and what the bodies are off")
+    bench.expect(answer["restarts"] == 0 and answer["speed"] < 5, "bending tube: nothing explodes")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--lumen", required=True)
@@ -213,6 +256,7 @@ def main():
             check_hulls(bench, case, folder, manifest, arguments.speed)
             check_cathsim(bench, case, folder, manifest, arguments.speed)
             check_phantom(bench, "kissing", arguments.speed)
+            check_moving(bench, arguments.speed)
         sys.exit(bench.failures > 0)
 
 

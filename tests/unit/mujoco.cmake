@@ -1,6 +1,7 @@
 lumen_test(mujoco_export_test
   LIBS lumen_export
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wall_bodies_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wall_pieces_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wire_reach_test.cpp)
 

@@ -38,7 +38,9 @@ const double (*coordinates(std::span<const Eigen::Vector3d> points))[3] {
   return reinterpret_cast<const double(*)[3]>(points.data());
 }
 
-std::unique_ptr<blob_model, void (*)(blob_model*)> openModels(const formats::Case& source) {
+}  // namespace
+
+OwnedModel openModels(const formats::Case& source) {
   const std::vector<std::byte> file = formats::encodeBinary(source);
   blob_model* model = nullptr;
   const blob_status status = blob_model_open_bytes(file.data(), file.size(), nullptr, &model);
@@ -47,8 +49,6 @@ std::unique_ptr<blob_model, void (*)(blob_model*)> openModels(const formats::Cas
                        blob_status_text(status));
   return {model, &blob_model_close};
 }
-
-}  // namespace
 
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch) {
   const formats::Neighbours neighbours(tree);

@@ -15,6 +15,12 @@ struct blob_model;
 
 namespace lumen::convert {
 
+/// The models of a case in libblob.
+using OwnedModel = std::unique_ptr<blob_model, void (*)(blob_model*)>;
+
+/// Throws Error(InvalidInput) for a case whose models libblob refuses.
+OwnedModel openModels(const formats::Case& source);
+
 /// A distance, and whose wall it is to.
 struct WallDistance {
   float distance = 0;        ///< mm, negative in the lumen

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
 #include "converters/export/shared/units.h"
+#include "converters/export/targets/mujoco/wall_bodies.h"
 #include "converters/export/targets/mujoco/wall_pieces.h"
 #include "converters/export/targets/mujoco/wire.h"
 #include "converters/export/targets/mujoco/wire_reach.h"
@@ -30,6 +32,10 @@ namespace {
 // With cells of 0.4 radii the distance between samples is off by h^2 / 8 R, 0.02 radii.
 constexpr std::size_t kCells = 64;
 constexpr double kCellRadii = 0.4;
+// Radii: a piece of a wall that moves is cut until it rides on one rigid body as well as that.
+constexpr double kRigidRadii = 0.1;
+// MuJoCo takes about 9 MB for the octree of each piece.
+constexpr std::size_t kMostBodies = 64;
 
 // MuJoCo finds contacts of distance fields by a search that misses shallow ones, so contacts are
 // soft, over kContactSteps steps: a wire that is pressed to the wall rests some hundredths of a
@@ -37,17 +43,33 @@ constexpr double kCellRadii = 0.4;
 // solver (eulerdamp), where it does not make contacts soft.
 constexpr double kContactSteps = 20;
 
+constexpr double kWider = 1.25;
+
+/// Pieces that ride on bodies as well as no more than `most` of them can, which is at least their
+/// number without a motion.
+std::vector<SurfaceMesh> cutToRide(const SurfaceMesh& wall, double cell, const WallBodies& bodies,
+                                   std::size_t most) {
+  for (double rigid = kRigidRadii;; rigid *= kWider) {
+    std::vector<SurfaceMesh> pieces = cutIntoPieces(
+        wall, kCells, cell,
+        [&](std::span<const WallFacet> piece) { return bodies.carrying(piece).misfit <= rigid; });
+    if (pieces.size() <= most) return pieces;
+  }
+}
+
 /// Pieces of a wall, with cells that are as wide as it takes to have no more than `most` pieces, 0
-/// for any number; adds a sentence where that is wider than usual.
+/// for any number; adds a sentence where that is wider than usual. `bodies`: of a wall that moves.
 std::vector<SurfaceMesh> cutIntoFew(const SurfaceMesh& wall, std::size_t most,
+                                    const std::optional<WallBodies>& bodies,
                                     std::vector<std::string>& losses) {
-  constexpr double kWider = 1.25;
   double cell = kCellRadii;
   std::vector<SurfaceMesh> pieces = cutIntoPieces(wall, kCells, cell);
   while (most > 0 && pieces.size() > most) {
     cell *= kWider;
     pieces = cutIntoPieces(wall, kCells, cell);
   }
+  if (bodies)
+    pieces = cutToRide(wall, cell, *bodies, std::max(pieces.size(), most > 0 ? most : kMostBodies));
   if (cell > kCellRadii)
     losses.push_back("the wall is in no more than " + std::to_string(most) +
                      " pieces, so MuJoCo samples its distance every " + fixedText(cell, 2) +
@@ -127,7 +149,35 @@ struct MujocoScene {
   std::size_t pieces = 0;
   Insertion insertion;
   Wire wire;
+  /// Of a case with a motion: those of the pieces and of the entry, and their keyframes
+  std::vector<RidingBody> bodies{};
+  std::string keyframes{};
 };
+
+/// An element with its children, in a body that keyframes place; `at`: its place at rest, m.
+std::string onBody(const std::string& name, const Eigen::Vector3d& at, const std::string& content) {
+  return "    <body name=\"" + name + "\" mocap=\"true\" pos=\"" + mujocoNumbers(at) + "\">\n" +
+         content + "    </body>\n";
+}
+
+std::string wallGeom(const MujocoScene& scene, std::size_t k) {
+  const std::string name = "wall_" + std::to_string(k);
+  const auto geom = [&](const std::string& place) {
+    return "    <geom name=\"" + name + "\" class=\"wall\" type=\"sdf\" mesh=\"" + name + "\"" +
+           place + " rgba=\"0.8 0.3 0.3 0.3\"/>\n";
+  };
+  if (scene.bodies.empty()) return geom("");
+  const Eigen::Vector3d& at = scene.bodies[k].centre;
+  return onBody(name, at, geom(" pos=\"" + mujocoNumbers(-at) + "\""));
+}
+
+std::string wireText(const MujocoScene& scene, WireSprings springs) {
+  const Eigen::Vector3d tip = scene.input.frame.position(scene.insertion.position),
+                        direction = scene.input.frame.direction(scene.insertion.direction);
+  if (scene.bodies.empty()) return wireBodies(scene.wire, tip, direction, springs);
+  const Eigen::Vector3d& at = scene.bodies.back().centre;
+  return onBody("entry", at, wireBodies(scene.wire, tip - at, direction, springs));
+}
 
 std::string sceneText(const MujocoScene& scene, WireSprings springs) {
   const ExportFrame& frame = scene.input.frame;
@@ -135,8 +185,7 @@ std::string sceneText(const MujocoScene& scene, WireSprings springs) {
   for (std::size_t k = 0; k < scene.pieces; ++k) {
     const std::string name = "wall_" + std::to_string(k);
     meshes += "    <mesh name=\"" + name + "\" file=\"" + name + ".stl\" inertia=\"shell\"/>\n";
-    geoms += "    <geom name=\"" + name + "\" class=\"wall\" type=\"sdf\" mesh=\"" + name +
-             "\" rgba=\"0.8 0.3 0.3 0.3\"/>\n";
+    geoms += wallGeom(scene, k);
   }
   for (const NamedEnd& end : scene.solid.surface.ends) sites += "    " + endSite(frame, end);
   return exportText(
@@ -148,9 +197,32 @@ std::string sceneText(const MujocoScene& scene, WireSprings springs) {
        {"meshes", meshes},
        {"geoms", geoms},
        {"ends", sites},
-       {"wire", wireBodies(scene.wire, frame.position(scene.insertion.position),
-                           frame.direction(scene.insertion.direction), springs)},
-       {"controls", wireControls(scene.wire)}});
+       {"wire", wireText(scene, springs)},
+       {"controls", wireControls(scene.wire, scene.keyframes)}});
+}
+
+std::string motionText(const formats::Motion& motion) {
+  return "\n" + exportText("mujoco/motion.md",
+                           {{"times", std::to_string(motion.time.size())},
+                            {"first", numberText(motion.time.front())},
+                            {"last", numberText(motion.time.back())},
+                            {"period", motion.period > 0 ? numberText(motion.period) : "None"}});
+}
+
+/// The bodies on which pieces and the entry ride; adds a sentence on how well the pieces do.
+std::vector<RidingBody> bodiesOf(const WallBodies& bodies, const std::vector<SurfaceMesh>& pieces,
+                                 const Eigen::Vector3d& entry, std::vector<std::string>& losses) {
+  std::vector<RidingBody> riding;
+  double most = 0;
+  for (const SurfaceMesh& piece : pieces) {
+    riding.push_back(bodies.carrying(piece));
+    most = std::max(most, riding.back().misfit);
+  }
+  riding.push_back(bodies.carrying(entry));
+  losses.push_back("the wall rides on " + std::to_string(pieces.size()) +
+                   " rigid bodies, and is up to " + fixedText(most, 2) +
+                   " radii off where the motion of the case has it; sites of the ends rest");
+  return riding;
 }
 
 std::string startPose(const MujocoScene& scene) {
@@ -164,6 +236,7 @@ std::string startPose(const MujocoScene& scene) {
                                     : "All that is not lumen is solid: the lumen's surface, open "
                                       "at its ends, with normals into the lumen"},
        {"pieces", pieces},
+       {"motion", !scene.bodies.empty() ? motionText(*scene.input.source.motion) : ""},
        {"length", mujocoNumbers({scene.wire.length() * 1e3})}});
 }
 
@@ -180,10 +253,18 @@ ExportResult exportMujoco(const ExportInput& input) {
   solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree,
                                     insertion.node, wire.length() * 1e3);
   ExportResult result;
+  std::optional<WallBodies> bodies;
+  if (input.source.motion) bodies.emplace(input.source);
   const std::vector<SurfaceMesh> pieces =
-      cutIntoFew(solid.surface.mesh, input.options.maxPieces, result.losses);
+      cutIntoFew(solid.surface.mesh, input.options.maxPieces, bodies, result.losses);
   shorten(wire, pieces, input, insertion);
-  const MujocoScene scene{input, solid, pieces.size(), insertion, wire};
+  MujocoScene scene{input, solid, pieces.size(), insertion, wire};
+  if (bodies) {
+    scene.bodies =
+        bodiesOf(*bodies, pieces, input.frame.position(insertion.position), result.losses);
+    scene.keyframes = bodies->keyframes(scene.bodies);
+  }
+  result.playsMotion = bodies.has_value();
 
   result.files = {
       {"scene.xml", sceneText(scene, WireSprings::Plugin),

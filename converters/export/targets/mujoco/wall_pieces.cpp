@@ -17,24 +17,9 @@ namespace {
 
 constexpr std::size_t kFewest = 64;
 
-struct Corner {
-  Eigen::Vector3d position;
-  double radius = 0;
-};
-
-using Facet = std::array<Corner, 3>;
+using Corner = WallCorner;
+using Facet = WallFacet;
 using Facets = std::vector<Facet>;
-
-Facets makeFacets(const SurfaceMesh& mesh) {
-  Facets facets(mesh.triangle.size());
-  for (std::size_t t = 0; t < facets.size(); ++t)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t v = mesh.triangle[t][c];
-      const Float3& p = mesh.position[v];
-      facets[t][c] = {{p[0], p[1], p[2]}, mesh.radius[v]};
-    }
-  return facets;
-}
 
 /// Point where the plane x[axis] = at cuts the edge; it does not depend on the order of its ends.
 Corner cut(const Corner& a, const Corner& b, int axis, double at) {
@@ -102,7 +87,14 @@ Cut bestCut(const Facets& facets, const Eigen::AlignedBox3d& box) {
   return best;
 }
 
-void split(Facets facets, std::size_t cells, double share, std::vector<Facets>& pieces) {
+/// The sizes and the rule by which a piece stays whole.
+struct Whole {
+  std::size_t cells;
+  double share;
+  const PieceRule& rule;
+};
+
+void split(Facets facets, const Whole& whole, std::vector<Facets>& pieces) {
   Eigen::AlignedBox3d box;
   double radius = std::numeric_limits<double>::infinity();
   for (const Facet& facet : facets)
@@ -110,8 +102,10 @@ void split(Facets facets, std::size_t cells, double share, std::vector<Facets>& 
       box.extend(corner.position);
       radius = std::min(radius, corner.radius);
     }
-  const bool fits = box.sizes().maxCoeff() <= static_cast<double>(cells) * share * radius;
-  if (fits || facets.size() <= kFewest) {
+  const bool fits =
+      box.sizes().maxCoeff() <= static_cast<double>(whole.cells) * whole.share * radius;
+  const bool isFew = facets.size() <= kFewest;
+  if (isFew || (fits && (!whole.rule || whole.rule(facets)))) {
     if (!facets.empty()) pieces.push_back(std::move(facets));
     return;
   }
@@ -119,7 +113,7 @@ void split(Facets facets, std::size_t cells, double share, std::vector<Facets>& 
   for (const double sign : {-1.0, 1.0}) {
     Facets side;
     for (const Facet& facet : facets) keepSide(facet, plane.axis, plane.at, sign, side);
-    split(std::move(side), cells, share, pieces);
+    split(std::move(side), whole, pieces);
   }
 }
 
@@ -152,9 +146,21 @@ SurfaceMesh makeMesh(const Facets& facets) {
 
 }  // namespace
 
-std::vector<SurfaceMesh> cutIntoPieces(const SurfaceMesh& mesh, std::size_t cells, double share) {
+std::vector<WallFacet> wallFacets(const SurfaceMesh& mesh) {
+  Facets facets(mesh.triangle.size());
+  for (std::size_t t = 0; t < facets.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = mesh.triangle[t][c];
+      const Float3& p = mesh.position[v];
+      facets[t][c] = {{p[0], p[1], p[2]}, mesh.radius[v]};
+    }
+  return facets;
+}
+
+std::vector<SurfaceMesh> cutIntoPieces(const SurfaceMesh& mesh, std::size_t cells, double share,
+                                       const PieceRule& rule) {
   std::vector<Facets> pieces;
-  split(makeFacets(mesh), cells, share, pieces);
+  split(wallFacets(mesh), {cells, share, rule}, pieces);
   if (pieces.size() == 1) return {mesh};
   std::vector<SurfaceMesh> meshes;
   for (const Facets& piece : pieces) meshes.push_back(makeMesh(piece));

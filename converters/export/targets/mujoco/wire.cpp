@@ -102,14 +102,14 @@ std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
   return text + "      </composite>\n    </body>\n";
 }
 
-std::string wireControls(const Wire& wire) {
+std::string wireControls(const Wire& wire, const std::string& keys) {
   std::string text = "  <actuator>\n    <intvelocity name=\"advance\" joint=\"advance\"" +
                      attribute("kp", mujocoNumbers({kServo})) + " dampratio=\"1\"" +
                      attribute("actrange", mujocoNumbers({0, wire.length()})) +
                      " ctrlrange=\"-0.1 0.1\"/>\n  </actuator>\n";
   text += "  <keyframe>\n    <key name=\"insertion\" qpos=\"0";
   for (int joint = 1; joint < wire.links; ++joint) text += " 1 0 0 0";
-  return text + "\" act=\"0\" ctrl=\"0\"/>\n  </keyframe>\n";
+  return text + "\" act=\"0\" ctrl=\"0\"/>\n" + keys + "  </keyframe>\n";
 }
 
 }  // namespace lumen::convert

@@ -43,7 +43,7 @@ enum class WireSprings { Plugin, Joints };
 std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
                        const Eigen::Vector3d& direction, WireSprings springs);
 
-/// The wire's <actuator> and <keyframe>.
-std::string wireControls(const Wire& wire);
+/// The wire's <actuator>, and <keyframe> with `keys` after its own.
+std::string wireControls(const Wire& wire, const std::string& keys);
 
 }  // namespace lumen::convert
