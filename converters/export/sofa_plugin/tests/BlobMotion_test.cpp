@@ -92,6 +92,14 @@ struct BendingTube : MotionScene {
   BeamBlobContact* contact;
 };
 
+TEST_F(BlobMotion, AnEntryGoesAlong) {
+  MotionScene s(vessel("place='20 1 0 0 0 0 1'"));
+  for (int i = 0; i < 50; ++i) s.instance.simulate(0.01);
+  const auto& place = s.motion->d_carriedPlace.getValue();
+  EXPECT_LT((place.getCenter() - Vec3(20, 1.5 + 0.95, 0)).norm(), 1e-4);
+  EXPECT_NEAR(place.getOrientation()[3], 1, 1e-6);
+}
+
 TEST_F(BlobMotion, TheWallTakesAWireAlong) {
   BendingTube s("bent.lumen", kContact);
   EXPECT_LT(s.run(300), 0.1);

@@ -35,7 +35,7 @@ BlobMotion::~BlobMotion() {
   if (l_field && l_field->mover() == this) l_field->setMover(nullptr, nullptr);
 }
 
-bool BlobMotion::makePose(Pose& pose) {
+bool BlobMotion::makePose(OwnedPose& pose) {
   blob_pose* made = nullptr;
   const blob_status status = blob_pose_create(l_field->model(), nullptr, &made);
   pose.reset(made);
@@ -89,7 +89,7 @@ void BlobMotion::init() {
   endStep();
 }
 
-bool BlobMotion::set(const Pose& pose, double seconds) {
+bool BlobMotion::set(const OwnedPose& pose, double seconds) {
   const blob_status status = blob_pose_set_time(pose.get(), m_motion.get(), seconds, nullptr);
   if (status == BLOB_OK) return true;
   msg_error() << "no pose at " << seconds << " s: " << blob_status_text(status);

@@ -49,26 +49,22 @@ protected:
   ~BlobMotion() override;
 
 private:
-  struct ClosePose {
-    void operator()(blob_pose* pose) const { blob_pose_close(pose); }
-  };
   struct CloseMotion {
     void operator()(blob_motion* motion) const { blob_motion_close(motion); }
   };
-  using Pose = std::unique_ptr<blob_pose, ClosePose>;
 
   bool open();
-  bool makePose(Pose& pose);
-  bool set(const Pose& pose, double seconds);
+  bool makePose(OwnedPose& pose);
+  bool set(const OwnedPose& pose, double seconds);
   void beginStep(double dt);
   void endStep();
   void carryPlace();
   [[nodiscard]] double greatestMotion() const;
 
   std::unique_ptr<blob_motion, CloseMotion> m_motion;
-  Pose m_now, m_next;     ///< at the beginning and at the end of the step
-  double m_nextTime = 0;  ///< s, of the motion: that of m_next
-  double m_reach = 0;     ///< mm
+  OwnedPose m_now, m_next;  ///< at the beginning and at the end of the step
+  double m_nextTime = 0;    ///< s, of the motion: that of m_next
+  double m_reach = 0;       ///< mm
   PointsOnNodes m_onNodes;
   std::uint32_t m_nodeOfPlace = 0;
   Vec3 m_restOfPlace;  ///< mm: the centre of that node at rest

@@ -13,10 +13,6 @@
 
 namespace lumensofa {
 
-struct ClosePose {
-  void operator()(blob_pose* pose) const { blob_pose_close(pose); }
-};
-
 /// A vessel that moves: frames of a MechanicalObject carry the nodes of a case's tree, and with them
 /// the wall of its BlobField. A node between two frames of a vessel follows both, by the distances
 /// along it; a node that has frames on one side only follows the nearest as a rigid body; a tree
@@ -69,7 +65,7 @@ private:
   void findMovingFrames(const Rigid3::VecCoord& x);
   [[nodiscard]] blob_transform transformOf(std::uint32_t node, const Rigid3::VecCoord& x) const;
 
-  std::unique_ptr<blob_pose, ClosePose> m_pose;
+  OwnedPose m_pose;
   std::vector<Carrier> m_carriers;    ///< one for each node of the tree
   std::vector<Vec3> m_rest;           ///< mm: its centre at rest
   std::vector<blob_transform> m_set;  ///< as the pose has them

@@ -2,13 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <LumenSofa/config.h>
+#include <blob_pose.h>
 #include <sofa/core/behavior/MechanicalState.h>
 #include <sofa/defaulttype/RigidTypes.h>
 
 namespace lumensofa {
+
+struct ClosePose {
+  void operator()(blob_pose* pose) const { blob_pose_close(pose); }
+};
+using OwnedPose = std::unique_ptr<blob_pose, ClosePose>;
 
 /// A frame that carries a point of the wall, and its share of the point: the shares of a point add
 /// up to 1. A force F at the point X is, on this frame, the force share * F and the torque
