@@ -149,7 +149,7 @@ struct MujocoScene {
   std::size_t pieces = 0;
   Insertion insertion;
   Wire wire;
-  /// Of a case with a motion: those of the pieces and of the entry, and their keyframes
+  /// Bodies of the pieces and of the entry in a case with a motion, and their keyframes
   std::vector<RidingBody> bodies{};
   std::string keyframes{};
 };
