@@ -32,26 +32,41 @@ bool isAhead(const TrackedNode& node, const TrackedNode& next) {
   return chord.dot(node.direction) > 0 && chord.dot(next.direction) > 0;
 }
 
-std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes) {
-  std::vector<bool> out(nodes.size(), false);
-  std::vector<std::size_t> kept;
+std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes,
+                             const std::function<bool(std::size_t, std::size_t)>& areNear) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  struct Chain {
+    double sum = 0, most = 0;  // of rates, of the chain that ends here, and of any up to here
+    std::size_t before = kNone;
+  };
+  std::vector<Chain> chains(nodes.size());
+  std::size_t last = kNone;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Chain& chain = chains[i];
+    chain.most = i > 0 ? chains[i - 1].most : 0;
     if (!nodes[i]) continue;
-    while (!kept.empty() && !isAhead(*nodes[kept.back()], *nodes[i]) &&
-           nodes[kept.back()]->inlierRate < nodes[i]->inlierRate) {
-      out[kept.back()] = true;
-      kept.pop_back();
+    const double own = nodes[i]->inlierRate;
+    chain.sum = own;
+    for (std::size_t k = i; k-- > 0 && chains[k].most + own >= chain.sum;) {
+      const double sum = chains[k].sum + own;
+      const bool isBetter = sum > chain.sum || (chain.before == kNone && sum == chain.sum);
+      if (!nodes[k] || !isBetter || (areNear(k, i) && !isAhead(*nodes[k], *nodes[i]))) continue;
+      chain.sum = sum;
+      chain.before = k;
     }
-    out[i] = !kept.empty() && !isAhead(*nodes[kept.back()], *nodes[i]);
-    if (!out[i]) kept.push_back(i);
+    chain.most = std::max(chain.most, chain.sum);
+    if (last == kNone || chain.sum >= chains[last].sum) last = i;
   }
+  std::vector<bool> out(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) out[i] = nodes[i] != nullptr;
+  for (std::size_t i = last; i != kNone; i = chains[i].before) out[i] = false;
   return out;
 }
 
 void dropTurnedBack(TrackedBranch& branch) {
   std::vector<const TrackedNode*> nodes;
   for (const TrackedNode& node : branch.nodes) nodes.push_back(&node);
-  const std::vector<bool> isBack = turnedBack(nodes);
+  const std::vector<bool> isBack = turnedBack(nodes, [](std::size_t, std::size_t) { return true; });
   std::vector<TrackedNode> kept;
   std::size_t click = 0;
   for (std::size_t i = 0; i < branch.nodes.size(); ++i) {

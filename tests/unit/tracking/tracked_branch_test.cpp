@@ -2,6 +2,11 @@
 // Nodes of one vessel that do not lead on: those that turn back, and those in the dome of its end.
 #include "converters/stages/tracking/tracked_branch.h"
 
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace lumen::convert {
@@ -37,6 +42,41 @@ TEST(TrackedBranch, ANodeThatPointsBackTurnsBack) {
   branch.nodes = {nodeAt(0, 1, 0.8), nodeAt(1, 1, 0.8), nodeAt(2, 1, 0.5, -1)};
   dropTurnedBack(branch);
   EXPECT_EQ(placesOf(branch), (std::vector<double>{0, 1}));
+}
+
+/// Nodes along an arc that turns by `turn`, of a rate of 0.8, of which one points across the vessel and has a
+/// rate of 1.
+std::vector<TrackedNode> bendWithOneAcross(double turn, std::size_t count, std::size_t across) {
+  std::vector<TrackedNode> nodes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = turn * static_cast<double>(i) / static_cast<double>(count - 1);
+    TrackedNode node = nodeAt(0, 1, i == across ? 1.0 : 0.8);
+    node.centre = 10 * Eigen::Vector3d(std::sin(angle), 1 - std::cos(angle), 0);
+    node.direction = {std::cos(angle), std::sin(angle), 0};
+    if (i == across) node.direction = {-std::sin(angle + 0.2), std::cos(angle + 0.2), 0};
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+TEST(TrackedBranch, OneNodeAcrossABendCostsNoOther) {
+  constexpr std::size_t kCount = 60, kAcross = 5;
+  const std::vector<TrackedNode> nodes = bendWithOneAcross(std::numbers::pi, kCount, kAcross);
+  std::vector<const TrackedNode*> all;
+  for (const TrackedNode& node : nodes) all.push_back(&node);
+  const std::vector<bool> isBack = turnedBack(all, [](std::size_t, std::size_t) { return true; });
+  for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(isBack[i], i == kAcross) << i;
+}
+
+TEST(TrackedBranch, NodesFarApartFollowOneAnotherRoundABend) {
+  // behind three quarters of a circle the last node looks at the first
+  const std::vector<TrackedNode> nodes = bendWithOneAcross(1.5 * std::numbers::pi, 60, 60);
+  const std::vector<const TrackedNode*> ends = {&nodes.front(), nullptr, &nodes.back()};
+  const auto dropped = [&](bool areNear) {
+    return turnedBack(ends, [areNear](std::size_t, std::size_t) { return areNear; });
+  };
+  EXPECT_EQ(dropped(false), (std::vector<bool>{false, false, false}));
+  EXPECT_EQ(dropped(true), (std::vector<bool>{true, false, false}));
 }
 
 TEST(TrackedBranch, ADomeIsCutAndATaperStays) {
