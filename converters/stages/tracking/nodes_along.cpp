@@ -143,19 +143,10 @@ double radiusAround(const Fits& nodes, std::size_t at) {
   return radii.size() < kFewestAround ? 0 : upperMedian(radii);
 }
 
-/// Drops nodes that have slid past others. A node that fits lies within kAsideRadii of its station,
-/// so two cannot have changed places where their stations are farther apart along the course.
-void dropTurnedBack(std::span<const Station> stations, Fits& nodes) {
+void dropTurnedBack(Fits& nodes) {
   std::vector<const TrackedNode*> fitted;
-  std::vector<double> at;  // mm along the course
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    fitted.push_back(nodes[i] ? &*nodes[i] : nullptr);
-    at.push_back(i == 0 ? 0.0
-                        : at.back() + (stations[i].position - stations[i - 1].position).norm());
-  }
-  const std::vector<bool> isBack = turnedBack(fitted, [&](std::size_t a, std::size_t b) {
-    return at[b] - at[a] < kAsideRadii * (stations[a].radius + stations[b].radius);
-  });
+  for (const auto& node : nodes) fitted.push_back(node ? &*node : nullptr);
+  const std::vector<bool> isBack = turnedBack(fitted);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (isBack[i]) nodes[i].reset();
 }
@@ -246,10 +237,10 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
     stations[i].radius = around;
     if (!found[i]) found[i] = nodeAt(run, stations[i], kNarrowRadii, kWideRadii);
   }
-  dropTurnedBack(stations, found);
+  dropTurnedBack(found);
   bridge(stations, found,
          [&](const Station& station) { return nodeAt(run, station, kNarrowRadii, kWideRadii); });
-  dropTurnedBack(stations, found);
+  dropTurnedBack(found);
   bridge(stations, found, [](const Station&) { return std::nullopt; });
   std::vector<TrackedNode> nodes;
   for (std::size_t i = 0; i < stations.size(); ++i)

@@ -32,8 +32,7 @@ bool isAhead(const TrackedNode& node, const TrackedNode& next) {
   return chord.dot(node.direction) > 0 && chord.dot(next.direction) > 0;
 }
 
-std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes,
-                             const std::function<bool(std::size_t, std::size_t)>& areNear) {
+std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes) {
   constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   struct Chain {
     double sum = 0, most = 0;  // of rates, of the chain that ends here, and of any up to here
@@ -50,7 +49,7 @@ std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes,
     for (std::size_t k = i; k-- > 0 && chains[k].most + own >= chain.sum;) {
       const double sum = chains[k].sum + own;
       const bool isBetter = sum > chain.sum || (chain.before == kNone && sum == chain.sum);
-      if (!nodes[k] || !isBetter || (areNear(k, i) && !isAhead(*nodes[k], *nodes[i]))) continue;
+      if (!nodes[k] || !isBetter || !isAhead(*nodes[k], *nodes[i])) continue;
       chain.sum = sum;
       chain.before = k;
     }
@@ -66,7 +65,7 @@ std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes,
 void dropTurnedBack(TrackedBranch& branch) {
   std::vector<const TrackedNode*> nodes;
   for (const TrackedNode& node : branch.nodes) nodes.push_back(&node);
-  const std::vector<bool> isBack = turnedBack(nodes, [](std::size_t, std::size_t) { return true; });
+  const std::vector<bool> isBack = turnedBack(nodes);
   std::vector<TrackedNode> kept;
   std::size_t click = 0;
   for (std::size_t i = 0; i < branch.nodes.size(); ++i) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,12 +51,10 @@ TrackedNode reversed(TrackedNode node);
 /// True if the way from `node` to `next` leads ahead in the directions of both.
 bool isAhead(const TrackedNode& node, const TrackedNode& next);
 
-/// The nodes to drop so that each that is left lies ahead of the one before: cylinders may slide
-/// along a vessel. Those that are left have the greatest sum of inlier rates. Nodes that are null
-/// are left out. Two nodes for which `areNear` is false may follow one another in any case: the
-/// directions of nodes far apart do not show their order where a vessel bends.
-std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes,
-                             const std::function<bool(std::size_t, std::size_t)>& areNear);
+/// Whether to drop each node, so that each that is left lies ahead of the one before: cylinders may
+/// slide along a vessel. Those that are left have the greatest sum of inlier rates. Nodes that are
+/// null are left out.
+std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes);
 
 /// Reverses the order and the direction of nodes.
 void reverseTrack(std::vector<TrackedNode>& nodes);
