@@ -20,6 +20,7 @@ MAY_INCLUDE = {
     "formats/api": ["formats/include/lumen", "formats/container", "formats/field", "formats/view", "formats/case"],
     "libblob/include": [],
     "libblob/src": ["libblob/include", "libblob/src/simd", "formats/container", "formats/field", "formats/view"],
+    "libblob/cuda": ["libblob/include"],
     "libblob/src/simd": ["libblob/include", "libblob/src", "formats/field"],
 }
 FORMATS = ["formats/container", "formats/field", "formats/view", "formats/case"]
@@ -67,7 +68,7 @@ MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session"]
 
 def sources():
     """Every C or C++ file of the product, relative to the root."""
-    for top in ("formats", "libblob/include", "libblob/src", "converters", "viewer/session", "viewer/server", "packages/python/src"):
+    for top in ("formats", "libblob/include", "libblob/src", "libblob/cuda", "converters", "viewer/session", "viewer/server", "packages/python/src"):
         yield from (p.relative_to(ROOT) for p in sorted((ROOT / top).rglob("*")) if p.suffix in (".h", ".cpp", ".c"))
 
 

@@ -1,47 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// blob_query_columns() as a kernel of CUDA: a thread for each tool point. It includes nothing of an
-// SDK, so that clang alone compiles it to PTX:
+// blob_query_columns() as kernels of CUDA: a thread for each tool point. They include nothing of an
+// SDK, so that clang alone compiles them to PTX, as for blob_cuda.h:
 //
-//     clang -x cuda --cuda-gpu-arch=sm_80 -nocudainc -nocudalib --cuda-device-only -S -O3
+//     clang -x cuda --cuda-gpu-arch=sm_70 -nocudainc -nocudalib --cuda-device-only -S -O3
 //           -ffp-contract=off -I INCLUDE query.cu
+//
+// BLOB_DEVICE_THREAD, where it is defined, is the index of a thread instead.
 #include "blob_device.h"
 
 #if !defined(__global__)
 #define __global__ __attribute__((global))
 #endif
+#if !defined(BLOB_DEVICE_THREAD)
+#if defined(__CUDA_ARCH__) && defined(__clang__)
+#define BLOB_DEVICE_THREAD                                                    \
+  ((uint64_t)__nvvm_read_ptx_sreg_ctaid_x() * __nvvm_read_ptx_sreg_ntid_x() + \
+   __nvvm_read_ptx_sreg_tid_x())
+#else
+#define BLOB_DEVICE_THREAD ((uint64_t)blockIdx.x * blockDim.x + threadIdx.x)
+#endif
+#endif
 
 namespace {
 
-#if defined(__CUDA_ARCH__) && defined(__clang__)
-__attribute__((device)) unsigned indexOfThread() {
-  return __nvvm_read_ptx_sreg_ctaid_x() * __nvvm_read_ptx_sreg_ntid_x() +
-         __nvvm_read_ptx_sreg_tid_x();
+// Columns of points and answers.
+struct Columns {
+  const float* point;
+  uint32_t* cursor;
+  float *answer, *value;
+  uint32_t* state;
+};
+
+BLOB_DEVICE_FN void writeAnswer(const Columns& to, uint64_t i, const blob_device_sample& sample) {
+  to.answer[4 * i] = sample.distance;
+  for (int k = 0; k < 3; ++k) to.answer[4 * i + 1 + k] = sample.normal[k];
+  if (to.state != nullptr) to.state[i] = sample.state;
+  if (to.value == nullptr) return;
+  to.value[4 * i] = sample.value;
+  for (int k = 0; k < 3; ++k) to.value[4 * i + 1 + k] = sample.gradient[k];
 }
-#elif defined(__CUDA_ARCH__)
-__attribute__((device)) unsigned indexOfThread() {
-  return blockIdx.x * blockDim.x + threadIdx.x;
+
+BLOB_DEVICE_FN void answerNoVessel(const Columns& to, uint64_t i) {
+  const float nan = blob_device_float(0x7fc00000u);
+  writeAnswer(to, i, blob_device_sample{nan, {nan, nan, nan}, nan, {nan, nan, nan}, 0, 0});
 }
-#else
-__attribute__((device)) unsigned indexOfThread();
-#endif
 
 }  // namespace
 
-// Arguments are those of the kernel in query.cl.
+// Arguments are those of the kernel in query.cl, and the vessel of each point, or null where all are
+// of `vessel`. A vessel that the buffer has not gives NaN, outside, and leaves the cursor.
 extern "C" __global__ void blob_query_points(const uint32_t* words, uint32_t vessel, uint32_t flags,
                                              uint32_t count, const float* point, uint32_t* cursor,
-                                             float* answer, float* value, uint32_t* state) {
-  const uint32_t i = indexOfThread();
+                                             float* answer, float* value, uint32_t* state,
+                                             const uint32_t* vessel_of_point) {
+  const uint64_t i = BLOB_DEVICE_THREAD;
   if (i >= count) return;
+  const Columns columns{point, cursor, answer, value, state};
+  const uint32_t mine = vessel_of_point != nullptr ? vessel_of_point[i] : vessel;
+  if (mine >= words[3]) {
+    answerNoVessel(columns, i);
+    return;
+  }
   const float at[3] = {point[3 * i], point[3 * i + 1], point[3 * i + 2]};
   uint32_t node = cursor[i];
   blob_device_sample sample;
-  blob_device_query(words, vessel, flags, at, &node, &sample);
+  blob_device_query(words, mine, flags, at, &node, &sample);
   cursor[i] = node;
-  answer[4 * i] = sample.distance;
-  for (int k = 0; k < 3; ++k) answer[4 * i + 1 + k] = sample.normal[k];
-  if (state != nullptr) state[i] = sample.state;
-  if (value == nullptr) return;
-  value[4 * i] = sample.value;
-  for (int k = 0; k < 3; ++k) value[4 * i + 1 + k] = sample.gradient[k];
+  writeAnswer(columns, i, sample);
 }

@@ -63,6 +63,7 @@ BLOB_DEVICE_FN float blob_device_weigh_against(blob_device_words block, const fl
                                                float* part) {
   blob_device_eight psi, along_x, along_y, along_z;
   blob_device_word i;
+  BLOB_DEVICE_UNROLL
   for (i = 0; i < 8; ++i) {
     const float inverse_tau = blob_device_float(block[i + 32]);
     const float t = blob_device_difference(block, i, x) * inverse_tau;
@@ -101,8 +102,10 @@ BLOB_DEVICE_FN void blob_device_sum_blobs(blob_device_word phi, blob_device_word
                                           blob_device_lane* lane) {
   blob_device_eight f, along_x, along_y, along_z;
   blob_device_word i, b;
+  BLOB_DEVICE_UNROLL
   for (i = 0; i < 8; ++i) f.lanes[i] = along_x.lanes[i] = along_y.lanes[i] = along_z.lanes[i] = 0;
-  for (b = 0; b < count; ++b)
+  for (b = 0; b < count; ++b) {
+    BLOB_DEVICE_UNROLL
     for (i = 0; i < 8; ++i) {
       blob_device_words blob = first + BLOB_DEVICE_BLOB_WORDS * b + i;
       float d[3], slope, u = blob_device_exponent(blob, at, d);
@@ -113,6 +116,7 @@ BLOB_DEVICE_FN void blob_device_sum_blobs(blob_device_word phi, blob_device_word
       along_y.lanes[i] += slope * d[1];
       along_z.lanes[i] += slope * d[2];
     }
+  }
   lane->field[0] = blob_device_total(&f);
   lane->field[1] = blob_device_total(&along_x);
   lane->field[2] = blob_device_total(&along_y);

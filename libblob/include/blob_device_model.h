@@ -39,12 +39,17 @@ typedef uint blob_device_word;
 #define BLOB_DEVICE_FN static inline __attribute__((host, device, always_inline))
 #endif
 #define BLOB_DEVICE_SQRT(x) __builtin_sqrtf(x)
+#define BLOB_DEVICE_UNROLL _Pragma("unroll") /* arrays of eight stay in registers */
 #else
 #include <math.h>
 #define BLOB_DEVICE_FN static inline
 #define BLOB_DEVICE_SQRT(x) sqrtf(x)
 #endif
 typedef uint32_t blob_device_word;
+#endif
+
+#if !defined(BLOB_DEVICE_UNROLL)
+#define BLOB_DEVICE_UNROLL
 #endif
 
 /* clang-format on */

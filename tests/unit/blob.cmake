@@ -43,7 +43,7 @@ if(NOT LUMEN_SANITIZE)
 endif()
 
 # blob_device.h as other processors compile it: OpenCL C, run on whatever device there is (Debian's pocl makes one
-# of this processor), and CUDA, which clang alone compiles to PTX.
+# of this processor).
 find_package(OpenCL QUIET)
 if(OpenCL_FOUND AND NOT LUMEN_SANITIZE)
   add_executable(device_opencl ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_opencl.cpp ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp)
@@ -57,10 +57,3 @@ elseif(NOT LUMEN_SANITIZE)
 endif()
 # query.wgsl and the text for Warp are what the header gives (python3-pycparser).
 python_test(BlobDevice.TranslationsAreThoseOfTheHeader quick ${PROJECT_SOURCE_DIR}/libblob/device/translate/translate.py --check)
-find_program(CLANG_CUDA NAMES clang-14 clang)
-if(CLANG_CUDA AND NOT LUMEN_SANITIZE)
-  add_test(NAME BlobDevice.CudaCompilesToPtxWithoutCallsOfALibrary
-    COMMAND ${CMAKE_COMMAND} -D CLANG=${CLANG_CUDA} -D LIBBLOB=${PROJECT_SOURCE_DIR}/libblob
-      -D PTX=${CMAKE_CURRENT_BINARY_DIR}/query.ptx -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/compile_ptx.cmake)
-  set_tests_properties(BlobDevice.CudaCompilesToPtxWithoutCallsOfALibrary PROPERTIES LABELS quick)
-endif()

@@ -36,7 +36,7 @@ def source_text():
     text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
     constants = dict(re.findall(r"^#define (BLOB_DEVICE_\w+) ((?:0x[0-9a-f]+|\d+)u?) *$", text, flags=re.M))
     text = re.sub(r"^#.*$|^typedef \w+ blob_device_word;$", "", text, flags=re.M)
-    text = re.sub(r"\bBLOB_DEVICE_(FN|GLOBAL)\b", "", text).replace("BLOB_DEVICE_SQRT", "sqrt")
+    text = re.sub(r"\bBLOB_DEVICE_(FN|GLOBAL|UNROLL)\b", "", text).replace("BLOB_DEVICE_SQRT", "sqrt")
     return "typedef unsigned blob_device_word;\n" + text, constants
 
 

@@ -8,6 +8,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component blob)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component cuda)  # nothing where it is not built
 foreach(file query.cl query.cu query.wgsl query_warp.py)
   if(NOT EXISTS ${WORK}/prefix/share/libblob/${file})
     message(FATAL_ERROR "share/libblob/${file} is not installed")
@@ -18,6 +19,15 @@ run(${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build -D CMAKE_PREFIX_PATH=${WORK}
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/uses_blob)
 run(${WORK}/build/uses_blob_static)
+if(EXISTS ${WORK}/prefix/include/blob_cuda.h)
+  if(NOT EXISTS ${WORK}/build/uses_blob_cuda)
+    message(FATAL_ERROR "find_package(lumen) does not find blob_cuda")
+  endif()
+  execute_process(COMMAND ${WORK}/build/uses_blob_cuda libcuda.so.1 RESULT_VARIABLE result)
+  if(NOT result MATCHES "^(0|77)$")  # no driver, or one
+    message(FATAL_ERROR "uses_blob_cuda: ${result}")
+  endif()
+endif()
 
 find_program(PKG_CONFIG pkg-config)
 if(PKG_CONFIG)

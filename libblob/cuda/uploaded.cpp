@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "uploaded.h"
+
+#include <cstring>
+
+#include "kernels.h"
+
+using namespace lumen::blob::cuda;
+
+namespace {
+
+constexpr unsigned kThreadsOfBlock = 128;  // so that a block fits at 255 registers a thread, too
+constexpr std::size_t kVesselCountWord = 3;
+
+}  // namespace
+
+std::string blob_cuda::reasonOf(const char* function, Result result) const {
+  const char* text = nullptr;
+  if (m_driver.errorString(result, &text) != kSuccess || text == nullptr) text = "unknown error";
+  return std::string(function) + ": " + text + " (" + std::to_string(result) + ")";
+}
+
+blob_cuda_status blob_cuda::open(int device, const void* buffer, std::size_t size,
+                                 std::string& reason) {
+  if (!load(m_driver, reason)) return BLOB_CUDA_ERROR_NO_DRIVER;
+  blob_cuda_status status = enterDevice(device, reason);
+  if (status != BLOB_CUDA_OK) return status;
+  const Entered entered(m_driver, m_context);
+  if (entered.result() != kSuccess) {
+    reason = reasonOf("cuCtxPushCurrent", entered.result());
+    return BLOB_CUDA_ERROR_NO_DEVICE;
+  }
+  status = loadKernels(reason);
+  return status == BLOB_CUDA_OK ? upload(buffer, size, reason) : status;
+}
+
+blob_cuda_status blob_cuda::enterDevice(int device, std::string& reason) {
+  const auto failed = [&](const char* function, Result result) {
+    if (result != kSuccess) reason = reasonOf(function, result);
+    return result != kSuccess;
+  };
+  if (failed("cuInit", m_driver.init(0))) return BLOB_CUDA_ERROR_NO_DEVICE;
+  if (device == kNone) {
+    if (failed("cuCtxGetCurrent", m_driver.contextCurrent(&m_context)))
+      return BLOB_CUDA_ERROR_NO_DEVICE;
+    if (m_context != nullptr) return BLOB_CUDA_OK;
+    device = 0;
+  }
+  int count = 0;
+  if (failed("cuDeviceGetCount", m_driver.deviceCount(&count))) return BLOB_CUDA_ERROR_NO_DEVICE;
+  if (device < 0 || device >= count) {
+    reason = "there is no device " + std::to_string(device) + " among " + std::to_string(count);
+    return BLOB_CUDA_ERROR_NO_DEVICE;
+  }
+  Device handle = 0;
+  if (failed("cuDeviceGet", m_driver.deviceGet(&handle, device)) ||
+      failed("cuDevicePrimaryCtxRetain", m_driver.primaryRetain(&m_context, handle)))
+    return BLOB_CUDA_ERROR_NO_DEVICE;
+  m_retained = handle;
+  return BLOB_CUDA_OK;
+}
+
+blob_cuda_status blob_cuda::loadKernels(std::string& reason) {
+  char log[2048] = "";
+  int names[2] = {kErrorLog, kErrorLogBytes};
+  // the driver reads the size from the bits of the pointer
+  void* values[2] = {log, reinterpret_cast<void*>(std::uintptr_t{sizeof log})};
+  Result result = m_driver.moduleLoad(&m_module, kKernels, 2, names, values);
+  if (result != kSuccess) {
+    m_module = nullptr;
+    log[sizeof log - 1] = '\0';
+    reason = reasonOf("cuModuleLoadDataEx", result);
+    if (log[0] != '\0') reason += std::string(": ") + log;
+    return BLOB_CUDA_ERROR_KERNEL;
+  }
+  result = m_driver.moduleFunction(&m_query, m_module, "blob_query_points");
+  if (result == kSuccess) return BLOB_CUDA_OK;
+  reason = reasonOf("cuModuleGetFunction", result);
+  return BLOB_CUDA_ERROR_KERNEL;
+}
+
+blob_cuda_status blob_cuda::upload(const void* buffer, std::size_t size, std::string& reason) {
+  std::memcpy(&m_vesselCount,
+              static_cast<const char*>(buffer) + kVesselCountWord * sizeof m_vesselCount,
+              sizeof m_vesselCount);
+  Result result = m_driver.allocate(&m_words, size);
+  if (result != kSuccess) {
+    m_words = 0;
+    reason = reasonOf("cuMemAlloc", result);
+    return BLOB_CUDA_ERROR_DEVICE_MEMORY;
+  }
+  result = m_driver.copyToDevice(m_words, buffer, size);
+  if (result == kSuccess) return BLOB_CUDA_OK;
+  reason = reasonOf("cuMemcpyHtoD", result);
+  return BLOB_CUDA_ERROR_DEVICE_MEMORY;
+}
+
+blob_cuda_status blob_cuda::launch(CUstream_st* stream, std::uint32_t flags,
+                                   const blob_cuda_columns& columns) const {
+  blob_cuda_columns c = columns;
+  std::uint64_t words = m_words;
+  // in the order of the kernel's arguments, of which the driver copies the values
+  void* arguments[] = {&words,    &c.vessel, &flags,   &c.count, &c.point,
+                       &c.cursor, &c.answer, &c.value, &c.state, &c.vessel_of_point};
+  const auto blocks =
+      static_cast<unsigned>((std::uint64_t{c.count} + kThreadsOfBlock - 1) / kThreadsOfBlock);
+  const Entered entered(m_driver, m_context);
+  if (entered.result() != kSuccess) return BLOB_CUDA_ERROR_LAUNCH;
+  const Result result =
+      m_driver.launch(m_query, blocks, 1, 1, kThreadsOfBlock, 1, 1, 0, stream, arguments, nullptr);
+  return result == kSuccess ? BLOB_CUDA_OK : BLOB_CUDA_ERROR_LAUNCH;
+}
+
+blob_cuda::~blob_cuda() {
+  if (m_context != nullptr) {
+    const Entered entered(m_driver, m_context);
+    if (entered.result() == kSuccess) {
+      if (m_words != 0) m_driver.release(m_words);
+      if (m_module != nullptr) m_driver.moduleUnload(m_module);
+    }
+  }
+  if (m_retained != kNone) m_driver.primaryRelease(m_retained);
+}
