@@ -168,16 +168,19 @@ fn blob_device_place_at(point: array<f32, 3>) -> blob_device_place {
 }
 
 fn blob_device_at(v: blob_device_vessel, index: u32, place: blob_device_place) -> blob_device_node {
+  let record: u32 = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index;
+  let x: f32 = place.point[0] - bitcast<f32>(blob_device_buffer[record]) -
+      bitcast<f32>(blob_device_buffer[record + 12u]) + place.step[0];
+  let y: f32 = place.point[1] - bitcast<f32>(blob_device_buffer[record + 1u]) -
+      bitcast<f32>(blob_device_buffer[record + 13u]) + place.step[1];
+  let z: f32 = place.point[2] - bitcast<f32>(blob_device_buffer[record + 2u]) -
+      bitcast<f32>(blob_device_buffer[record + 14u]) + place.step[2];
+  let square: f32 = x * x + y * y + z * z;
   var node: blob_device_node;
-  var square: f32;
-  node.record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index;
-  node.x[0] = place.point[0] - bitcast<f32>(blob_device_buffer[node.record]) -
-      bitcast<f32>(blob_device_buffer[node.record + 12u]) + place.step[0];
-  node.x[1] = place.point[1] - bitcast<f32>(blob_device_buffer[node.record + 1u]) -
-      bitcast<f32>(blob_device_buffer[node.record + 13u]) + place.step[1];
-  node.x[2] = place.point[2] - bitcast<f32>(blob_device_buffer[node.record + 2u]) -
-      bitcast<f32>(blob_device_buffer[node.record + 14u]) + place.step[2];
-  square = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2];
+  node.record = record;
+  node.x[0] = x;
+  node.x[1] = y;
+  node.x[2] = z;
   node.blocks = blob_device_buffer[node.record + 11u];
   if (node.blocks > 1u && square < bitcast<f32>(blob_device_buffer[node.record + 7u])) {
     node.blocks = 1u;
@@ -756,12 +759,10 @@ fn blob_device_finish(v: blob_device_vessel, lane: blob_device_lane, at: array<f
 
 fn blob_device_is_out_of_range(node: blob_device_node, sample: ptr<function, blob_device_sample>) ->
     i32 {
+  let most: f32 = 1e9f;
   var length: f32;
-  var in_range: i32 = 1;
-  in_range = select(0, 1, (in_range != 0 && node.x[0] <= 1e9f) && node.x[0] >= -1e9f);
-  in_range = select(0, 1, (in_range != 0 && node.x[1] <= 1e9f) && node.x[1] >= -1e9f);
-  in_range = select(0, 1, (in_range != 0 && node.x[2] <= 1e9f) && node.x[2] >= -1e9f);
-  if (in_range != 0) {
+  if (((((node.x[0] <= most && node.x[0] >= -most) && node.x[1] <= most) && node.x[1] >= -most) &&
+      node.x[2] <= most) && node.x[2] >= -most) {
     return 0;
   }
   length = blob_device_norm(node.x);

@@ -198,13 +198,19 @@ def blob_device_place_at(point: wp.vec3):
 @wp.func
 def blob_device_at(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, index: wp.uint32,
         place: blob_device_place):
+    record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index
+    x = (place.point[0] - blob_device_number(buffer, record) -
+            blob_device_number(buffer, record + wp.uint32(12)) + place.step[0])
+    y = (place.point[1] - blob_device_number(buffer, record + wp.uint32(1)) -
+            blob_device_number(buffer, record + wp.uint32(13)) + place.step[1])
+    z = (place.point[2] - blob_device_number(buffer, record + wp.uint32(2)) -
+            blob_device_number(buffer, record + wp.uint32(14)) + place.step[2])
+    square = x * x + y * y + z * z
     node = blob_device_node()
-    square = wp.float32(0.0)
-    node.record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * index
-    for i in range(3):
-        node.x[i] = (place.point[i] - blob_device_number(buffer, node.record + wp.uint32(i)) -
-                blob_device_number(buffer, node.record + wp.uint32(i + 12)) + place.step[i])
-    square = node.x[0] * node.x[0] + node.x[1] * node.x[1] + node.x[2] * node.x[2]
+    node.record = record
+    node.x[0] = x
+    node.x[1] = y
+    node.x[2] = z
     node.blocks = blob_device_load(buffer, node.record + wp.uint32(11))
     if node.blocks > wp.uint32(1) and square < blob_device_number(buffer, node.record +
             wp.uint32(7)):
@@ -414,8 +420,9 @@ def blob_device_evaluate(buffer: wp.array(dtype=wp.uint32), v: blob_device_vesse
             blob_device_load(buffer, node.record + wp.uint32(8)))
     lane = blob_device_lane()
     at = wp.vec3()
-    for i in range(3):
-        at[i] = node.x[i] + blob_device_number(buffer, node.record + wp.uint32(4 + i))
+    at[0] = node.x[0] + blob_device_number(buffer, node.record + wp.uint32(4))
+    at[1] = node.x[1] + blob_device_number(buffer, node.record + wp.uint32(5))
+    at[2] = node.x[2] + blob_device_number(buffer, node.record + wp.uint32(6))
     lane.shift = wp.float32(0.0)
     if v.phi == wp.uint32(1) and count > wp.uint32(0):
         lane.shift = blob_device_least_exponent(buffer, first, count, at)
@@ -775,11 +782,10 @@ def blob_device_finish(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
 @wp.func
 def blob_device_is_out_of_range(buffer: wp.array(dtype=wp.uint32), node: blob_device_node,
         sample: blob_device_sample):
+    most = wp.float32(1e9)
     length = wp.float32(0.0)
-    in_range = wp.int32(1)
-    for i in range(3):
-        in_range = wp.where((in_range != 0 and node.x[i] <= 1e9) and node.x[i] >= -1e9, 1, 0)
-    if in_range != 0:
+    if ((((node.x[0] <= most and node.x[0] >= -most) and node.x[1] <= most) and node.x[1] >= -most)
+            and node.x[2] <= most) and node.x[2] >= -most:
         return wp.int32(0), sample
     length = blob_device_norm(node.x)
     sample.value = wp.where(length - length == 0.0, 0.0, wp.where(length > 0.0, 0.0, length))

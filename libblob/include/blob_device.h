@@ -106,10 +106,12 @@ BLOB_DEVICE_FN void blob_device_finish(const blob_device_vessel* v, const blob_d
 /* The answer at a place that is not within 1e9 mm of a node; false for any other. */
 BLOB_DEVICE_FN int blob_device_is_out_of_range(const blob_device_node* node,
                                                blob_device_sample* sample) {
+  const float most = 1e9f;
   float length;
-  int i, in_range = 1;
-  for (i = 0; i < 3; ++i) in_range = in_range && node->x[i] <= 1e9f && node->x[i] >= -1e9f;
-  if (in_range) return 0;
+  int i;
+  if (node->x[0] <= most && node->x[0] >= -most && node->x[1] <= most && node->x[1] >= -most &&
+      node->x[2] <= most && node->x[2] >= -most)
+    return 0;
   length = blob_device_norm(node->x);
   sample->value = length - length == 0 ? 0.0f : (length > 0 ? 0.0f : length);
   sample->distance = length - blob_device_float(node->record[3]);

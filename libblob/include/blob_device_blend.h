@@ -29,8 +29,9 @@ BLOB_DEVICE_FN blob_device_lane blob_device_evaluate(const blob_device_vessel* v
   blob_device_words first = v->words + v->blobs + BLOB_DEVICE_BLOB_WORDS * node->record[8];
   blob_device_lane lane;
   float at[3];
-  int i;
-  for (i = 0; i < 3; ++i) at[i] = node->x[i] + blob_device_float(node->record[4 + i]);
+  at[0] = node->x[0] + blob_device_float(node->record[4]);
+  at[1] = node->x[1] + blob_device_float(node->record[5]);
+  at[2] = node->x[2] + blob_device_float(node->record[6]);
   lane.shift = 0;
   if (v->phi == 1 && count > 0) lane.shift = blob_device_least_exponent(first, count, at);
   lane.radius = blob_device_float(node->record[3]);

@@ -181,15 +181,22 @@ typedef struct blob_device_node {
 
 BLOB_DEVICE_FN blob_device_node blob_device_at(const blob_device_vessel* v, blob_device_word index,
                                                const blob_device_place* place) {
+  blob_device_words record = v->words + v->nodes + BLOB_DEVICE_NODE_WORDS * index;
+  const float x =
+      ((place->point[0] - blob_device_float(record[0])) - blob_device_float(record[12])) +
+      place->step[0];
+  const float y =
+      ((place->point[1] - blob_device_float(record[1])) - blob_device_float(record[13])) +
+      place->step[1];
+  const float z =
+      ((place->point[2] - blob_device_float(record[2])) - blob_device_float(record[14])) +
+      place->step[2];
+  const float square = (x * x + y * y) + z * z;
   blob_device_node node;
-  float square;
-  int i;
-  node.record = v->words + v->nodes + BLOB_DEVICE_NODE_WORDS * index;
-  for (i = 0; i < 3; ++i)
-    node.x[i] = ((place->point[i] - blob_device_float(node.record[i])) -
-                 blob_device_float(node.record[i + 12])) +
-                place->step[i];
-  square = (node.x[0] * node.x[0] + node.x[1] * node.x[1]) + node.x[2] * node.x[2];
+  node.record = record;
+  node.x[0] = x;
+  node.x[1] = y;
+  node.x[2] = z;
   node.blocks = node.record[11];
   if (node.blocks > 1 && square < blob_device_float(node.record[7])) node.blocks = 1;
   node.neighbour = v->words + v->neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS * node.record[10];

@@ -19,9 +19,14 @@ BLOB_DEVICE_FN float blob_device_total(float8 e) {
 
 /* Bits of the lanes whose comparison holds. */
 BLOB_DEVICE_FN blob_device_word blob_device_bits_of(int8 holds) {
+#if defined(__AVX__)
+  typedef float lanes __attribute__((__vector_size__(32)));
+  return (uint)__builtin_ia32_movmskps256((lanes)holds);
+#else
   const uint8 bit = as_uint8(holds) & (uint8)(1, 2, 4, 8, 16, 32, 64, 128);
   const uint4 four = bit.lo | bit.hi;
   return (four.s0 | four.s1) | (four.s2 | four.s3);
+#endif
 }
 
 BLOB_DEVICE_FN blob_device_word blob_device_first(blob_device_word bits) {

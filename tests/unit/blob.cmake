@@ -51,7 +51,10 @@ if(OpenCL_FOUND AND NOT LUMEN_SANITIZE)
   target_include_directories(device_opencl PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
   target_compile_definitions(device_opencl PRIVATE CL_TARGET_OPENCL_VERSION=120)
   add_test(NAME BlobDevice.AnswersOnOpenClAreThoseOfTheLibrary COMMAND device_opencl ${PROJECT_SOURCE_DIR}/libblob)
-  set_tests_properties(BlobDevice.AnswersOnOpenClAreThoseOfTheLibrary PROPERTIES LABELS foreign SKIP_RETURN_CODE 77 TIMEOUT 600)
+  add_test(NAME BlobDevice.AnswersOnOpenClWithoutVectorsAreThoseOfTheLibrary
+    COMMAND device_opencl ${PROJECT_SOURCE_DIR}/libblob --points 100000 --wide 0)
+  set_tests_properties(BlobDevice.AnswersOnOpenClAreThoseOfTheLibrary
+    BlobDevice.AnswersOnOpenClWithoutVectorsAreThoseOfTheLibrary PROPERTIES LABELS foreign SKIP_RETURN_CODE 77 TIMEOUT 600)
 elseif(NOT LUMEN_SANITIZE)
   message(STATUS "OpenCL (ocl-icd-opencl-dev, pocl-opencl-icd) not found: the kernel of libblob/device is not run")
 endif()
