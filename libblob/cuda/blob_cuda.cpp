@@ -105,7 +105,6 @@ blob_cuda_status blob_cuda_query(const blob_cuda* vessels, CUstream_st* stream, 
   if (vessels == nullptr || columns == nullptr || columns->cookie != kColumns)
     return BLOB_CUDA_ERROR_ARGUMENT;
   const blob_cuda_columns& c = *columns;
-  if ((flags & BLOB_DISTANCE_EXACT) != 0) return BLOB_CUDA_ERROR_ARGUMENT;
   if (c.vessel_of_point == nullptr && c.vessel >= vessels->vesselCount())
     return BLOB_CUDA_ERROR_ARGUMENT;
   if (c.count == 0) return BLOB_CUDA_OK;

@@ -74,6 +74,8 @@ blob_cuda_status blob_cuda::loadKernels(std::string& reason) {
     return BLOB_CUDA_ERROR_KERNEL;
   }
   result = m_driver.moduleFunction(&m_query, m_module, "blob_query_points");
+  if (result == kSuccess)
+    result = m_driver.moduleFunction(&m_exactQuery, m_module, "blob_query_exact_points");
   if (result == kSuccess) return BLOB_CUDA_OK;
   reason = reasonOf("cuModuleGetFunction", result);
   return BLOB_CUDA_ERROR_KERNEL;
@@ -104,10 +106,11 @@ blob_cuda_status blob_cuda::launch(CUstream_st* stream, std::uint32_t flags,
                        &c.cursor, &c.answer, &c.value, &c.state, &c.vessel_of_point};
   const auto blocks =
       static_cast<unsigned>((std::uint64_t{c.count} + kThreadsOfBlock - 1) / kThreadsOfBlock);
+  const Function kernel = (flags & BLOB_DISTANCE_EXACT) != 0 ? m_exactQuery : m_query;
   const Entered entered(m_driver, m_context);
   if (entered.result() != kSuccess) return BLOB_CUDA_ERROR_LAUNCH;
   const Result result =
-      m_driver.launch(m_query, blocks, 1, 1, kThreadsOfBlock, 1, 1, 0, stream, arguments, nullptr);
+      m_driver.launch(kernel, blocks, 1, 1, kThreadsOfBlock, 1, 1, 0, stream, arguments, nullptr);
   return result == kSuccess ? BLOB_CUDA_OK : BLOB_CUDA_ERROR_LAUNCH;
 }
 

@@ -58,7 +58,7 @@ private:
   lumen::blob::cuda::Context m_context = nullptr;
   lumen::blob::cuda::Device m_retained = kNone;  // whose primary context is held
   lumen::blob::cuda::Module m_module = nullptr;
-  lumen::blob::cuda::Function m_query = nullptr;
+  lumen::blob::cuda::Function m_query = nullptr, m_exactQuery = nullptr;
   lumen::blob::cuda::Address m_words = 0;
   std::uint32_t m_vesselCount = 0;
   static constexpr int kNone = -1;

@@ -6,7 +6,7 @@
 //           -ffp-contract=off -I INCLUDE query.cu
 //
 // BLOB_DEVICE_THREAD, where it is defined, is the index of a thread instead.
-#include "blob_device.h"
+#include "blob_device_exact.h"
 
 #if !defined(__global__)
 #define __global__ __attribute__((global))
@@ -45,6 +45,26 @@ BLOB_DEVICE_FN void answerNoVessel(const Columns& to, uint64_t i) {
   writeAnswer(to, i, blob_device_sample{nan, {nan, nan, nan}, nan, {nan, nan, nan}, 0, 0});
 }
 
+// Answers point i of its vessel; `Exact` is a constant, so that each kernel holds one query.
+template <bool Exact>
+BLOB_DEVICE_FN void answerPoint(const uint32_t* words, uint32_t vessel, uint32_t flags,
+                                const Columns& columns, uint64_t i) {
+  if (vessel >= words[3]) {
+    answerNoVessel(columns, i);
+    return;
+  }
+  const float* from = columns.point + 3 * i;
+  const float at[3] = {from[0], from[1], from[2]};
+  uint32_t node = columns.cursor[i];
+  blob_device_sample sample;
+  if (Exact)
+    blob_device_query_exact(words, vessel, flags, at, &node, &sample);
+  else
+    blob_device_query(words, vessel, flags, at, &node, &sample);
+  columns.cursor[i] = node;
+  writeAnswer(columns, i, sample);
+}
+
 }  // namespace
 
 // Arguments are those of the kernel in query.cl, and the vessel of each point, or null where all are
@@ -55,16 +75,19 @@ extern "C" __global__ void blob_query_points(const uint32_t* words, uint32_t ves
                                              const uint32_t* vessel_of_point) {
   const uint64_t i = BLOB_DEVICE_THREAD;
   if (i >= count) return;
-  const Columns columns{point, cursor, answer, value, state};
-  const uint32_t mine = vessel_of_point != nullptr ? vessel_of_point[i] : vessel;
-  if (mine >= words[3]) {
-    answerNoVessel(columns, i);
-    return;
-  }
-  const float at[3] = {point[3 * i], point[3 * i + 1], point[3 * i + 2]};
-  uint32_t node = cursor[i];
-  blob_device_sample sample;
-  blob_device_query(words, mine, flags, at, &node, &sample);
-  cursor[i] = node;
-  writeAnswer(columns, i, sample);
+  answerPoint<false>(words, vessel_of_point != nullptr ? vessel_of_point[i] : vessel, flags,
+                     Columns{point, cursor, answer, value, state}, i);
+}
+
+// The same with the distance to the nearest point of the wall and the normal there, as for
+// BLOB_DISTANCE_EXACT; `state` may have BLOB_DEVICE_NOT_CONVERGED.
+extern "C" __global__ void blob_query_exact_points(const uint32_t* words, uint32_t vessel,
+                                                   uint32_t flags, uint32_t count,
+                                                   const float* point, uint32_t* cursor,
+                                                   float* answer, float* value, uint32_t* state,
+                                                   const uint32_t* vessel_of_point) {
+  const uint64_t i = BLOB_DEVICE_THREAD;
+  if (i >= count) return;
+  answerPoint<true>(words, vessel_of_point != nullptr ? vessel_of_point[i] : vessel, flags,
+                    Columns{point, cursor, answer, value, state}, i);
 }

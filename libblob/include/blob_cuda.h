@@ -112,7 +112,7 @@ typedef struct blob_cuda_columns {
   uint32_t* cursor;            /* read and moved; BLOB_NOWHERE: located by a look at every node */
   float* answer;               /* of each point: distance in mm, and outward normal (4 floats) */
   float* value;                /* null, or of each point: f in mm, and its gradient (4 floats) */
-  uint32_t* state;             /* null, or of each point: BLOB_INSIDE or 0 */
+  uint32_t* state;             /* null, or of each point: BLOB_INSIDE and BLOB_NOT_CONVERGED */
   uint32_t cookie;             /* set by blob_cuda_columns_default() */
 } blob_cuda_columns;
 
@@ -122,12 +122,12 @@ BLOB_API blob_cuda_columns blob_cuda_columns_default(void) BLOB_NOEXCEPT;
 
 struct CUstream_st; /* cudaStream_t and CUstream are pointers to it */
 
-/* Launches blob_device_query() at many points, and returns before the answers are there.
- * The caller provides a stream of the device of the object (null: its default stream), flags
- * BLOB_BLENDED, BLOB_LOCAL and BLOB_HOLD as for blob_query(), and columns, of which
- * the structure itself may change after the call. A stream that is being captured into a graph
- * records the launch.
- * Fails with BLOB_CUDA_ERROR_ARGUMENT (also for BLOB_DISTANCE_EXACT) and _LAUNCH, without a launch.
+/* Launches blob_device_query() at many points, or with BLOB_DISTANCE_EXACT
+ * blob_device_query_exact(), and returns before the answers are there.
+ * The caller provides a stream of the device of the object (null: its default stream), flags as for
+ * blob_query(), and columns; the structure itself may change after the call. A stream that is being
+ * captured into a graph records the launch.
+ * Fails with BLOB_CUDA_ERROR_ARGUMENT and _LAUNCH, without a launch.
  * O(1) on the host. */
 BLOB_API blob_cuda_status blob_cuda_query(const blob_cuda* vessels, struct CUstream_st* stream,
                                           uint32_t flags,

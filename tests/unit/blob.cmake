@@ -7,6 +7,7 @@ lumen_test(blob_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/closed_form_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/cursor_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/derivative_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_exact_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/far_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/open_test.cpp

@@ -4,7 +4,7 @@
 /* clang-format off */
 #include "blob.h"
 
-#include "blob_device.h"
+#include "blob_device_exact.h"
 #include "blob_pose.h"
 /* clang-format on */
 

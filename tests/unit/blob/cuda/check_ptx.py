@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-KERNELS = {"blob_query_points"}
+KERNELS = {"blob_query_points", "blob_query_exact_points"}
 MOST_LOCAL = 128  # bytes of a thread's arrays in memory: 24 nodes that blend, and their number
 ROUNDED = {"add", "sub", "mul", "div", "sqrt", "fma", "rcp", "rsqrt"}
 

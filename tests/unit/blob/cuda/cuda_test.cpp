@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "blob_cuda.h"
+#include "blob_device_exact.h"
 #include "stand_in_driver.h"
 #include "tree.h"
 
@@ -101,6 +102,25 @@ TEST_F(BlobCuda, AnswersAreThoseOfTheLibrary) {
     ASSERT_EQ(blob_cuda_query(m_vessels.get(), nullptr, flags, &c), BLOB_CUDA_OK);
     stand_in::run(nullptr);
     expectAnswersOf(m_fork.get(), flags, before, points);
+  }
+}
+
+TEST_F(BlobCuda, ExactDistancesAreThoseOfTheHeader) {
+  ASSERT_EQ(create(), BLOB_CUDA_OK);
+  Points points(m_tube.get(), 500);
+  const Points before = points;
+  const blob_cuda_columns c = points.columns();
+  ASSERT_EQ(blob_cuda_query(m_vessels.get(), nullptr, BLOB_DISTANCE_EXACT, &c), BLOB_CUDA_OK);
+  stand_in::run(nullptr);
+  for (std::size_t i = 0; i < 500; ++i) {
+    std::uint32_t cursor = before.cursor[i];
+    blob_device_sample wanted;
+    blob_device_query_exact(m_packed.data(), 0, BLOB_DISTANCE_EXACT, &before.point[3 * i], &cursor,
+                            &wanted);
+    EXPECT_EQ(points.answer[4 * i], wanted.distance);
+    EXPECT_EQ(points.answer[4 * i + 1], wanted.normal[0]);
+    EXPECT_EQ(points.value[4 * i], wanted.value);
+    EXPECT_EQ(points.state[i], wanted.state);
   }
 }
 
@@ -199,17 +219,16 @@ TEST_F(BlobCuda, WrongArgumentsAreRefusedWithoutALaunch) {
   ASSERT_EQ(create(), BLOB_CUDA_OK);
   Points points(m_tube.get(), 10);
   stand_in::takeCalls();
-  const auto refused = [&](auto change, std::uint32_t flags = 0) {
+  const auto refused = [&](auto change) {
     blob_cuda_columns c = points.columns();
     change(c);
-    return blob_cuda_query(m_vessels.get(), nullptr, flags, &c) == BLOB_CUDA_ERROR_ARGUMENT;
+    return blob_cuda_query(m_vessels.get(), nullptr, 0, &c) == BLOB_CUDA_ERROR_ARGUMENT;
   };
   EXPECT_TRUE(refused([](blob_cuda_columns& c) { c.point = nullptr; }));
   EXPECT_TRUE(refused([](blob_cuda_columns& c) { c.cursor = nullptr; }));
   EXPECT_TRUE(refused([](blob_cuda_columns& c) { c.answer = nullptr; }));
   EXPECT_TRUE(refused([](blob_cuda_columns& c) { c.vessel = 2; }));
   EXPECT_TRUE(refused([](blob_cuda_columns& c) { c.cookie = 0; }));
-  EXPECT_TRUE(refused([](blob_cuda_columns&) {}, BLOB_DISTANCE_EXACT));
   EXPECT_EQ(blob_cuda_query(m_vessels.get(), nullptr, 0, nullptr), BLOB_CUDA_ERROR_ARGUMENT);
   EXPECT_EQ(stand_in::takeCalls(), Calls{});
 }

@@ -94,9 +94,10 @@ std::function<void()> bound(const Kernel& k, void** a, std::size_t threads) {
   const auto answer = argument<float*>(k, a, 6), value = argument<float*>(k, a, 7);
   const auto state = argument<std::uint32_t*>(k, a, 8);
   const auto ofPoint = argument<const std::uint32_t*>(k, a, 9);
+  const auto query = k.name == "blob_query_points" ? &blob_query_points : &blob_query_exact_points;
   return [=] {
     for (g_thread = 0; g_thread < threads; ++g_thread)
-      blob_query_points(words, vessel, flags, count, point, cursor, answer, value, state, ofPoint);
+      query(words, vessel, flags, count, point, cursor, answer, value, state, ofPoint);
     g.threads = threads;
   };
 }
@@ -230,7 +231,6 @@ int cuLaunchKernel(Kernel* kernel, unsigned gridX, unsigned gridY, unsigned grid
     return kInvalidValue;
   const std::size_t threads = std::size_t{gridX} * blockX;
   CUstream_st& queue = stream == nullptr ? g.defaultStream : *stream;
-  if (kernel->name != "blob_query_points") return kInvalidHandle;
   queue.launches.push_back(bound(*kernel, arguments, threads));
   return 0;
 }
