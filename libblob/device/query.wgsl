@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libblob's query in WGSL, and blob_query_points(): an invocation for each tool point. Generated
-// from blob_device.h and the headers that it includes, which explain each function and the buffer, by
+// libblob's query in WGSL, blob_query_points() and blob_query_exact_points(): an invocation for each
+// tool point. Generated from blob_device_exact.h and the headers that it includes, which explain each function and the buffer, by
 // libblob/device/translate/translate.py; change those.
 //
 // A pointer of C into the buffer is the index of a word here: words is that of the buffer's first
@@ -25,6 +25,16 @@ const BLOB_DEVICE_NOWHERE: u32 = 0xffffffffu;
 const BLOB_DEVICE_WIDE: i32 = 0;
 const BLOB_DEVICE_MOST_ACTIVE: i32 = 24;
 const BLOB_DEVICE_MANY: u32 = 0xffffffffu;
+const BLOB_DEVICE_AT_POINT: u32 = 0u;
+const BLOB_DEVICE_APPROACHING: u32 = 1u;
+const BLOB_DEVICE_BESIDE: u32 = 2u;
+const BLOB_DEVICE_GLIDING: u32 = 3u;
+const BLOB_DEVICE_CURVING: u32 = 4u;
+const BLOB_DEVICE_PROJECTING: u32 = 5u;
+const BLOB_DEVICE_FOUND: u32 = 6u;
+const BLOB_DEVICE_STOPPED: u32 = 7u;
+const BLOB_DEVICE_EXACT: u32 = 2u;
+const BLOB_DEVICE_NOT_CONVERGED: u32 = 2u;
 
 struct blob_device_sample {
   value: f32,
@@ -81,6 +91,43 @@ struct blob_device_mixture {
   shift: f32,
   radius: f32,
   is_empty: i32,
+}
+
+struct blob_device_foot {
+  at: array<f32, 3>,
+  normal: array<f32, 3>,
+  value: f32,
+  distance: f32,
+  node: u32,
+}
+
+struct blob_device_search {
+  here: blob_device_foot,
+  best: blob_device_foot,
+  first: array<f32, 3>,
+  second: array<f32, 3>,
+  diagonal: array<f32, 3>,
+  mixed: array<f32, 3>,
+  begun: array<f32, 3>,
+  before: array<f32, 3>,
+  turned: array<f32, 3>,
+  step: array<f32, 3>,
+  length: f32,
+  sag: f32,
+  gain: f32,
+  share: f32,
+  reached: f32,
+  nearest: f32,
+  radius: f32,
+  tolerance: f32,
+  first_distance: f32,
+  stage: u32,
+  is_inside: i32,
+  is_improving: i32,
+  tried: i32,
+  places: i32,
+  steps: i32,
+  slow: i32,
 }
 
 fn blob_device_lesser(a: f32, b: f32) -> f32 {
@@ -812,7 +859,524 @@ fn blob_device_query(words: u32, vessel: u32, flags: u32, point: array<f32, 3>,
   blob_device_sample_at(v, flags, place, cursor, sample);
 }
 
-// ---------------------------------------------------------------- a kernel
+fn blob_device_dot(a: array<f32, 3>, b: array<f32, 3>) -> f32 {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+fn blob_device_size(x: f32) -> f32 {
+  return select(x, -x, x < 0.0f);
+}
+
+fn blob_device_cross(a: array<f32, 3>, b: array<f32, 3>, result: ptr<function, array<f32, 3>>) {
+  (*result)[0] = a[1] * b[2] - a[2] * b[1];
+  (*result)[1] = a[2] * b[0] - a[0] * b[2];
+  (*result)[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+fn blob_device_along(a: array<f32, 3>, s: f32, b: array<f32, 3>, result: ptr<function, array<f32,
+    3>>) {
+  (*result)[0] = a[0] + s * b[0];
+  (*result)[1] = a[1] + s * b[1];
+  (*result)[2] = a[2] + s * b[2];
+}
+
+fn blob_device_perpendicular(a: array<f32, 3>, result: ptr<function, array<f32, 3>>) {
+  let x: f32 = blob_device_size(a[0]);
+  let y: f32 = blob_device_size(a[1]);
+  let z: f32 = blob_device_size(a[2]);
+  var axis: array<f32, 3>;
+  var inverse: f32;
+  axis[0] = 0.0f;
+  axis[1] = 0.0f;
+  axis[2] = 0.0f;
+  if (x <= y && x <= z) {
+    axis[0] = 1.0f;
+  } else if (y <= z) {
+    axis[1] = 1.0f;
+  } else {
+    axis[2] = 1.0f;
+  }
+  blob_device_cross(a, axis, result);
+  inverse = 1.0f / blob_device_norm((*result));
+  (*result)[0] = (*result)[0] * inverse;
+  (*result)[1] = (*result)[1] * inverse;
+  (*result)[2] = (*result)[2] * inverse;
+}
+
+fn blob_device_turn(s: blob_device_search, a: array<f32, 3>, result: ptr<function, array<f32, 3>>) {
+  (*result)[0] = s.diagonal[0] * a[0] + s.mixed[0] * a[1] + s.mixed[1] * a[2];
+  (*result)[1] = s.mixed[0] * a[0] + s.diagonal[1] * a[1] + s.mixed[2] * a[2];
+  (*result)[2] = s.mixed[1] * a[0] + s.mixed[2] * a[1] + s.diagonal[2] * a[2];
+}
+
+fn blob_device_add_products(s: ptr<function, blob_device_search>, r: array<f32, 3>, m: array<f32,
+    3>) {
+  (*s).diagonal[0] += 2.0f * (r[0] * m[0]);
+  (*s).diagonal[1] += 2.0f * (r[1] * m[1]);
+  (*s).diagonal[2] += 2.0f * (r[2] * m[2]);
+  (*s).mixed[0] += r[0] * m[1] + m[0] * r[1];
+  (*s).mixed[1] += r[0] * m[2] + m[0] * r[2];
+  (*s).mixed[2] += r[1] * m[2] + m[1] * r[2];
+}
+
+fn blob_device_shape(s: ptr<function, blob_device_search>, inverse_step: f32) {
+  var along_first: array<f32, 3>;
+  var along_second: array<f32, 3>;
+  var r: array<f32, 3>;
+  along_first[0] = ((*s).turned[0] - (*s).best.normal[0]) * inverse_step;
+  along_second[0] = ((*s).here.normal[0] - (*s).best.normal[0]) * inverse_step;
+  (*s).mixed[0] = 0.0f;
+  (*s).diagonal[0] = 0.0f;
+  along_first[1] = ((*s).turned[1] - (*s).best.normal[1]) * inverse_step;
+  along_second[1] = ((*s).here.normal[1] - (*s).best.normal[1]) * inverse_step;
+  (*s).mixed[1] = 0.0f;
+  (*s).diagonal[1] = 0.0f;
+  along_first[2] = ((*s).turned[2] - (*s).best.normal[2]) * inverse_step;
+  along_second[2] = ((*s).here.normal[2] - (*s).best.normal[2]) * inverse_step;
+  (*s).mixed[2] = 0.0f;
+  (*s).diagonal[2] = 0.0f;
+  r[0] = 0.5f * blob_device_dot(along_first, (*s).first) * (*s).first[0] + 0.5f *
+      (blob_device_dot(along_first, (*s).second) + blob_device_dot(along_second, (*s).first)) *
+      (*s).second[0];
+  r[1] = 0.5f * blob_device_dot(along_first, (*s).first) * (*s).first[1] + 0.5f *
+      (blob_device_dot(along_first, (*s).second) + blob_device_dot(along_second, (*s).first)) *
+      (*s).second[1];
+  r[2] = 0.5f * blob_device_dot(along_first, (*s).first) * (*s).first[2] + 0.5f *
+      (blob_device_dot(along_first, (*s).second) + blob_device_dot(along_second, (*s).first)) *
+      (*s).second[2];
+  blob_device_add_products(s, r, (*s).first);
+  r[0] = 0.5f * blob_device_dot(along_second, (*s).second) * (*s).second[0];
+  r[1] = 0.5f * blob_device_dot(along_second, (*s).second) * (*s).second[1];
+  r[2] = 0.5f * blob_device_dot(along_second, (*s).second) * (*s).second[2];
+  blob_device_add_products(s, r, (*s).second);
+}
+
+fn blob_device_bend(s: ptr<function, blob_device_search>, moved: array<f32, 3>, turn: array<f32, 3>)
+    {
+  let square: f32 = blob_device_dot(moved, moved);
+  var missing: array<f32, 3>;
+  var r: array<f32, 3>;
+  var inverse: f32;
+  var part: f32;
+  if (!(square > 0.0f)) {
+    return;
+  }
+  inverse = 1.0f / square;
+  blob_device_turn((*s), moved, &missing);
+  missing[0] = turn[0] - missing[0];
+  missing[1] = turn[1] - missing[1];
+  missing[2] = turn[2] - missing[2];
+  part = 0.5f * inverse * blob_device_dot(missing, moved);
+  r[0] = inverse * (missing[0] - part * moved[0]);
+  r[1] = inverse * (missing[1] - part * moved[1]);
+  r[2] = inverse * (missing[2] - part * moved[2]);
+  blob_device_add_products(s, r, moved);
+}
+
+fn blob_device_part(s: blob_device_search, part: f32, eigenvalue: f32) -> f32 {
+  let flat: f32 = 0.02f;
+  let leave: f32 = 0.1f;
+  if (eigenvalue < -flat && blob_device_size(part) < s.tolerance) {
+    return leave * s.radius;
+  }
+  return part / blob_device_greater(blob_device_size(eigenvalue), flat);
+}
+
+fn blob_device_find_step(s: ptr<function, blob_device_search>) {
+  let valley: f32 = 0.2f;
+  let doubted: f32 = 0.2f;
+  let longest: f32 = 0.5f * (*s).radius;
+  var of_first: array<f32, 3>;
+  var of_second: array<f32, 3>;
+  var a: f32;
+  var b: f32;
+  var c: f32;
+  var t1: f32;
+  var t2: f32;
+  var x: f32;
+  var y: f32;
+  var distance: f32;
+  var share: f32;
+  var copy_1 = (*s).first;
+  blob_device_perpendicular((*s).best.normal, &copy_1);
+  (*s).first = copy_1;
+  var copy_2 = (*s).second;
+  blob_device_cross((*s).best.normal, (*s).first, &copy_2);
+  (*s).second = copy_2;
+  blob_device_turn((*s), (*s).first, &of_first);
+  blob_device_turn((*s), (*s).second, &of_second);
+  distance = (*s).best.distance - blob_device_dot((*s).best.at, (*s).best.normal);
+  a = 1.0f + distance * blob_device_dot((*s).first, of_first);
+  b = distance * blob_device_dot((*s).first, of_second);
+  c = 1.0f + distance * blob_device_dot((*s).second, of_second);
+  t1 = -blob_device_dot((*s).first, (*s).best.at);
+  t2 = -blob_device_dot((*s).second, (*s).best.at);
+  if (a > valley && (a - valley) * (c - valley) > b * b) {
+    let inverse: f32 = 1.0f / (a * c - b * b);
+    x = inverse * (c * t1 - b * t2);
+    y = inverse * (a * t2 - b * t1);
+  } else {
+    let mean: f32 = 0.5f * (a + c);
+    let spread: f32 = 0.5f * (a - c);
+    let root: f32 = sqrt(spread * spread + b * b);
+    let turn: f32 = select(1.0f, spread / root, root > 0.0f);
+    let cosine: f32 = sqrt(blob_device_greater(0.5f * (1.0f + turn), 0.0f));
+    let positive: f32 = sqrt(blob_device_greater(0.5f * (1.0f - turn), 0.0f));
+    let sine: f32 = select(positive, -positive, b < 0.0f);
+    let p1: f32 = blob_device_part((*s), cosine * t1 + sine * t2, mean + root);
+    let p2: f32 = blob_device_part((*s), cosine * t2 - sine * t1, mean - root);
+    x = cosine * p1 - sine * p2;
+    y = sine * p1 + cosine * p2;
+  }
+  (*s).length = sqrt(x * x + y * y);
+  share = select(1.0f, longest / (*s).length, (*s).length > longest);
+  x = x * share;
+  y = y * share;
+  (*s).length = (*s).length * share;
+  (*s).step[0] = x * (*s).first[0] + y * (*s).second[0];
+  (*s).step[1] = x * (*s).first[1] + y * (*s).second[1];
+  (*s).step[2] = x * (*s).first[2] + y * (*s).second[2];
+  blob_device_turn((*s), (*s).step, &of_first);
+  (*s).sag = 0.5f * blob_device_dot((*s).step, of_first);
+  (*s).gain = 0.5f * (x * t1 + y * t2);
+  if ((*s).is_improving == 0) {
+    (*s).gain = blob_device_greater((*s).gain, 0.5f / doubted * (t1 * t1 + t2 * t2));
+  }
+}
+
+fn blob_device_wait(s: ptr<function, blob_device_search>, stage: u32, share: f32, vector: array<f32,
+    3>) {
+  var copy_1 = (*s).here.at;
+  blob_device_along((*s).best.at, share, vector, &copy_1);
+  (*s).here.at = copy_1;
+  (*s).here.node = (*s).best.node;
+  (*s).stage = stage;
+}
+
+fn blob_device_axis(v: blob_device_vessel, node: u32, axis: ptr<function, array<f32, 3>>) {
+  let record: u32 = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * node;
+  let first: u32 = v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
+      blob_device_buffer[record + 10u];
+  var length: f32;
+  (*axis)[0] = bitcast<f32>(blob_device_buffer[first + u32(8 * 0)]);
+  (*axis)[1] = bitcast<f32>(blob_device_buffer[first + u32(8 * 1)]);
+  (*axis)[2] = bitcast<f32>(blob_device_buffer[first + u32(8 * 2)]);
+  length = blob_device_norm((*axis));
+  (*axis)[0] = select(select(0.0f, 1.0f, 0 == 0), (*axis)[0] / length, length > 0.0f);
+  (*axis)[1] = select(select(0.0f, 1.0f, 1 == 0), (*axis)[1] / length, length > 0.0f);
+  (*axis)[2] = select(select(0.0f, 1.0f, 2 == 0), (*axis)[2] / length, length > 0.0f);
+}
+
+fn blob_device_go_beside(s: ptr<function, blob_device_search>) {
+  let across: f32 = 0.7f * (*s).radius;
+  let signed_length: f32 = select(-across, across, ((*s).tried & 1) == 0);
+  (*s).here.at[0] = signed_length * select((*s).second[0], (*s).first[0], (*s).tried < 2);
+  (*s).here.at[1] = signed_length * select((*s).second[1], (*s).first[1], (*s).tried < 2);
+  (*s).here.at[2] = signed_length * select((*s).second[2], (*s).first[2], (*s).tried < 2);
+  (*s).stage = BLOB_DEVICE_BESIDE;
+}
+
+fn blob_device_reach(s: blob_device_search) -> f32 {
+  return 0.002f * s.radius;
+}
+
+fn blob_device_curve(s: ptr<function, blob_device_search>) {
+  let reach: f32 = blob_device_reach((*s));
+  var copy_1 = (*s).first;
+  blob_device_perpendicular((*s).best.normal, &copy_1);
+  (*s).first = copy_1;
+  var copy_2 = (*s).second;
+  blob_device_cross((*s).best.normal, (*s).first, &copy_2);
+  (*s).second = copy_2;
+  (*s).tried = 0;
+  blob_device_wait(s, BLOB_DEVICE_CURVING, reach, (*s).first);
+}
+
+fn blob_device_go_on(s: ptr<function, blob_device_search>) {
+  let depth: f32 = (*s).best.distance + (*s).share * (*s).share * (*s).sag;
+  blob_device_wait(s, BLOB_DEVICE_GLIDING, (*s).share, (*s).step);
+  var copy_1 = (*s).here.at;
+  blob_device_along((*s).here.at, -depth, (*s).best.normal, &copy_1);
+  (*s).here.at = copy_1;
+}
+
+fn blob_device_project(v: blob_device_vessel, s: ptr<function, blob_device_search>) -> i32 {
+  let is_near: i32 = select(0, 1, blob_device_size((*s).here.distance) <= 0.5f * (*s).tolerance);
+  var axis: array<f32, 3>;
+  if (!((*s).here.value > 1e-20f) && !(blob_device_size((*s).here.distance) > 0.0f)) {
+    (*s).stage = BLOB_DEVICE_STOPPED;
+    return 0;
+  }
+  if (!(blob_device_dot((*s).here.normal, (*s).here.normal) > 0.0f)) {
+    blob_device_axis(v, (*s).here.node, &axis);
+    var copy_1 = (*s).here.normal;
+    blob_device_perpendicular(axis, &copy_1);
+    (*s).here.normal = copy_1;
+  }
+  var copy_2 = (*s).here.at;
+  blob_device_along((*s).here.at, -(*s).here.distance, (*s).here.normal, &copy_2);
+  (*s).here.at = copy_2;
+  (*s).here.distance = 0.0f;
+  (*s).stage = BLOB_DEVICE_PROJECTING;
+  return is_near;
+}
+
+fn blob_device_improve(v: blob_device_vessel, s: ptr<function, blob_device_search>) {
+  let most_halvings: i32 = 8;
+  let stalled: f32 = 1e-3f;
+  var length: f32;
+  if (blob_device_project(v, s) == 0) {
+    return;
+  }
+  length = blob_device_norm((*s).here.at);
+  if ((*s).is_improving == 0 || length < (*s).nearest) {
+    (*s).is_improving = 1;
+    (*s).nearest = length;
+    (*s).best = (*s).here;
+    blob_device_curve(s);
+    return;
+  }
+  (*s).places += 1;
+  (*s).share = 0.5f * (*s).share;
+  if ((*s).places < most_halvings) {
+    blob_device_wait(s, BLOB_DEVICE_PROJECTING, (*s).share, (*s).step);
+  } else {
+    (*s).stage = select(BLOB_DEVICE_STOPPED, BLOB_DEVICE_FOUND, (*s).gain <= stalled *
+        ((*s).nearest * (*s).nearest));
+  }
+}
+
+fn blob_device_stop_gliding(v: blob_device_vessel, s: ptr<function, blob_device_search>) {
+  (*s).here = (*s).best;
+  (*s).is_improving = 0;
+  blob_device_improve(v, s);
+}
+
+fn blob_device_make_step(s: ptr<function, blob_device_search>) {
+  let enough: f32 = 0.1f * (*s).tolerance;
+  let slow: f32 = 0.6f;
+  let misjudged: f32 = 0.3f;
+  let before: f32 = select((*s).length, 0.0f, (*s).steps == 0 || (*s).share < 1.0f);
+  let off: f32 = (*s).best.distance;
+  var length: f32;
+  blob_device_find_step(s);
+  (*s).share = 1.0f;
+  if ((*s).is_improving != 0) {
+    (*s).places = 0;
+    if ((*s).length <= (*s).tolerance || (*s).gain <= enough * (*s).nearest) {
+      (*s).stage = BLOB_DEVICE_FOUND;
+    } else {
+      blob_device_wait(s, BLOB_DEVICE_PROJECTING, 1.0f, (*s).step);
+    }
+    return;
+  }
+  var copy_1 = (*s).begun;
+  blob_device_along((*s).best.at, -off, (*s).best.normal, &copy_1);
+  (*s).begun = copy_1;
+  (*s).before[0] = (*s).best.normal[0];
+  (*s).before[1] = (*s).best.normal[1];
+  (*s).before[2] = (*s).best.normal[2];
+  length = blob_device_norm((*s).begun);
+  (*s).reached = length + misjudged * off * off / (*s).radius;
+  (*s).steps += 1;
+  if (before > 0.0f && (*s).length > slow * before) {
+    (*s).slow += 1;
+  }
+  if (off * off <= enough * (*s).radius && (*s).gain <= enough * length) {
+    (*s).stage = BLOB_DEVICE_FOUND;
+  } else {
+    blob_device_go_on(s);
+  }
+}
+
+fn blob_device_glide(v: blob_device_vessel, s: ptr<function, blob_device_search>) {
+  let most_places: i32 = 12;
+  let most_slow: i32 = 1;
+  let shorten: f32 = 0.4f;
+  let least_share: f32 = 0.1f;
+  let off_wall: f32 = 0.1f * (*s).radius;
+  var foot: array<f32, 3>;
+  var turn: array<f32, 3>;
+  blob_device_along((*s).here.at, -(*s).here.distance, (*s).here.normal, &foot);
+  if ((*s).places == 0) {
+    (*s).best = (*s).here;
+  }
+  (*s).places += 1;
+  if ((*s).places > most_places || !((*s).here.value > 1e-20f)) {
+    blob_device_stop_gliding(v, s);
+    return;
+  }
+  if ((*s).steps > 0 && blob_device_norm(foot) > (*s).reached) {
+    (*s).share = shorten * (*s).share;
+    if ((*s).share < least_share) {
+      blob_device_stop_gliding(v, s);
+    } else {
+      blob_device_go_on(s);
+    }
+    return;
+  }
+  (*s).best = (*s).here;
+  if (blob_device_size((*s).here.distance) > off_wall) {
+    blob_device_wait(s, BLOB_DEVICE_GLIDING, -(*s).here.distance, (*s).here.normal);
+  } else if ((*s).steps == 0 || (*s).slow > most_slow) {
+    blob_device_curve(s);
+  } else {
+    blob_device_along(foot, -1.0f, (*s).begun, &foot);
+    blob_device_along((*s).best.normal, -1.0f, (*s).before, &turn);
+    blob_device_bend(s, foot, turn);
+    blob_device_make_step(s);
+  }
+}
+
+fn blob_device_leave_point(v: blob_device_vessel, s: ptr<function, blob_device_search>) {
+  (*s).first_distance = (*s).here.distance;
+  (*s).best = (*s).here;
+  if ((*s).here.value > 1e-20f) {
+    blob_device_wait(s, BLOB_DEVICE_APPROACHING, -(*s).here.distance, (*s).here.normal);
+  } else {
+    blob_device_improve(v, s);
+  }
+}
+
+fn blob_device_arrive(v: blob_device_vessel, s: ptr<function, blob_device_search>) {
+  let is_deep: i32 = select(0, 1, (*s).is_inside != 0 && (*s).first_distance < -0.5f * (*s).radius);
+  var axis: array<f32, 3>;
+  if (is_deep != 0 && (*s).here.distance < 0.5f * (*s).first_distance) {
+    blob_device_axis(v, (*s).best.node, &axis);
+    var copy_1 = (*s).first;
+    blob_device_perpendicular(axis, &copy_1);
+    (*s).first = copy_1;
+    var copy_2 = (*s).second;
+    blob_device_cross(axis, (*s).first, &copy_2);
+    (*s).second = copy_2;
+    (*s).here.node = (*s).best.node;
+    blob_device_go_beside(s);
+  } else {
+    blob_device_glide(v, s);
+  }
+}
+
+fn blob_device_choose_side(s: ptr<function, blob_device_search>) {
+  if ((*s).tried == 0 || (*s).here.distance > (*s).best.distance) {
+    (*s).best = (*s).here;
+  }
+  (*s).tried += 1;
+  (*s).here.node = (*s).best.node;
+  if ((*s).tried < 4) {
+    blob_device_go_beside(s);
+  } else {
+    blob_device_wait(s, BLOB_DEVICE_GLIDING, -(*s).best.distance, (*s).best.normal);
+  }
+}
+
+fn blob_device_see_shape(s: ptr<function, blob_device_search>) {
+  let reach: f32 = blob_device_reach((*s));
+  (*s).tried += 1;
+  if ((*s).tried == 1) {
+    (*s).turned[0] = (*s).here.normal[0];
+    (*s).turned[1] = (*s).here.normal[1];
+    (*s).turned[2] = (*s).here.normal[2];
+    blob_device_wait(s, BLOB_DEVICE_CURVING, reach, (*s).second);
+  } else {
+    blob_device_shape(s, 1.0f / reach);
+    blob_device_make_step(s);
+  }
+}
+
+fn blob_device_advance(v: blob_device_vessel, s: ptr<function, blob_device_search>,
+    there: blob_device_sample) {
+  (*s).here.value = there.value;
+  (*s).here.distance = there.distance;
+  (*s).here.node = there.node;
+  (*s).here.normal[0] = there.normal[0];
+  (*s).here.normal[1] = there.normal[1];
+  (*s).here.normal[2] = there.normal[2];
+  if ((*s).stage == BLOB_DEVICE_AT_POINT) {
+    blob_device_leave_point(v, s);
+  } else if ((*s).stage == BLOB_DEVICE_APPROACHING) {
+    blob_device_arrive(v, s);
+  } else if ((*s).stage == BLOB_DEVICE_BESIDE) {
+    blob_device_choose_side(s);
+  } else if ((*s).stage == BLOB_DEVICE_GLIDING) {
+    blob_device_glide(v, s);
+  } else if ((*s).stage == BLOB_DEVICE_CURVING) {
+    blob_device_see_shape(s);
+  } else {
+    blob_device_improve(v, s);
+  }
+}
+
+fn blob_device_begin_search(s: ptr<function, blob_device_search>, node: u32) {
+  (*s).here.at[0] = 0.0f;
+  (*s).here.at[1] = 0.0f;
+  (*s).here.at[2] = 0.0f;
+  (*s).here.node = node;
+  (*s).stage = BLOB_DEVICE_AT_POINT;
+  (*s).share = 1.0f;
+  (*s).nearest = 0.0f;
+  (*s).reached = 0.0f;
+  (*s).gain = 0.0f;
+  (*s).sag = 0.0f;
+  (*s).length = 0.0f;
+  (*s).slow = 0;
+  (*s).steps = 0;
+  (*s).places = 0;
+  (*s).tried = 0;
+  (*s).is_improving = 0;
+}
+
+fn blob_device_report(s: blob_device_search, sample: ptr<function, blob_device_sample>) {
+  var foot: array<f32, 3>;
+  var length: f32;
+  blob_device_along(s.best.at, -s.best.distance, s.best.normal, &foot);
+  length = blob_device_norm(foot);
+  (*sample).distance = select(length, -length, s.is_inside != 0);
+  (*sample).normal[0] = s.best.normal[0];
+  (*sample).normal[1] = s.best.normal[1];
+  (*sample).normal[2] = s.best.normal[2];
+  if (s.stage != BLOB_DEVICE_FOUND) {
+    (*sample).state = (*sample).state | BLOB_DEVICE_NOT_CONVERGED;
+  }
+}
+
+fn blob_device_query_exact(words: u32, vessel: u32, flags: u32, point: array<f32, 3>,
+    cursor: ptr<function, u32>, sample: ptr<function, blob_device_sample>) {
+  let v: blob_device_vessel = blob_device_open(words, vessel);
+  let most: i32 = 128;
+  var place: blob_device_place = blob_device_place_at(point);
+  var s: blob_device_search;
+  if ((*cursor) >= v.node_count) {
+    (*cursor) = blob_device_locate(v, place);
+  }
+  blob_device_begin_search(&s, (*cursor));
+  for (var n: i32 = 0; n < most; n += 1) {
+    var there: blob_device_sample;
+    var node: u32 = s.here.node;
+    var in_range: i32;
+    place.step[0] = s.here.at[0];
+    place.step[1] = s.here.at[1];
+    place.step[2] = s.here.at[2];
+    in_range = blob_device_sample_at(v, flags, place, &node, &there);
+    if (n == 0) {
+      (*sample) = there;
+      (*cursor) = node;
+      if (in_range == 0) {
+        return;
+      }
+      s.is_inside = select(0, 1, (there.state & BLOB_DEVICE_INSIDE) != 0u);
+      s.radius = bitcast<f32>(blob_device_buffer[v.words +
+          (v.nodes + BLOB_DEVICE_NODE_WORDS * node + 3u)]);
+      s.tolerance = 1e-5f * s.radius;
+    }
+    blob_device_advance(v, &s, there);
+    if (s.stage >= BLOB_DEVICE_FOUND) {
+      break;
+    }
+  }
+  blob_device_report(s, sample);
+}
+
+// ---------------------------------------------------------------- kernels
 
 // Arguments of a dispatch; groups_x is the number of its workgroups along x.
 struct blob_query_batch {
@@ -823,7 +1387,7 @@ struct blob_query_batch {
 }
 
 // point: x, y, z of each point, mm. Cursors are read and moved. answer: distance in mm and
-// outward normal; value: f and its gradient; state: BLOB_DEVICE_INSIDE or 0.
+// outward normal; value: f and its gradient; state: BLOB_DEVICE_INSIDE and _NOT_CONVERGED.
 @group(0) @binding(1) var<uniform> blob_batch: blob_query_batch;
 @group(0) @binding(2) var<storage, read> blob_point: array<f32>;
 @group(0) @binding(3) var<storage, read_write> blob_cursor: array<u32>;
@@ -841,6 +1405,22 @@ fn blob_query_points(@builtin(global_invocation_id) id: vec3<u32>) {
   var node = blob_cursor[i];
   var s: blob_device_sample;
   blob_device_query(0u, blob_batch.vessel, blob_batch.flags, at, &node, &s);
+  blob_cursor[i] = node;
+  blob_answer[i] = vec4<f32>(s.distance, s.normal[0], s.normal[1], s.normal[2]);
+  blob_value[i] = vec4<f32>(s.value, s.gradient[0], s.gradient[1], s.gradient[2]);
+  blob_state[i] = s.state;
+}
+
+@compute @workgroup_size(64)
+fn blob_query_exact_points(@builtin(global_invocation_id) id: vec3<u32>) {
+  let i = id.y * blob_batch.groups_x * 64u + id.x;
+  if (i >= blob_batch.count) {
+    return;
+  }
+  let at = array<f32, 3>(blob_point[3u * i], blob_point[3u * i + 1u], blob_point[3u * i + 2u]);
+  var node = blob_cursor[i];
+  var s: blob_device_sample;
+  blob_device_query_exact(0u, blob_batch.vessel, blob_batch.flags, at, &node, &s);
   blob_cursor[i] = node;
   blob_answer[i] = vec4<f32>(s.distance, s.normal[0], s.normal[1], s.normal[2]);
   blob_value[i] = vec4<f32>(s.value, s.gradient[0], s.gradient[1], s.gradient[2]);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""libblob's query for NVIDIA Warp, and blob_query_points(), a thread for each tool point.
+"""libblob's query for NVIDIA Warp, with blob_query_points() and blob_query_exact_points(), a thread for each tool point.
 
-Generated from blob_device.h and the headers that it includes, which explain each function and the buffer, by
+Generated from blob_device_exact.h and the headers that it includes, which explain each function and the buffer, by
 libblob/device/translate/translate.py; change those. A pointer of C into the buffer is the index of a
 word here: `words` is that of the buffer's first word, 0 unless other data lie before it. Functions
 return what C writes through pointers, after their result. Needs wp.where and wp.cast (Warp 1.7).
@@ -27,6 +27,16 @@ BLOB_DEVICE_NOWHERE = wp.constant(wp.uint32(0xffffffff))
 BLOB_DEVICE_WIDE = wp.constant(0)
 BLOB_DEVICE_MOST_ACTIVE = wp.constant(24)
 BLOB_DEVICE_MANY = wp.constant(wp.uint32(0xffffffff))
+BLOB_DEVICE_AT_POINT = wp.constant(wp.uint32(0))
+BLOB_DEVICE_APPROACHING = wp.constant(wp.uint32(1))
+BLOB_DEVICE_BESIDE = wp.constant(wp.uint32(2))
+BLOB_DEVICE_GLIDING = wp.constant(wp.uint32(3))
+BLOB_DEVICE_CURVING = wp.constant(wp.uint32(4))
+BLOB_DEVICE_PROJECTING = wp.constant(wp.uint32(5))
+BLOB_DEVICE_FOUND = wp.constant(wp.uint32(6))
+BLOB_DEVICE_STOPPED = wp.constant(wp.uint32(7))
+BLOB_DEVICE_EXACT = wp.constant(wp.uint32(2))
+BLOB_DEVICE_NOT_CONVERGED = wp.constant(wp.uint32(2))
 
 blob_device_floats = wp.types.vector(length=8, dtype=wp.float32)
 blob_device_nodes = wp.types.vector(length=24, dtype=wp.uint32)
@@ -95,6 +105,45 @@ class blob_device_mixture:
     shift: wp.float32
     radius: wp.float32
     is_empty: wp.int32
+
+
+@wp.struct
+class blob_device_foot:
+    at: wp.vec3
+    normal: wp.vec3
+    value: wp.float32
+    distance: wp.float32
+    node: wp.uint32
+
+
+@wp.struct
+class blob_device_search:
+    here: blob_device_foot
+    best: blob_device_foot
+    first: wp.vec3
+    second: wp.vec3
+    diagonal: wp.vec3
+    mixed: wp.vec3
+    begun: wp.vec3
+    before: wp.vec3
+    turned: wp.vec3
+    step: wp.vec3
+    length: wp.float32
+    sag: wp.float32
+    gain: wp.float32
+    share: wp.float32
+    reached: wp.float32
+    nearest: wp.float32
+    radius: wp.float32
+    tolerance: wp.float32
+    first_distance: wp.float32
+    stage: wp.uint32
+    is_inside: wp.int32
+    is_improving: wp.int32
+    tried: wp.int32
+    places: wp.int32
+    steps: wp.int32
+    slow: wp.int32
 
 
 @wp.func
@@ -830,6 +879,512 @@ def blob_device_query(buffer: wp.array(dtype=wp.uint32), words: wp.uint32, vesse
     return cursor, sample
 
 
+@wp.func
+def blob_device_dot(a: wp.vec3, b: wp.vec3):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@wp.func
+def blob_device_size(x: wp.float32):
+    return wp.where(x < 0.0, -x, x)
+
+
+@wp.func
+def blob_device_cross(a: wp.vec3, b: wp.vec3, result: wp.vec3):
+    result[0] = a[1] * b[2] - a[2] * b[1]
+    result[1] = a[2] * b[0] - a[0] * b[2]
+    result[2] = a[0] * b[1] - a[1] * b[0]
+    return result
+
+
+@wp.func
+def blob_device_along(a: wp.vec3, s: wp.float32, b: wp.vec3, result: wp.vec3):
+    for i in range(3):
+        result[i] = a[i] + s * b[i]
+    return result
+
+
+@wp.func
+def blob_device_perpendicular(a: wp.vec3, result: wp.vec3):
+    x = blob_device_size(a[0])
+    y = blob_device_size(a[1])
+    z = blob_device_size(a[2])
+    axis = wp.vec3()
+    inverse = wp.float32(0.0)
+    for i in range(3):
+        axis[i] = wp.float32(0.0)
+    if x <= y and x <= z:
+        axis[0] = wp.float32(1.0)
+    elif y <= z:
+        axis[1] = wp.float32(1.0)
+    else:
+        axis[2] = wp.float32(1.0)
+    result = blob_device_cross(a, axis, result)
+    inverse = 1.0 / blob_device_norm(result)
+    for i in range(3):
+        result[i] = result[i] * inverse
+    return result
+
+
+@wp.func
+def blob_device_turn(s: blob_device_search, a: wp.vec3, result: wp.vec3):
+    result[0] = s.diagonal[0] * a[0] + s.mixed[0] * a[1] + s.mixed[1] * a[2]
+    result[1] = s.mixed[0] * a[0] + s.diagonal[1] * a[1] + s.mixed[2] * a[2]
+    result[2] = s.mixed[1] * a[0] + s.mixed[2] * a[1] + s.diagonal[2] * a[2]
+    return result
+
+
+@wp.func
+def blob_device_add_products(s: blob_device_search, r: wp.vec3, m: wp.vec3):
+    for i in range(3):
+        s.diagonal[i] += 2.0 * (r[i] * m[i])
+    s.mixed[0] += r[0] * m[1] + m[0] * r[1]
+    s.mixed[1] += r[0] * m[2] + m[0] * r[2]
+    s.mixed[2] += r[1] * m[2] + m[1] * r[2]
+    return s
+
+
+@wp.func
+def blob_device_shape(s: blob_device_search, inverse_step: wp.float32):
+    along_first = wp.vec3()
+    along_second = wp.vec3()
+    r = wp.vec3()
+    for i in range(3):
+        along_first[i] = (s.turned[i] - s.best.normal[i]) * inverse_step
+        along_second[i] = (s.here.normal[i] - s.best.normal[i]) * inverse_step
+        s.mixed[i] = wp.float32(0.0)
+        s.diagonal[i] = wp.float32(0.0)
+    for i in range(3):
+        r[i] = (0.5 * blob_device_dot(along_first, s.first) * s.first[i] + 0.5 *
+                (blob_device_dot(along_first, s.second) + blob_device_dot(along_second, s.first)) *
+                s.second[i])
+    s = blob_device_add_products(s, r, s.first)
+    for i in range(3):
+        r[i] = 0.5 * blob_device_dot(along_second, s.second) * s.second[i]
+    s = blob_device_add_products(s, r, s.second)
+    return s
+
+
+@wp.func
+def blob_device_bend(s: blob_device_search, moved: wp.vec3, turn: wp.vec3):
+    square = blob_device_dot(moved, moved)
+    missing = wp.vec3()
+    r = wp.vec3()
+    inverse = wp.float32(0.0)
+    part = wp.float32(0.0)
+    if not (square > 0.0):
+        return s
+    inverse = 1.0 / square
+    missing = blob_device_turn(s, moved, missing)
+    for i in range(3):
+        missing[i] = turn[i] - missing[i]
+    part = 0.5 * inverse * blob_device_dot(missing, moved)
+    for i in range(3):
+        r[i] = inverse * (missing[i] - part * moved[i])
+    s = blob_device_add_products(s, r, moved)
+    return s
+
+
+@wp.func
+def blob_device_part(s: blob_device_search, part: wp.float32, eigenvalue: wp.float32):
+    flat = wp.float32(0.02)
+    leave = wp.float32(0.1)
+    if eigenvalue < -flat and blob_device_size(part) < s.tolerance:
+        return leave * s.radius
+    return part / blob_device_greater(blob_device_size(eigenvalue), flat)
+
+
+@wp.func
+def blob_device_find_step(s: blob_device_search):
+    valley = wp.float32(0.2)
+    doubted = wp.float32(0.2)
+    longest = 0.5 * s.radius
+    of_first = wp.vec3()
+    of_second = wp.vec3()
+    a = wp.float32(0.0)
+    b = wp.float32(0.0)
+    c = wp.float32(0.0)
+    t1 = wp.float32(0.0)
+    t2 = wp.float32(0.0)
+    x = wp.float32(0.0)
+    y = wp.float32(0.0)
+    distance = wp.float32(0.0)
+    share = wp.float32(0.0)
+    copy_1 = blob_device_perpendicular(s.best.normal, s.first)
+    s.first = copy_1
+    copy_2 = blob_device_cross(s.best.normal, s.first, s.second)
+    s.second = copy_2
+    of_first = blob_device_turn(s, s.first, of_first)
+    of_second = blob_device_turn(s, s.second, of_second)
+    distance = s.best.distance - blob_device_dot(s.best.at, s.best.normal)
+    a = 1.0 + distance * blob_device_dot(s.first, of_first)
+    b = distance * blob_device_dot(s.first, of_second)
+    c = 1.0 + distance * blob_device_dot(s.second, of_second)
+    t1 = -blob_device_dot(s.first, s.best.at)
+    t2 = -blob_device_dot(s.second, s.best.at)
+    if a > valley and (a - valley) * (c - valley) > b * b:
+        inverse = 1.0 / (a * c - b * b)
+        x = inverse * (c * t1 - b * t2)
+        y = inverse * (a * t2 - b * t1)
+    else:
+        mean = 0.5 * (a + c)
+        spread = 0.5 * (a - c)
+        root = wp.sqrt(spread * spread + b * b)
+        turn = wp.where(root > 0.0, spread / root, 1.0)
+        cosine = wp.sqrt(blob_device_greater(0.5 * (1.0 + turn), 0.0))
+        positive = wp.sqrt(blob_device_greater(0.5 * (1.0 - turn), 0.0))
+        sine = wp.where(b < 0.0, -positive, positive)
+        p1 = blob_device_part(s, cosine * t1 + sine * t2, mean + root)
+        p2 = blob_device_part(s, cosine * t2 - sine * t1, mean - root)
+        x = cosine * p1 - sine * p2
+        y = sine * p1 + cosine * p2
+    s.length = wp.sqrt(x * x + y * y)
+    share = wp.where(s.length > longest, longest / s.length, 1.0)
+    x = x * share
+    y = y * share
+    s.length = s.length * share
+    for i in range(3):
+        s.step[i] = x * s.first[i] + y * s.second[i]
+    of_first = blob_device_turn(s, s.step, of_first)
+    s.sag = 0.5 * blob_device_dot(s.step, of_first)
+    s.gain = 0.5 * (x * t1 + y * t2)
+    if s.is_improving == 0:
+        s.gain = blob_device_greater(s.gain, 0.5 / doubted * (t1 * t1 + t2 * t2))
+    return s
+
+
+@wp.func
+def blob_device_wait(s: blob_device_search, stage: wp.uint32, share: wp.float32, vector: wp.vec3):
+    copy_1 = blob_device_along(s.best.at, share, vector, s.here.at)
+    s.here.at = copy_1
+    s.here.node = s.best.node
+    s.stage = stage
+    return s
+
+
+@wp.func
+def blob_device_axis(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, node: wp.uint32,
+        axis: wp.vec3):
+    record = v.words + v.nodes + BLOB_DEVICE_NODE_WORDS * node
+    first = (v.words + v.neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS *
+            blob_device_load(buffer, record + wp.uint32(10)))
+    length = wp.float32(0.0)
+    for i in range(3):
+        axis[i] = blob_device_number(buffer, first + wp.uint32(8 * i))
+    length = blob_device_norm(axis)
+    for i in range(3):
+        axis[i] = wp.where(length > 0.0, axis[i] / length, wp.where(i == 0, 1.0, 0.0))
+    return axis
+
+
+@wp.func
+def blob_device_go_beside(s: blob_device_search):
+    across = 0.7 * s.radius
+    signed_length = wp.where((s.tried & 1) == 0, across, -across)
+    for i in range(3):
+        s.here.at[i] = signed_length * wp.where(s.tried < 2, s.first[i], s.second[i])
+    s.stage = BLOB_DEVICE_BESIDE
+    return s
+
+
+@wp.func
+def blob_device_reach(s: blob_device_search):
+    return 0.002 * s.radius
+
+
+@wp.func
+def blob_device_curve(s: blob_device_search):
+    reach = blob_device_reach(s)
+    copy_2 = blob_device_perpendicular(s.best.normal, s.first)
+    s.first = copy_2
+    copy_3 = blob_device_cross(s.best.normal, s.first, s.second)
+    s.second = copy_3
+    s.tried = wp.int32(0)
+    s = blob_device_wait(s, BLOB_DEVICE_CURVING, reach, s.first)
+    return s
+
+
+@wp.func
+def blob_device_go_on(s: blob_device_search):
+    depth = s.best.distance + s.share * s.share * s.sag
+    s = blob_device_wait(s, BLOB_DEVICE_GLIDING, s.share, s.step)
+    copy_1 = blob_device_along(s.here.at, -depth, s.best.normal, s.here.at)
+    s.here.at = copy_1
+    return s
+
+
+@wp.func
+def blob_device_project(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        s: blob_device_search):
+    is_near = wp.where(blob_device_size(s.here.distance) <= 0.5 * s.tolerance, 1, 0)
+    axis = wp.vec3()
+    if not (s.here.value > 1e-20) and not (blob_device_size(s.here.distance) > 0.0):
+        s.stage = BLOB_DEVICE_STOPPED
+        return wp.int32(0), s
+    if not (blob_device_dot(s.here.normal, s.here.normal) > 0.0):
+        axis = blob_device_axis(buffer, v, s.here.node, axis)
+        copy_4 = blob_device_perpendicular(axis, s.here.normal)
+        s.here.normal = copy_4
+    copy_5 = blob_device_along(s.here.at, -s.here.distance, s.here.normal, s.here.at)
+    s.here.at = copy_5
+    s.here.distance = wp.float32(0.0)
+    s.stage = BLOB_DEVICE_PROJECTING
+    return is_near, s
+
+
+@wp.func
+def blob_device_improve(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        s: blob_device_search):
+    most_halvings = wp.int32(8)
+    stalled = wp.float32(1e-3)
+    length = wp.float32(0.0)
+    result_1, s = blob_device_project(buffer, v, s)
+    if result_1 == 0:
+        return s
+    length = blob_device_norm(s.here.at)
+    if s.is_improving == 0 or length < s.nearest:
+        s.is_improving = wp.int32(1)
+        s.nearest = length
+        s.best = s.here
+        s = blob_device_curve(s)
+        return s
+    s.places += 1
+    s.share = 0.5 * s.share
+    if s.places < most_halvings:
+        s = blob_device_wait(s, BLOB_DEVICE_PROJECTING, s.share, s.step)
+    else:
+        s.stage = wp.where(s.gain <= stalled * (s.nearest * s.nearest), BLOB_DEVICE_FOUND,
+                BLOB_DEVICE_STOPPED)
+    return s
+
+
+@wp.func
+def blob_device_stop_gliding(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        s: blob_device_search):
+    s.here = s.best
+    s.is_improving = wp.int32(0)
+    s = blob_device_improve(buffer, v, s)
+    return s
+
+
+@wp.func
+def blob_device_make_step(s: blob_device_search):
+    enough = 0.1 * s.tolerance
+    slow = wp.float32(0.6)
+    misjudged = wp.float32(0.3)
+    before = wp.where(s.steps == 0 or s.share < 1.0, 0.0, s.length)
+    off = s.best.distance
+    length = wp.float32(0.0)
+    s = blob_device_find_step(s)
+    s.share = wp.float32(1.0)
+    if s.is_improving != 0:
+        s.places = wp.int32(0)
+        if s.length <= s.tolerance or s.gain <= enough * s.nearest:
+            s.stage = BLOB_DEVICE_FOUND
+        else:
+            s = blob_device_wait(s, BLOB_DEVICE_PROJECTING, 1.0, s.step)
+        return s
+    copy_1 = blob_device_along(s.best.at, -off, s.best.normal, s.begun)
+    s.begun = copy_1
+    for i in range(3):
+        s.before[i] = s.best.normal[i]
+    length = blob_device_norm(s.begun)
+    s.reached = length + misjudged * off * off / s.radius
+    s.steps += 1
+    if before > 0.0 and s.length > slow * before:
+        s.slow += 1
+    if off * off <= enough * s.radius and s.gain <= enough * length:
+        s.stage = BLOB_DEVICE_FOUND
+    else:
+        s = blob_device_go_on(s)
+    return s
+
+
+@wp.func
+def blob_device_glide(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        s: blob_device_search):
+    most_places = wp.int32(12)
+    most_slow = wp.int32(1)
+    shorten = wp.float32(0.4)
+    least_share = wp.float32(0.1)
+    off_wall = 0.1 * s.radius
+    foot = wp.vec3()
+    turn = wp.vec3()
+    foot = blob_device_along(s.here.at, -s.here.distance, s.here.normal, foot)
+    if s.places == 0:
+        s.best = s.here
+    s.places += 1
+    if s.places > most_places or not (s.here.value > 1e-20):
+        s = blob_device_stop_gliding(buffer, v, s)
+        return s
+    if s.steps > 0 and blob_device_norm(foot) > s.reached:
+        s.share = shorten * s.share
+        if s.share < least_share:
+            s = blob_device_stop_gliding(buffer, v, s)
+        else:
+            s = blob_device_go_on(s)
+        return s
+    s.best = s.here
+    if blob_device_size(s.here.distance) > off_wall:
+        s = blob_device_wait(s, BLOB_DEVICE_GLIDING, -s.here.distance, s.here.normal)
+    elif s.steps == 0 or s.slow > most_slow:
+        s = blob_device_curve(s)
+    else:
+        foot = blob_device_along(foot, -1.0, s.begun, foot)
+        turn = blob_device_along(s.best.normal, -1.0, s.before, turn)
+        s = blob_device_bend(s, foot, turn)
+        s = blob_device_make_step(s)
+    return s
+
+
+@wp.func
+def blob_device_leave_point(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        s: blob_device_search):
+    s.first_distance = s.here.distance
+    s.best = s.here
+    if s.here.value > 1e-20:
+        s = blob_device_wait(s, BLOB_DEVICE_APPROACHING, -s.here.distance, s.here.normal)
+    else:
+        s = blob_device_improve(buffer, v, s)
+    return s
+
+
+@wp.func
+def blob_device_arrive(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        s: blob_device_search):
+    is_deep = wp.where(s.is_inside != 0 and s.first_distance < -0.5 * s.radius, 1, 0)
+    axis = wp.vec3()
+    if is_deep != 0 and s.here.distance < 0.5 * s.first_distance:
+        axis = blob_device_axis(buffer, v, s.best.node, axis)
+        copy_1 = blob_device_perpendicular(axis, s.first)
+        s.first = copy_1
+        copy_2 = blob_device_cross(axis, s.first, s.second)
+        s.second = copy_2
+        s.here.node = s.best.node
+        s = blob_device_go_beside(s)
+    else:
+        s = blob_device_glide(buffer, v, s)
+    return s
+
+
+@wp.func
+def blob_device_choose_side(s: blob_device_search):
+    if s.tried == 0 or s.here.distance > s.best.distance:
+        s.best = s.here
+    s.tried += 1
+    s.here.node = s.best.node
+    if s.tried < 4:
+        s = blob_device_go_beside(s)
+    else:
+        s = blob_device_wait(s, BLOB_DEVICE_GLIDING, -s.best.distance, s.best.normal)
+    return s
+
+
+@wp.func
+def blob_device_see_shape(s: blob_device_search):
+    reach = blob_device_reach(s)
+    s.tried += 1
+    if s.tried == 1:
+        for i in range(3):
+            s.turned[i] = s.here.normal[i]
+        s = blob_device_wait(s, BLOB_DEVICE_CURVING, reach, s.second)
+    else:
+        s = blob_device_shape(s, 1.0 / reach)
+        s = blob_device_make_step(s)
+    return s
+
+
+@wp.func
+def blob_device_advance(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        s: blob_device_search, there: blob_device_sample):
+    s.here.value = there.value
+    s.here.distance = there.distance
+    s.here.node = there.node
+    for i in range(3):
+        s.here.normal[i] = there.normal[i]
+    if s.stage == BLOB_DEVICE_AT_POINT:
+        s = blob_device_leave_point(buffer, v, s)
+    elif s.stage == BLOB_DEVICE_APPROACHING:
+        s = blob_device_arrive(buffer, v, s)
+    elif s.stage == BLOB_DEVICE_BESIDE:
+        s = blob_device_choose_side(s)
+    elif s.stage == BLOB_DEVICE_GLIDING:
+        s = blob_device_glide(buffer, v, s)
+    elif s.stage == BLOB_DEVICE_CURVING:
+        s = blob_device_see_shape(s)
+    else:
+        s = blob_device_improve(buffer, v, s)
+    return s
+
+
+@wp.func
+def blob_device_begin_search(s: blob_device_search, node: wp.uint32):
+    for i in range(3):
+        s.here.at[i] = wp.float32(0.0)
+    s.here.node = node
+    s.stage = BLOB_DEVICE_AT_POINT
+    s.share = wp.float32(1.0)
+    s.nearest = wp.float32(0.0)
+    s.reached = wp.float32(0.0)
+    s.gain = wp.float32(0.0)
+    s.sag = wp.float32(0.0)
+    s.length = wp.float32(0.0)
+    s.slow = wp.int32(0)
+    s.steps = wp.int32(0)
+    s.places = wp.int32(0)
+    s.tried = wp.int32(0)
+    s.is_improving = wp.int32(0)
+    return s
+
+
+@wp.func
+def blob_device_report(s: blob_device_search, sample: blob_device_sample):
+    foot = wp.vec3()
+    length = wp.float32(0.0)
+    foot = blob_device_along(s.best.at, -s.best.distance, s.best.normal, foot)
+    length = blob_device_norm(foot)
+    sample.distance = wp.where(s.is_inside != 0, -length, length)
+    for i in range(3):
+        sample.normal[i] = s.best.normal[i]
+    if s.stage != BLOB_DEVICE_FOUND:
+        sample.state = sample.state | BLOB_DEVICE_NOT_CONVERGED
+    return sample
+
+
+@wp.func
+def blob_device_query_exact(buffer: wp.array(dtype=wp.uint32), words: wp.uint32, vessel: wp.uint32,
+        flags: wp.uint32, point: wp.vec3, cursor: wp.uint32, sample: blob_device_sample):
+    v = blob_device_open(buffer, words, vessel)
+    most = wp.int32(128)
+    place = blob_device_place_at(point)
+    s = blob_device_search()
+    if cursor >= v.node_count:
+        cursor = blob_device_locate(buffer, v, place)
+    s = blob_device_begin_search(s, cursor)
+    for n in range(most):
+        there = blob_device_sample()
+        node = s.here.node
+        in_range = wp.int32(0)
+        for i in range(3):
+            place.step[i] = s.here.at[i]
+        result_4, node, there = blob_device_sample_at(buffer, v, flags, place, node, there)
+        in_range = result_4
+        if n == 0:
+            sample = there
+            cursor = node
+            if in_range == 0:
+                return cursor, sample
+            s.is_inside = wp.where((there.state & BLOB_DEVICE_INSIDE) != wp.uint32(0), 1, 0)
+            s.radius = blob_device_number(buffer, v.words +
+                    (v.nodes + BLOB_DEVICE_NODE_WORDS * node + wp.uint32(3)))
+            s.tolerance = 1e-5 * s.radius
+        s = blob_device_advance(buffer, v, s, there)
+        if s.stage >= BLOB_DEVICE_FOUND:
+            break
+    sample = blob_device_report(s, sample)
+    return cursor, sample
+
+
 @wp.kernel
 def blob_query_points(
     buffer: wp.array(dtype=wp.uint32),
@@ -843,12 +1398,39 @@ def blob_query_points(
     gradient: wp.array(dtype=wp.vec3),
     state: wp.array(dtype=wp.uint32),
 ):
-    """Points, mm; cursors are read and moved. Answers: distance in mm and outward normal, f and its
-    gradient, BLOB_DEVICE_INSIDE or 0."""
+    """Points, mm; cursors are read and moved. Answers of blob_device_query(): distance in mm and
+    outward normal, f and its gradient, BLOB_DEVICE_INSIDE or 0."""
     i = wp.tid()
     sample = blob_device_sample()
     node = cursor[i]
     node, sample = blob_device_query(buffer, wp.uint32(0), vessel, flags, point[i], node, sample)
+    cursor[i] = node
+    distance[i] = sample.distance
+    normal[i] = sample.normal
+    value[i] = sample.value
+    gradient[i] = sample.gradient
+    state[i] = sample.state
+
+
+@wp.kernel
+def blob_query_exact_points(
+    buffer: wp.array(dtype=wp.uint32),
+    vessel: wp.uint32,
+    flags: wp.uint32,
+    point: wp.array(dtype=wp.vec3),
+    cursor: wp.array(dtype=wp.uint32),
+    distance: wp.array(dtype=wp.float32),
+    normal: wp.array(dtype=wp.vec3),
+    value: wp.array(dtype=wp.float32),
+    gradient: wp.array(dtype=wp.vec3),
+    state: wp.array(dtype=wp.uint32),
+):
+    """Points, mm; cursors are read and moved. Answers of blob_device_query_exact(): distance in mm and
+    outward normal, f and its gradient, BLOB_DEVICE_INSIDE and _NOT_CONVERGED."""
+    i = wp.tid()
+    sample = blob_device_sample()
+    node = cursor[i]
+    node, sample = blob_device_query_exact(buffer, wp.uint32(0), vessel, flags, point[i], node, sample)
     cursor[i] = node
     distance[i] = sample.distance
     normal[i] = sample.normal

@@ -18,9 +18,6 @@
 /* clang-format off */
 #define BLOB_DEVICE_EXACT 2u         /* flag of blob.h, for kernels */
 #define BLOB_DEVICE_NOT_CONVERGED 2u /* state */
-/* Share of the radius between normals whose difference is the wall's bend: about the root of their
- * rounding, below which that takes over. */
-#define BLOB_DEVICE_REACH 0.002f
 /* clang-format on */
 
 /* ---------------------------------------------------------------- stages */
@@ -47,16 +44,22 @@ BLOB_DEVICE_FN void blob_device_axis(const blob_device_vessel* v, blob_device_wo
 
 /* Waits at the side of this number of a point in the lumen, whose normal leads along the vessel. */
 BLOB_DEVICE_FN void blob_device_go_beside(blob_device_search* s) {
-  const float across = 0.7f * s->radius, signed_length = s->tried % 2 == 0 ? across : -across;
+  const float across = 0.7f * s->radius, signed_length = (s->tried & 1) == 0 ? across : -across;
   int i;
   for (i = 0; i < 3; ++i)
     s->here.at[i] = signed_length * (s->tried < 2 ? s->first[i] : s->second[i]);
   s->stage = BLOB_DEVICE_BESIDE;
 }
 
+/* Distance between places whose normals give the wall's bend, mm: about the root of the rounding of
+ * normals, below which that takes over. */
+BLOB_DEVICE_FN float blob_device_reach(const blob_device_search* s) {
+  return 0.002f * s->radius;
+}
+
 /* Waits for normals at two places about the best one, which state how the wall bends there. */
 BLOB_DEVICE_FN void blob_device_curve(blob_device_search* s) {
-  const float reach = BLOB_DEVICE_REACH * s->radius;
+  const float reach = blob_device_reach(s);
   blob_device_perpendicular(s->best.normal, s->first);
   blob_device_cross(s->best.normal, s->first, s->second);
   s->tried = 0;
@@ -222,7 +225,7 @@ BLOB_DEVICE_FN void blob_device_choose_side(blob_device_search* s) {
 
 /* After f at a place about the best one. */
 BLOB_DEVICE_FN void blob_device_see_shape(blob_device_search* s) {
-  const float reach = BLOB_DEVICE_REACH * s->radius;
+  const float reach = blob_device_reach(s);
   int i;
   s->tried += 1;
   if (s->tried == 1) {

@@ -117,17 +117,17 @@ BLOB_DEVICE_FN void blob_device_shape(blob_device_search* s, float inverse_step)
 
 /* Corrects the matrix by what a move has turned the normal: the least change of a symmetric matrix
  * that explains the turn (M. Powell, A new algorithm for unconstrained optimization, 1970). */
-BLOB_DEVICE_FN void blob_device_bend(blob_device_search* s, const float* move, const float* turn) {
-  const float square = blob_device_dot(move, move);
+BLOB_DEVICE_FN void blob_device_bend(blob_device_search* s, const float* moved, const float* turn) {
+  const float square = blob_device_dot(moved, moved);
   float missing[3], r[3], inverse, part;
   int i;
   if (!(square > 0)) return;
   inverse = 1.0f / square;
-  blob_device_turn(s, move, missing);
+  blob_device_turn(s, moved, missing);
   for (i = 0; i < 3; ++i) missing[i] = turn[i] - missing[i];
-  part = 0.5f * inverse * blob_device_dot(missing, move);
-  for (i = 0; i < 3; ++i) r[i] = inverse * (missing[i] - part * move[i]);
-  blob_device_add_products(s, r, move);
+  part = 0.5f * inverse * blob_device_dot(missing, moved);
+  for (i = 0; i < 3; ++i) r[i] = inverse * (missing[i] - part * moved[i]);
+  blob_device_add_products(s, r, moved);
 }
 
 /* A step's part along an eigenvector, in which the vector to the query point has this part. */

@@ -2,11 +2,12 @@
 // @ts-check
 // libblob's query by WebGPU: batches of points on a GPUDevice, by the shader ../device/query.wgsl. Typed by JSDoc.
 // Units: mm, in the case's frame (LPS), as 32-bit floats. Distances are negative in the lumen.
-import { NOWHERE, State } from "./blob.mjs";
+import { Flags, NOWHERE, State } from "./blob.mjs";
 
 const kGroup = 64, kMostGroups = 65535; // invocations of a workgroup; workgroups along one axis
 // usages and modes of WebGPU's buffers, whose global names only browsers have
-const kMapRead = 1, kCopySource = 4, kCopyTarget = 8, kUniform = 64, kStorage = 128, kRead = 1;
+const kMapRead = 1, kCopySource = 4, kCopyTarget = 8, kUniform = 64, kStorage = 128, kRead = 1, kCompute = 4;
+const kBindings = ["read-only-storage", "uniform", "read-only-storage", "storage", "storage", "storage", "storage"];
 
 /** Vessels on a graphics processor. Call destroy() when done. */
 export class GpuVessels {
@@ -22,9 +23,23 @@ export class GpuVessels {
     this.count = words[3];
     this.buffer = device.createBuffer({ size: words.byteLength, usage: kStorage | kCopyTarget });
     device.queue.writeBuffer(this.buffer, 0, words);
-    const module = device.createShaderModule({ label: "libblob", code: shader });
-    const compute = { module, entryPoint: "blob_query_points" };
-    this.pipeline = device.createComputePipeline({ label: "libblob", layout: "auto", compute });
+    this.module = device.createShaderModule({ label: "libblob", code: shader });
+    this.layout = device.createBindGroupLayout({
+      entries: kBindings.map((type, binding) => ({ binding, visibility: kCompute, buffer: { type } })) });
+    /** Compiled kernels by their names. @type {Map<string, any>} */
+    this.pipelines = new Map();
+    this.pipeline(0);
+  }
+  /** The kernel for flags, compiled when it is needed. @param {number} flags */
+  pipeline(flags) {
+    const entryPoint = flags & Flags.DISTANCE_EXACT ? "blob_query_exact_points" : "blob_query_points";
+    let made = this.pipelines.get(entryPoint);
+    if (made === undefined) {
+      const { device, module } = this, layout = device.createPipelineLayout({ bindGroupLayouts: [this.layout] });
+      made = device.createComputePipeline({ label: "libblob", layout, compute: { module, entryPoint } });
+      this.pipelines.set(entryPoint, made);
+    }
+    return made;
   }
   /** Room for `count` points, at least one, and their answers, to be kept and used in every step. @param {number} count */
   batch(count) { return new GpuBatch(this, count); }
@@ -54,20 +69,20 @@ export class GpuBatch {
       { array, buffer: make(array.byteLength, kStorage | kCopySource | kCopyTarget) }));
     this.copy = make(this.outputs.reduce((sum, o) => sum + o.array.byteLength, 0), kMapRead | kCopyTarget);
     const buffers = [vessels.buffer, this.uniform, this.pointBuffer, ...this.outputs.map(o => o.buffer)];
-    this.group = device.createBindGroup({ layout: vessels.pipeline.getBindGroupLayout(0),
+    this.group = device.createBindGroup({ layout: vessels.layout,
       entries: buffers.map((buffer, binding) => ({ binding, resource: { buffer } })) });
   }
   /** Sends points and cursors, and starts the shader; the answers stay in the device's buffers. The vessel is its index in
-   * the buffer; throws a RangeError for none. @param {number} [flags] LOCAL and HOLD of Flags @param {number} [vessel] */
+   * the buffer; throws a RangeError for none. @param {number} [flags] LOCAL, HOLD and DISTANCE_EXACT of Flags @param {number} [vessel] */
   dispatch(flags = 0, vessel = 0) {
     const { count } = this.vessels;
     if (!(vessel >= 0 && vessel < count)) throw new RangeError(`libblob: found vessel ${vessel}, expected less than ${count}`);
-    const { device, pipeline } = this.vessels, groups = Math.ceil(this.count / kGroup), along = Math.min(groups, kMostGroups);
+    const { device } = this.vessels, groups = Math.ceil(this.count / kGroup), along = Math.min(groups, kMostGroups);
     device.queue.writeBuffer(this.uniform, 0, new Uint32Array([vessel, flags, this.count, along]));
     device.queue.writeBuffer(this.pointBuffer, 0, this.points);
     device.queue.writeBuffer(this.outputs[0].buffer, 0, this.cursors);
     const encoder = device.createCommandEncoder(), pass = encoder.beginComputePass();
-    pass.setPipeline(pipeline);
+    pass.setPipeline(this.vessels.pipeline(flags));
     pass.setBindGroup(0, this.group);
     pass.dispatchWorkgroups(along, Math.ceil(groups / along));
     pass.end();
@@ -75,7 +90,7 @@ export class GpuBatch {
   }
   /** Asks for all points and reads the answers; rejects as dispatch() throws, and where the device is lost. One query of a
    * batch runs at a time.
-   * @param {number} [flags] LOCAL and HOLD of Flags @param {number} [vessel] its index in the buffer */
+   * @param {number} [flags] LOCAL, HOLD and DISTANCE_EXACT of Flags @param {number} [vessel] its index in the buffer */
   async query(flags = 0, vessel = 0) {
     this.dispatch(flags, vessel);
     const { device } = this.vessels, encoder = device.createCommandEncoder();

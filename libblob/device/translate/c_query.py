@@ -11,7 +11,8 @@ from collections import namedtuple
 from pycparser import c_ast, c_parser
 
 INCLUDE = pathlib.Path(__file__).resolve().parents[2] / "include"
-HEADERS = ("blob_device_model.h", "blob_device_lanes.h", "blob_device_blend.h", "blob_device.h")
+HEADERS = ("blob_device_model.h", "blob_device_lanes.h", "blob_device_blend.h", "blob_device.h", "blob_device_wall.h",
+           "blob_device_exact.h")
 PREFIX = "blob_device_"
 BITS = "bits"  # the union that shows a float as a word
 AXES = 3  # elements of each array that is a parameter

@@ -17,9 +17,9 @@ BUFFER = "buffer: wp.array(dtype=wp.uint32)"
 
 HEAD = '''\
 # SPDX-License-Identifier: Apache-2.0
-"""libblob's query for NVIDIA Warp, and blob_query_points(), a thread for each tool point.
+"""libblob's query for NVIDIA Warp, with blob_query_points() and blob_query_exact_points(), a thread for each tool point.
 
-Generated from blob_device.h and the headers that it includes, which explain each function and the buffer, by
+Generated from blob_device_exact.h and the headers that it includes, which explain each function and the buffer, by
 libblob/device/translate/translate.py; change those. A pointer of C into the buffer is the index of a
 word here: `words` is that of the buffer's first word, 0 unless other data lie before it. Functions
 return what C writes through pointers, after their result. Needs wp.where and wp.cast (Warp 1.7).
@@ -41,10 +41,10 @@ def blob_device_load(buffer: wp.array(dtype=wp.uint32), index: wp.uint32):
 def blob_device_number(buffer: wp.array(dtype=wp.uint32), index: wp.uint32):
     return wp.cast(buffer[wp.int32(index)], wp.float32)'''
 
-TAIL = '''
+KERNEL = '''
 
 @wp.kernel
-def blob_query_points(
+def blob_{name}_points(
     buffer: wp.array(dtype=wp.uint32),
     vessel: wp.uint32,
     flags: wp.uint32,
@@ -56,12 +56,12 @@ def blob_query_points(
     gradient: wp.array(dtype=wp.vec3),
     state: wp.array(dtype=wp.uint32),
 ):
-    """Points, mm; cursors are read and moved. Answers: distance in mm and outward normal, f and its
-    gradient, BLOB_DEVICE_INSIDE or 0."""
+    """Points, mm; cursors are read and moved. Answers of blob_device_{name}(): distance in mm and
+    outward normal, f and its gradient, {states}."""
     i = wp.tid()
     sample = blob_device_sample()
     node = cursor[i]
-    node, sample = blob_device_query(buffer, wp.uint32(0), vessel, flags, point[i], node, sample)
+    node, sample = blob_device_{name}(buffer, wp.uint32(0), vessel, flags, point[i], node, sample)
     cursor[i] = node
     distance[i] = sample.distance
     normal[i] = sample.normal
@@ -69,6 +69,8 @@ def blob_query_points(
     gradient[i] = sample.gradient
     state[i] = sample.state
 '''
+TAIL = (KERNEL.format(name="query", states="BLOB_DEVICE_INSIDE or 0")
+        + KERNEL.format(name="query_exact", states="BLOB_DEVICE_INSIDE and _NOT_CONVERGED"))
 
 
 class Warp(Writer):

@@ -10,8 +10,8 @@ TYPES = {"float": "f32", "int": "i32", "word": "u32", "words": "u32", "bits": "u
 
 HEAD = """\
 // SPDX-License-Identifier: Apache-2.0
-// libblob's query in WGSL, and blob_query_points(): an invocation for each tool point. Generated
-// from blob_device.h and the headers that it includes, which explain each function and the buffer, by
+// libblob's query in WGSL, blob_query_points() and blob_query_exact_points(): an invocation for each
+// tool point. Generated from blob_device_exact.h and the headers that it includes, which explain each function and the buffer, by
 // libblob/device/translate/translate.py; change those.
 //
 // A pointer of C into the buffer is the index of a word here: words is that of the buffer's first
@@ -22,7 +22,7 @@ HEAD = """\
 """
 
 TAIL = """
-// ---------------------------------------------------------------- a kernel
+// ---------------------------------------------------------------- kernels
 
 // Arguments of a dispatch; groups_x is the number of its workgroups along x.
 struct blob_query_batch {
@@ -33,16 +33,18 @@ struct blob_query_batch {
 }
 
 // point: x, y, z of each point, mm. Cursors are read and moved. answer: distance in mm and
-// outward normal; value: f and its gradient; state: BLOB_DEVICE_INSIDE or 0.
+// outward normal; value: f and its gradient; state: BLOB_DEVICE_INSIDE and _NOT_CONVERGED.
 @group(0) @binding(1) var<uniform> blob_batch: blob_query_batch;
 @group(0) @binding(2) var<storage, read> blob_point: array<f32>;
 @group(0) @binding(3) var<storage, read_write> blob_cursor: array<u32>;
 @group(0) @binding(4) var<storage, read_write> blob_answer: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> blob_value: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> blob_state: array<u32>;
+"""
 
+KERNEL = """
 @compute @workgroup_size(64)
-fn blob_query_points(@builtin(global_invocation_id) id: vec3<u32>) {
+fn blob_%(name)s_points(@builtin(global_invocation_id) id: vec3<u32>) {
   let i = id.y * blob_batch.groups_x * 64u + id.x;
   if (i >= blob_batch.count) {
     return;
@@ -50,13 +52,14 @@ fn blob_query_points(@builtin(global_invocation_id) id: vec3<u32>) {
   let at = array<f32, 3>(blob_point[3u * i], blob_point[3u * i + 1u], blob_point[3u * i + 2u]);
   var node = blob_cursor[i];
   var s: blob_device_sample;
-  blob_device_query(0u, blob_batch.vessel, blob_batch.flags, at, &node, &s);
+  blob_device_%(name)s(0u, blob_batch.vessel, blob_batch.flags, at, &node, &s);
   blob_cursor[i] = node;
   blob_answer[i] = vec4<f32>(s.distance, s.normal[0], s.normal[1], s.normal[2]);
   blob_value[i] = vec4<f32>(s.value, s.gradient[0], s.gradient[1], s.gradient[2]);
   blob_state[i] = s.state;
 }
 """
+TAIL += KERNEL % {"name": "query"} + KERNEL % {"name": "query_exact"}
 
 
 class Wgsl(Writer):

@@ -31,7 +31,7 @@ class Answer(NamedTuple):
     normal: wp.array  #: (n,) vec3, outwards
     value: wp.array  #: (n,) float32, f in mm
     gradient: wp.array  #: (n,) vec3, of f
-    state: wp.array  #: (n,) uint32, 1 in the lumen
+    state: wp.array  #: (n,) uint32, 1 in the lumen, and 2 where an exact distance has not converged
     cursor: wp.array  #: (n,) uint32, the node of each point
 
 
@@ -66,7 +66,7 @@ class Vessels:
                       wp.full(count, wp.uint32(NOWHERE), dtype=wp.uint32, device=device))
 
     def query(self, points, cursor=None, flags: int = blob.BLENDED, vessel: int = 0, out=None) -> Answer:
-        """Launches blob_query_points(); Warp runs it asynchronously on a graphics processor.
+        """Launches blob_query_points() or blob_query_exact_points(); Warp runs it asynchronously on a graphics processor.
 
         Parameters
         ----------
@@ -75,7 +75,7 @@ class Vessels:
         cursor : wp.array of uint32, optional
             The node of each point, which moves; located where it is missing.
         flags : int
-            blob.LOCAL and blob.HOLD.
+            blob.LOCAL, blob.HOLD and blob.DISTANCE_EXACT.
         vessel : int
             Index in the buffer. Raises IndexError for one that it does not have.
         out : Answer, optional
@@ -93,7 +93,8 @@ class Vessels:
         for name, array in zip(Answer._fields, answer):
             if len(array) != count:
                 raise ValueError(f"{name}: found {len(array)} elements, expected {count}")
-        wp.launch(functions.blob_query_points, dim=count, device=device, inputs=[
+        exact = flags & blob.DISTANCE_EXACT
+        wp.launch(functions.blob_query_exact_points if exact else functions.blob_query_points, dim=count, device=device, inputs=[
             self.buffer, vessel, flags, points, answer.cursor, answer.distance, answer.normal,
             answer.value, answer.gradient, answer.state])
         return answer

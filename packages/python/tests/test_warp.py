@@ -58,6 +58,19 @@ class WarpTest(unittest.TestCase):
                 np.testing.assert_allclose(found.normal.numpy()[steep], wanted.normal[steep], atol=1e-4)
                 np.testing.assert_allclose(found.gradient.numpy(), wanted.gradient, rtol=1e-4, atol=1e-5)
 
+    def test_exact_distances_are_those_of_libblob(self):
+        for vessel, model in enumerate(self.models):
+            points = self.points(vessel)[0][:60]
+            cursor = model.cursor(points)
+            found = self.vessels.query(points, wp.array(cursor.node, dtype=wp.uint32), blob.DISTANCE_EXACT, vessel)
+            wanted = model.query(points, cursor, blob.DISTANCE_EXACT)
+            np.testing.assert_array_equal(found.cursor.numpy(), wanted.node)
+            np.testing.assert_array_equal(found.state.numpy() & 1 == 1, wanted.inside)
+            radius = self.cases[vessel].tree.radius[wanted.node]
+            near = np.abs(found.distance.numpy() - wanted.distance) <= 1e-5 * np.maximum(radius, wanted.distance)
+            self.assertLessEqual(np.sum(~near), 1)  # where another place of the wall is nearest about it
+            np.testing.assert_allclose(found.value.numpy(), wanted.value, rtol=1e-5, atol=1e-6)
+
     def test_unknown_cursors_are_located_and_kept(self):
         points, _ = self.points(0)
         points = points[:5]

@@ -60,7 +60,7 @@ def struct(described):
     class Record:
         def __init__(self):
             for name, kind in fields.items():
-                object.__setattr__(self, name, kind() if issubclass(kind, Vector) else kind(0))
+                object.__setattr__(self, name, kind(0) if issubclass(kind, np.generic) else kind())
 
         def __setattr__(self, name, value):
             same(value, getattr(self, name), name)
