@@ -33,11 +33,11 @@ struct Columns {
 
 BLOB_DEVICE_FN void writeAnswer(const Columns& to, uint64_t i, const blob_device_sample& sample) {
   to.answer[4 * i] = sample.distance;
-  for (int k = 0; k < 3; ++k) to.answer[4 * i + 1 + k] = sample.normal[k];
+  for (uint32_t k = 0; k < 3; ++k) to.answer[4 * i + 1 + k] = sample.normal[k];
   if (to.state != nullptr) to.state[i] = sample.state;
   if (to.value == nullptr) return;
   to.value[4 * i] = sample.value;
-  for (int k = 0; k < 3; ++k) to.value[4 * i + 1 + k] = sample.gradient[k];
+  for (uint32_t k = 0; k < 3; ++k) to.value[4 * i + 1 + k] = sample.gradient[k];
 }
 
 BLOB_DEVICE_FN void answerNoVessel(const Columns& to, uint64_t i) {

@@ -14,10 +14,14 @@ endforeach()
 target_include_directories(cuda_stand_in PRIVATE ${PROJECT_SOURCE_DIR}/libblob/include PUBLIC ${folder})
 
 lumen_test(blob_cuda_test
+  LABELS memory
   LIBS lumen_options lumen::blob_cuda cuda_stand_in
   SOURCES ${folder}/cuda_test.cpp ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp)
 target_include_directories(blob_cuda_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
 
+if(LUMEN_SANITIZE)
+  return()
+endif()
 foreach(kind no half)
   add_executable(cuda_with_${kind}_driver ${folder}/without_driver.c)
   target_link_libraries(cuda_with_${kind}_driver PRIVATE lumen::blob_cuda)

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "blob.h"
-#include "blob_device.h"
+#include "blob_device_exact.h"
 #include "blob_pose.h"
 #include "tree.h"
 
@@ -235,6 +235,7 @@ TEST(BlobDeviceCheck, AChangedBufferThatPassesIsQueriedWithinItsBounds) {
       const float point[3] = {static_cast<float>(k) - 2, 0.3f, 0.1f};
       blob_device_sample sample;
       blob_device_query(words.data(), 0, 0, point, &cursor, &sample);
+      blob_device_query_exact(words.data(), 0, 0, point, &cursor, &sample);
     }
     ASSERT_LT(cursor, words[BLOB_DEVICE_HEADER_WORDS + 1]);
   }
