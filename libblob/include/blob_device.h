@@ -16,6 +16,9 @@
  *     blob_device_sample s;
  *     blob_device_query(words, vessel, BLOB_DEVICE_BLENDED, point, &cursor, &s);
  *
+ * blob_device_exact.h adds the distance to the nearest point of the wall, blob_device_batch.h eight
+ * points at once in OpenCL C.
+ *
  * Points are floats, mm, in the frame of the case. Every operation is that of blob_query(), in its
  * order: where a compiler divides and takes square roots as IEEE 754 does, and does not fuse a*b+c,
  * answers have the bits of blob_query() at that point; elsewhere they differ by rounding.

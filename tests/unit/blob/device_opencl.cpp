@@ -264,7 +264,7 @@ double apart(double a, double b) {
 
 // How answers agree. A leak is a point that one side has in the lumen and the other outside.
 struct Agreement {
-  std::size_t same = 0, leaks = 0, near = 0;
+  std::size_t same = 0, leaks = 0, near = 0, farther = 0;
   double distance = 0;  // mm; in radii where they are more than a radius R outside
   double others = 0;    // normals; f in mm, and its gradient
 
@@ -277,6 +277,7 @@ struct Agreement {
       const double *a = &here.numbers[kNumbers * i], *b = &there.numbers[kNumbers * i];
       const double error = apart(a[0], b[0]) / std::max(1.0, a[0] / radius);
       near += error <= kDistance ? 1 : 0;
+      farther += error > kDistance && std::abs(b[0]) > std::abs(a[0]) ? 1 : 0;
       distance = std::max(distance, error);
       for (std::size_t k = 1; k < kNumbers; ++k) others = std::max(others, apart(a[k], b[k]));
     }
@@ -313,11 +314,12 @@ bool compare(const std::string& name, const blob_model* model, std::uint32_t fla
   const Agreement found(model, library.answers(), device.answers());
   const auto number = static_cast<double>(count);
   std::printf(
-      "%s, flags %u: %zu points, same node %zu, distance within %.2g mm (%.3f %% within 1e-5), "
-      "others "
-      "%.2g, %zu leaks; processor time of %.1f ns a point there, %.1f by the library; %zu bytes\n",
+      "%s, flags %u: %zu points, same node %zu, distance within %.2g mm (%.3f %% within 1e-5, "
+      "farther at %zu), others %.2g, %zu leaks; processor time of %.1f ns a point there, %.1f by "
+      "the "
+      "library; %zu bytes\n",
       name.c_str(), flags, count, found.same, found.distance,
-      100 * static_cast<double>(found.near) / number, found.others, found.leaks,
+      100 * static_cast<double>(found.near) / number, found.farther, found.others, found.leaks,
       1e9 * ofDevice / number, 1e9 * ofLibrary / number, 4 * words.size());
   return found.isGood(flags, count);
 }
