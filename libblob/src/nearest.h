@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "model.h"
+#include "wall_foot.h"
 
 namespace lumen::blob {
 
@@ -14,15 +15,8 @@ namespace lumen::blob {
 void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
               std::uint32_t& node, blob_sample& sample) noexcept;
 
-/// Replaces distance and normal by those of the nearest point of the wall. The sample is an answer
-/// of f at the point.
-void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
-                  blob_sample& sample) noexcept;
-
-constexpr std::size_t kMostRefined = 64;
-
-/// refineSample() for those of at most kMostRefined points that are in range, with the same bits: the
-/// searches ask the back end together, as a batch.
+/// Replaces distance and normal of those of at most kMostRefined points that are in range by those
+/// of the nearest point of the wall. The samples are answers of f at the points.
 void refineSamples(const blob_model& model, std::uint32_t flags, std::size_t count,
                    const double (*points)[3], const bool* inRange, blob_sample* samples) noexcept;
 

@@ -15,29 +15,14 @@ struct WallShape {
   double hessian[6];
 };
 
-/// Corrects the Hessian by what a move along the wall, mm, has turned the normal: the least change of
-/// a symmetric matrix that explains the turn (M. Powell, A new algorithm for unconstrained
-/// optimization, 1970).
-void bendWall(WallShape& wall, const field::Vec& move, const field::Vec& turn) noexcept;
-
 /// Lengths that bound a step, mm.
 struct StepBounds {
   double radius, tolerance;
-};
-
-/// A step along the wall.
-struct WallStep {
-  field::Vec step;     ///< mm
-  double length, sag;  ///< mm; sag is how far the wall bends away from the tangent
-  double gain;         ///< half the decrease of the squared distance, mm^2, or more
 };
 
 /// Solves (I + d S) step = tangential part of the vector to the query point, S the shape operator
 /// of the wall and d the distance. Directions in which the foot is a farthest point are followed
 /// downhill. mm; at most half the radius.
 field::Vec stepDownhill(const WallShape& wall, const StepBounds& bounds) noexcept;
-
-/// The same step with its facts, fast well within the valley of a nearest point.
-WallStep stepAlongWall(const WallShape& wall, const StepBounds& bounds) noexcept;
 
 }  // namespace lumen::blob

@@ -7,6 +7,7 @@
 
 #include "model.h"
 #include "posed_model.h"
+#include "wall_foot.h"
 
 namespace lumen::blob {
 
@@ -35,8 +36,6 @@ struct Backend {
   /// Bounds on f in the ball of `radius` mm around a point; radius at most half of the node's.
   void (*bounds)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t node,
                  float radius, float* least, float* greatest);
-  /// Derivatives of the node's own model at a point in range of it.
-  void (*shape)(const blob_model&, const double* point, std::uint32_t node, Shape& shape);
   /// Answers at any point, with the bits of `query`. False if the point is out of range; `sample`
   /// is valid even then.
   bool (*queryOne)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t& node,
@@ -49,6 +48,8 @@ struct Backend {
   void (*placeNeighbours)(blob_pose&, const std::uint32_t* nodes, std::size_t count);
   /// The greatest strain of edges, which are indices into pose.edgeReference.
   float (*greatestStrain)(const blob_pose&, const std::uint32_t* edges, std::size_t count);
+  /// The nearest points of the wall.
+  void (*findFeet)(const blob_model&, std::uint32_t flags, const FootJob&);
 };
 
 /// A back end; null where the build lacks it.

@@ -29,6 +29,36 @@ struct Parts {
   bool follows, blends;
 };
 
+inline Parts partsOf(std::uint32_t flags) {
+  return {(flags & BLOB_HOLD) == 0, (flags & BLOB_LOCAL) == 0};
+}
+
+// The answer at one point, without the rows of a group: its numbers are in all lanes.
+struct PointAnswer {
+  F8 field[4], wall[4];
+  F4 row;  // f and grad f, with the kernel's shift
+  M8 inside;
+};
+
+// Evaluates f at one point; false if that is out of range.
+template <class K>
+inline bool evaluatePoint(const View& view, Parts parts, const D4& point, std::uint32_t& node,
+                          PointAnswer& answer) {
+  F4 x;
+  if (!enterNode(view, point, node, x)) return false;
+  if (parts.follows) node = followFrom(view, point, node, x);
+  const Lane lane =
+      parts.blends ? evaluateBlended<K>(view, point, node, x) : evaluateLocal<K>(view, node, x);
+  answer.row = lane.field;
+  answer.field[0] = splat<0>(lane.field);
+  answer.field[1] = splat<1>(lane.field);
+  answer.field[2] = splat<2>(lane.field);
+  answer.field[3] = splat<3>(lane.field);
+  const F8 at[4] = {splat<0>(x), splat<1>(x), splat<2>(x), set1(lane.radius)};
+  answer.inside = finishLanes<K>(view, answer.field, at, set1(lane.shift), answer.wall);
+  return true;
+}
+
 // Finds the node of a point, and its rivals; false for a point out of range.
 inline bool placeLane(const View& view, Parts parts, const D4& point, std::uint32_t& node, Group& g,
                       std::size_t i) {
@@ -201,7 +231,7 @@ LUMEN_NOINLINE void writeGroup(const View& view, const Job& job, std::size_t fir
 template <class K>
 inline void queryBatch(const View& view, std::uint32_t flags, const Job& job, std::size_t first,
                        std::size_t count, Batch& batch) {
-  const Parts parts{(flags & BLOB_HOLD) == 0, (flags & BLOB_LOCAL) == 0};
+  const Parts parts = partsOf(flags);
   const std::size_t groups = (count + kLanes - 1) / kLanes;
   const auto sizeOf = [count](std::size_t g) {
     const std::size_t left = count - g * kLanes;

@@ -13,6 +13,8 @@
 #include "simd/wall_distance.h"
 #include "simd/blend_group.h"
 #include "simd/batch.h"
+#include "simd/foot_lanes.h"
+#include "simd/foot_search.h"
 #include "simd/pose_nodes.h"
 #include "simd/entry.h"
 // clang-format on

@@ -33,46 +33,6 @@ inline bool isInside(const blob_model& model, std::uint32_t flags, const double*
   return firstLane(lane.field) * scale > view.level;
 }
 
-template <class K>
-inline void findShape(const blob_model& model, const double* point, std::uint32_t node,
-                      Shape& shape) {
-  const View view(model);
-  const FieldNode& field = view.fieldNode(node);
-  const BlobBlock* blocks = view.blocks + field.block;
-  const Splats at(relative(view.nodes[node], load3(point)) + load4(field.place));
-  const F8 zero = set1(0.0f);
-  const float shift =
-      kIsShifted<K> && field.blockCount > 0 ? leastExponent(blocks, field.blockCount, at) : 0.0f;
-  F8 slope = zero, x = zero, y = zero, z = zero;
-  F8 xx = zero, yy = zero, zz = zero, xy = zero, xz = zero, yz = zero;
-  for (std::uint32_t b = 0; b < field.blockCount; ++b) {
-    Offsets d = computeOffsets(blocks[b], at);
-    if constexpr (kIsShifted<K>) d.u = max(d.u - set1(shift), zero);
-    const F8 a = load(blocks[b].a), w = load(blocks[b].w), first = K::term(d.u, a, w).slope;
-    const F8 second = (set1(4.0f) * w) * (a * a) * K::second(d.u);
-    const F8 sx = second * d.x, sy = second * d.y, sz = second * d.z;
-    slope = slope + first;
-    x = x + first * d.x;
-    y = y + first * d.y;
-    z = z + first * d.z;
-    xx = xx + sx * d.x;
-    yy = yy + sy * d.y;
-    zz = zz + sz * d.z;
-    xy = xy + sx * d.y;
-    xz = xz + sx * d.z;
-    yz = yz + sy * d.z;
-  }
-  float sum[12];
-  store4(sum, sums(x, y, z, slope));
-  store4(sum + 4, sums(xx, yy, zz, xy));
-  store4(sum + 8, sums(xz, yz, zero, zero));
-  for (int i = 0; i < 3; ++i) {
-    shape.gradient[i] = sum[i];
-    shape.hessian[i] = sum[4 + i] + sum[3];
-    shape.hessian[3 + i] = sum[7 + i];
-  }
-}
-
 // Bounds on a node's f in a ball: every blob's part falls with the distance from its centre, so the
 // ends of the ball along the line through the centre bound it.
 template <class K>
@@ -122,29 +82,20 @@ inline void boundField(const blob_model& model, std::uint32_t flags, const doubl
   }
 }
 
-// Answers at one point, without the rows of a group: its numbers are in all lanes.
+// Answers at one point.
 template <class K>
 inline bool queryPoint(const blob_model& model, std::uint32_t flags, const double* point,
                        std::uint32_t& node, blob_sample& sample) {
-  const D4 p = load3(point);
   const View view(model);
-  F4 x;
-  if (!enterNode(view, p, node, x)) {
+  PointAnswer answer;
+  if (!evaluatePoint<K>(view, partsOf(flags), load3(point), node, answer)) {
     answerOutOfRange(model, point, node, sample);
     return false;
   }
-  if ((flags & BLOB_HOLD) == 0) node = followFrom(view, p, node, x);
-  const Lane lane = (flags & BLOB_LOCAL) != 0 ? evaluateLocal<K>(view, node, x)
-                                              : evaluateBlended<K>(view, p, node, x);
-  F8 field[4] = {splat<0>(lane.field), splat<1>(lane.field), splat<2>(lane.field),
-                 splat<3>(lane.field)};
-  const F8 at[4] = {splat<0>(x), splat<1>(x), splat<2>(x), set1(lane.radius)};
-  F8 wall[4];
-  const M8 inside = finishLanes<K>(view, field, at, set1(lane.shift), wall);
-  storeAsDoubles(&sample.value, kIsShifted<K> ? firstLanes(field) : lane.field);
-  storeAsDoubles(&sample.distance, firstLanes(wall));
+  storeAsDoubles(&sample.value, kIsShifted<K> ? firstLanes(answer.field) : answer.row);
+  storeAsDoubles(&sample.distance, firstLanes(answer.wall));
   sample.node = node;
-  sample.state = maskBits(inside) & 1U;
+  sample.state = maskBits(answer.inside) & 1U;
   return true;
 }
 
@@ -160,9 +111,9 @@ inline void queryColumns(const blob_model& model, std::uint32_t flags, const Job
 }
 
 template <class K>
-constexpr Backend kBackend{&locateLeast,     &followCursor,  &isInside<K>,     &boundField<K>,
-                           &findShape<K>,    &queryPoint<K>, &queryColumns<K>, &placeBlobs,
-                           &placeNeighbours, &greatestStrain};
+constexpr Backend kBackend{&locateLeast,    &followCursor,    &isInside<K>, &boundField<K>,
+                           &queryPoint<K>,  &queryColumns<K>, &placeBlobs,  &placeNeighbours,
+                           &greatestStrain, &findFeet<K>};
 
 struct ChooseBackend {
   template <class K>

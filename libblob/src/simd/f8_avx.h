@@ -105,6 +105,10 @@ inline D4 load4(const double* p) {
 inline D4 load3(const double* p) {
   return {_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_load_sd(p + 2), 1)};
 }
+/// Three doubles; the fourth is zero.
+inline D4 makePoint(double x, double y, double z) {
+  return {_mm256_setr_pd(x, y, z, 0.0)};
+}
 /// a - b as floats.
 inline F4 subtractToFloat(D4 a, D4 b) {
   return {_mm256_cvtpd_ps(_mm256_sub_pd(a.v, b.v))};

@@ -125,6 +125,10 @@ inline D4 load4(const double* p) {
 inline D4 load3(const double* p) {
   return {{p[0], p[1], p[2], 0.0}};
 }
+/// Three doubles; the fourth is zero.
+inline D4 makePoint(double x, double y, double z) {
+  return {{x, y, z, 0.0}};
+}
 /// a - b as floats.
 inline F4 subtractToFloat(const D4& a, const D4& b) {
   F4 r;

@@ -7,6 +7,7 @@
 
 #include "answer.h"
 #include "columns.h"
+#include "hessian.h"
 #include "simd/backend.h"
 
 namespace lumen::blob {
