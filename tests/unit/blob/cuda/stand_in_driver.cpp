@@ -48,7 +48,7 @@ struct State {
   std::size_t threads = 0;
 } g;
 
-// Notes a call; returns the result that it was told to fail with, or 0.
+// Notes a call. Returns 0, or the fault that a test has set for this function.
 int called(const char* name) {
   g.calls.emplace_back(name);
   const auto fault = g.faults.find(name);
