@@ -37,7 +37,8 @@ bool load(Driver& d, std::string& reason) {
       get("cuCtxPopCurrent_v2", d.contextPop) && get("cuModuleLoadDataEx", d.moduleLoad) &&
       get("cuModuleUnload", d.moduleUnload) && get("cuModuleGetFunction", d.moduleFunction) &&
       get("cuMemAlloc_v2", d.allocate) && get("cuMemFree_v2", d.release) &&
-      get("cuMemcpyHtoD_v2", d.copyToDevice) && get("cuLaunchKernel", d.launch);
+      get("cuMemcpyHtoD_v2", d.copyToDevice) && get("cuStreamSynchronize", d.streamSynchronize) &&
+      get("cuLaunchKernel", d.launch);
   dlclose(library);
   return complete;
 }

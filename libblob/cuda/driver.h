@@ -37,6 +37,7 @@ struct Driver {
   Result (*allocate)(Address*, std::size_t bytes) = nullptr;
   Result (*release)(Address) = nullptr;
   Result (*copyToDevice)(Address, const void* from, std::size_t bytes) = nullptr;
+  Result (*streamSynchronize)(Stream) = nullptr;
   Result (*launch)(Function, unsigned gridX, unsigned gridY, unsigned gridZ, unsigned blockX,
                    unsigned blockY, unsigned blockZ, unsigned sharedBytes, Stream, void** arguments,
                    void** extra) = nullptr;

@@ -91,9 +91,16 @@ blob_cuda_status blob_cuda::upload(const void* buffer, std::size_t size, std::st
     reason = reasonOf("cuMemAlloc", result);
     return BLOB_CUDA_ERROR_DEVICE_MEMORY;
   }
+  const char* function = "cuMemcpyHtoD";
   result = m_driver.copyToDevice(m_words, buffer, size);
+  if (result == kSuccess) {
+    // the copy from pageable memory returns before the device has it, and streams of callers do not
+    // wait for the default stream
+    function = "cuStreamSynchronize";
+    result = m_driver.streamSynchronize(nullptr);
+  }
   if (result == kSuccess) return BLOB_CUDA_OK;
-  reason = reasonOf("cuMemcpyHtoD", result);
+  reason = reasonOf(function, result);
   return BLOB_CUDA_ERROR_DEVICE_MEMORY;
 }
 

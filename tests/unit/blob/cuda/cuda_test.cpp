@@ -264,7 +264,8 @@ TEST_F(BlobCuda, EachFaultOfTheDriverHasItsStatusAndLeavesNothing) {
                                   {"cuModuleLoadDataEx", BLOB_CUDA_ERROR_KERNEL},
                                   {"cuModuleGetFunction", BLOB_CUDA_ERROR_KERNEL},
                                   {"cuMemAlloc_v2", BLOB_CUDA_ERROR_DEVICE_MEMORY},
-                                  {"cuMemcpyHtoD_v2", BLOB_CUDA_ERROR_DEVICE_MEMORY}};
+                                  {"cuMemcpyHtoD_v2", BLOB_CUDA_ERROR_DEVICE_MEMORY},
+                                  {"cuStreamSynchronize", BLOB_CUDA_ERROR_DEVICE_MEMORY}};
   for (const FaultOfDriver& fault : faults) {
     SCOPED_TRACE(fault.function);
     stand_in::reset();
@@ -333,6 +334,13 @@ TEST_F(BlobCuda, TheCurrentContextIsUsedAndStaysCurrent) {
   m_vessels.reset();
   EXPECT_EQ(stand_in::held(), 0U);
   EXPECT_EQ(stand_in::entered(), 1U);
+}
+
+TEST_F(BlobCuda, TheBufferIsOnTheDeviceWhenCreationReturns) {
+  ASSERT_EQ(create(), BLOB_CUDA_OK);
+  const Calls calls = stand_in::takeCalls();
+  const auto copy = std::find(calls.begin(), calls.end(), "cuMemcpyHtoD_v2");
+  EXPECT_NE(std::find(copy, calls.end(), "cuStreamSynchronize"), calls.end());
 }
 
 TEST_F(BlobCuda, ClosingFreesWhatWasMade) {

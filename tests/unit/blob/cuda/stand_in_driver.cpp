@@ -235,6 +235,25 @@ int cuLaunchKernel(Kernel* kernel, unsigned gridX, unsigned gridY, unsigned grid
   return 0;
 }
 
+int cuStreamCreate(CUstream_st** stream, unsigned flags) {
+  if (const int result = calledInContext("cuStreamCreate")) return result;
+  if (flags > 1) return kInvalidValue;
+  *stream = new CUstream_st;
+  return 0;
+}
+
+int cuStreamDestroy_v2(CUstream_st* stream) {
+  if (const int result = calledInContext("cuStreamDestroy_v2")) return result;
+  delete stream;
+  return 0;
+}
+
+int cuStreamSynchronize(CUstream_st* stream) {
+  if (const int result = calledInContext("cuStreamSynchronize")) return result;
+  lumen::blob::test::stand_in::run(stream);
+  return 0;
+}
+
 }  // extern "C"
 
 namespace lumen::blob::test::stand_in {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stand-in for NVIDIA's driver: a library of the same soname whose device is host memory, and which
 // runs the kernels of query.cu as this processor's compiler makes them. A launch waits in its stream
-// until run() is called. It proves nothing about graphics processors.
+// until run() or cuStreamSynchronize() is called. It proves nothing about graphics processors.
 #pragma once
 
 #include <cstddef>
