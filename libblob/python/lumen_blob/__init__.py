@@ -12,7 +12,7 @@ Lengths are millimetres in the frame of the case: LPS (+x left, +y posterior, +z
 error and where it is smooth.
 """
 from ._model import (BLENDED, DISTANCE_EXACT, HOLD, INSIDE, LOCAL, NOT_CONVERGED, NOWHERE, Answer,
-                     Error, Hits, Model, Nearest)
+                     Error, Hessian, Hits, Model, Nearest, pack)
 
-__all__ = ["Answer", "BLENDED", "DISTANCE_EXACT", "Error", "HOLD", "Hits", "INSIDE", "LOCAL", "Model",
-           "NOT_CONVERGED", "NOWHERE", "Nearest"]
+__all__ = ["Answer", "BLENDED", "DISTANCE_EXACT", "Error", "HOLD", "Hessian", "Hits", "INSIDE", "LOCAL", "Model",
+           "NOT_CONVERGED", "NOWHERE", "Nearest", "pack"]

@@ -51,6 +51,8 @@ def _declare(lib):
         "blob_model_node": (Node, [model, c_uint32]),
         "blob_columns_default": (Columns, []),
         "blob_query_columns": (None, [model, c_uint32, POINTER(Columns)]),
+        "blob_query_hessian": (None, [model, c_uint32, c_void_p, c_void_p, c_void_p]),
+        "blob_device_pack": (c_size_t, [POINTER(model), c_size_t, c_void_p, c_size_t]),
         "blob_nearest": (None, [model, c_uint32, c_void_p, c_void_p, c_double, c_uint32, c_void_p]),
         "blob_segment_hit": (None, [model, c_uint32, c_void_p, c_void_p, c_void_p, c_double, c_uint32,
                                     c_void_p]),

@@ -15,6 +15,8 @@ _NEAREST = np.dtype([("point", "f8", 3), ("normal", "f8", 3), ("distance", "f8")
                      ("steps", "u4"), ("converged", "i4")], align=True)
 _HIT = np.dtype([("hit", "i4"), ("complete", "i4"), ("t", "f8"), ("point", "f8", 3),
                  ("normal", "f8", 3), ("node", "u4"), ("steps", "u4")], align=True)
+_HESSIAN = np.dtype([("value", "f8"), ("gradient", "f8", 3), ("hessian", "f8", 6), ("mean_curvature", "f8"),
+                     ("gaussian_curvature", "f8")], align=True)
 
 
 class Error(Exception):
@@ -45,6 +47,15 @@ class Nearest(NamedTuple):
     normal: np.ndarray     #: (n, 3) outward, at `point`
     distance: np.ndarray   #: (n,) signed, mm
     converged: np.ndarray  #: (n,) bool; False: `point` is the best within the bound on steps
+
+
+class Hessian(NamedTuple):
+    """f and its derivatives at n points, in doubles throughout."""
+    value: np.ndarray               #: (n,) f, mm
+    gradient: np.ndarray            #: (n, 3) of f, no unit
+    hessian: np.ndarray             #: (n, 6) xx, yy, zz, xy, xz, yz of f, 1/mm
+    mean_curvature: np.ndarray      #: (n,) of the level set through the point, 1/mm
+    gaussian_curvature: np.ndarray  #: (n,) 1/mm^2
 
 
 class Hits(NamedTuple):
@@ -149,6 +160,15 @@ class Model:
         rows = Nearest(result["point"], result["normal"], result["distance"], result["converged"] != 0)
         return Nearest(*(r[0] for r in rows)) if single else rows
 
+    def hessian(self, points, cursors=None, flags=BLENDED):
+        """Second derivatives of f at (n, 3) points in mm; several times slower than query()."""
+        points, single = _rows(points)
+        result = np.empty(len(points), dtype=_HESSIAN)
+        for address, cursor, out in zip(_addresses(points), _each(cursors, len(points)), _addresses(result)):
+            lib.blob_query_hessian(self._handle, flags, address, cursor, out)
+        rows = Hessian(*(result[name] for name in Hessian._fields))
+        return Hessian(*(r[0] for r in rows)) if single else rows
+
     def segment_hits(self, starts, ends, cursors=None, flags=BLENDED, tolerance=0.0):
         """First crossings of the wall on the way from (n, 3) `starts` to (n, 3) `ends`, mm. `cursors`
         belong to `starts`."""
@@ -163,6 +183,19 @@ class Model:
         rows = Hits(result["hit"] != 0, result["complete"] != 0, result["t"], result["point"],
                     result["normal"])
         return Hits(*(r[0] for r in rows)) if single else rows
+
+
+def pack(models):
+    """One flat buffer of a sequence of models, (n,) uint32, for the queries of blob_device.h and blob_cuda.h. Raises
+    ValueError without a model and for 16 GiB or more."""
+    handles = (ctypes.c_void_p * len(models))(*(model._handle for model in models))
+    size = lib.blob_device_pack(handles, len(models), None, 0)
+    if size == 0:
+        raise ValueError("models: expected at least one, and less than 16 GiB")
+    words = np.empty(size // 4, np.uint32)
+    if lib.blob_device_pack(handles, len(models), words.ctypes.data, size) != size:
+        raise MemoryError(f"packed models: {size} bytes")
+    return words
 
 
 def _rows(points):

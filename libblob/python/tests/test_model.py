@@ -79,6 +79,25 @@ class ModelTest(unittest.TestCase):
         away = np.linalg.norm(nearest.point - self.points[:200], axis=1)
         np.testing.assert_allclose(away[good], np.abs(nearest.distance[good]), atol=1e-6)
 
+    def test_the_hessian_is_that_of_differences_of_the_gradient(self):
+        points = self.points[:200]
+        cursors = self.model.cursors(points)
+        second = self.model.hessian(points, cursors.copy(), lumen_blob.LOCAL)
+        step = 1e-3
+        for axis, entries in enumerate(((0, 3, 4), (3, 1, 5), (4, 5, 2))):
+            ahead, behind = (self.model.hessian(points + sign * step * np.eye(3)[axis], cursors.copy(),
+                                                lumen_blob.LOCAL | lumen_blob.HOLD).gradient for sign in (1, -1))
+            np.testing.assert_allclose((ahead - behind) / (2 * step), second.hessian[:, entries], atol=1e-3)
+        one = self.model.hessian(points[0], cursors[:1].copy(), lumen_blob.LOCAL)
+        np.testing.assert_array_equal(one.hessian, second.hessian[0])
+
+    def test_a_packed_model_states_its_size_and_number(self):
+        words = lumen_blob.pack([self.model, self.model])
+        self.assertEqual((words.dtype, words[3]), (np.uint32, 2))
+        self.assertGreater(len(words), len(lumen_blob.pack([self.model])))
+        with self.assertRaisesRegex(ValueError, "at least one"):
+            lumen_blob.pack([])
+
     def test_a_segment_from_the_axis_outwards_hits_the_wall(self):
         node = len(self.model) // 2
         start = self.centres[node]
