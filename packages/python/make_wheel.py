@@ -64,6 +64,18 @@ def bundle(module, folder):
     return copies, needed
 
 
+def bundle_cuda(package, folder):
+    """Copies libblob-cuda and the libblob that it needs, which lumen._cuda finds beside itself. Returns their paths."""
+    copies = []
+    for file in sorted(package.glob("libblob*.so.1")):
+        copy = folder / file.name
+        shutil.copyfile(file, copy)
+        run("strip", "--strip-unneeded", copy)
+        run("patchelf", "--set-rpath", "$ORIGIN", copy)
+        copies.append(copy)
+    return copies
+
+
 def rename(file, new):
     """Gives libraries their new names in the strings of the dynamic section: needs, their versions, the file's own name.
     patchelf would append all of these strings again for each change: 22 MB for OpenVDB."""
@@ -128,7 +140,8 @@ def main():
         module, = (tree / "lumen").glob("_lumen.*.so")
         python = re.search(r"cpython-3(\d+)", module.name)[1]
         copies, needed = bundle(module, tree / "lumen.libs")
-        low, high = newest([module, *copies], "GLIBC"), newest([module, *copies], "GLIBCXX")
+        files = [module, *copies, *bundle_cuda(package, tree / "lumen")]
+        low, high = newest(files, "GLIBC"), newest(files, "GLIBCXX")
         tag = f"cp3{python}-cp3{python}-manylinux_{low[0]}_{low[1]}_x86_64"
         info = f"lumen-{version}.dist-info"
         (tree / info).mkdir()
