@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: Apache-2.0
+"""lumen._cuda and lumen._xla on the stand-in for NVIDIA's driver, whose device is the memory of arrays of NumPy.
+
+LUMEN_BLOB_CUDA_LIBRARY names libblob-cuda; LD_LIBRARY_PATH has the folder of the stand-in, libcuda.so.1."""
+import ctypes
+import gc
+import os
+import unittest
+
+import numpy as np
+
+from fixture import sample
+from lumen import _cuda, _xla, blob
+
+try:
+    DRIVER = ctypes.CDLL("libcuda.so.1")
+    HAS_STAND_IN = hasattr(DRIVER, "_ZN5lumen4blob4test8stand_in5resetEi")
+except OSError:
+    HAS_STAND_IN = False
+
+
+def model_and_points():
+    model = blob.Model(sample().case)
+    tree = sample().case.tree
+    random = np.random.default_rng(3)
+    node = random.integers(len(tree), size=2000)
+    offset = random.uniform(-1.2, 1.2, (2000, 3))
+    return model, (tree.centre[node] + tree.radius[node, None] * offset).astype(np.float32)
+
+
+class Queries:
+    """Facts of both interfaces; query() launches the exact query of `points`, `nodes` and `answer`."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.model, cls.points = model_and_points()
+        cls.known = cls.model.cursor(cls.points).node.copy()
+        _cuda.vessels(cls.model, 0)  # the driver is ready
+        context = ctypes.c_void_p()
+        DRIVER.cuDevicePrimaryCtxRetain(ctypes.byref(context), 10)
+        DRIVER.cuCtxPushCurrent_v2(context)
+
+    def setUp(self):
+        self.nodes = self.known.copy()
+        self.answer = np.full((len(self.points), 4), -7, np.float32)
+
+    def expect_exact_answers(self):
+        wanted = self.model.query(self.points, flags=blob.DISTANCE_EXACT)
+        error = np.abs(self.answer[:, 0] - wanted.distance)
+        self.assertGreater(np.mean(error < 1e-5), 0.995)
+        np.testing.assert_array_equal(self.answer[:, 0] < 0, wanted.distance < 0)
+        near = np.abs(wanted.distance) < 0.5 * sample().case.tree.radius[wanted.node]  # towards the axis a normal is uncertain
+        turned = np.abs(self.answer[:, 1:] - wanted.normal).max(axis=1)[near]
+        self.assertLess(np.median(turned), 1e-5)
+        self.assertGreater(np.mean(turned < 1e-3), 0.99)
+
+    def test_answers_are_those_of_libblob(self):
+        self.query()
+        self.assertEqual(DRIVER.cuStreamSynchronize(None), 0)
+        self.expect_exact_answers()
+
+    def test_cursors_that_are_not_known_are_located(self):
+        self.nodes[:] = 0xFFFFFFFF
+        self.query()
+        DRIVER.cuStreamSynchronize(None)
+        np.testing.assert_array_equal(self.nodes, self.model.query(self.points, flags=blob.DISTANCE_EXACT).node)
+        self.expect_exact_answers()
+
+    def test_a_query_waits_in_its_stream(self):
+        stream = ctypes.c_void_p()
+        self.assertEqual(DRIVER.cuStreamCreate(ctypes.byref(stream), 0), 0)
+        self.query(stream=stream.value)
+        DRIVER.cuStreamSynchronize(None)
+        self.assertTrue((self.answer == -7).all())
+        DRIVER.cuStreamSynchronize(stream)
+        self.expect_exact_answers()
+        DRIVER.cuStreamDestroy_v2(stream)
+
+
+NEEDS_STAND_IN = unittest.skipUnless(HAS_STAND_IN and "LUMEN_BLOB_CUDA_LIBRARY" in os.environ,
+                                     "the stand-in for the driver or libblob-cuda is missing")
+
+
+@NEEDS_STAND_IN
+class CudaTest(Queries, unittest.TestCase):
+    """Queries at addresses."""
+
+    def query(self, **options):
+        _cuda.vessels(self.model, 0).query(len(self.points), *(a.ctypes.data for a in (self.points, self.nodes, self.answer)), **options)
+
+    def test_flags_reach_the_query(self):
+        self.query(flags=blob.BLENDED)
+        DRIVER.cuStreamSynchronize(None)
+        wanted = self.model.query(self.points, flags=blob.BLENDED)
+        np.testing.assert_array_equal(self.answer[:, 0].astype(np.float64), wanted.distance)
+        np.testing.assert_array_equal(self.nodes, wanted.node)
+
+    def test_a_model_is_uploaded_once_and_freed_after_a_wait(self):
+        model, waits = blob.Model(sample().case), []
+        vessels = _cuda.vessels(model, 0, lambda: waits.append(1))
+        self.assertIs(_cuda.vessels(model, 0), vessels)
+        self.assertIsNot(_cuda.vessels(self.model, 0), vessels)
+        count = len(_cuda._kept)  # pylint: disable=protected-access
+        del model, vessels
+        gc.collect()
+        self.assertEqual((len(_cuda._kept), waits), (count - 1, [1]))  # pylint: disable=protected-access
+
+    def test_what_the_device_refuses_is_an_error_with_its_reason(self):
+        with self.assertRaisesRegex(RuntimeError, "there is no device 5 among 1"):
+            _cuda.vessels(self.model, 5)
+        with self.assertRaisesRegex(RuntimeError, "libblob-cuda: "):
+            _cuda.Vessels(np.zeros(64, np.uint32), 0)
+        with self.assertRaisesRegex(ValueError, "2\\^32"):
+            _cuda.vessels(self.model, 0).query(1 << 32, 0, 0, 0)
+
+
+def buffer(array):
+    """An argument or result of a call of XLA."""
+    dims = (ctypes.c_int64 * array.ndim)(*array.shape)
+    return _xla._Buffer(ctypes.sizeof(_xla._Buffer), None, 0, array.ctypes.data, array.ndim, dims)  # pylint: disable=protected-access
+
+
+def buffers(*arrays):
+    pointers = (ctypes.POINTER(_xla._Buffer) * len(arrays))(*(ctypes.pointer(buffer(a)) for a in arrays))  # pylint: disable=protected-access
+    return _xla._Buffers(ctypes.sizeof(_xla._Buffers), None, len(arrays), None, pointers)  # pylint: disable=protected-access
+
+
+class Runtime:
+    """The part of XLA's runtime that calls a handler."""
+
+    def __init__(self, stream=0, ordinal=0, size=None):
+        self.errors = []
+        self.stream, self.ordinal = stream, ordinal
+        self.interface = _xla._Interface(size or ctypes.sizeof(_xla._Interface))  # pylint: disable=protected-access
+        self.interface.create_error = _xla._CreateError(self.create_error)  # pylint: disable=protected-access
+        self.interface.get_stream = _xla._GetStream(self.get_stream)  # pylint: disable=protected-access
+        self.interface.get_ordinal = _xla._GetOrdinal(self.get_ordinal)  # pylint: disable=protected-access
+
+    def create_error(self, arguments):
+        self.errors.append((arguments.contents.code, arguments.contents.message.decode()))
+        return 1000 + len(self.errors)
+
+    def get_stream(self, arguments):
+        arguments.contents.stream = self.stream
+
+    def get_ordinal(self, arguments):
+        arguments.contents.ordinal = self.ordinal
+
+    def call(self, model, points, nodes, answer, moved=None):
+        # pylint: disable=protected-access
+        scalar = _xla._Scalar(_xla._S64, ctypes.pointer(ctypes.c_int64(model)))
+        attributes = _xla._Attributes(ctypes.sizeof(_xla._Attributes), None, 1, (ctypes.c_int * 1)(_xla._SCALAR), None,
+                                      (ctypes.POINTER(_xla._Scalar) * 1)(ctypes.pointer(scalar)))
+        frame = _xla._Frame(ctypes.sizeof(_xla._Frame), None, ctypes.pointer(self.interface), None, 3, buffers(points, nodes),
+                            buffers(answer, nodes if moved is None else moved), attributes)
+        return _xla._handler(ctypes.pointer(frame))
+
+
+@NEEDS_STAND_IN
+class XlaTest(Queries, unittest.TestCase):
+    """Calls of XLA's interface, as its header states them."""
+
+    def call(self, runtime, **changes):
+        arrays = {"points": self.points, "nodes": self.nodes, "answer": self.answer, **changes}
+        return runtime.call(_xla.number_of(self.model), **arrays)
+
+    def query(self, **options):
+        self.assertIsNone(self.call(Runtime(**options)))
+
+    def test_any_leading_axes_are_points(self):
+        self.assertIsNone(self.call(Runtime(), points=self.points.reshape(4, 500, 3), nodes=self.nodes.reshape(4, 500)))
+        DRIVER.cuStreamSynchronize(None)
+        self.expect_exact_answers()
+
+    def test_the_handler_states_its_version(self):
+        # pylint: disable=protected-access
+        metadata = _xla._Metadata(ctypes.sizeof(_xla._Metadata))
+        metadata.traits = 0
+        extension = _xla._MetadataExtension((ctypes.sizeof(_xla._MetadataExtension), _xla._METADATA, None), ctypes.pointer(metadata))
+        frame = _xla._Frame(ctypes.sizeof(_xla._Frame), ctypes.cast(ctypes.pointer(extension), ctypes.POINTER(_xla._Extension)))
+        self.assertIsNone(_xla._handler(ctypes.pointer(frame)))
+        self.assertEqual((metadata.version.major, metadata.version.minor, metadata.traits), (0, 1, 0))
+
+    def test_layouts_are_those_of_the_header(self):
+        # pylint: disable=protected-access
+        self.assertEqual((_xla._Interface.create_error.offset, _xla._Interface.get_stream.offset, _xla._Interface.get_ordinal.offset), (48, 80, 184))
+        self.assertEqual((_xla._Frame.arguments.offset, _xla._Frame.results.offset, _xla._Frame.attributes.offset), (40, 80, 120))
+
+    def test_faults_are_errors_of_the_runtime(self):
+        runtime = Runtime(size=100)
+        self.assertEqual(self.call(runtime), 1001)
+        self.assertRegex(runtime.errors[0][1], "does not state the device")
+        runtime = Runtime(ordinal=7)
+        self.assertEqual(self.call(runtime), 1001)
+        self.assertRegex(runtime.errors[0][1], "lumen.jax: libblob-cuda: .*no device 7")
+        self.assertEqual(self.call(runtime, moved=self.nodes.copy()), 1002)
+        self.assertTrue((self.answer == -7).all())
+
+    def test_one_number_names_one_model(self):
+        self.assertEqual(_xla.number_of(self.model), _xla.number_of(self.model))
+        self.assertNotEqual(_xla.number_of(self.model), _xla.number_of(blob.Model(sample().case)))
+
+
+class MissingTest(unittest.TestCase):
+    def test_a_missing_library_is_an_error_that_says_what_to_do(self):
+        before = os.environ.get("LUMEN_BLOB_CUDA_LIBRARY")
+        os.environ["LUMEN_BLOB_CUDA_LIBRARY"] = "/absent/libblob-cuda.so.1"
+        _cuda.library.cache_clear()
+        try:
+            with self.assertRaisesRegex(ImportError, "LUMEN_BLOB_CUDA_LIBRARY"):
+                _cuda.library()
+        finally:
+            _cuda.library.cache_clear()
+            del os.environ["LUMEN_BLOB_CUDA_LIBRARY"]
+            if before is not None:
+                os.environ["LUMEN_BLOB_CUDA_LIBRARY"] = before
+
+
+if __name__ == "__main__":
+    unittest.main()
