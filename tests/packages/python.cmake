@@ -2,14 +2,14 @@
 if(NOT TARGET lumen_python OR NOT HAS_NUMPY)
   return()
 endif()
-foreach(part case operations blob cuda jax opencl torch warp stubs notebook)
+foreach(part case operations blob cuda jax jax_rules opencl torch warp stubs notebook)
   python_test(PythonPackage.${part} foreign -W error::ResourceWarning -m unittest test_${part})
   set_tests_properties(PythonPackage.${part} PROPERTIES
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/packages/python/tests
     ENVIRONMENT "PYTHONPATH=${LUMEN_PYTHON_PATH}")
 endforeach()
 if(TARGET cuda_stand_in)
-  set_tests_properties(PythonPackage.cuda PROPERTIES ENVIRONMENT
+  set_tests_properties(PythonPackage.cuda PythonPackage.jax_rules PROPERTIES ENVIRONMENT
     "PYTHONPATH=${LUMEN_PYTHON_PATH};LUMEN_BLOB_CUDA_LIBRARY=$<TARGET_FILE:blob_cuda>;LD_LIBRARY_PATH=$<TARGET_FILE_DIR:cuda_stand_in>")
 endif()
 

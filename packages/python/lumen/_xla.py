@@ -104,8 +104,11 @@ def number_of(model) -> int:
 
 @functools.lru_cache(maxsize=None)
 def register(ffi):
-    """Makes the call known to JAX, whose module jax.ffi is given, for CUDA: points (..., 3) float32, nodes (...) uint32 and the attribute `model` (int64)
-    to answers (..., 4) float32, distance in mm and normal, and nodes, in the memory of the argument."""
+    """Makes the call known to JAX, whose module jax.ffi is given, for CUDA.
+
+    Its arguments are points (..., 3) float32, nodes (...) uint32, and the attribute `model` (int64), its results are
+    answers (..., 4) float32, distance in mm and normal, and nodes, in the memory of the argument.
+    """
     ffi.register_ffi_target(TARGET, ffi.pycapsule(ctypes.cast(_handler, c_void_p).value), platform="CUDA")
 
 

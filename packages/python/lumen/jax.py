@@ -8,10 +8,9 @@ The distance is that to the nearest point of the wall, negative in the lumen. It
 outward normal there, its Hessian follows from the wall's curvatures there; a third derivative raises.
 Works eagerly and under jit, vmap, grad, jvp and their compositions.
 
-| points | answered |
-|---|---|
-| float32 on a CUDA device | there by libblob-cuda, as a call on the stream of the compiled program; second derivatives go through the processor's memory |
-| others; float64 needs jax_enable_x64 | in the processor's memory by libblob in doubles, by jax.pure_callback |
+Points of float32 on a CUDA device are answered there by libblob-cuda, as a call on the stream of the
+compiled program, and their second derivatives through the processor's memory. Others (float64 needs
+jax_enable_x64) are answered in the processor's memory by libblob in doubles, by jax.pure_callback.
 
 Compiled programs keep their models: JAX holds them until jax.clear_caches(), those on a device stay for
 the life of the process. Arrays that are sharded over several devices are not supported.
@@ -88,15 +87,16 @@ def _answer(model, points, nodes):
 def _on_device(model, points, nodes):
     _xla.register(jax.ffi)
     shape = nodes.shape
-    call = jax.ffi.ffi_call(_xla.TARGET, (jax.ShapeDtypeStruct(shape + (4,), np.float32), jax.ShapeDtypeStruct(shape, np.uint32)),
-                            vmap_method="broadcast_all", input_output_aliases={1: 1})
+    results = (jax.ShapeDtypeStruct(shape + (4,), np.float32), jax.ShapeDtypeStruct(shape, np.uint32))
+    call = jax.ffi.ffi_call(_xla.TARGET, results, vmap_method="broadcast_all", input_output_aliases={1: 1})
     answer, nodes = call(points, nodes, model=np.int64(_xla.number_of(model)))
     return answer[..., 0], answer[..., 1:], nodes
 
 
 def _on_host(model, points, nodes):
     shape, kind = nodes.shape, points.dtype
-    results = (jax.ShapeDtypeStruct(shape, kind), jax.ShapeDtypeStruct(shape + (3,), kind), jax.ShapeDtypeStruct(shape, np.uint32))
+    results = (jax.ShapeDtypeStruct(shape, kind), jax.ShapeDtypeStruct(shape + (3,), kind),
+               jax.ShapeDtypeStruct(shape, np.uint32))
     return tuple(jax.pure_callback(functools.partial(_query, model), results, points, nodes, vmap_method="broadcast_all"))
 
 

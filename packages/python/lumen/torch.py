@@ -9,11 +9,10 @@ outward normal there, its Hessian follows from the wall's curvatures there; a th
 offered, nor the distance of the field itself (lumen.blob.BLENDED, LOCAL), whose gradient is not the
 normal. Answers have the type of the points, on their device.
 
-| points | answered |
-|---|---|
-| in the processor's memory | there by libblob in doubles, float64 read without a copy |
-| float32 on a CUDA device | there by libblob-cuda on PyTorch's current stream: values and gradients never leave the device, and no call waits for it; second derivatives go through the processor's memory |
-| others | copied to the processor's memory and back |
+Points in the processor's memory are answered there by libblob in doubles, float64 read without a copy.
+Points of float32 on a CUDA device are answered there by libblob-cuda on PyTorch's current stream: values
+and gradients never leave the device, and no call waits for it; second derivatives go through the
+processor's memory. Others are copied to the processor's memory and back.
 
 A model stays on a device while it lives. Distances there agree with lumen.blob within 1e-5 mm but at
 some thousandth of points, where another place of the wall is nearest about them (libblob/README.md).

@@ -16,7 +16,15 @@ try:
     DRIVER = ctypes.CDLL("libcuda.so.1")
     HAS_STAND_IN = hasattr(DRIVER, "_ZN5lumen4blob4test8stand_in5resetEi")
 except OSError:
-    HAS_STAND_IN = False
+    DRIVER, HAS_STAND_IN = None, False
+
+
+def enter_context():
+    """Makes the context of the stand-in current, as its streams need."""
+    context = ctypes.c_void_p()
+    DRIVER.cuInit(0)
+    DRIVER.cuDevicePrimaryCtxRetain(ctypes.byref(context), 10)
+    DRIVER.cuCtxPushCurrent_v2(context)
 
 
 def model_and_points():
@@ -35,10 +43,7 @@ class Queries:
     def setUpClass(cls):
         cls.model, cls.points = model_and_points()
         cls.known = cls.model.cursor(cls.points).node.copy()
-        _cuda.vessels(cls.model, 0)  # the driver is ready
-        context = ctypes.c_void_p()
-        DRIVER.cuDevicePrimaryCtxRetain(ctypes.byref(context), 10)
-        DRIVER.cuCtxPushCurrent_v2(context)
+        enter_context()
 
     def setUp(self):
         self.nodes = self.known.copy()
@@ -49,7 +54,8 @@ class Queries:
         error = np.abs(self.answer[:, 0] - wanted.distance)
         self.assertGreater(np.mean(error < 1e-5), 0.995)
         np.testing.assert_array_equal(self.answer[:, 0] < 0, wanted.distance < 0)
-        near = np.abs(wanted.distance) < 0.5 * sample().case.tree.radius[wanted.node]  # towards the axis a normal is uncertain
+        radius = sample().case.tree.radius[wanted.node]
+        near = np.abs(wanted.distance) < 0.5 * radius  # towards the axis a normal is uncertain
         turned = np.abs(self.answer[:, 1:] - wanted.normal).max(axis=1)[near]
         self.assertLess(np.median(turned), 1e-5)
         self.assertGreater(np.mean(turned < 1e-3), 0.99)
@@ -86,7 +92,8 @@ class CudaTest(Queries, unittest.TestCase):
     """Queries at addresses."""
 
     def query(self, **options):
-        _cuda.vessels(self.model, 0).query(len(self.points), *(a.ctypes.data for a in (self.points, self.nodes, self.answer)), **options)
+        addresses = (array.ctypes.data for array in (self.points, self.nodes, self.answer))
+        _cuda.vessels(self.model, 0).query(len(self.points), *addresses, **options)
 
     def test_flags_reach_the_query(self):
         self.query(flags=blob.BLENDED)
@@ -114,15 +121,16 @@ class CudaTest(Queries, unittest.TestCase):
             _cuda.vessels(self.model, 0).query(1 << 32, 0, 0, 0)
 
 
+# pylint: disable=protected-access
 def buffer(array):
     """An argument or result of a call of XLA."""
     dims = (ctypes.c_int64 * array.ndim)(*array.shape)
-    return _xla._Buffer(ctypes.sizeof(_xla._Buffer), None, 0, array.ctypes.data, array.ndim, dims)  # pylint: disable=protected-access
+    return _xla._Buffer(ctypes.sizeof(_xla._Buffer), None, 0, array.ctypes.data, array.ndim, dims)
 
 
 def buffers(*arrays):
-    pointers = (ctypes.POINTER(_xla._Buffer) * len(arrays))(*(ctypes.pointer(buffer(a)) for a in arrays))  # pylint: disable=protected-access
-    return _xla._Buffers(ctypes.sizeof(_xla._Buffers), None, len(arrays), None, pointers)  # pylint: disable=protected-access
+    pointers = (ctypes.POINTER(_xla._Buffer) * len(arrays))(*(ctypes.pointer(buffer(array)) for array in arrays))
+    return _xla._Buffers(ctypes.sizeof(_xla._Buffers), None, len(arrays), None, pointers)
 
 
 class Runtime:
@@ -131,10 +139,10 @@ class Runtime:
     def __init__(self, stream=0, ordinal=0, size=None):
         self.errors = []
         self.stream, self.ordinal = stream, ordinal
-        self.interface = _xla._Interface(size or ctypes.sizeof(_xla._Interface))  # pylint: disable=protected-access
-        self.interface.create_error = _xla._CreateError(self.create_error)  # pylint: disable=protected-access
-        self.interface.get_stream = _xla._GetStream(self.get_stream)  # pylint: disable=protected-access
-        self.interface.get_ordinal = _xla._GetOrdinal(self.get_ordinal)  # pylint: disable=protected-access
+        self.interface = _xla._Interface(size or ctypes.sizeof(_xla._Interface))
+        self.interface.create_error = _xla._CreateError(self.create_error)
+        self.interface.get_stream = _xla._GetStream(self.get_stream)
+        self.interface.get_ordinal = _xla._GetOrdinal(self.get_ordinal)
 
     def create_error(self, arguments):
         self.errors.append((arguments.contents.code, arguments.contents.message.decode()))
@@ -147,7 +155,7 @@ class Runtime:
         arguments.contents.ordinal = self.ordinal
 
     def call(self, model, points, nodes, answer, moved=None):
-        # pylint: disable=protected-access
+      
         scalar = _xla._Scalar(_xla._S64, ctypes.pointer(ctypes.c_int64(model)))
         attributes = _xla._Attributes(ctypes.sizeof(_xla._Attributes), None, 1, (ctypes.c_int * 1)(_xla._SCALAR), None,
                                       (ctypes.POINTER(_xla._Scalar) * 1)(ctypes.pointer(scalar)))
@@ -173,18 +181,23 @@ class XlaTest(Queries, unittest.TestCase):
         self.expect_exact_answers()
 
     def test_the_handler_states_its_version(self):
-        # pylint: disable=protected-access
+      
         metadata = _xla._Metadata(ctypes.sizeof(_xla._Metadata))
         metadata.traits = 0
-        extension = _xla._MetadataExtension((ctypes.sizeof(_xla._MetadataExtension), _xla._METADATA, None), ctypes.pointer(metadata))
-        frame = _xla._Frame(ctypes.sizeof(_xla._Frame), ctypes.cast(ctypes.pointer(extension), ctypes.POINTER(_xla._Extension)))
+        base = (ctypes.sizeof(_xla._MetadataExtension), _xla._METADATA, None)
+        extension = _xla._MetadataExtension(base, ctypes.pointer(metadata))
+        first = ctypes.cast(ctypes.pointer(extension), ctypes.POINTER(_xla._Extension))
+        frame = _xla._Frame(ctypes.sizeof(_xla._Frame), first)
         self.assertIsNone(_xla._handler(ctypes.pointer(frame)))
         self.assertEqual((metadata.version.major, metadata.version.minor, metadata.traits), (0, 1, 0))
 
     def test_layouts_are_those_of_the_header(self):
-        # pylint: disable=protected-access
-        self.assertEqual((_xla._Interface.create_error.offset, _xla._Interface.get_stream.offset, _xla._Interface.get_ordinal.offset), (48, 80, 184))
-        self.assertEqual((_xla._Frame.arguments.offset, _xla._Frame.results.offset, _xla._Frame.attributes.offset), (40, 80, 120))
+      
+        def offsets(kind, *names):
+            return [getattr(kind, name).offset for name in names]
+
+        self.assertEqual(offsets(_xla._Interface, "create_error", "get_stream", "get_ordinal"), [48, 80, 184])
+        self.assertEqual(offsets(_xla._Frame, "arguments", "results", "attributes"), [40, 80, 120])
 
     def test_faults_are_errors_of_the_runtime(self):
         runtime = Runtime(size=100)

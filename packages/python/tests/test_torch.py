@@ -16,7 +16,7 @@ from lumen import _cuda, blob
 
 
 def points_near_the_wall(model, count):
-    """Points (n, 3) out to 1.6 radii of the sample, float64, without those about the axis, where many points of the wall are nearest."""
+    """Points (n, 3) out to 1.6 radii of the sample, float64, without the axis, where many points of the wall are nearest."""
     tree = sample().case.tree
     random = np.random.default_rng(2)
     node = random.integers(len(tree), size=count)
@@ -171,7 +171,8 @@ class CudaTest(unittest.TestCase):
         step, columns = 2.0**-6, []
         for axis in range(3):
             offset = step * torch.eye(3, device="cuda")[axis]
-            columns.append((self.distance(self.model, self.points + offset) - self.distance(self.model, self.points - offset)) / (2 * step))
+            ahead, behind = (self.distance(self.model, self.points + sign * offset) for sign in (1, -1))
+            columns.append((ahead - behind) / (2 * step))
         error = (torch.stack(columns, dim=1) - points.grad).abs().amax(dim=1).cpu().numpy()
         self.assertLess(np.quantile(error, 0.9), 1e-3)
 
@@ -179,7 +180,8 @@ class CudaTest(unittest.TestCase):
         def of(points):
             points = points.clone().requires_grad_()
             gradient, = torch.autograd.grad(self.distance(self.model, points).sum(), points, create_graph=True)
-            return torch.stack([torch.autograd.grad(gradient[:, axis].sum(), points, retain_graph=True)[0] for axis in range(3)], dim=1)
+            rows = [torch.autograd.grad(gradient[:, axis].sum(), points, retain_graph=True)[0] for axis in range(3)]
+            return torch.stack(rows, dim=1)
 
         there, here = of(self.points), of(torch.tensor(self.host, dtype=torch.float64))
         self.assertEqual((there.dtype, there.device), (torch.float32, self.points.device))
