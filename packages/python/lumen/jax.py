@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The distance to the wall as an operation of JAX, twice differentiable (needs the package jax, 0.5 or newer).
+"""The distance to the wall as an operation of JAX, twice differentiable (needs the package jax, 0.7 or newer).
 
     depth = lumen.jax.distance(model, points)           # points (..., 3), mm, LPS; depth (...), mm
     jax.grad(lambda p: jnp.square(jnp.maximum(lumen.jax.distance(model, p), 0)).sum())(points)
