@@ -15,7 +15,7 @@ and gradients never leave the device, and no call waits for it; second derivativ
 processor's memory. Others are copied to the processor's memory and back.
 
 A model stays on a device while it lives. Distances there agree with lumen.blob within 1e-5 mm but at
-some thousandth of points, where another place of the wall is nearest about them (libblob/README.md).
+up to two of a thousand points, where another place of the wall is nearest about them.
 """
 import functools
 
