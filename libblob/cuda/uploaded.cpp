@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "uploaded.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "kernels.h"
@@ -9,8 +10,21 @@ using namespace lumen::blob::cuda;
 
 namespace {
 
-constexpr unsigned kThreadsOfBlock = 128;  // so that a block fits at 255 registers a thread, too
-constexpr std::size_t kVesselCountWord = 3;
+// as in query.cu; measured on an H100 (docs/benchmarks.md)
+constexpr unsigned kThreadsOfBlock = 64;
+constexpr std::uint32_t kMostOfSpan = 1536, kManyBlocks = 4096;
+constexpr std::size_t kVesselCountWord = 3, kHeaderWords = 4, kVesselWords = 8;
+constexpr std::uint32_t kCauchy = 0;
+
+bool areCauchy(const std::uint32_t* words) {
+  for (std::size_t i = 0; i < words[kVesselCountWord]; ++i)
+    if (words[kHeaderWords + kVesselWords * i] != kCauchy) return false;
+  return true;
+}
+
+std::uint32_t quotientUp(std::uint64_t a, std::uint64_t b) {
+  return static_cast<std::uint32_t>((a + b - 1) / b);
+}
 
 }  // namespace
 
@@ -30,7 +44,7 @@ blob_cuda_status blob_cuda::open(int device, const void* buffer, std::size_t siz
     reason = reasonOf("cuCtxPushCurrent", entered.result());
     return BLOB_CUDA_ERROR_NO_DEVICE;
   }
-  status = loadKernels(reason);
+  status = loadKernels(static_cast<const std::uint32_t*>(buffer), reason);
   return status == BLOB_CUDA_OK ? upload(buffer, size, reason) : status;
 }
 
@@ -60,7 +74,7 @@ blob_cuda_status blob_cuda::enterDevice(int device, std::string& reason) {
   return BLOB_CUDA_OK;
 }
 
-blob_cuda_status blob_cuda::loadKernels(std::string& reason) {
+blob_cuda_status blob_cuda::loadKernels(const std::uint32_t* words, std::string& reason) {
   char log[2048] = "";
   int names[2] = {kErrorLog, kErrorLogBytes};
   // the driver reads the size from the bits of the pointer
@@ -73,9 +87,14 @@ blob_cuda_status blob_cuda::loadKernels(std::string& reason) {
     if (log[0] != '\0') reason += std::string(": ") + log;
     return BLOB_CUDA_ERROR_KERNEL;
   }
-  result = m_driver.moduleFunction(&m_query, m_module, "blob_query_points");
-  if (result == kSuccess)
-    result = m_driver.moduleFunction(&m_exactQuery, m_module, "blob_query_exact_points");
+  const std::string suffix = areCauchy(words) ? "_cauchy" : "";
+  const auto find = [&](Function& function, const std::string& name) {
+    if (result == kSuccess) result = m_driver.moduleFunction(&function, m_module, name.c_str());
+  };
+  find(m_query, "blob_query_points" + suffix);
+  find(m_pairs, "blob_blend_pairs" + suffix);
+  find(m_crowds, "blob_blend_crowds" + suffix);
+  find(m_exactQuery, "blob_query_exact_points");
   if (result == kSuccess) return BLOB_CUDA_OK;
   reason = reasonOf("cuModuleGetFunction", result);
   return BLOB_CUDA_ERROR_KERNEL;
@@ -108,16 +127,29 @@ blob_cuda_status blob_cuda::launch(CUstream_st* stream, std::uint32_t flags,
                                    const blob_cuda_columns& columns) const {
   blob_cuda_columns c = columns;
   std::uint64_t words = m_words;
-  // in the order of the kernel's arguments, of which the driver copies the values
-  void* arguments[] = {&words,    &c.vessel, &flags,   &c.count, &c.point,
-                       &c.cursor, &c.answer, &c.value, &c.state, &c.vessel_of_point};
-  const auto blocks =
-      static_cast<unsigned>((std::uint64_t{c.count} + kThreadsOfBlock - 1) / kThreadsOfBlock);
-  const Function kernel = (flags & BLOB_DISTANCE_EXACT) != 0 ? m_exactQuery : m_query;
+  // few points are for as many blocks as possible, many for blocks with much to choose from
+  std::uint32_t span =
+      kThreadsOfBlock * quotientUp(c.count, std::uint64_t{kThreadsOfBlock} * kManyBlocks);
+  span = std::min(span, kMostOfSpan);
+  // in the order of the kernels' arguments, of which the driver copies the values
+  void* arguments[] = {&words,    &c.vessel, &flags,   &c.count,           &c.point, &c.cursor,
+                       &c.answer, &c.value,  &c.state, &c.vessel_of_point, &span};
   const Entered entered(m_driver, m_context);
-  if (entered.result() != kSuccess) return BLOB_CUDA_ERROR_LAUNCH;
-  const Result result =
-      m_driver.launch(kernel, blocks, 1, 1, kThreadsOfBlock, 1, 1, 0, stream, arguments, nullptr);
+  Result result = entered.result();
+  const auto start = [&](Function kernel, std::uint32_t pointsOfBlock) {
+    if (result == kSuccess)
+      result = m_driver.launch(kernel, quotientUp(c.count, pointsOfBlock), 1, 1, kThreadsOfBlock, 1,
+                               1, 0, stream, arguments, nullptr);
+  };
+  if ((flags & BLOB_DISTANCE_EXACT) != 0) {
+    start(m_exactQuery, kThreadsOfBlock);
+  } else {
+    start(m_query, kThreadsOfBlock);
+    if ((flags & BLOB_LOCAL) == 0) {
+      start(m_pairs, span);
+      start(m_crowds, span);
+    }
+  }
   return result == kSuccess ? BLOB_CUDA_OK : BLOB_CUDA_ERROR_LAUNCH;
 }
 

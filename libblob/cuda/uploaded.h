@@ -50,7 +50,8 @@ struct blob_cuda {
 
 private:
   blob_cuda_status enterDevice(int device, std::string& reason);
-  blob_cuda_status loadKernels(std::string& reason);
+  /// Kernels for a checked buffer.
+  blob_cuda_status loadKernels(const std::uint32_t* words, std::string& reason);
   blob_cuda_status upload(const void* buffer, std::size_t size, std::string& reason);
   [[nodiscard]] std::string reasonOf(const char* function, lumen::blob::cuda::Result result) const;
 
@@ -58,7 +59,8 @@ private:
   lumen::blob::cuda::Context m_context = nullptr;
   lumen::blob::cuda::Device m_retained = kNone;  // whose primary context is held
   lumen::blob::cuda::Module m_module = nullptr;
-  lumen::blob::cuda::Function m_query = nullptr, m_exactQuery = nullptr;
+  lumen::blob::cuda::Function m_query = nullptr, m_pairs = nullptr, m_crowds = nullptr,
+                              m_exactQuery = nullptr;
   lumen::blob::cuda::Address m_words = 0;
   std::uint32_t m_vesselCount = 0;
   static constexpr int kNone = -1;

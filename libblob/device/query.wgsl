@@ -22,9 +22,10 @@ const BLOB_DEVICE_LOCAL: u32 = 1u;
 const BLOB_DEVICE_HOLD: u32 = 4u;
 const BLOB_DEVICE_INSIDE: u32 = 1u;
 const BLOB_DEVICE_NOWHERE: u32 = 0xffffffffu;
+const BLOB_DEVICE_SIMT: i32 = 0;
 const BLOB_DEVICE_WIDE: i32 = 0;
-const BLOB_DEVICE_MOST_ACTIVE: i32 = 24;
 const BLOB_DEVICE_MANY: u32 = 0xffffffffu;
+const BLOB_DEVICE_MOST_ACTIVE: i32 = 24;
 const BLOB_DEVICE_AT_POINT: u32 = 0u;
 const BLOB_DEVICE_APPROACHING: u32 = 1u;
 const BLOB_DEVICE_BESIDE: u32 = 2u;
@@ -65,6 +66,7 @@ struct blob_device_node {
   record: u32,
   neighbour: u32,
   blocks: u32,
+  rivals: u32,
   x: array<f32, 3>,
 }
 
@@ -228,6 +230,7 @@ fn blob_device_at(v: blob_device_vessel, index: u32, place: blob_device_place) -
   node.x[0] = x;
   node.x[1] = y;
   node.x[2] = z;
+  node.rivals = 0u;
   node.blocks = blob_device_buffer[node.record + 11u];
   if (node.blocks > 1u && square < bitcast<f32>(blob_device_buffer[node.record + 7u])) {
     node.blocks = 1u;
@@ -309,6 +312,14 @@ fn blob_device_first(bits: u32) -> u32 {
   return found;
 }
 
+fn blob_device_count(bits: u32) -> u32 {
+  var count: u32 = 0u;
+  for (var i: u32 = 0u; i < 8u; i += 1u) {
+    count += (bits >> i) & 1u;
+  }
+  return count;
+}
+
 fn blob_device_below(block: u32, x: array<f32, 3>, limit: f32) -> u32 {
   var bits: u32 = 0u;
   for (var i: u32 = 0u; i < 8u; i += 1u) {
@@ -321,15 +332,20 @@ fn blob_device_below(block: u32, x: array<f32, 3>, limit: f32) -> u32 {
 }
 
 fn blob_device_lower(block: u32, x: array<f32, 3>, node: u32, least: ptr<function, f32>,
-    next: ptr<function, u32>) {
+    next: ptr<function, u32>) -> u32 {
+  var bits: u32 = 0u;
   for (var i: u32 = 0u; i < 8u; i += 1u) {
     let difference: f32 = blob_device_difference(block, i, x);
     let k: u32 = blob_device_buffer[block + (i + 40u)];
+    if (difference * bitcast<f32>(blob_device_buffer[block + (i + 32u)]) < 1.0f) {
+      bits = bits | (1u << i);
+    }
     if (difference < (*least) || ((difference == (*least) && (*next) != node) && k < (*next))) {
       (*least) = difference;
       (*next) = k;
     }
   }
+  return bits;
 }
 
 fn blob_device_holds(block: u32, k: u32) -> i32 {
@@ -432,24 +448,37 @@ fn blob_device_evaluate(v: blob_device_vessel, node: blob_device_node) -> blob_d
   return lane;
 }
 
-fn blob_device_follow(v: blob_device_vessel, place: blob_device_place, start: u32) -> u32 {
-  var before: u32 = start;
-  var node: u32 = start;
-  for (var step: i32 = 0; step < 256; step += 1) {
-    let here: blob_device_node = blob_device_at(v, node, place);
-    var next: u32 = node;
-    var least: f32 = 0.0f;
-    for (var b: u32 = 0u; b < here.blocks; b += 1u) {
-      blob_device_lower(here.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, here.x, node, &least,
-          &next);
+fn blob_device_rivals(node: blob_device_node) -> u32 {
+  for (var b: u32 = 1u; b < node.blocks; b += 1u) {
+    if (blob_device_below(node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node.x, 1.0f) != 0u) {
+      return BLOB_DEVICE_MANY;
     }
-    if (next == node || next == before) {
-      break;
-    }
-    before = node;
-    node = next;
   }
-  return node;
+  return blob_device_below(node.neighbour, node.x, 1.0f);
+}
+
+fn blob_device_follow(v: blob_device_vessel, place: blob_device_place, node: ptr<function, u32>) ->
+    blob_device_node {
+  var here: blob_device_node = blob_device_at(v, (*node), place);
+  var before: u32 = (*node);
+  for (var step: i32 = 0; step < 256; step += 1) {
+    var next: u32 = (*node);
+    var least: f32 = 0.0f;
+    here.rivals = 0u;
+    for (var b: u32 = 0u; b < here.blocks; b += 1u) {
+      let bits: u32 = blob_device_lower(here.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, here.x,
+          (*node), &least, &next);
+      here.rivals = select(select(here.rivals, BLOB_DEVICE_MANY, bits != 0u), bits, b == 0u);
+    }
+    if (next == (*node) || next == before) {
+      return here;
+    }
+    before = (*node);
+    (*node) = next;
+    here = blob_device_at(v, next, place);
+  }
+  here.rivals = blob_device_rivals(here);
+  return here;
 }
 
 fn blob_device_add_active(blending: ptr<function, blob_device_active>, k: u32) {
@@ -476,17 +505,9 @@ fn blob_device_is_neighbour(v: blob_device_vessel, node: u32, k: u32) -> i32 {
   return 0;
 }
 
-fn blob_device_rivals(node: blob_device_node) -> u32 {
-  for (var b: u32 = 1u; b < node.blocks; b += 1u) {
-    if (blob_device_below(node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node.x, 1.0f) != 0u) {
-      return BLOB_DEVICE_MANY;
-    }
-  }
-  return blob_device_below(node.neighbour, node.x, 1.0f);
-}
-
 fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node,
     blending: ptr<function, blob_device_active>, gradient: ptr<function, array<f32, 3>>) -> f32 {
+  var number: u32;
   var u: f32 = 1.0f;
   var part: array<f32, 3>;
   (*gradient)[0] = 0.0f;
@@ -494,12 +515,9 @@ fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node,
   (*gradient)[2] = 0.0f;
   for (var b: u32 = 0u; b < node.blocks; b += 1u) {
     let block: u32 = node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b;
-    let rivals: u32 = blob_device_below(block, node.x, 1.0f);
+    var rivals: u32 = blob_device_below(block, node.x, 1.0f);
     if (rivals == 0u) {
       continue;
-    }
-    if (blob_device_below(block, node.x, -1.0f) != 0u) {
-      return 0.0f;
     }
     u *= blob_device_weigh_against(block, node.x, &part);
     if (!(u > 1e-20f)) {
@@ -508,12 +526,13 @@ fn blob_device_weigh(v: blob_device_vessel, index: u32, node: blob_device_node,
     (*gradient)[0] += part[0];
     (*gradient)[1] += part[1];
     (*gradient)[2] += part[2];
-    for (var i: u32 = 0u; i < 8u; i += 1u) {
-      if (((rivals >> i) & 1u) != 0u) {
-        if (index == (*blending).nodes[0] || blob_device_is_neighbour(v, (*blending).nodes[0],
-            blob_device_buffer[block + (i + 40u)]) == 0) {
-          blob_device_add_active(blending, blob_device_buffer[block + (i + 40u)]);
-        }
+    number = blob_device_count(rivals);
+    for (var i: u32 = 0u; i < number; i += 1u) {
+      let k: u32 = blob_device_buffer[block + (blob_device_first(rivals) + 40u)];
+      rivals = rivals & (rivals - 1u);
+      if (index == (*blending).nodes[0] || blob_device_is_neighbour(v, (*blending).nodes[0], k) ==
+          0) {
+        blob_device_add_active(blending, k);
       }
     }
   }
@@ -638,6 +657,8 @@ fn blob_device_blend_all(v: blob_device_vessel, place: blob_device_place, start:
 
 fn blob_device_pair(v: blob_device_vessel, node: u32, other: blob_device_node, rivals: u32, t: f32)
     -> i32 {
+  var number: u32;
+  var rest: u32 = rivals;
   if (rivals == BLOB_DEVICE_MANY || !(t > -0.999f)) {
     return 0;
   }
@@ -647,11 +668,12 @@ fn blob_device_pair(v: blob_device_vessel, node: u32, other: blob_device_node, r
       return 1;
     }
   }
-  for (var i: u32 = 0u; i < 8u; i += 1u) {
-    if (((rivals >> i) & 1u) != 0u && blob_device_buffer[other.neighbour + (i + 40u)] != node) {
-      if (blob_device_is_neighbour(v, node, blob_device_buffer[other.neighbour + (i + 40u)]) == 0) {
-        return 0;
-      }
+  number = blob_device_count(rivals);
+  for (var i: u32 = 0u; i < number; i += 1u) {
+    let k: u32 = blob_device_buffer[other.neighbour + (blob_device_first(rest) + 40u)];
+    rest = rest & (rest - 1u);
+    if (k != node && blob_device_is_neighbour(v, node, k) == 0) {
+      return 0;
     }
   }
   return 2;
@@ -711,34 +733,35 @@ fn blob_device_mix_two(v: blob_device_vessel, rival: u32, t: f32, node: blob_dev
   (*lane) = blob_device_quotient(sum);
 }
 
-fn blob_device_blend(v: blob_device_vessel, place: blob_device_place, index: u32,
-    node: blob_device_node, lane: ptr<function, blob_device_lane>) {
-  let rivals: u32 = blob_device_rivals(node);
-  var rival: u32;
-  var other: blob_device_node;
+fn blob_device_blend_one(v: blob_device_vessel, place: blob_device_place, index: u32,
+    node: blob_device_node, number: u32, lane: ptr<function, blob_device_lane>) -> i32 {
+  let rival: u32 = node.neighbour + number;
+  let t: f32 = blob_device_difference(rival, 0u, node.x) *
+      bitcast<f32>(blob_device_buffer[rival + 32u]);
+  let other: blob_device_node = blob_device_at(v, blob_device_buffer[rival + 40u], place);
+  let kind: i32 = blob_device_pair(v, index, other, blob_device_rivals(other), t);
   var second: blob_device_lane;
-  var t: f32;
-  var kind: i32;
-  if (rivals == 0u) {
-    return;
-  }
-  if ((rivals & (rivals - 1u)) != 0u) {
-    blob_device_blend_all(v, place, index, lane);
-    return;
-  }
-  rival = node.neighbour + blob_device_first(rivals);
-  t = blob_device_difference(rival, 0u, node.x) * bitcast<f32>(blob_device_buffer[rival + 32u]);
-  other = blob_device_at(v, blob_device_buffer[rival + 40u], place);
-  kind = blob_device_pair(v, index, other, blob_device_rivals(other), t);
   if (kind == 0) {
-    blob_device_blend_all(v, place, index, lane);
-    return;
+    return 0;
   }
   second = blob_device_evaluate(v, other);
   if (kind == 1) {
     blob_device_mix(v, rival, t, second, lane);
   } else {
     blob_device_mix_two(v, rival, t, other, second, lane);
+  }
+  return 1;
+}
+
+fn blob_device_blend(v: blob_device_vessel, place: blob_device_place, index: u32,
+    node: blob_device_node, lane: ptr<function, blob_device_lane>) {
+  let rivals: u32 = node.rivals;
+  if (rivals == 0u) {
+    return;
+  }
+  if ((rivals & (rivals - 1u)) != 0u || blob_device_blend_one(v, place, index, node,
+      blob_device_first(rivals), lane) == 0) {
+    blob_device_blend_all(v, place, index, lane);
   }
 }
 
@@ -828,17 +851,28 @@ fn blob_device_is_out_of_range(node: blob_device_node, sample: ptr<function, blo
   return 1;
 }
 
-fn blob_device_sample_at(v: blob_device_vessel, flags: u32, place: blob_device_place,
-    cursor: ptr<function, u32>, sample: ptr<function, blob_device_sample>) -> i32 {
-  var node: blob_device_node = blob_device_at(v, (*cursor), place);
-  var lane: blob_device_lane;
-  (*sample).node = (*cursor);
-  if (blob_device_is_out_of_range(node, sample) != 0) {
+fn blob_device_enter(v: blob_device_vessel, flags: u32, place: blob_device_place,
+    cursor: ptr<function, u32>, node: ptr<function, blob_device_node>, sample: ptr<function,
+    blob_device_sample>) -> i32 {
+  (*node) = blob_device_at(v, (*cursor), place);
+  if (blob_device_is_out_of_range((*node), sample) != 0) {
+    (*sample).node = (*cursor);
     return 0;
   }
   if ((flags & BLOB_DEVICE_HOLD) == 0u) {
-    (*cursor) = blob_device_follow(v, place, (*cursor));
-    node = blob_device_at(v, (*cursor), place);
+    (*node) = blob_device_follow(v, place, cursor);
+  } else {
+    (*node).rivals = blob_device_rivals((*node));
+  }
+  return 1;
+}
+
+fn blob_device_sample_at(v: blob_device_vessel, flags: u32, place: blob_device_place,
+    cursor: ptr<function, u32>, sample: ptr<function, blob_device_sample>) -> i32 {
+  var node: blob_device_node;
+  var lane: blob_device_lane;
+  if (blob_device_enter(v, flags, place, cursor, &node, sample) == 0) {
+    return 0;
   }
   lane = blob_device_evaluate(v, node);
   if ((flags & BLOB_DEVICE_LOCAL) == 0u) {

@@ -24,9 +24,10 @@ BLOB_DEVICE_LOCAL = wp.constant(wp.uint32(1))
 BLOB_DEVICE_HOLD = wp.constant(wp.uint32(4))
 BLOB_DEVICE_INSIDE = wp.constant(wp.uint32(1))
 BLOB_DEVICE_NOWHERE = wp.constant(wp.uint32(0xffffffff))
+BLOB_DEVICE_SIMT = wp.constant(0)
 BLOB_DEVICE_WIDE = wp.constant(0)
-BLOB_DEVICE_MOST_ACTIVE = wp.constant(24)
 BLOB_DEVICE_MANY = wp.constant(wp.uint32(0xffffffff))
+BLOB_DEVICE_MOST_ACTIVE = wp.constant(24)
 BLOB_DEVICE_AT_POINT = wp.constant(wp.uint32(0))
 BLOB_DEVICE_APPROACHING = wp.constant(wp.uint32(1))
 BLOB_DEVICE_BESIDE = wp.constant(wp.uint32(2))
@@ -75,6 +76,7 @@ class blob_device_node:
     record: wp.uint32
     neighbour: wp.uint32
     blocks: wp.uint32
+    rivals: wp.uint32
     x: wp.vec3
 
 
@@ -260,6 +262,7 @@ def blob_device_at(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, ind
     node.x[0] = x
     node.x[1] = y
     node.x[2] = z
+    node.rivals = wp.uint32(0)
     node.blocks = blob_device_load(buffer, node.record + wp.uint32(11))
     if node.blocks > wp.uint32(1) and square < blob_device_number(buffer, node.record +
             wp.uint32(7)):
@@ -348,6 +351,15 @@ def blob_device_first(bits: wp.uint32):
 
 
 @wp.func
+def blob_device_count(bits: wp.uint32):
+    count = wp.uint32(0)
+    for index_1 in range(wp.int32(wp.uint32(8))):
+        i = wp.uint32(index_1)
+        count += (bits >> i) & wp.uint32(1)
+    return count
+
+
+@wp.func
 def blob_device_below(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, x: wp.vec3,
         limit: wp.float32):
     bits = wp.uint32(0)
@@ -362,14 +374,17 @@ def blob_device_below(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, x: wp
 @wp.func
 def blob_device_lower(buffer: wp.array(dtype=wp.uint32), block: wp.uint32, x: wp.vec3,
         node: wp.uint32, least: wp.float32, next: wp.uint32):
+    bits = wp.uint32(0)
     for index_1 in range(wp.int32(wp.uint32(8))):
         i = wp.uint32(index_1)
         difference = blob_device_difference(buffer, block, i, x)
         k = blob_device_load(buffer, block + (i + wp.uint32(40)))
+        if difference * blob_device_number(buffer, block + (i + wp.uint32(32))) < 1.0:
+            bits = bits | (wp.uint32(1) << i)
         if difference < least or ((difference == least and next != node) and k < next):
             least = difference
             next = k
-    return least, next
+    return bits, least, next
 
 
 @wp.func
@@ -481,23 +496,39 @@ def blob_device_evaluate(buffer: wp.array(dtype=wp.uint32), v: blob_device_vesse
 
 
 @wp.func
+def blob_device_rivals(buffer: wp.array(dtype=wp.uint32), node: blob_device_node):
+    for index_1 in range(wp.int32(node.blocks)):
+        b = wp.uint32(index_1)
+        if blob_device_below(buffer, node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node.x,
+                1.0) != wp.uint32(0):
+            return BLOB_DEVICE_MANY
+    return blob_device_below(buffer, node.neighbour, node.x, 1.0)
+
+
+@wp.func
 def blob_device_follow(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
-        place: blob_device_place, start: wp.uint32):
-    before = start
-    node = start
+        place: blob_device_place, node: wp.uint32):
+    here = blob_device_at(buffer, v, node, place)
+    before = node
     for step in range(256):
-        here = blob_device_at(buffer, v, node, place)
         next = node
         least = wp.float32(0.0)
-        for index_2 in range(wp.int32(here.blocks)):
-            b = wp.uint32(index_2)
-            least, next = blob_device_lower(buffer, here.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS *
-                    b, here.x, node, least, next)
+        here.rivals = wp.uint32(0)
+        b = wp.uint32(0)
+        while b < here.blocks:
+            result_2, least, next = blob_device_lower(buffer, here.neighbour +
+                    BLOB_DEVICE_NEIGHBOUR_WORDS * b, here.x, node, least, next)
+            bits = result_2
+            here.rivals = wp.where(b == wp.uint32(0), bits,
+                    wp.where(bits != wp.uint32(0), BLOB_DEVICE_MANY, here.rivals))
+            b += wp.uint32(1)
         if next == node or next == before:
-            break
+            return here, node
         before = node
         node = next
-    return node
+        here = blob_device_at(buffer, v, next, place)
+    here.rivals = blob_device_rivals(buffer, here)
+    return here, node
 
 
 @wp.func
@@ -525,18 +556,9 @@ def blob_device_is_neighbour(buffer: wp.array(dtype=wp.uint32), v: blob_device_v
 
 
 @wp.func
-def blob_device_rivals(buffer: wp.array(dtype=wp.uint32), node: blob_device_node):
-    for index_1 in range(wp.int32(node.blocks)):
-        b = wp.uint32(index_1)
-        if blob_device_below(buffer, node.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node.x,
-                1.0) != wp.uint32(0):
-            return BLOB_DEVICE_MANY
-    return blob_device_below(buffer, node.neighbour, node.x, 1.0)
-
-
-@wp.func
 def blob_device_weigh(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, index: wp.uint32,
         node: blob_device_node, blending: blob_device_active, gradient: wp.vec3):
+    number = wp.uint32(0)
     u = wp.float32(1.0)
     part = wp.vec3()
     for axis in range(3):
@@ -547,22 +569,20 @@ def blob_device_weigh(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, 
         rivals = blob_device_below(buffer, block, node.x, 1.0)
         if rivals == wp.uint32(0):
             continue
-        if blob_device_below(buffer, block, node.x, -1.0) != wp.uint32(0):
-            return wp.float32(0.0), blending, gradient
-        result_4, part = blob_device_weigh_against(buffer, block, node.x, part)
-        u *= result_4
+        result_3, part = blob_device_weigh_against(buffer, block, node.x, part)
+        u *= result_3
         if not (u > 1e-20):
             return wp.float32(0.0), blending, gradient
         for axis in range(3):
             gradient[axis] += part[axis]
-        for index_5 in range(wp.int32(wp.uint32(8))):
+        number = blob_device_count(rivals)
+        for index_5 in range(wp.int32(number)):
             i = wp.uint32(index_5)
-            if ((rivals >> i) & wp.uint32(1)) != wp.uint32(0):
-                if index == blending.nodes[0] or blob_device_is_neighbour(buffer, v,
-                        blending.nodes[0], blob_device_load(buffer, block +
-                        (i + wp.uint32(40)))) == 0:
-                    blending = blob_device_add_active(blending,
-                            blob_device_load(buffer, block + (i + wp.uint32(40))))
+            k = blob_device_load(buffer, block + (blob_device_first(rivals) + wp.uint32(40)))
+            rivals = rivals & (rivals - wp.uint32(1))
+            if index == blending.nodes[0] or blob_device_is_neighbour(buffer, v, blending.nodes[0],
+                    k) == 0:
+                blending = blob_device_add_active(blending, k)
     for axis in range(3):
         gradient[axis] *= u
     return u, blending, gradient
@@ -671,19 +691,21 @@ def blob_device_blend_all(buffer: wp.array(dtype=wp.uint32), v: blob_device_vess
 @wp.func
 def blob_device_pair(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, node: wp.uint32,
         other: blob_device_node, rivals: wp.uint32, t: wp.float32):
+    number = wp.uint32(0)
+    rest = rivals
     if rivals == BLOB_DEVICE_MANY or not (t > -0.999):
         return wp.int32(0)
     if (rivals & (rivals - wp.uint32(1))) == wp.uint32(0):
         if rivals == wp.uint32(0) or blob_device_load(buffer, other.neighbour +
                 (blob_device_first(rivals) + wp.uint32(40))) == node:
             return wp.int32(1)
-    for index_2 in range(wp.int32(wp.uint32(8))):
-        i = wp.uint32(index_2)
-        if ((rivals >> i) & wp.uint32(1)) != wp.uint32(0) and blob_device_load(buffer,
-                other.neighbour + (i + wp.uint32(40))) != node:
-            if blob_device_is_neighbour(buffer, v, node, blob_device_load(buffer, other.neighbour +
-                    (i + wp.uint32(40)))) == 0:
-                return wp.int32(0)
+    number = blob_device_count(rivals)
+    for index_3 in range(wp.int32(number)):
+        i = wp.uint32(index_3)
+        k = blob_device_load(buffer, other.neighbour + (blob_device_first(rest) + wp.uint32(40)))
+        rest = rest & (rest - wp.uint32(1))
+        if k != node and blob_device_is_neighbour(buffer, v, node, k) == 0:
+            return wp.int32(0)
     return wp.int32(2)
 
 
@@ -739,32 +761,35 @@ def blob_device_mix_two(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel
 
 
 @wp.func
-def blob_device_blend(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
-        place: blob_device_place, index: wp.uint32, node: blob_device_node, lane: blob_device_lane):
-    rivals = blob_device_rivals(buffer, node)
-    rival = wp.uint32()
-    other = blob_device_node()
-    second = blob_device_lane()
-    t = wp.float32(0.0)
-    kind = wp.int32(0)
-    if rivals == wp.uint32(0):
-        return lane
-    if (rivals & (rivals - wp.uint32(1))) != wp.uint32(0):
-        lane = blob_device_blend_all(buffer, v, place, index, lane)
-        return lane
-    rival = node.neighbour + blob_device_first(rivals)
+def blob_device_blend_one(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        place: blob_device_place, index: wp.uint32, node: blob_device_node, number: wp.uint32,
+        lane: blob_device_lane):
+    rival = node.neighbour + number
     t = (blob_device_difference(buffer, rival, wp.uint32(0), node.x) *
             blob_device_number(buffer, rival + wp.uint32(32)))
     other = blob_device_at(buffer, v, blob_device_load(buffer, rival + wp.uint32(40)), place)
     kind = blob_device_pair(buffer, v, index, other, blob_device_rivals(buffer, other), t)
+    second = blob_device_lane()
     if kind == 0:
-        lane = blob_device_blend_all(buffer, v, place, index, lane)
-        return lane
+        return wp.int32(0), lane
     second = blob_device_evaluate(buffer, v, other)
     if kind == 1:
         lane = blob_device_mix(buffer, v, rival, t, second, lane)
     else:
         lane = blob_device_mix_two(buffer, v, rival, t, other, second, lane)
+    return wp.int32(1), lane
+
+
+@wp.func
+def blob_device_blend(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        place: blob_device_place, index: wp.uint32, node: blob_device_node, lane: blob_device_lane):
+    rivals = node.rivals
+    if rivals == wp.uint32(0):
+        return lane
+    result_2, lane = blob_device_blend_one(buffer, v, place, index, node, blob_device_first(rivals),
+            lane)
+    if (rivals & (rivals - wp.uint32(1))) != wp.uint32(0) or result_2 == 0:
+        lane = blob_device_blend_all(buffer, v, place, index, lane)
     return lane
 
 
@@ -848,17 +873,31 @@ def blob_device_is_out_of_range(buffer: wp.array(dtype=wp.uint32), node: blob_de
 
 
 @wp.func
-def blob_device_sample_at(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
-        flags: wp.uint32, place: blob_device_place, cursor: wp.uint32, sample: blob_device_sample):
+def blob_device_enter(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, flags: wp.uint32,
+        place: blob_device_place, cursor: wp.uint32, node: blob_device_node,
+        sample: blob_device_sample):
     node = blob_device_at(buffer, v, cursor, place)
-    lane = blob_device_lane()
-    sample.node = cursor
     result_2, sample = blob_device_is_out_of_range(buffer, node, sample)
     if result_2 != 0:
-        return wp.int32(0), cursor, sample
+        sample.node = cursor
+        return wp.int32(0), cursor, node, sample
     if (flags & BLOB_DEVICE_HOLD) == wp.uint32(0):
-        cursor = blob_device_follow(buffer, v, place, cursor)
-        node = blob_device_at(buffer, v, cursor, place)
+        result_3, cursor = blob_device_follow(buffer, v, place, cursor)
+        node = result_3
+    else:
+        node.rivals = blob_device_rivals(buffer, node)
+    return wp.int32(1), cursor, node, sample
+
+
+@wp.func
+def blob_device_sample_at(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel,
+        flags: wp.uint32, place: blob_device_place, cursor: wp.uint32, sample: blob_device_sample):
+    node = blob_device_node()
+    lane = blob_device_lane()
+    result_1, cursor, node, sample = blob_device_enter(buffer, v, flags, place, cursor, node,
+            sample)
+    if result_1 == 0:
+        return wp.int32(0), cursor, sample
     lane = blob_device_evaluate(buffer, v, node)
     if (flags & BLOB_DEVICE_LOCAL) == wp.uint32(0):
         lane = blob_device_blend(buffer, v, place, cursor, node, lane)

@@ -19,10 +19,14 @@
  * Neither this header nor the library needs NVIDIA's SDK: the driver, libcuda.so.1, is loaded by
  * blob_cuda_create(), and translates the kernels (PTX of compute capability 7.0) for its device.
  *
- * Streams. A query is one launch of a kernel: it neither waits, nor allocates, nor copies. Queries
- * of one stream follow one another, so one that reads cursors sees those that the one before has
- * moved; queries of different streams must not share columns that they write. Faults within a
- * kernel appear where the caller waits for the stream, as those of its own kernels.
+ * Streams. A query is at most three launches of kernels, one for BLOB_LOCAL and for
+ * BLOB_DISTANCE_EXACT: it neither waits, nor allocates, nor copies. Queries of one stream follow one
+ * another, so one that reads cursors sees those that the one before has moved; queries of different
+ * streams must not share columns that they write. Faults within a kernel appear where the caller
+ * waits for the stream, as those of its own kernels.
+ *
+ * Speed. Points that follow one another along a vessel share what a processor loads, so keep the
+ * points of a tool together; answers at addresses that are multiples of 16 are written at once.
  *
  * Threads. Any number of threads may query one object.
  */
@@ -93,7 +97,8 @@ BLOB_API blob_cuda_status blob_cuda_create(const void* buffer, size_t size,
  * creation must still exist. Null is allowed. Cannot fail. O(1). */
 BLOB_API void blob_cuda_close(blob_cuda* vessels) BLOB_NOEXCEPT;
 
-/* The buffer in device memory, for kernels of the caller that call blob_device_query().
+/* The buffer in device memory, aligned to 256 bytes, for kernels of the caller that call
+ * blob_device_query().
  * Returns its address; it lives as long as the object. Cannot fail. O(1). */
 BLOB_API const uint32_t* blob_cuda_words(const blob_cuda* vessels) BLOB_NOEXCEPT;
 
@@ -122,12 +127,13 @@ BLOB_API blob_cuda_columns blob_cuda_columns_default(void) BLOB_NOEXCEPT;
 
 struct CUstream_st; /* cudaStream_t and CUstream are pointers to it */
 
-/* Launches blob_device_query() at many points, or with BLOB_DISTANCE_EXACT
+/* Puts blob_device_query() at many points on a stream, or with BLOB_DISTANCE_EXACT
  * blob_device_query_exact(), and returns before the answers are there.
  * The caller provides a stream of the device of the object (null: its default stream), flags as for
  * blob_query(), and columns; the structure itself may change after the call. A stream that is being
- * captured into a graph records the launch.
- * Fails with BLOB_CUDA_ERROR_ARGUMENT and _LAUNCH, without a launch.
+ * captured into a graph records the launches.
+ * Fails with BLOB_CUDA_ERROR_ARGUMENT, without a launch, and _LAUNCH, after which answers are
+ * undefined and cursors are located anew.
  * O(1) on the host. */
 BLOB_API blob_cuda_status blob_cuda_query(const blob_cuda* vessels, struct CUstream_st* stream,
                                           uint32_t flags,

@@ -26,6 +26,9 @@
  * BLOB_DEVICE_WIDE 1 computes eight neighbours or blobs at once, by the vectors of OpenCL C, with
  * the same bits. It is the default where OpenCL C is compiled for a processor without graphics.
  *
+ * In CUDA, blob_device_simt.h reads the buffer in pieces of 16 bytes: `words` must be a multiple of 16
+ * there, as all memory of cudaMalloc() is, and nothing may write to the buffer meanwhile.
+ *
  * The buffer, version 2: words of 32 bits in the byte order of the host; floats are IEEE 754.
  *
  *     word 0    BLOB_DEVICE_MAGIC
@@ -126,18 +129,30 @@ BLOB_DEVICE_FN int blob_device_is_out_of_range(const blob_device_node* node,
   return 1;
 }
 
+/* Moves a cursor, which is a node, to the node that answers at a place; false, with the answer, out of
+ * its range. */
+BLOB_DEVICE_FN int blob_device_enter(const blob_device_vessel* v, blob_device_word flags,
+                                     const blob_device_place* place, blob_device_word* cursor,
+                                     blob_device_node* node, blob_device_sample* sample) {
+  *node = blob_device_at(v, *cursor, place);
+  if (blob_device_is_out_of_range(node, sample)) {
+    sample->node = *cursor;
+    return 0;
+  }
+  if ((flags & BLOB_DEVICE_HOLD) == 0)
+    *node = blob_device_follow(v, place, cursor);
+  else
+    node->rivals = blob_device_rivals(node);
+  return 1;
+}
+
 /* blob_query() at a place, whose cursor is a node; false out of its range. */
 BLOB_DEVICE_FN int blob_device_sample_at(const blob_device_vessel* v, blob_device_word flags,
                                          const blob_device_place* place, blob_device_word* cursor,
                                          blob_device_sample* sample) {
-  blob_device_node node = blob_device_at(v, *cursor, place);
+  blob_device_node node;
   blob_device_lane lane;
-  sample->node = *cursor;
-  if (blob_device_is_out_of_range(&node, sample)) return 0;
-  if ((flags & BLOB_DEVICE_HOLD) == 0) {
-    *cursor = blob_device_follow(v, place, *cursor);
-    node = blob_device_at(v, *cursor, place);
-  }
+  if (!blob_device_enter(v, flags, place, cursor, &node, sample)) return 0;
   lane = blob_device_evaluate(v, &node);
   if ((flags & BLOB_DEVICE_LOCAL) == 0) blob_device_blend(v, place, *cursor, &node, &lane);
   blob_device_finish(v, &lane, node.x, sample);

@@ -13,7 +13,7 @@
  * and moved. */
 typedef struct blob_device_group {
   float point[8][3];
-  blob_device_word node[8], state[8];
+  blob_device_word node[8], state[8], rivals[8];
   float field[4][8];               /* f and its gradient */
   float distance[8], normal[3][8]; /* as in blob_device_sample */
   float x[3][8];                   /* relative to the node's centre, mm */
@@ -34,10 +34,14 @@ BLOB_DEVICE_FN blob_device_word blob_device_place_group(const blob_device_vessel
     if (node >= v->node_count) node = blob_device_locate(v, &place);
     here = blob_device_at(v, node, &place);
     if (blob_device_is_out_of_range(&here, &none) == 0) {
-      if ((flags & BLOB_DEVICE_HOLD) == 0) node = blob_device_follow(v, &place, node);
+      if ((flags & BLOB_DEVICE_HOLD) == 0)
+        here = blob_device_follow(v, &place, &node);
+      else
+        here.rivals = blob_device_rivals(&here);
       bits |= 1u << k;
     }
     g->node[k] = node;
+    g->rivals[k] = here.rivals;
   }
   return bits;
 }
@@ -52,7 +56,8 @@ BLOB_DEVICE_FN void blob_device_evaluate_group(const blob_device_vessel* v, blob
     float x[3] = {0.0f, 0.0f, 0.0f};
     if (((bits >> k) & 1u) != 0) {
       const blob_device_place place = blob_device_place_at(g->point[k]);
-      const blob_device_node node = blob_device_at(v, g->node[k], &place);
+      blob_device_node node = blob_device_at(v, g->node[k], &place);
+      node.rivals = g->rivals[k];
       lane = blob_device_evaluate(v, &node);
       if ((flags & BLOB_DEVICE_LOCAL) == 0) blob_device_blend(v, &place, g->node[k], &node, &lane);
       for (i = 0; i < 3; ++i) x[i] = node.x[i];

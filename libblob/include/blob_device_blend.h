@@ -16,6 +16,8 @@
 #endif
 #if BLOB_DEVICE_WIDE
 #include "blob_device_wide.h"
+#elif BLOB_DEVICE_SIMT
+#include "blob_device_simt.h"
 #else
 #include "blob_device_lanes.h"
 #endif
@@ -39,30 +41,47 @@ BLOB_DEVICE_FN blob_device_lane blob_device_evaluate(const blob_device_vessel* v
   return lane;
 }
 
-/* Walks to the neighbour of least power while that falls: blob_cursor_follow(). */
-BLOB_DEVICE_FN blob_device_word blob_device_follow(const blob_device_vessel* v,
+#define BLOB_DEVICE_MANY 0xffffffffu
+
+/* Bits of a node's rivals, neighbours that it does not beat by tau, in its first block; _MANY if a
+ * later block has one. */
+BLOB_DEVICE_FN blob_device_word blob_device_rivals(const blob_device_node* node) {
+  blob_device_word b;
+  for (b = 1; b < node->blocks; ++b)
+    if (blob_device_below(node->neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node->x, 1.0f) != 0)
+      return BLOB_DEVICE_MANY;
+  return blob_device_below(node->neighbour, node->x, 1.0f);
+}
+
+/* Walks to the neighbour of least power while that falls, from *node on: blob_cursor_follow(). Returns
+ * the last node, with its rivals, and its number in *node. */
+BLOB_DEVICE_FN blob_device_node blob_device_follow(const blob_device_vessel* v,
                                                    const blob_device_place* place,
-                                                   blob_device_word start) {
-  blob_device_word before = start, node = start;
+                                                   blob_device_word* node) {
+  blob_device_node here = blob_device_at(v, *node, place);
+  blob_device_word before = *node, b;
   int step;
   for (step = 0; step < 256; ++step) {
-    const blob_device_node here = blob_device_at(v, node, place);
-    blob_device_word next = node, b;
+    blob_device_word next = *node;
     float least = 0;
-    for (b = 0; b < here.blocks; ++b)
-      blob_device_lower(here.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, here.x, node, &least,
-                        &next);
-    if (next == node || next == before) break;
-    before = node;
-    node = next;
+    here.rivals = 0;
+    for (b = 0; b < here.blocks; ++b) {
+      const blob_device_word bits = blob_device_lower(
+          here.neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, here.x, *node, &least, &next);
+      here.rivals = b == 0 ? bits : bits != 0 ? BLOB_DEVICE_MANY : here.rivals;
+    }
+    if (next == *node || next == before) return here;
+    before = *node;
+    *node = next;
+    here = blob_device_at(v, next, place);
   }
-  return node;
+  here.rivals = blob_device_rivals(&here);
+  return here;
 }
 
 /* ---------------------------------------------------------------- blending */
 
 #define BLOB_DEVICE_MOST_ACTIVE 24
-#define BLOB_DEVICE_MANY 0xffffffffu
 
 /* Nodes that blend. */
 typedef struct blob_device_active {
@@ -97,38 +116,29 @@ BLOB_DEVICE_FN int blob_device_is_neighbour(const blob_device_vessel* v, blob_de
   return 0;
 }
 
-/* Bits of a node's rivals, neighbours that it does not beat by tau, in its first block; _MANY if a
- * later block has one. */
-BLOB_DEVICE_FN blob_device_word blob_device_rivals(const blob_device_node* node) {
-  blob_device_word b;
-  for (b = 1; b < node->blocks; ++b)
-    if (blob_device_below(node->neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b, node->x, 1.0f) != 0)
-      return BLOB_DEVICE_MANY;
-  return blob_device_below(node->neighbour, node->x, 1.0f);
-}
-
 /* The weight u of a node and its gradient; 0 if another beats it by tau. Its rivals are added to
  * those that blend, but for neighbours of the first node, which has added its own. */
 BLOB_DEVICE_FN float blob_device_weigh(const blob_device_vessel* v, blob_device_word index,
                                        const blob_device_node* node, blob_device_active* blending,
                                        float* gradient) {
-  blob_device_word b, i;
+  blob_device_word b, i, number;
   float u = 1, part[3];
   int axis;
   for (axis = 0; axis < 3; ++axis) gradient[axis] = 0;
   for (b = 0; b < node->blocks; ++b) {
     blob_device_words block = node->neighbour + BLOB_DEVICE_NEIGHBOUR_WORDS * b;
-    const blob_device_word rivals = blob_device_below(block, node->x, 1.0f);
+    blob_device_word rivals = blob_device_below(block, node->x, 1.0f);
     if (rivals == 0) continue;
-    if (blob_device_below(block, node->x, -1.0f) != 0) return 0;
     u *= blob_device_weigh_against(block, node->x, part);
     if (!(u > 1e-20f)) return 0;
     for (axis = 0; axis < 3; ++axis) gradient[axis] += part[axis];
-    for (i = 0; i < 8; ++i)
-      if (((rivals >> i) & 1u) != 0)
-        if (index == blending->nodes[0] ||
-            !blob_device_is_neighbour(v, blending->nodes[0], block[i + 40]))
-          blob_device_add_active(blending, block[i + 40]);
+    number = blob_device_count(rivals);
+    for (i = 0; i < number; ++i) {
+      const blob_device_word k = block[blob_device_first(rivals) + 40];
+      rivals = rivals & (rivals - 1u);
+      if (index == blending->nodes[0] || !blob_device_is_neighbour(v, blending->nodes[0], k))
+        blob_device_add_active(blending, k);
+    }
   }
   for (axis = 0; axis < 3; ++axis) gradient[axis] *= u;
   return u;
@@ -226,13 +236,16 @@ BLOB_DEVICE_FN void blob_device_blend_all(const blob_device_vessel* v,
 BLOB_DEVICE_FN int blob_device_pair(const blob_device_vessel* v, blob_device_word node,
                                     const blob_device_node* other, blob_device_word rivals,
                                     float t) {
-  blob_device_word i;
+  blob_device_word i, number, rest = rivals;
   if (rivals == BLOB_DEVICE_MANY || !(t > -0.999f)) return 0;
   if ((rivals & (rivals - 1)) == 0)
     if (rivals == 0 || other->neighbour[blob_device_first(rivals) + 40] == node) return 1;
-  for (i = 0; i < 8; ++i)
-    if (((rivals >> i) & 1u) != 0 && other->neighbour[i + 40] != node)
-      if (!blob_device_is_neighbour(v, node, other->neighbour[i + 40])) return 0;
+  number = blob_device_count(rivals);
+  for (i = 0; i < number; ++i) {
+    const blob_device_word k = other->neighbour[blob_device_first(rest) + 40];
+    rest = rest & (rest - 1u);
+    if (k != node && !blob_device_is_neighbour(v, node, k)) return 0;
+  }
   return 2;
 }
 
@@ -272,34 +285,35 @@ BLOB_DEVICE_FN void blob_device_mix_two(const blob_device_vessel* v, blob_device
   *lane = blob_device_quotient(&sum);
 }
 
-/* Blends the models of a node's rivals into the node's own answer. */
-BLOB_DEVICE_FN void blob_device_blend(const blob_device_vessel* v, const blob_device_place* place,
-                                      blob_device_word index, const blob_device_node* node,
-                                      blob_device_lane* lane) {
-  const blob_device_word rivals = blob_device_rivals(node);
-  blob_device_words rival;
-  blob_device_node other;
+/* Blends the model of the one rival of a node, number `number` of its first block, into the node's own
+ * answer. Returns false, and leaves the answer, where more nodes blend. */
+BLOB_DEVICE_FN int blob_device_blend_one(const blob_device_vessel* v,
+                                         const blob_device_place* place, blob_device_word index,
+                                         const blob_device_node* node, blob_device_word number,
+                                         blob_device_lane* lane) {
+  blob_device_words rival = node->neighbour + number;
+  const float t = blob_device_difference(rival, 0, node->x) * blob_device_float(rival[32]);
+  const blob_device_node other = blob_device_at(v, rival[40], place);
+  const int kind = blob_device_pair(v, index, &other, blob_device_rivals(&other), t);
   blob_device_lane second;
-  float t;
-  int kind;
-  if (rivals == 0) return;
-  if ((rivals & (rivals - 1)) != 0) {
-    blob_device_blend_all(v, place, index, lane);
-    return;
-  }
-  rival = node->neighbour + blob_device_first(rivals);
-  t = blob_device_difference(rival, 0, node->x) * blob_device_float(rival[32]);
-  other = blob_device_at(v, rival[40], place);
-  kind = blob_device_pair(v, index, &other, blob_device_rivals(&other), t);
-  if (kind == 0) {
-    blob_device_blend_all(v, place, index, lane);
-    return;
-  }
+  if (kind == 0) return 0;
   second = blob_device_evaluate(v, &other);
   if (kind == 1)
     blob_device_mix(v, rival, t, &second, lane);
   else
     blob_device_mix_two(v, rival, t, &other, &second, lane);
+  return 1;
+}
+
+/* Blends the models of a node's rivals, which it states, into the node's own answer. */
+BLOB_DEVICE_FN void blob_device_blend(const blob_device_vessel* v, const blob_device_place* place,
+                                      blob_device_word index, const blob_device_node* node,
+                                      blob_device_lane* lane) {
+  const blob_device_word rivals = node->rivals;
+  if (rivals == 0) return;
+  if ((rivals & (rivals - 1)) != 0 ||
+      blob_device_blend_one(v, place, index, node, blob_device_first(rivals), lane) == 0)
+    blob_device_blend_all(v, place, index, lane);
 }
 
 #endif

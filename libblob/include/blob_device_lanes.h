@@ -25,6 +25,13 @@ BLOB_DEVICE_FN blob_device_word blob_device_first(blob_device_word bits) {
   return found;
 }
 
+/* Number of bits of eight that are set. */
+BLOB_DEVICE_FN blob_device_word blob_device_count(blob_device_word bits) {
+  blob_device_word count = 0, i;
+  for (i = 0; i < 8; ++i) count += (bits >> i) & 1u;
+  return count;
+}
+
 /* Bits of a block's neighbours k with (p_k - p_node) / tau < limit. */
 BLOB_DEVICE_FN blob_device_word blob_device_below(blob_device_words block, const float* x,
                                                   float limit) {
@@ -35,18 +42,22 @@ BLOB_DEVICE_FN blob_device_word blob_device_below(blob_device_words block, const
   return bits;
 }
 
-/* The neighbour of least power in a block, if that is less than `least`; the lowest of equals. */
-BLOB_DEVICE_FN void blob_device_lower(blob_device_words block, const float* x,
-                                      blob_device_word node, float* least, blob_device_word* next) {
-  blob_device_word i;
+/* The neighbour of least power in a block, if that is less than `least`; the lowest of equals.
+ * Returns the bits of blob_device_below() for the limit 1. */
+BLOB_DEVICE_FN blob_device_word blob_device_lower(blob_device_words block, const float* x,
+                                                  blob_device_word node, float* least,
+                                                  blob_device_word* next) {
+  blob_device_word bits = 0, i;
   for (i = 0; i < 8; ++i) {
     const float difference = blob_device_difference(block, i, x);
     const blob_device_word k = block[i + 40];
+    if (difference * blob_device_float(block[i + 32]) < 1.0f) bits = bits | (1u << i);
     if (difference < *least || (difference == *least && *next != node && k < *next)) {
       *least = difference;
       *next = k;
     }
   }
+  return bits;
 }
 
 /* Whether a block has neighbour k. */

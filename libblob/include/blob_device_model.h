@@ -52,6 +52,14 @@ typedef uint32_t blob_device_word;
 #define BLOB_DEVICE_UNROLL
 #endif
 
+#if !defined(BLOB_DEVICE_SIMT)
+#if defined(__CUDA_ARCH__)
+#define BLOB_DEVICE_SIMT 1 /* blob_device_simt.h */
+#else
+#define BLOB_DEVICE_SIMT 0
+#endif
+#endif
+
 /* clang-format on */
 
 typedef const BLOB_DEVICE_GLOBAL blob_device_word* blob_device_words;
@@ -171,11 +179,15 @@ BLOB_DEVICE_FN blob_device_place blob_device_place_at(const float* point) {
   return place;
 }
 
+#if BLOB_DEVICE_SIMT
+#include "blob_device_load.h"
+#else
 /* A node, and a place relative to its centre. */
 typedef struct blob_device_node {
   blob_device_words record;    /* 16 words */
   blob_device_words neighbour; /* first block */
   blob_device_word blocks;     /* number of blocks that count at x */
+  blob_device_word rivals;     /* of a node where a walk has ended: blob_device_rivals() */
   float x[3];
 } blob_device_node;
 
@@ -197,11 +209,13 @@ BLOB_DEVICE_FN blob_device_node blob_device_at(const blob_device_vessel* v, blob
   node.x[0] = x;
   node.x[1] = y;
   node.x[2] = z;
+  node.rivals = 0;
   node.blocks = node.record[11];
   if (node.blocks > 1 && square < blob_device_float(node.record[7])) node.blocks = 1;
   node.neighbour = v->words + v->neighbours + BLOB_DEVICE_NEIGHBOUR_WORDS * node.record[10];
   return node;
 }
+#endif
 
 /* The node of least power by a look at each: O(n). blob_cursor_locate() on the host is faster. */
 BLOB_DEVICE_FN blob_device_word blob_device_locate(const blob_device_vessel* v,

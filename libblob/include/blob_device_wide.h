@@ -33,6 +33,10 @@ BLOB_DEVICE_FN blob_device_word blob_device_first(blob_device_word bits) {
   return 31 - clz(bits & (0 - bits));
 }
 
+BLOB_DEVICE_FN blob_device_word blob_device_count(blob_device_word bits) {
+  return popcount(bits);
+}
+
 BLOB_DEVICE_FN float8 blob_device_differences(blob_device_words block, const float* x) {
   return ((blob_device_load(block) * x[0] + blob_device_load(block + 8) * x[1]) +
           blob_device_load(block + 16) * x[2]) +
@@ -45,8 +49,9 @@ BLOB_DEVICE_FN blob_device_word blob_device_below(blob_device_words block, const
                              limit);
 }
 
-BLOB_DEVICE_FN void blob_device_lower(blob_device_words block, const float* x,
-                                      blob_device_word node, float* least, blob_device_word* next) {
+BLOB_DEVICE_FN blob_device_word blob_device_lower(blob_device_words block, const float* x,
+                                                  blob_device_word node, float* least,
+                                                  blob_device_word* next) {
   const float8 differences = blob_device_differences(block, x);
   blob_device_word bits = blob_device_bits_of(differences <= *least);
   for (; bits != 0; bits &= bits - 1) {
@@ -57,6 +62,7 @@ BLOB_DEVICE_FN void blob_device_lower(blob_device_words block, const float* x,
       *next = k;
     }
   }
+  return blob_device_bits_of(differences * blob_device_load(block + 32) < 1.0f);
 }
 
 BLOB_DEVICE_FN int blob_device_holds(blob_device_words block, blob_device_word k) {

@@ -47,9 +47,10 @@ endif()
 # of this processor).
 find_package(OpenCL QUIET)
 if(OpenCL_FOUND AND NOT LUMEN_SANITIZE)
-  add_executable(device_opencl ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_opencl.cpp ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp)
+  set(folder ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
+  add_executable(device_opencl ${folder}/device_opencl.cpp ${folder}/device_agreement.cpp ${folder}/tree.cpp)
   target_link_libraries(device_opencl PRIVATE lumen_options lumen::blob_static OpenCL::OpenCL)
-  target_include_directories(device_opencl PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
+  target_include_directories(device_opencl PRIVATE ${folder})
   target_compile_definitions(device_opencl PRIVATE CL_TARGET_OPENCL_VERSION=120)
   add_test(NAME BlobDevice.AnswersOnOpenClAreThoseOfTheLibrary COMMAND device_opencl ${PROJECT_SOURCE_DIR}/libblob)
   add_test(NAME BlobDevice.AnswersOnOpenClWithoutVectorsAreThoseOfTheLibrary

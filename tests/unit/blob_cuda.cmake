@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # blob_cuda: its host side on a stand-in for NVIDIA's driver, which is found by its soname as it is loaded already, and
-# the text of its kernels. No test runs on a graphics processor.
+# the text of its kernels; on a graphics processor, where there is one, its answers.
 if(NOT TARGET blob_cuda)
   return()
 endif()
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/cuda)
 foreach(name stand_in half)
-  add_library(cuda_${name} SHARED ${folder}/$<IF:$<STREQUAL:${name},half>,half_driver.c,stand_in_driver.cpp>)
+  add_library(cuda_${name} SHARED ${folder}/$<IF:$<STREQUAL:${name},half>,half_driver.c,stand_in_driver.cpp>
+    $<$<STREQUAL:${name},stand_in>:${folder}/fibers.cpp>)
   set_target_properties(cuda_${name} PROPERTIES OUTPUT_NAME cuda SOVERSION 1
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/cuda_${name})
   target_link_libraries(cuda_${name} PRIVATE lumen_options)
@@ -16,7 +17,7 @@ target_include_directories(cuda_stand_in PRIVATE ${PROJECT_SOURCE_DIR}/libblob/i
 lumen_test(blob_cuda_test
   LABELS memory
   LIBS lumen_options lumen::blob_cuda cuda_stand_in
-  SOURCES ${folder}/cuda_test.cpp ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp)
+  SOURCES ${folder}/answers_test.cpp ${folder}/cuda_test.cpp ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp)
 target_include_directories(blob_cuda_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
 
 if(LUMEN_SANITIZE)
@@ -34,6 +35,12 @@ add_test(NAME BlobCuda.ADriverWithoutAFunctionIsAStatus
   COMMAND cuda_with_half_driver "libcuda.so.1 has no function cuGetErrorString")
 set_tests_properties(BlobCuda.NoDriverIsAStatus BlobCuda.ADriverWithoutAFunctionIsAStatus PROPERTIES
   LABELS quick SKIP_RETURN_CODE 77)
+# on a graphics processor, where there is one
+add_executable(device_cuda ${folder}/../device_cuda.cpp ${folder}/../device_agreement.cpp ${folder}/../tree.cpp)
+target_include_directories(device_cuda PRIVATE ${folder}/..)
+target_link_libraries(device_cuda PRIVATE lumen_options lumen::blob_cuda cuda_device)
+add_test(NAME BlobCuda.AnswersOnADeviceAreThoseOfTheLibrary COMMAND device_cuda)
+set_tests_properties(BlobCuda.AnswersOnADeviceAreThoseOfTheLibrary PROPERTIES LABELS foreign SKIP_RETURN_CODE 77)
 # the example, on the stand-in
 add_executable(cuda_query_points ${PROJECT_SOURCE_DIR}/libblob/examples/cuda/query_points.c ${folder}/runtime/stand_in_runtime.cpp)
 target_include_directories(cuda_query_points PRIVATE ${folder}/runtime)

@@ -18,7 +18,8 @@ class OpenClTest(unittest.TestCase):
     def test_all_sources_are_there(self):
         names = {path.name for path in blob.device_sources().iterdir()}
         self.assertEqual(names, {"blob_device.h", "blob_device_batch.h", "blob_device_blend.h", "blob_device_exact.h",
-                                 "blob_device_lanes.h", "blob_device_model.h", "blob_device_wall.h", "blob_device_wide.h", "query.cl", "query.cu", "query.wgsl"})
+                                 "blob_device_lanes.h", "blob_device_load.h", "blob_device_model.h", "blob_device_simt.h",
+                                 "blob_device_wall.h", "blob_device_wide.h", "query.cl", "query.cu", "query.wgsl"})
 
     @unittest.skipIf(not DEVICES, "pyopencl (Debian: python3-pyopencl) or a device (pocl-opencl-icd) is missing")
     def test_answers_are_those_of_libblob(self):

@@ -8,14 +8,16 @@
 #include <regex>
 #include <set>
 
-namespace {
+#include "fibers.h"
 
-std::size_t g_thread;  // that of the kernel that runs
-
-}  // namespace
-
-#define __global__
-#define BLOB_DEVICE_THREAD g_thread
+// the code of a device, but for its loads of 16 bytes
+#define BLOB_DEVICE_SIMT 1
+#define BLOB_DEVICE_KERNEL extern "C" void
+#define BLOB_DEVICE_SHARED static
+#define BLOB_DEVICE_THREAD lumen::blob::test::threadIndex()
+#define BLOB_DEVICE_NEXT(counter) ((*(counter))++)
+#define BLOB_DEVICE_OF_FIRST(x) lumen::blob::test::ofFirstThread(x)
+#define BLOB_DEVICE_SYNC() lumen::blob::test::syncBlock()
 #include "libblob/device/query.cu"
 
 namespace {
@@ -45,7 +47,7 @@ struct State {
   std::vector<StandInContext*> stack;
   StandInContext primary{true}, own{false};
   CUstream_st defaultStream;
-  std::size_t threads = 0;
+  std::vector<lumen::blob::test::stand_in::Launch> launched;
 } g;
 
 // Notes a call. Returns 0, or the fault that a test has set for this function.
@@ -85,7 +87,7 @@ T argument(const Kernel& kernel, void** arguments, std::size_t index) {
   return value;
 }
 
-std::function<void()> bound(const Kernel& k, void** a, std::size_t threads) {
+std::function<void()> bound(const Kernel& k, void** a, unsigned blocks, unsigned block) {
   const auto words = argument<const std::uint32_t*>(k, a, 0);
   const auto vessel = argument<std::uint32_t>(k, a, 1), flags = argument<std::uint32_t>(k, a, 2);
   const auto count = argument<std::uint32_t>(k, a, 3);
@@ -94,11 +96,35 @@ std::function<void()> bound(const Kernel& k, void** a, std::size_t threads) {
   const auto answer = argument<float*>(k, a, 6), value = argument<float*>(k, a, 7);
   const auto state = argument<std::uint32_t*>(k, a, 8);
   const auto ofPoint = argument<const std::uint32_t*>(k, a, 9);
-  const auto query = k.name == "blob_query_points" ? &blob_query_points : &blob_query_exact_points;
+  const auto span = k.parameters.size() > 10 ? argument<std::uint32_t>(k, a, 10) : 0;
+  const std::string name = k.name;
+  const std::function<void()> kernel = [=] {
+    const auto ofColumns = [&](auto function) {
+      function(words, vessel, flags, count, point, cursor, answer, value, state, ofPoint);
+    };
+    const auto ofSpans = [&](auto function) {
+      function(words, vessel, flags, count, point, cursor, answer, value, state, ofPoint, span);
+    };
+    if (name == "blob_query_points")
+      ofColumns(blob_query_points);
+    else if (name == "blob_query_points_cauchy")
+      ofColumns(blob_query_points_cauchy);
+    else if (name == "blob_query_exact_points")
+      ofColumns(blob_query_exact_points);
+    else if (name == "blob_blend_pairs")
+      ofSpans(blob_blend_pairs);
+    else if (name == "blob_blend_pairs_cauchy")
+      ofSpans(blob_blend_pairs_cauchy);
+    else if (name == "blob_blend_crowds")
+      ofSpans(blob_blend_crowds);
+    else if (name == "blob_blend_crowds_cauchy")
+      ofSpans(blob_blend_crowds_cauchy);
+    else
+      std::abort();
+  };
   return [=] {
-    for (g_thread = 0; g_thread < threads; ++g_thread)
-      query(words, vessel, flags, count, point, cursor, answer, value, state, ofPoint);
-    g.threads = threads;
+    lumen::blob::test::runBlocks(blocks, block, kernel);
+    g.launched.push_back({name, std::size_t{blocks} * block});
   };
 }
 
@@ -229,9 +255,8 @@ int cuLaunchKernel(Kernel* kernel, unsigned gridX, unsigned gridY, unsigned grid
   if (gridX == 0 || gridY != 1 || gridZ != 1 || blockX == 0 || blockX > 1024 || blockY != 1 ||
       blockZ != 1 || sharedBytes != 0 || extra != nullptr)
     return kInvalidValue;
-  const std::size_t threads = std::size_t{gridX} * blockX;
   CUstream_st& queue = stream == nullptr ? g.defaultStream : *stream;
-  queue.launches.push_back(bound(*kernel, arguments, threads));
+  queue.launches.push_back(bound(*kernel, arguments, gridX, blockX));
   return 0;
 }
 
@@ -266,6 +291,7 @@ void reset(int devices) {
   g.calls.clear();
   g.faults.clear();
   g.stack.clear();
+  g.launched.clear();
   g.defaultStream.launches.clear();
   g.devices = devices;
   g.retained = 0;
@@ -303,8 +329,10 @@ void enterOwnContext() {
   g.stack.push_back(&g.own);
 }
 
-std::size_t threadsOfLastLaunch() {
-  return g.threads;
+std::vector<Launch> takeLaunches() {
+  std::vector<Launch> launches;
+  launches.swap(g.launched);
+  return launches;
 }
 
 }  // namespace lumen::blob::test::stand_in

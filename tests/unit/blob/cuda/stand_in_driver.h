@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stand-in for NVIDIA's driver: a library of the same soname whose device is host memory, and which
-// runs the kernels of query.cu as this processor's compiler makes them. A launch waits in its stream
+// runs the kernels of query.cu as this processor's compiler makes them, in fibers. A launch waits in its stream
 // until run() or cuStreamSynchronize() is called. It proves nothing about graphics processors.
 #pragma once
 
@@ -33,7 +33,12 @@ std::size_t held();
 std::size_t entered();
 /// Makes a context of its own current on the calling thread.
 void enterOwnContext();
-/// Threads of the last launch that run() finished.
-std::size_t threadsOfLastLaunch();
+/// A kernel that has run.
+struct Launch {
+  std::string kernel;
+  std::size_t threads;
+};
+/// Launches that have run since the last call.
+std::vector<Launch> takeLaunches();
 
 }  // namespace lumen::blob::test::stand_in
