@@ -31,11 +31,12 @@ public:
   void answer(const float* p, const float* q, std::uint32_t face, Feature feature, std::size_t i,
               const Answers& answers) const;
 
+  /// The pseudonormal of a closed mesh at a feature of a face.
+  [[nodiscard]] const Vector& normalOf(std::uint32_t face, Feature feature) const;
+
   [[nodiscard]] double megabytes() const;
 
 private:
-  [[nodiscard]] const Vector& normalOf(std::uint32_t face, Feature feature) const;
-
   const Triangles* m_mesh = nullptr;
   std::vector<Vector> m_vertex, m_edge, m_face;  ///< edges: three of each face, unit length each
 };
