@@ -697,10 +697,18 @@ fn blob_device_mix(v: blob_device_vessel, rival: u32, t: f32, other: blob_device
   excess[1] = (*lane).field[1] * of_own - other.field[1] * of_other;
   excess[2] = (*lane).field[2] * of_own - other.field[2] * of_other;
   excess[3] = (*lane).field[3] * of_own - other.field[3] * of_other;
-  (*lane).field[0] = other.field[0] * of_other + psi * excess[0];
-  (*lane).field[1] = other.field[1] * of_other + psi * excess[1];
-  (*lane).field[2] = other.field[2] * of_other + psi * excess[2];
-  (*lane).field[3] = other.field[3] * of_other + psi * excess[3];
+  if (v.phi == 1u) {
+    let other_psi: f32 = rest * rest * rest * blob_device_step(rest);
+    (*lane).field[0] = psi * ((*lane).field[0] * of_own) + other_psi * (other.field[0] * of_other);
+    (*lane).field[1] = psi * ((*lane).field[1] * of_own) + other_psi * (other.field[1] * of_other);
+    (*lane).field[2] = psi * ((*lane).field[2] * of_own) + other_psi * (other.field[2] * of_other);
+    (*lane).field[3] = psi * ((*lane).field[3] * of_own) + other_psi * (other.field[3] * of_other);
+  } else {
+    (*lane).field[0] = other.field[0] * of_other + psi * excess[0];
+    (*lane).field[1] = other.field[1] * of_other + psi * excess[1];
+    (*lane).field[2] = other.field[2] * of_other + psi * excess[2];
+    (*lane).field[3] = other.field[3] * of_other + psi * excess[3];
+  }
   (*lane).field[1] += slope * excess[0] * bitcast<f32>(blob_device_buffer[rival + u32(8 * 0)]);
   (*lane).field[2] += slope * excess[0] * bitcast<f32>(blob_device_buffer[rival + u32(8 * 1)]);
   (*lane).field[3] += slope * excess[0] * bitcast<f32>(blob_device_buffer[rival + u32(8 * 2)]);

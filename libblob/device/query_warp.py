@@ -725,8 +725,13 @@ def blob_device_mix(buffer: wp.array(dtype=wp.uint32), v: blob_device_vessel, ri
         lane.shift = copy_2
     for i in range(4):
         excess[i] = lane.field[i] * of_own - other.field[i] * of_other
-    for i in range(4):
-        lane.field[i] = other.field[i] * of_other + psi * excess[i]
+    if v.phi == wp.uint32(1):
+        other_psi = rest * rest * rest * blob_device_step(rest)
+        for i in range(4):
+            lane.field[i] = psi * (lane.field[i] * of_own) + other_psi * (other.field[i] * of_other)
+    else:
+        for i in range(4):
+            lane.field[i] = other.field[i] * of_other + psi * excess[i]
     for i in range(3):
         lane.field[i + 1] += (slope * excess[0] * blob_device_number(buffer, rival +
                 wp.uint32(8 * i)))

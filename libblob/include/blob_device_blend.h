@@ -258,7 +258,13 @@ BLOB_DEVICE_FN void blob_device_mix(const blob_device_vessel* v, blob_device_wor
   int i;
   if (v->phi == 1) blob_device_share_shift(&lane->shift, other->shift, &of_own, &of_other);
   for (i = 0; i < 4; ++i) excess[i] = lane->field[i] * of_own - other->field[i] * of_other;
-  for (i = 0; i < 4; ++i) lane->field[i] = other->field[i] * of_other + psi * excess[i];
+  if (v->phi == 1) { /* 1 - psi is psi(1 - s), which keeps its digits where a model vanishes */
+    const float other_psi = rest * rest * rest * blob_device_step(rest);
+    for (i = 0; i < 4; ++i)
+      lane->field[i] = psi * (lane->field[i] * of_own) + other_psi * (other->field[i] * of_other);
+  } else {
+    for (i = 0; i < 4; ++i) lane->field[i] = other->field[i] * of_other + psi * excess[i];
+  }
   for (i = 0; i < 3; ++i)
     lane->field[i + 1] += (slope * excess[0]) * blob_device_float(rival[8 * i]);
   lane->radius = other->radius + psi * (lane->radius - other->radius);

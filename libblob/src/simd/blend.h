@@ -204,7 +204,10 @@ inline void mixPair(const NeighbourBlock& block, int rival, float t, const Lane&
   const float slope = (15.0f * ((s * s) * (rest * rest))) * block.inverseTau[rival];
   const F4 excess = lane.field - field;
   const F4 normal = makeRow(0.0f, block.nx[rival], block.ny[rival], block.nz[rival]);
-  lane.field = (field + set4(psi) * excess) + set4(slope * firstLane(excess)) * normal;
+  // 1 - psi is psi(1 - s); where the node's own model has vanished, f is what is left of the other
+  const F4 mean = kIsShifted<K> ? set4(psi) * lane.field + set4(smoothStep(rest)) * field
+                                : field + set4(psi) * excess;
+  lane.field = mean + set4(slope * firstLane(excess)) * normal;
   lane.radius = other.radius + psi * (lane.radius - other.radius);
 }
 

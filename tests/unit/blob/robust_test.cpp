@@ -185,6 +185,33 @@ TEST(BlobDegenerate, NodesInOnePlaceShareEvenly) {
   EXPECT_NEAR(s.value, static_cast<double>(mean), 1e-6);
 }
 
+// Blobs that belong to a node may be far from it. As a point leaves the seam, less and less of the
+// neighbour's model is left, down to none.
+TEST(BlobDegenerate, AShareOfANeighbourThatVanishesKeepsItsDigits) {
+  Tree tree;
+  tree.kernel = BLOB_GAUSSIAN;
+  tree.parameter = 0.5;
+  tree.addNode({0, 0, 0}, 1.0);
+  tree.addBlob({0, 40, 0}, 1.0);
+  tree.addNode({1, 0, 0}, 1.0, 0);
+  tree.addBlob({1, 0, 0}, 1.0);
+  const Model model = tree.build();
+  double before = 1;
+  int small = 0;
+  for (double x = 0.5; x > 0; x -= 1e-5) {
+    const Point p{x, 0.2, 0.1};
+    std::uint32_t cursor = 0;
+    blob_sample s;
+    blob_query(model.get(), BLOB_HOLD, p.data(), &cursor, &s);
+    if (s.value < 1e-12) break;  // the seam has ended
+    EXPECT_LT(s.value, before * (1 + 1e-6)) << x;
+    EXPECT_GT(s.distance, -1.0);
+    before = s.value;
+    small += s.value < 1e-7 ? 1 : 0;
+  }
+  EXPECT_GT(small, 10);  // of f in the lumen, about 0.5
+}
+
 blob_status statusOf(const blob_model_def& def) {
   blob_model* model = reinterpret_cast<blob_model*>(1);
   const blob_status status = blob_model_create(&def, &model);
