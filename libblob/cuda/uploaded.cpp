@@ -12,7 +12,7 @@ namespace {
 
 // as in query.cu; measured on an H100 (docs/benchmarks.md)
 constexpr unsigned kThreadsOfBlock = 64;
-constexpr std::uint32_t kMostOfSpan = 1536, kManyBlocks = 4096;
+constexpr std::uint32_t kMostOfPairs = 512, kMostOfCrowds = 1536, kManyBlocks = 4096;
 constexpr std::size_t kVesselCountWord = 3, kHeaderWords = 4, kVesselWords = 8;
 constexpr std::uint32_t kCauchy = 0;
 
@@ -128,9 +128,9 @@ blob_cuda_status blob_cuda::launch(CUstream_st* stream, std::uint32_t flags,
   blob_cuda_columns c = columns;
   std::uint64_t words = m_words;
   // few points are for as many blocks as possible, many for blocks with much to choose from
-  std::uint32_t span =
+  const std::uint32_t wanted =
       kThreadsOfBlock * quotientUp(c.count, std::uint64_t{kThreadsOfBlock} * kManyBlocks);
-  span = std::min(span, kMostOfSpan);
+  std::uint32_t span = 0;
   // in the order of the kernels' arguments, of which the driver copies the values
   void* arguments[] = {&words,    &c.vessel, &flags,   &c.count,           &c.point, &c.cursor,
                        &c.answer, &c.value,  &c.state, &c.vessel_of_point, &span};
@@ -146,8 +146,8 @@ blob_cuda_status blob_cuda::launch(CUstream_st* stream, std::uint32_t flags,
   } else {
     start(m_query, kThreadsOfBlock);
     if ((flags & BLOB_LOCAL) == 0) {
-      start(m_pairs, span);
-      start(m_crowds, span);
+      start(m_pairs, span = std::min(wanted, kMostOfPairs));
+      start(m_crowds, span = std::min(wanted, kMostOfCrowds));
     }
   }
   return result == kSuccess ? BLOB_CUDA_OK : BLOB_CUDA_ERROR_LAUNCH;

@@ -20,7 +20,8 @@
 
 #if defined(BLOB_DEVICE_THREAD)
 #elif defined(__clang__)
-#define BLOB_DEVICE_KERNEL extern "C" __attribute__((global, launch_bounds(kBlock, kBlocks))) void
+#define BLOB_DEVICE_KERNEL(blocks) \
+  extern "C" __attribute__((global, launch_bounds(kBlock, blocks))) void
 #define BLOB_DEVICE_SHARED __attribute__((shared))
 #define BLOB_DEVICE_THREAD                                                    \
   ((uint64_t)__nvvm_read_ptx_sreg_ctaid_x() * __nvvm_read_ptx_sreg_ntid_x() + \
@@ -29,7 +30,7 @@
 #define BLOB_DEVICE_OF_FIRST(x) __nvvm_shfl_sync_idx_i32(~0u, x, 0, 31)
 #define BLOB_DEVICE_SYNC() __syncthreads()
 #else
-#define BLOB_DEVICE_KERNEL extern "C" __global__ void __launch_bounds__(kBlock, kBlocks)
+#define BLOB_DEVICE_KERNEL(blocks) extern "C" __global__ void __launch_bounds__(kBlock, blocks)
 #define BLOB_DEVICE_SHARED __shared__
 #define BLOB_DEVICE_THREAD ((uint64_t)blockIdx.x * blockDim.x + threadIdx.x)
 #define BLOB_DEVICE_NEXT(counter) atomicAdd(counter, 1)
@@ -58,8 +59,9 @@ constexpr uint32_t kPair = 0x80000000u, kSmallCrowd = 0x10000000u, kLargeCrowd =
 constexpr uint32_t kCrowds = kSmallCrowd | kLargeCrowd, kRivalShift = 28, kNode = 0x0fffffffu;
 constexpr int kAnyKernel = -1, kCauchy = 0;
 
-constexpr uint32_t kBlock = 64;           // threads
-constexpr uint32_t kBlocks = 12;          // of a multiprocessor at once, which bounds registers
+constexpr uint32_t kBlock = 64;  // threads
+// blocks of a multiprocessor at once, which bound the registers of a thread
+constexpr uint32_t kBlocks = 12, kExactBlocks = 16;
 constexpr uint32_t kMostGathered = 2048;  // points of a span
 
 // Four floats of a row, moved at once where rows are aligned to them.
@@ -293,16 +295,16 @@ BLOB_DEVICE_FN void answerExactly(const Columns& c, uint64_t i) {
     words, vessel, flags, count, point, cursor, answer, value, state, vessel_of_point \
   }
 
-#define BLOB_DEVICE_KERNELS(Phi, suffix)                                             \
-  BLOB_DEVICE_KERNEL blob_query_points##suffix(BLOB_DEVICE_COLUMNS) {                \
-    const uint64_t i = BLOB_DEVICE_THREAD;                                           \
-    if (i < count) answerPoint<Phi>(BLOB_DEVICE_GIVEN, i);                           \
-  }                                                                                  \
-  BLOB_DEVICE_KERNEL blob_blend_pairs##suffix(BLOB_DEVICE_COLUMNS, uint32_t span) {  \
-    blendMarked<Phi, kPair>(BLOB_DEVICE_GIVEN, span);                                \
-  }                                                                                  \
-  BLOB_DEVICE_KERNEL blob_blend_crowds##suffix(BLOB_DEVICE_COLUMNS, uint32_t span) { \
-    blendMarked<Phi, kCrowds>(BLOB_DEVICE_GIVEN, span);                              \
+#define BLOB_DEVICE_KERNELS(Phi, suffix)                                                      \
+  BLOB_DEVICE_KERNEL(kBlocks) blob_query_points##suffix(BLOB_DEVICE_COLUMNS) {                \
+    const uint64_t i = BLOB_DEVICE_THREAD;                                                    \
+    if (i < count) answerPoint<Phi>(BLOB_DEVICE_GIVEN, i);                                    \
+  }                                                                                           \
+  BLOB_DEVICE_KERNEL(kBlocks) blob_blend_pairs##suffix(BLOB_DEVICE_COLUMNS, uint32_t span) {  \
+    blendMarked<Phi, kPair>(BLOB_DEVICE_GIVEN, span);                                         \
+  }                                                                                           \
+  BLOB_DEVICE_KERNEL(kBlocks) blob_blend_crowds##suffix(BLOB_DEVICE_COLUMNS, uint32_t span) { \
+    blendMarked<Phi, kCrowds>(BLOB_DEVICE_GIVEN, span);                                       \
   }
 
 BLOB_DEVICE_KERNELS(kAnyKernel, )
@@ -310,7 +312,7 @@ BLOB_DEVICE_KERNELS(kCauchy, _cauchy)
 
 // The distance to the nearest point of the wall and the normal there; `state` may have
 // BLOB_DEVICE_NOT_CONVERGED.
-BLOB_DEVICE_KERNEL blob_query_exact_points(BLOB_DEVICE_COLUMNS) {
+BLOB_DEVICE_KERNEL(kExactBlocks) blob_query_exact_points(BLOB_DEVICE_COLUMNS) {
   const uint64_t i = BLOB_DEVICE_THREAD;
   if (i < count) answerExactly(BLOB_DEVICE_GIVEN, i);
 }

@@ -209,7 +209,7 @@ class CudaTest(unittest.TestCase):
         stream = torch.cuda.Stream()
         stream.wait_stream(torch.cuda.current_stream())
         with torch.cuda.stream(stream):
-            torch.cuda._sleep(200_000_000)  # pylint: disable=protected-access  # a tenth of a second of the device's clock
+            torch.cuda._sleep(2_000_000_000)  # pylint: disable=protected-access  # about a second of the device's clock
             depth = self.distance(self.model, self.points + 0)
             self.assertFalse(stream.query())  # the call is back before its stream is through
         stream.synchronize()

@@ -12,7 +12,7 @@
 
 // the code of a device, but for its loads of 16 bytes
 #define BLOB_DEVICE_SIMT 1
-#define BLOB_DEVICE_KERNEL extern "C" void
+#define BLOB_DEVICE_KERNEL(blocks) extern "C" void
 #define BLOB_DEVICE_SHARED static
 #define BLOB_DEVICE_THREAD lumen::blob::test::threadIndex()
 #define BLOB_DEVICE_NEXT(counter) ((*(counter))++)
