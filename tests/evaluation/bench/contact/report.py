@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tables and a picture of what contact_bench has measured.
+"""Tables and a picture of what contact_bench has measured; tables of contact_cuda.
 
 report.py RESULTS.json [--picture FILE.png]
 
@@ -20,15 +20,21 @@ def rate(method, environments, threads):
     return 0
 
 
+def million(number):
+    """Three digits."""
+    return f"{float(f'{number / 1e6:.3g}'):,g}"
+
+
 def rows_of_rates(case):
     """The table of rates, and the sentence on Embree."""
     counts = sorted({r["environments"] for r in case["methods"][0]["rates"]})
     most, own = counts[-1], rate(case["methods"][0], counts[-1], 1)
-    heads = [f"{n:,}" for n in counts] + [f"{most:,}, two threads", "times libblob's time", "MB"]
+    threads = [2] if rate(case["methods"][0], most, 2) else []  # a graphics card has none
+    heads = [f"{n:,}" for n in counts] + [f"{most:,}, two threads" for _ in threads] + ["times libblob's time", "MB"]
     yield "| million queries/s | " + " | ".join(heads) + " |"
     yield "|---|" + "---:|" * len(heads)
     for m in case["methods"]:
-        cells = [f"{rate(m, n, 1) / 1e6:.3g}" for n in counts] + [f"{rate(m, most, 2) / 1e6:.3g}"]
+        cells = [million(rate(m, n, 1)) for n in counts] + [million(rate(m, most, n)) for n in threads]
         cells += [f"{own / rate(m, most, 1):.1f}", f"{m['megabytes']:.1f}"]
         yield f"| {m['name']} | " + " | ".join(cells) + " |"
 
@@ -101,7 +107,7 @@ def draw(cases, file):
 def main():
     """Reads, prints, draws."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", help="what contact_bench --json has written")
+    parser.add_argument("results", help="what contact_bench or contact_cuda --json has written")
     parser.add_argument("--picture", help="PNG or SVG to write")
     options = parser.parse_args()
     with open(options.results, encoding="utf-8") as file:
