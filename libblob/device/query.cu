@@ -220,7 +220,7 @@ BLOB_DEVICE_FN bool isMarked(const Columns& c, uint64_t i, uint32_t marks) {
   return marks == kPair ? (cursor & kPair) != 0 : (cursor & kPair) == 0 && (cursor & kCrowds) != 0;
 }
 
-// ------------------------------------------------------------------ what the threads of a block share
+// --------------------------------------------------------- what the threads of a block share
 
 // Points of a block's span in two sorts: the first from the front, the second from the back.
 struct Gathered {
