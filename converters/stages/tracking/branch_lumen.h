@@ -48,6 +48,14 @@ inline double radiusAround(std::span<const BranchLumen> vessels, const Eigen::Ve
   return radius;
 }
 
+/// True if a point lies in the lumen of a vessel other than the one at `own`.
+inline bool isInAnother(std::span<const BranchLumen> vessels, std::size_t own,
+                        const Eigen::Vector3d& point) {
+  for (std::size_t i = 0; i < vessels.size(); ++i)
+    if (i != own && vessels[i].radiusAround(point) > 0) return true;
+  return false;
+}
+
 /// Leaves the nodes `first` to `end` - 1 of a branch, without those at both ends at which no
 /// cylinder fits.
 inline void keepStretch(TrackedBranch& branch, std::size_t first, std::size_t end) {

@@ -83,11 +83,6 @@ int trialsFor(double probability) {
   return static_cast<int>(std::ceil(trials));
 }
 
-/// 1 for equal radii, less the more they differ: a vessel changes its width slowly.
-double likeness(double radius, double rho) {
-  return radius > 0 ? std::sqrt(std::min(radius / rho, rho / radius)) : 0.0;
-}
-
 /// The candidates' coordinates along e1 and e2, relative to their origin.
 void project(const Candidates& points, const Vector3d& e1, const Vector3d& e2,
              CylinderWorkspace& out) {
@@ -183,7 +178,7 @@ Cylinder estimateCylinder(const CylinderSearch& search, const Candidates& points
     const double weight = smooth ? 0.5 * (1.0 + axis.dot(direction)) : 1.0;
     const Circle circle = bestCircle(search, workspace, rho, bestScore / weight * count, random);
     const double rate = circle.inliers / count;
-    const double score = rate * weight * (smooth ? likeness(circle.radius, rho) : 1.0);
+    const double score = rate * weight * (smooth ? radiusLikeness(circle.radius, rho) : 1.0);
     if (score <= bestScore) continue;
     bestScore = score;
     best = {points.origin + static_cast<double>(circle.u) * e1 + static_cast<double>(circle.v) * e2,

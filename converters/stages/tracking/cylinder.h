@@ -3,6 +3,8 @@
 // sections 1.3 and 1.4; Yureidini's thesis, 3.4).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -57,6 +59,11 @@ struct CylinderWorkspace {
 Cylinder estimateCylinder(const CylinderSearch& search, const Candidates& points,
                           const ExpectedCylinder& expected, Random& random,
                           CylinderWorkspace& workspace);
+
+/// 1 for equal radii, less the more they differ: a vessel changes its width slowly. 0 for none.
+inline double radiusLikeness(double radius, double expected) {
+  return radius > 0 ? std::sqrt(std::min(radius / expected, expected / radius)) : 0.0;
+}
 
 /// Least squares of (distance to the axis - radius) over the inliers, over the axis' position,
 /// direction and radius, inliers chosen anew between rounds; then the centre moves along the axis

@@ -24,4 +24,8 @@ std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const 
 /// are joined.
 void dropUnsupported(const TrackContext& context, TrackedTree& tree);
 
+/// Searches at random for cylinders at the bridged nodes of a tree, outside of all other vessels.
+/// Nodes that are found are marked as drawn. The result does not depend on the number of threads.
+void searchBridged(const TrackContext& context, TrackedTree& tree);
+
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/stages/tracking/near_cylinder.h"
 #include "converters/stages/tracking/wall_support.h"
 
 namespace lumen::convert {
@@ -101,9 +102,12 @@ NodeFit fitToWall(TrackRun& run, const NodeGuess& guess, double minRate) {
   if (!geometry.containsWorld(guess.centre)) return fit;
   run.workspace.caster.cast(guess.centre, kRayRadii * guess.radius, points);
   if (points.count() < kFewestCandidates) return tooFew(points.count());
+  const ExpectedCylinder expected{guess.direction, guess.radius, guess.smooth};
   Cylinder cylinder =
-      estimateCylinder(run.context.search, points, {guess.direction, guess.radius, guess.smooth},
-                       run.random, run.workspace.cylinder);
+      run.context.isCourseKnown
+          ? nearCylinder(run.context.search, points, expected, run.workspace.cylinder)
+          : estimateCylinder(run.context.search, points, expected, run.random,
+                             run.workspace.cylinder);
   if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
   holdPlace(guess, cylinder);
   if (!geometry.containsWorld(cylinder.centre))

@@ -24,6 +24,8 @@ constexpr double kSpacingRadii = 0.5;
 constexpr double kAsideRadii = 0.7, kNarrowRadii = 0.6, kWideRadii = 1.5;
 /// Least and largest radius where the expected one is as coarse as the voxels.
 constexpr double kCoarseNarrow = 0.5, kCoarseWide = 1.8;
+/// Coarsest edges of the voxels by which a depth among voxels may be less than the radius.
+constexpr double kUnsureEdges = 0.5;
 
 using Station = AxisPoint;
 
@@ -224,11 +226,16 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
 
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> line,
                                     std::span<const double> radii) {
+  const double unsure = kUnsureEdges * run.context.volume.geometry().spacing.maxCoeff();
   std::vector<Station> stations = Stations(line).by(radii);
   Fits found;
   for (const Station& station : stations) {
     run.context.progress.check();
     found.push_back(nodeAt(run, station, kCoarseNarrow, kCoarseWide));
+    if (found.back() || unsure <= (kCoarseWide - 1) * station.radius) continue;
+    Station wider = station;
+    wider.radius += unsure;
+    found.back() = nodeAt(run, wider, kCoarseNarrow, kCoarseWide);
   }
   const Fits before = found;
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -246,6 +253,13 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
   for (std::size_t i = 0; i < stations.size(); ++i)
     nodes.push_back(found[i] ? std::move(*found[i]) : bridgedNode(stations[i]));
   return nodes;
+}
+
+std::optional<TrackedNode> nodeBetween(TrackRun& run, const TrackedNode& before,
+                                       const TrackedNode& bridged, const TrackedNode& after) {
+  std::optional<TrackedNode> node = nodeAt(run, axisAt(bridged), kNarrowRadii, kWideRadii);
+  if (node && !(isAhead(before, *node) && isAhead(*node, after))) node.reset();
+  return node;
 }
 
 }  // namespace lumen::convert

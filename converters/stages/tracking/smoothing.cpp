@@ -29,7 +29,9 @@ constexpr double kLongRay = 32.0;
 constexpr double kRadiusVoxels = 2.0;
 /// Quantile of the places: vessels and organs lie in the upper three quarters.
 constexpr double kEmptyShare = 0.25;
-/// Stream of the random numbers; those of the branches count up from 0.
+/// Seed and stream of the random places. The noise is the volume's, whatever the seed of the tracks:
+/// it decides how far the volume is smoothed. Streams of the branches count up from 0.
+constexpr std::uint64_t kNoiseSeed = 1;
 constexpr std::uint64_t kNoiseStream = ~std::uint64_t{0};
 
 /// Voxels: length of the rays that sample the surroundings of a click.
@@ -94,7 +96,7 @@ float contrastAt(const BsplineVolume& volume, const Eigen::Vector3d& click, floa
 double noiseFloor(const BsplineVolume& volume, const TrackOptions& options,
                   const Progress& progress) {
   const VolumeGeometry& geometry = volume.geometry();
-  Random random(options.seed, kNoiseStream);
+  Random random(kNoiseSeed, kNoiseStream);
   std::vector<Eigen::Vector3d> places(countPlaces(geometry));
   for (Eigen::Vector3d& index : places)
     for (int a = 0; a < 3; ++a)

@@ -68,14 +68,19 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
                     Progress& progress) {
   TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
                        plan.isNoVessel);
+  const bool isFound = plan.trackBranches == followCourses;
   context.rules = plan.rules;
+  context.isCourseKnown = isFound;
   progress.begin("track", tree.seeds.size() - tree.known);
   plan.trackBranches(context, tree, progress);
-  const bool isFound = plan.trackBranches == followCourses;
   isFound ? trimTips(context, tree) : extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
-  if (isFound) dropUnsupported(context, tree);
+  if (isFound) {
+    dropUnsupported(context, tree);
+    context.isCourseKnown = false;
+    searchBridged(context, tree);
+  }
   progress.end();
   const WallShape shape = plan.shape ? *plan.shape : measureWallShape(volume, tree);
   const std::vector<TrackedBranch> before(
@@ -204,6 +209,7 @@ std::vector<WorldBall> ballsIn(const TrackedTree& tree, const VolumeGeometry& ge
       last = &tree.branches[static_cast<std::size_t>(branch.parentBranch)]
                   .nodes[static_cast<std::size_t>(branch.parentNode)];
     for (const TrackedNode& node : branch.nodes) {
+      if (node.isDrawn) continue;
       addBalls(ballOf(last ? *last : node), ballOf(node), balls);
       last = &node;
       if (tree.isVessel(i)) continue;

@@ -49,6 +49,7 @@ struct TrackContext {
   const Progress& progress;
   PlaceTest isNoVessel;
   CourseRules rules;
+  bool isCourseKnown = false;  ///< cylinders lie next to their guesses; none is drawn at random
   CylinderSearch search;
   std::vector<Eigen::Vector3d> rays;  ///< unit directions
 };

@@ -81,12 +81,6 @@ private:
     return std::max(kOffVoxels * voxel(), kOffRadii * radius);
   }
 
-  [[nodiscard]] bool isInAnother(const Vector3d& point, std::size_t own) const {
-    for (std::size_t i = 0; i < m_lumens.size(); ++i)
-      if (i != own && m_lumens[i].radiusAround(point) > 0) return true;
-    return false;
-  }
-
   void look(const TrackedNode& node, std::size_t n, std::size_t own,
             std::vector<EdgePlace>& places) const {
     const auto [across, up] = planeBasis(node.direction);
@@ -96,7 +90,7 @@ private:
       const Vector3d outward = std::cos(angle) * across + std::sin(angle) * up;
       const Vector3d wall = node.centre + node.radius * outward;
       if (std::any_of(std::begin(kClearOf), std::end(kClearOf), [&](double clear) {
-            return isInAnother(wall + clear * voxel() * outward, own);
+            return isInAnother(m_lumens, own, wall + clear * voxel() * outward);
           }))
         continue;
       EdgePlace place;

@@ -52,8 +52,12 @@ INSTANTIATE_TEST_SUITE_P(Phantoms, WholeTree,
                          ::testing::Values(Expected{"tube", 1}, Expected{"bifurcation", 2},
                                            Expected{"hairpin", 1}, Expected{"dropout", 1},
                                            Expected{"aneurysm", 2}, Expected{"kissing", 3},
-                                           Expected{"companion", 3}),
-                         [](const auto& each) { return each.param.phantom; });
+                                           Expected{"companion", 3}, Expected{"thick-slices", 2}),
+                         [](const auto& each) {
+                           std::string name = each.param.phantom;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 // Without a look at the edges, 161 mm of bone came out of the first and 62 mm of the second.
 TEST(WholeTreeInBone, HasHardlyAnyOfIt) {
@@ -187,6 +191,33 @@ TEST(TrackCourses, ThePlaceOfAVolumeInSpaceDecidesNothing) {
     const Vector3d index = before.indexFromWorld(toEigen(here.centre[n]));
     EXPECT_LT((geometry.worldFromIndex(index) - toEigen(there.centre[n])).norm(), 1e-4) << n;
     EXPECT_NEAR(there.radius[n], here.radius[n], 1e-5);
+  }
+}
+
+/// With cylinders drawn at random, four seeds made this tree 41.6 to 42.9 mm long.
+TEST(TrackCourses, AnotherRandomSeedMovesNoEnd) {
+  Progress silent;
+  const Phantom made = phantom("thick-slices");
+  const std::vector<SeedBranch> courses = findVessels(made.volume, false, silent).courses;
+  const auto tracked = [&](std::uint64_t seed) {
+    TrackOptions options;
+    options.seed = seed;
+    return trackAlongCourses(made.volume, courses, {}, options, silent).result.tree;
+  };
+  const formats::CenterlineTree first = tracked(1);
+  for (const std::uint64_t seed : {2, 3, 4}) {
+    const formats::CenterlineTree other = tracked(seed);
+    ASSERT_EQ(other.branches.size(), first.branches.size()) << seed;
+    for (std::size_t b = 0; b < first.branches.size(); ++b) {
+      const formats::Branch &own = other.branches[b], &its = first.branches[b];
+      ASSERT_EQ(own.nodeCount, its.nodeCount) << seed;
+      for (const std::uint32_t n : {0U, its.nodeCount - 1})
+        EXPECT_LT(
+            (toEigen(other.centre[own.firstNode + n]) - toEigen(first.centre[its.firstNode + n]))
+                .norm(),
+            0.02)
+            << seed;
+    }
   }
 }
 

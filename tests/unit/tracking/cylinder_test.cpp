@@ -8,6 +8,7 @@
 
 #include "converters/base/random.h"
 #include "converters/stages/tracking/circles.h"
+#include "converters/stages/tracking/near_cylinder.h"
 
 namespace lumen::convert {
 namespace {
@@ -103,6 +104,49 @@ TEST(Cylinder, ThatDoesNotHoldTheOriginOfTheRaysIsNotValid) {
   const Candidates points = pointsOn(kTruth, outside, 120, 0);
   Random random(4);
   EXPECT_LT(search(points, {kTruth.axis, 2.0, false}, random).inlierRate, 0.7);
+}
+
+/// Result of least squares with default options.
+Cylinder near(const Candidates& points, const ExpectedCylinder& expected) {
+  CylinderWorkspace workspace;
+  return nearCylinder(CylinderSearch(TrackOptions{}), points, expected, workspace);
+}
+
+TEST(NearCylinder, IsFoundFromAWrongPlaceDirectionAndRadiusAmongOutliers) {
+  const Eigen::Vector3d aside = kTruth.axis.unitOrthogonal();
+  Candidates points = pointsOn(kTruth, kTruth.centre + 0.6 * aside, 120, 0.03);
+  Random random(2);
+  for (int i = 0; i < 60; ++i) {
+    points.x.push_back(static_cast<float>(random.uniform(-5, 5)));
+    points.y.push_back(static_cast<float>(random.uniform(-5, 5)));
+    points.z.push_back(static_cast<float>(random.uniform(-5, 5)));
+    points.strength.push_back(1);
+  }
+  const Eigen::Vector3d turned = (kTruth.axis + 0.35 * aside).normalized();
+  for (const double radius : {1.3, 2.0, 2.6}) {
+    const Cylinder found = near(points, {turned, radius, true});
+    EXPECT_NEAR(found.radius, 2.0, 0.05) << radius;
+    EXPECT_LT(distanceToAxis(kTruth, found.centre), 0.1) << radius;
+    EXPECT_GT(std::abs(found.axis.dot(kTruth.axis)), 0.995) << radius;
+    EXPECT_GT(found.inlierRate, 0.6) << radius;
+  }
+}
+
+TEST(NearCylinder, MovesAsLittleAsItsCandidates) {
+  Candidates points = pointsOn(kTruth, kTruth.centre, 120, 0.1);
+  const ExpectedCylinder expected{kTruth.axis, 1.7, true};
+  const Cylinder before = near(points, expected);
+  for (float& x : points.x) x += 1e-5F;
+  const Cylinder after = near(points, expected);
+  EXPECT_NEAR(after.radius, before.radius, 1e-3);
+  EXPECT_LT((after.centre - before.centre).norm(), 1e-3);
+}
+
+TEST(NearCylinder, IsNoneWhereTheWallIsFarFromTheExpectedOne) {
+  const Candidates points = pointsOn(kTruth, kTruth.centre, 120, 0);
+  EXPECT_EQ(near(points, {kTruth.axis, 0.9, true}).inlierRate, 0);
+  const Eigen::Vector3d outside = kTruth.centre + 2.5 * kTruth.axis.unitOrthogonal();
+  EXPECT_LT(near(pointsOn(kTruth, outside, 120, 0), {kTruth.axis, 2.0, true}).inlierRate, 0.35);
 }
 
 TEST(Cylinder, RefinementMovesTheCentreToTheMedianOfTheInliersAlongTheAxis) {
