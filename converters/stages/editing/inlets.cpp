@@ -2,7 +2,10 @@
 #include "converters/stages/editing/inlets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/change.h"
@@ -13,6 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 using formats::CenterlineTree;
+
+/// Radii up to this many times the least belong to the narrowest stretch of a path.
+constexpr double kNarrowShare = 1.1;
 
 std::vector<std::vector<std::uint32_t>> findChildren(const CenterlineTree& tree) {
   std::vector<std::vector<std::uint32_t>> children(tree.nodeCount());
@@ -60,22 +66,45 @@ Change turn(formats::Case& target, std::uint32_t tip) {
   return isFirst ? reverseBranch(target, branch) : makeRoot(target, branch);
 }
 
+/// The node before which to cut the path between a tip and its root: in the middle of the narrowest
+/// stretch, as radii of a communicating artery differ by their error alone; empty if there is none.
+std::optional<std::uint32_t> placeToCut(const CenterlineTree& tree, std::uint32_t tip) {
+  std::vector<std::uint32_t> path;
+  std::vector<double> at;  // mm from the tip
+  for (std::uint32_t i = tip; tree.parent[i] != formats::kNoParent;
+       i = static_cast<std::uint32_t>(tree.parent[i])) {
+    at.push_back(path.empty()
+                     ? 0
+                     : at.back() +
+                           (toEigen(tree.centre[i]) - toEigen(tree.centre[path.back()])).norm());
+    path.push_back(i);
+  }
+  const auto isPlace = [&](std::size_t k) {
+    return k > 0 && path[k] != tree.branches[tree.branch[path[k]]].firstNode;
+  };
+  std::optional<std::size_t> narrowest;
+  for (std::size_t k = 0; k < path.size(); ++k)
+    if (isPlace(k) && (!narrowest || tree.radius[path[k]] < tree.radius[path[*narrowest]]))
+      narrowest = k;
+  if (!narrowest) return std::nullopt;
+  const double most = kNarrowShare * double{tree.radius[path[*narrowest]]};
+  std::size_t first = *narrowest, last = *narrowest;
+  while (first > 0 && double{tree.radius[path[first - 1]]} <= most) --first;
+  while (last + 1 < path.size() && double{tree.radius[path[last + 1]]} <= most) ++last;
+  const double middle = 0.5 * (at[first] + at[last]);
+  std::size_t best = *narrowest;
+  for (std::size_t k = first; k <= last; ++k)
+    if (isPlace(k) && std::abs(at[k] - middle) < std::abs(at[best] - middle)) best = k;
+  return path[best];
+}
+
 /// Cuts a tree between its root and a tip, makes the tip a root, and links both parts. False if
 /// there is no place to cut.
 bool divide(formats::Case& target, std::uint32_t tip) {
-  const CenterlineTree& tree = target.tree;
-  std::uint32_t narrowest = tip;
-  float least = std::numeric_limits<float>::infinity();
-  for (std::uint32_t i = tip; tree.parent[i] != formats::kNoParent;
-       i = static_cast<std::uint32_t>(tree.parent[i])) {
-    if (i == tip || i == tree.branches[tree.branch[i]].firstNode || tree.radius[i] >= least)
-      continue;
-    narrowest = i;
-    least = tree.radius[i];
-  }
-  if (narrowest == tip) return false;
-  const Change cut = cutBefore(target, narrowest, Rest::OwnTree);
-  const std::uint32_t near = indexAfter(cut, narrowest - 1), far = indexAfter(cut, narrowest);
+  const auto place = placeToCut(target.tree, tip);
+  if (!place) return false;
+  const Change cut = cutBefore(target, *place, Rest::OwnTree);
+  const std::uint32_t near = indexAfter(cut, *place - 1), far = indexAfter(cut, *place);
   const Change turned = turn(target, indexAfter(cut, tip));
   const std::uint32_t a = indexAfter(turned, near), b = indexAfter(turned, far);
   target.tree.links.push_back({std::min(a, b), std::max(a, b)});

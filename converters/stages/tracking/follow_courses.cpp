@@ -277,7 +277,7 @@ void dropUnsupported(const TrackContext& context, TrackedTree& tree) {
   }
 }
 
-void searchBridged(const TrackContext& context, TrackedTree& tree) {
+void searchBridged(const TrackContext& context, const WallShape& shape, TrackedTree& tree) {
   std::vector<BranchLumen> lumens;
   for (const TrackedBranch& branch : tree.branches) lumens.emplace_back(branch);
   std::vector<std::vector<TrackedNode>> found(tree.branches.size());
@@ -290,8 +290,10 @@ void searchBridged(const TrackContext& context, TrackedTree& tree) {
       if (isFitted(found[i][n]) || isInAnother(lumens, i, found[i][n].centre)) continue;
       auto node = nodeBetween(run, found[i][n - 1], found[i][n], found[i][n + 1]);
       if (!node) continue;
-      found[i][n] = std::move(*node);
-      found[i][n].isDrawn = true;
+      TrackedBranch one;
+      one.nodes.push_back(std::move(*node));
+      correctWalls(one, tree.seeds[i].kind, shape);
+      found[i][n] = std::move(one.nodes[0]);
     }
   });
   for (std::size_t i = tree.known; i < tree.branches.size(); ++i)

@@ -114,6 +114,7 @@ Cylinder nearCylinder(const CylinderSearch& search, const Candidates& points,
     if (score <= bestScore) continue;
     bestScore = score;
     best = at;
+    if (at.inlierRate >= search.acceptedRate) break;
   }
   return best;
 }

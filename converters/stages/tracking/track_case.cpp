@@ -76,11 +76,7 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
   isFound ? trimTips(context, tree) : extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
-  if (isFound) {
-    dropUnsupported(context, tree);
-    context.isCourseKnown = false;
-    searchBridged(context, tree);
-  }
+  if (isFound) dropUnsupported(context, tree);
   progress.end();
   const WallShape shape = plan.shape ? *plan.shape : measureWallShape(volume, tree);
   const std::vector<TrackedBranch> before(
@@ -93,6 +89,15 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
     if (tree.isVessel(i)) correctBends(tree.branches[i].nodes);
   }
   return shape;
+}
+
+/// Searches at random for cylinders where courses left bridged nodes, once all vessels are tracked.
+void fillBridges(const TrackingVolume& volume, const TrackPlan& plan, TrackedTree& tree,
+                 const Progress& progress) {
+  if (plan.trackBranches != followCourses) return;
+  const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
+                             plan.isNoVessel);
+  searchBridged(context, *plan.shape, tree);
 }
 
 std::string quotedLabel(const std::string& label) {
@@ -209,7 +214,6 @@ std::vector<WorldBall> ballsIn(const TrackedTree& tree, const VolumeGeometry& ge
       last = &tree.branches[static_cast<std::size_t>(branch.parentBranch)]
                   .nodes[static_cast<std::size_t>(branch.parentNode)];
     for (const TrackedNode& node : branch.nodes) {
-      if (node.isDrawn) continue;
       addBalls(ballOf(last ? *last : node), ballOf(node), balls);
       last = &node;
       if (tree.isVessel(i)) continue;
@@ -260,6 +264,7 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
       trackTree(tracking, {trackBranches, inGrid, tracking.wallShape()}, tree, progress);
   used.pointSpread = shape.pointSpread;
   if (beside) addBeside(tracking, frame, beside, inGrid, shape, tree, progress);
+  fillBridges(tracking, {trackBranches, inGrid, shape}, tree, progress);
   for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
 
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
@@ -295,7 +300,9 @@ AddedTracks intoCase(const TrackingVolume& volume, const formats::Case& known, T
   out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
   const std::size_t added = tree.seeds.size() - tree.known;
   if (added == 0) return out;
-  trackTree(volume, {trackBranches, isNoVessel, volume.wallShape()}, tree, progress);
+  const WallShape shape =
+      trackTree(volume, {trackBranches, isNoVessel, volume.wallShape()}, tree, progress);
+  fillBridges(volume, {trackBranches, isNoVessel, shape}, tree, progress);
   static_cast<TrackRemarks&>(out) = remarksOn(tree);
   if (out.failures.size() == added) return out;
   out.changed = replacePoints(tree, out.result);

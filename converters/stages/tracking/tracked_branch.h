@@ -19,8 +19,7 @@ struct TrackedNode {
   formats::NodeOrigin origin = formats::NodeOrigin::Measured;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
   double radius = 0, height = 0, inlierRate = 0;
-  double strength = 0;   ///< median fall of intensity at the points, voxel units per mm
-  bool isDrawn = false;  ///< found by a random search along a known course: nothing hangs on it
+  double strength = 0;         ///< median fall of intensity at the points, voxel units per mm
   double meanSquareAlong = 0;  ///< mean over the inliers, along the axis from the centre, mm^2
   std::vector<formats::Vec3f> points;
 };

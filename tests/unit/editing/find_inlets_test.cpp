@@ -62,6 +62,17 @@ TEST(FurtherInlets, TheTreeIsCutWhereItIsNarrowAndBothPartsKeepTheirRoots) {
   EXPECT_EQ(value.tree.links.size(), 1U);
 }
 
+TEST(FurtherInlets, TheCutLiesInTheMiddleOfAVesselOfEvenWidthWhereverItIsNarrowestByAHair) {
+  for (const std::size_t narrowest : {23U, 28U, 33U}) {
+    Case value = bridgedPair(0.8F);
+    value.tree.radius[narrowest] = 0.799F;
+    EXPECT_TRUE(beginAt(value, furtherInlets(value.tree, isInside)).empty());
+    ASSERT_EQ(value.tree.links.size(), 1U);
+    const auto [a, b] = value.tree.links[0];
+    EXPECT_NEAR(0.5 * double{value.tree.centre[a].x + value.tree.centre[b].x}, 6, 0.5) << narrowest;
+  }
+}
+
 TEST(FurtherInlets, AVesselThatDividesHasOne) {
   EXPECT_TRUE(furtherInlets(bridgedPair(2.2F).tree, isInside).empty());
 }
