@@ -5,6 +5,8 @@
 #include <iterator>
 #include <set>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
@@ -16,6 +18,7 @@
 #include "converters/stages/editing/hints.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/selection.h"
+#include "converters/stages/finding/background.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "formats/container/printable.h"
 
@@ -23,6 +26,11 @@ namespace lumen::engine {
 namespace {
 
 using convert::SeedFailure;
+
+/// Noise that a repeated run adds to the voxels, in deviations of their own: a second scan differs by
+/// far more. Found vessels hang on no random number, so that other numbers alone would show nothing.
+constexpr double kNoiseShare = 0.1;
+constexpr std::uint64_t kNoiseStream = 1;  // of random numbers; that of moved clicks is 0
 
 constexpr const char* kRepeatExtension = "LUMEN_repeat";
 constexpr const char* kRepeatArray = "LUMEN_repeat.share";
@@ -156,6 +164,19 @@ std::vector<convert::SeedBranch> moved(std::vector<convert::SeedBranch> seeds, d
   return seeds;
 }
 
+/// A volume with normal noise of a deviation, voxel units, added to its voxels.
+convert::Volume withNoise(const convert::Volume& volume, double deviation, Random random) {
+  std::vector<float> voxels;
+  std::visit(
+      [&](const auto& from) {
+        voxels.reserve(from.size());
+        for (const auto value : from)
+          voxels.push_back(static_cast<float>(value + deviation * random.normal()));
+      },
+      volume.voxels);
+  return {volume.geometry, std::move(voxels), volume.assumptions};
+}
+
 }  // namespace
 
 std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
@@ -167,12 +188,16 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
   std::vector<formats::Case> runs;
   progress.begin("repeating", track.repeats);
   QuietProgress quiet(progress);
+  const float sign = track.options.dark ? -1.0F : 1.0F;
+  const double noise = double{convert::Background(volume, sign, progress).noise()};
   for (std::uint64_t run = 1; run <= track.repeats; ++run) {
     TrackArguments other = track;
     other.options.seed += run;
     const auto places = moved(seeds, volume.geometry.voxelSize(), Random(other.options.seed));
     try {
-      runs.push_back(trackVessels(volume, file, places, other, quiet).result);
+      const convert::Volume noisy =
+          withNoise(volume, kNoiseShare * noise, Random(other.options.seed, kNoiseStream));
+      runs.push_back(trackVessels(noisy, file, places, other, quiet).result);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;
       runs.emplace_back();  // it finds nothing

@@ -197,8 +197,9 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
   track.options.addRows(table);
   table
       .add("repeat", &track.repeats, "N",
-           "Track N times more, with other random numbers and clicks moved by a tenth of a voxel, "
-           "and report how much of each vessel is found again [0]. Takes N times longer")
+           "Track N times more, with other random numbers, a tenth of the noise added and clicks "
+           "moved by a tenth of a voxel, and report how much of each vessel is found again [0]. "
+           "Takes N times longer")
       .in(WholeRange{0, 1000});
   table.scope(kAnyContent);
   table.group("");
