@@ -68,6 +68,15 @@ TEST_F(TubeTest, AVolumeIsConvertedWithoutSeeds) {
   EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98) << compared.out;
 }
 
+TEST_F(TubeTest, RepeatedRunsHaveOtherNoise) {
+  const Outcome done = lumen({"convert", "tube.nrrd", "found.lumen", "--repeat", "2", "--json"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json repeats = Json::parse(done.out)["repeats"];
+  const double least = repeats["least_length_mm"].get<double>();
+  EXPECT_LT(least, repeats["greatest_length_mm"].get<double>());
+  EXPECT_GT(least, 0.95 * Json::parse(done.out)["length_mm"].get<double>());
+}
+
 TEST_F(TubeTest, ProposalsOfSeedsAreSeedsInBothFormats) {
   for (const char* const file : {"found.json", "found.mrk.json"}) {
     const Outcome proposed = lumen({"seeds", "tube.nrrd", file, "--json"});
