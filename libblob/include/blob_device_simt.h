@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Part of blob_device.h: the functions of blob_device_lanes.h as NVIDIA's processors run them best. A
+ * Part of blob_device.h: functions of blob_device_lanes.h as NVIDIA's processors run them best. A
  * block of the buffer is loaded in pieces of 16 bytes, four lanes at a time, which leaves registers
  * for more threads, and what does not contribute is not computed. Every operation that counts and
  * their order are the same.
