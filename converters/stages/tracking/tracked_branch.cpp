@@ -62,18 +62,41 @@ std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes) {
   return out;
 }
 
-void dropTurnedBack(TrackedBranch& branch) {
-  std::vector<const TrackedNode*> nodes;
-  for (const TrackedNode& node : branch.nodes) nodes.push_back(&node);
-  const std::vector<bool> isBack = turnedBack(nodes);
+namespace {
+
+void drop(const std::vector<bool>& isDropped, TrackedBranch& branch) {
   std::vector<TrackedNode> kept;
   std::size_t click = 0;
   for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
     if (i == branch.clickNode) click = kept.size();
-    if (!isBack[i]) kept.push_back(std::move(branch.nodes[i]));
+    if (!isDropped[i]) kept.push_back(std::move(branch.nodes[i]));
   }
   branch.nodes = std::move(kept);
   branch.clickNode = branch.nodes.empty() ? 0 : std::min(click, branch.nodes.size() - 1);
+}
+
+}  // namespace
+
+void dropTurnedBack(TrackedBranch& branch) {
+  std::vector<const TrackedNode*> nodes;
+  for (const TrackedNode& node : branch.nodes) nodes.push_back(&node);
+  drop(turnedBack(nodes), branch);
+}
+
+void dropCrowded(TrackedBranch& branch) {
+  constexpr double kCrowdedRadii = 0.25;  // half of the distance of nodes along courses
+  const std::vector<TrackedNode>& nodes = branch.nodes;
+  std::vector<bool> isCrowded(nodes.size(), false);
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    if ((nodes[i].centre - nodes[kept].centre).norm() < kCrowdedRadii * nodes[i].radius) {
+      const bool isBetter = nodes[i].inlierRate > nodes[kept].inlierRate;
+      isCrowded[isBetter ? kept : i] = true;
+      if (!isBetter) continue;
+    }
+    kept = i;
+  }
+  drop(isCrowded, branch);
 }
 
 void dropDome(TrackedBranch& branch) {

@@ -65,6 +65,10 @@ void turnRound(TrackedBranch& branch);
 /// Drops the nodes of a branch that turn back.
 void dropTurnedBack(TrackedBranch& branch);
 
+/// Drops one of two nodes that are nearer to one another than a quarter of the radius, the one with
+/// the lower inlier rate: cylinders of an end have their wall on one side, and slide together.
+void dropCrowded(TrackedBranch& branch);
+
 /// Drops the last nodes of a branch that narrow to less than six tenths within a radius: cylinders
 /// in the dome in which the lumen of a vessel ends.
 void dropDome(TrackedBranch& branch);

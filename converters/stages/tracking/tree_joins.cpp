@@ -248,6 +248,7 @@ void trimTips(const TrackContext& context, TrackedTree& tree) {
       turnRound(vessels[i]);
     }
     dropTurnedBack(vessels[i]);
+    dropCrowded(vessels[i]);
   }
 }
 

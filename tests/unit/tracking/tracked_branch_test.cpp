@@ -68,6 +68,16 @@ TEST(TrackedBranch, OneNodeAcrossABendCostsNoOther) {
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(isBack[i], i == kAcross) << i;
 }
 
+TEST(TrackedBranch, NodesThatHaveSlidTogetherAreOne) {
+  TrackedBranch branch;
+  branch.nodes = {nodeAt(0, 1, 0.4), nodeAt(0.1, 1, 0.6), nodeAt(0.5, 1, 0.6),
+                  nodeAt(1, 1, 0.5), nodeAt(1.2, 1, 0.5), nodeAt(1.24, 1, 0.9)};
+  branch.clickNode = 5;
+  dropCrowded(branch);
+  EXPECT_EQ(placesOf(branch), (std::vector<double>{0.1, 0.5, 1.24}));
+  EXPECT_EQ(branch.clickNode, 2U);
+}
+
 TEST(TrackedBranch, ADomeIsCutAndATaperStays) {
   TrackedBranch dome;
   dome.nodes = {nodeAt(0, 1, 1), nodeAt(0.5, 1, 1), nodeAt(1, 0.7, 1), nodeAt(1.3, 0.5, 1)};
