@@ -27,7 +27,7 @@ struct Answers {
   std::vector<std::uint32_t> cursor, state;
   std::vector<double> numbers;  ///< kNumbers of each point
 
-  /// Of a device: its distances with normals, and f with grad f, four floats of each point.
+  /// Takes a device's distances with normals, and f with grad f, four floats of each point.
   void setNumbers(const std::vector<float>& rows, const std::vector<float>& values);
 };
 
@@ -47,7 +47,7 @@ public:
 /// Processor time of all threads, s: other work on the machine does not count.
 double processorSeconds();
 
-/// What to compare: `--points N`, `--exact` and names of cases; without a case, synthetic trees of
+/// A comparison: `--points N`, `--exact` and names of cases; without a case, synthetic trees of
 /// each kernel, one of two vessels that touch.
 struct Comparison {
   std::size_t points = 1'000'000;

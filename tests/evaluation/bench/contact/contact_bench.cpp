@@ -12,6 +12,7 @@
 #include <string>
 
 #include "closed_mesh.h"
+#include "contact_options.h"
 #include "exact_field.h"
 #include "measure.h"
 #include "report.h"
@@ -21,32 +22,6 @@
 
 namespace lumen::bench {
 namespace {
-
-struct Options {
-  std::string json;
-  std::size_t environments = 4096;
-  int turns = 7;
-  std::vector<std::string> cases;
-};
-
-Options optionsOf(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--json" && i + 1 < argc)
-      options.json = argv[++i];
-    else if (argument == "--environments" && i + 1 < argc)
-      options.environments = std::stoul(argv[++i]);
-    else if (argument == "--turns" && i + 1 < argc)
-      options.turns = std::stoi(argv[++i]);
-    else
-      options.cases.push_back(argument);
-  }
-  if (options.cases.empty() || options.json.empty() || options.environments == 0)
-    throw std::runtime_error(
-        "usage: contact_bench --json FILE [--environments N] [--turns N] CASE...");
-  return options;
-}
 
 Methods allMethods() {
   Methods methods;
@@ -89,7 +64,7 @@ Tally judge(Method& method, const Wires& wires, const std::vector<Truth>& truth,
   return tally;
 }
 
-CaseResult runCase(const std::string& file, const Options& options) {
+CaseResult runCase(const std::string& file, const ContactOptions& options) {
   constexpr double kMostCells = 1e8, kEnough = 2;
   constexpr std::size_t kJudged = 1024, kRays = 100000, kMostKisses = 20000;
   OwnedVessel owned = openVessel(readCase(file), std::filesystem::path(file).stem().string());
@@ -132,7 +107,7 @@ CaseResult runCase(const std::string& file, const Options& options) {
 }
 
 int run(int argc, char** argv) {
-  const Options options = optionsOf(argc, argv);
+  const ContactOptions options = contactOptions(argc, argv, {});
   std::vector<CaseResult> results;
   for (const std::string& file : options.cases) {
     results.push_back(runCase(file, options));

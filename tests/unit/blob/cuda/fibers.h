@@ -12,7 +12,7 @@ namespace lumen::blob::test {
 /// waits or ends. Threads that end no longer count. Aborts where some wait for what cannot come.
 void runBlocks(std::uint64_t blocks, std::uint32_t threads, const std::function<void()>& kernel);
 
-/// Of the thread that runs, in the launch.
+/// The index in the launch of the thread that runs.
 std::uint64_t threadIndex();
 /// Waits for all threads of the block.
 void syncBlock();

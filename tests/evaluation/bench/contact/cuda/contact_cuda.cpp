@@ -18,6 +18,7 @@
 #include <string>
 
 #include "closed_mesh.h"
+#include "contact_options.h"
 #include "device_methods.h"
 #include "exact_field.h"
 #include "report.h"
@@ -30,32 +31,6 @@ namespace {
 
 using cuda_device::Column;
 using cuda_device::Device;
-
-struct Options {
-  std::string json;
-  std::size_t environments = 65536;
-  int turns = 5;
-  std::vector<std::string> cases;
-};
-
-Options optionsOf(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--json" && i + 1 < argc)
-      options.json = argv[++i];
-    else if (argument == "--environments" && i + 1 < argc)
-      options.environments = std::stoul(argv[++i]);
-    else if (argument == "--turns" && i + 1 < argc)
-      options.turns = std::stoi(argv[++i]);
-    else
-      options.cases.push_back(argument);
-  }
-  if (options.cases.empty() || options.json.empty() || options.environments == 0)
-    throw std::runtime_error(
-        "usage: contact_cuda --json FILE [--environments N] [--turns N] CASE...");
-  return options;
-}
 
 /// Frames of wires on the device.
 using Frames = std::vector<Column<float>>;
@@ -127,7 +102,7 @@ std::vector<std::size_t> environmentCounts(std::size_t most) {
   return counts;
 }
 
-CaseResult runCase(const std::string& file, const Options& options) {
+CaseResult runCase(const std::string& file, const ContactOptions& options) {
   constexpr double kMostCells = 1e8;
   constexpr std::size_t kJudged = 1024, kRays = 100000, kMostKisses = 20000;
   OwnedVessel owned = openVessel(readCase(file), std::filesystem::path(file).stem().string());
@@ -167,7 +142,7 @@ CaseResult runCase(const std::string& file, const Options& options) {
 }
 
 int run(int argc, char** argv) {
-  const Options options = optionsOf(argc, argv);
+  const ContactOptions options = contactOptions(argc, argv, {"", 65536, 5, {}});
   std::cerr << Device::get().name() << "\n";
   std::vector<CaseResult> results;
   for (const std::string& file : options.cases) {
