@@ -107,8 +107,8 @@ std::vector<bool> grown(const Excess& excess, float contrast, const std::vector<
       eachBeside(excess.cells, front[k], [&](std::size_t i) {
         const Cell cell = excess.cells.cell(i);
         const float half = all[i] ? 0 : 0.5F * local.at(cell);
-        if (half == 0 || 2 * half >= contrast || half < excess.leastAt(cell)) return;
-        if (!(excess.value[i] > half)) return;
+        if (half == 0 || 2 * half >= contrast) return;
+        if (!(excess.value[i] > std::max(half, excess.leastAt(cell)))) return;
         all[i] = true;
         front.push_back(i);
       });

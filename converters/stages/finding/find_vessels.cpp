@@ -12,6 +12,7 @@
 #include "converters/base/number_text.h"
 #include "converters/stages/finding/bone.h"
 #include "converters/stages/finding/bright_voxels.h"
+#include "converters/stages/finding/ends_at_faces.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/grid_geometry.h"
 #include "converters/voxels/vessel_paths.h"
@@ -107,11 +108,23 @@ private:
     SeedBranch course;
     course.label = "vessel-" + std::to_string(m_out.size() + 1);
     if (path.parent != VesselPath::kNone) course.parent = m_out[first + path.parent].label;
-    for (const std::uint32_t i : path.voxels)
+    for (const std::uint32_t i : voxelsOf(path))
       course.points.push_back({m_set.position(i), static_cast<double>(m_depths[i])});
     for (int pass = 0; pass < kSmoothing; ++pass) smooth(course.points);
     if (path.isSac) thinToSac(course);
     return course;
+  }
+
+  /// The voxels of a path, whose free ends lead into the middle of a face that cuts the vessel.
+  [[nodiscard]] std::vector<std::uint32_t> voxelsOf(const VesselPath& path) const {
+    std::vector<std::uint32_t> voxels = path.voxels;
+    if (path.isSac) return voxels;
+    if (path.meets == VesselPath::kNone) endAtFace(m_set, m_depths, voxels);
+    if (path.parent != VesselPath::kNone) return voxels;
+    std::reverse(voxels.begin(), voxels.end());
+    endAtFace(m_set, m_depths, voxels);
+    std::reverse(voxels.begin(), voxels.end());
+    return voxels;
   }
 
   static void smooth(std::vector<SeedPoint>& points) {

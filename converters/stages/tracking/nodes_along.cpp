@@ -54,9 +54,10 @@ public:
     for (double t = 0; t < m_at.back();) {
       const auto [i, share] = segmentAt(t);
       const double radius = radii[i - 1] + share * (radii[i] - radii[i - 1]);
-      if (t > 0) add(t, radius, radius, out);
+      add(t, radius, radius, out);
       t += kSpacingRadii * radius;
     }
+    add(m_at.back(), radii.back(), radii.back(), out);
     return out;
   }
 

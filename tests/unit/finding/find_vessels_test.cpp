@@ -97,6 +97,51 @@ TEST(FindVessels, AWideVesselThatFadesIsFoundToItsEnd) {
   }
 }
 
+TEST(FindVessels, AFadedVesselIsFoundWhereHalfOfItIsNoise) {
+  Random random(7, 0);
+  Volume volume = drawVolume(96, 1, [](const Vector3d& p) {
+    return std::min(capsule(p, {24, 24, 4}, {24, 24, 120}, 10),
+                    capsule(p, {70, 70, 4}, {70, 70, 92}, 5));
+  });
+  // less than a third of the first one's brightness is left, and half of that is no more than noise
+  const CellBox cells = volume.geometry.cells();
+  cells.forEach([&](const Cell& cell) {
+    std::int16_t& voxel = std::get<std::vector<std::int16_t>>(volume.voxels)[cells.index(cell)];
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += random.uniform();
+    const double share = cell[0] < 48 ? std::clamp((86.0 - cell[2]) / 60, 0.3, 1.0) : 1;
+    voxel = static_cast<std::int16_t>(std::lround(500 + share * voxel + 45 * sum));
+  });
+  const auto courses = find(volume);
+  for (const double z : {64.0, 72.0, 80.0, 88.0}) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const SeedBranch& course : courses)
+      least = std::min(least, distanceFrom(course, {24, 24, z}));
+    EXPECT_LT(least, 5) << z;
+  }
+}
+
+/// The last points of a course: its first and its last one.
+void expectEndsAt(const SeedBranch& course, Vector3d low, Vector3d high) {
+  const Vector3d first = course.points.front().position, last = course.points.back().position;
+  if ((first - low).norm() > (first - high).norm()) std::swap(low, high);
+  EXPECT_LT((first - low).norm(), 1.5) << first.transpose();
+  EXPECT_LT((last - high).norm(), 1.5) << last.transpose();
+}
+
+TEST(FindVessels, AVesselThatFacesCutEndsInTheMiddleOfItsSections) {
+  const auto square = find(drawVolume(64, 1, [](const Vector3d& p) {
+    return capsule(p, {30, 34, -20}, {30, 34, 90}, 9);
+  }));
+  ASSERT_EQ(square.size(), 1U);
+  expectEndsAt(square[0], {30, 34, 0}, {30, 34, 63});
+  const auto slanted = find(drawVolume(64, 1, [](const Vector3d& p) {
+    return capsule(p, {30, 16, -16}, {30, 48, 79}, 7);  // 19 degrees
+  }));
+  ASSERT_EQ(slanted.size(), 1U);
+  expectEndsAt(slanted[0], {30, 21.4, 0}, {30, 42.6, 63});
+}
+
 /// Struts and pores of equal width, by a gyroid of a period of 10 mm.
 double sponge(const Vector3d& p) {
   const Vector3d a = 0.2 * std::numbers::pi * p;

@@ -59,6 +59,20 @@ INSTANTIATE_TEST_SUITE_P(Phantoms, WholeTree,
                            return name;
                          });
 
+TEST(WholeTreeAtFaces, ReachesThemWithin0p6Radii) {
+  const double radius = 4.5;
+  const Volume volume = drawVolume(64, 0.5, [&](const Vector3d& p) {
+    return capsule(p, {15, 17, -20}, {15, 17, 50}, radius);
+  });
+  Progress silent;
+  const formats::CenterlineTree tree = treeOf(volume, silent).tree;
+  ASSERT_EQ(tree.branches.size(), 1U);
+  const auto [first, last] = std::minmax(tree.centre.front().z, tree.centre.back().z);
+  EXPECT_LT(double{first}, 0.6 * radius);
+  EXPECT_GT(double{last}, 31.5 - 0.6 * radius);
+  for (const formats::Vec3f& direction : tree.direction) EXPECT_GT(std::abs(direction.z), 0.99F);
+}
+
 // Without a look at the edges, 161 mm of bone came out of the first and 62 mm of the second.
 TEST(WholeTreeInBone, HasHardlyAnyOfIt) {
   Progress silent;
