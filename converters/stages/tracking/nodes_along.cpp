@@ -48,16 +48,18 @@ public:
     return out;
   }
 
-  /// For a radius at each point of the line.
-  [[nodiscard]] std::vector<Station> by(std::span<const double> radii) const {
+  /// For a radius at each point of the line; at its ends, too, where `isAtEnd` is true of them.
+  template <class IsAtEnd>
+  [[nodiscard]] std::vector<Station> by(std::span<const double> radii,
+                                        const IsAtEnd& isAtEnd) const {
     std::vector<Station> out;
     for (double t = 0; t < m_at.back();) {
       const auto [i, share] = segmentAt(t);
       const double radius = radii[i - 1] + share * (radii[i] - radii[i - 1]);
-      add(t, radius, radius, out);
+      if (t > 0 || isAtEnd(m_line.front())) add(t, radius, radius, out);
       t += kSpacingRadii * radius;
     }
-    add(m_at.back(), radii.back(), radii.back(), out);
+    if (isAtEnd(m_line.back())) add(m_at.back(), radii.back(), radii.back(), out);
     return out;
   }
 
@@ -83,6 +85,14 @@ private:
   std::span<const Vector3d> m_line;
   std::vector<double> m_at;  ///< mm from the first point
 };
+
+/// True if a place lies in a voxel at a face of the volume: its vessel goes on, and has no rounded
+/// end there.
+bool liesAtFace(const VolumeGeometry& geometry, const Vector3d& place) {
+  const Eigen::Array3d index = geometry.indexFromWorld(place).array();
+  const Eigen::Array3d last = geometry.cells().high().cast<double>().array();
+  return (index < 0.5 || index > last - 0.5).any();
+}
 
 bool inLumen(const TrackedBranch* other, const Vector3d& point) {
   if (!other) return false;
@@ -227,8 +237,10 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
 
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> line,
                                     std::span<const double> radii) {
-  const double unsure = kUnsureEdges * run.context.volume.geometry().spacing.maxCoeff();
-  std::vector<Station> stations = Stations(line).by(radii);
+  const VolumeGeometry& geometry = run.context.volume.geometry();
+  const double unsure = kUnsureEdges * geometry.spacing.maxCoeff();
+  std::vector<Station> stations =
+      Stations(line).by(radii, [&](const Vector3d& end) { return liesAtFace(geometry, end); });
   Fits found;
   for (const Station& station : stations) {
     run.context.progress.check();
