@@ -121,7 +121,7 @@ TEST(FindVessels, AFadedVesselIsFoundWhereHalfOfItIsNoise) {
   }
 }
 
-/// The last points of a course: its first and its last one.
+/// Expects the first and the last point of a course at two places, in either order.
 void expectEndsAt(const SeedBranch& course, Vector3d low, Vector3d high) {
   const Vector3d first = course.points.front().position, last = course.points.back().position;
   if ((first - low).norm() > (first - high).norm()) std::swap(low, high);
