@@ -10,6 +10,7 @@ lumen_test(editing_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/posed_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/random_edits_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/smooth_axes_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/touching_vessels_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/trim_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/untangle_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/wall_edits_test.cpp

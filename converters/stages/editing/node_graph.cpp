@@ -136,11 +136,11 @@ std::uint32_t NodeGraph::findMain(std::uint32_t node) const {
   return best == kNoNode ? any : best;
 }
 
-std::vector<std::uint32_t> NodeGraph::inwardFrom(std::uint32_t end, double reach) const {
+std::vector<std::uint32_t> NodeGraph::inwardFrom(std::uint32_t node, double reach,
+                                                 std::uint32_t before) const {
   std::vector<std::uint32_t> nodes;
-  std::uint32_t before = kNoNode;
   double along = 0;
-  for (std::uint32_t i = end; i != kNoNode && along < reach;) {
+  for (std::uint32_t i = node; i != kNoNode && along < reach;) {
     if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
     nodes.push_back(i);
     std::uint32_t next = kNoNode;
@@ -158,6 +158,21 @@ std::vector<std::uint32_t> NodeGraph::inwardFrom(std::uint32_t end, double reach
 
 std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
   return armAlong(inwardFrom(end, 2 * kArmEndRadii * radius(end)));
+}
+
+std::optional<Arm> NodeGraph::armInto(std::uint32_t node, std::uint32_t next) const {
+  return armAlong(inwardFrom(next, 2 * kArmEndRadii * radius(next), node));
+}
+
+std::vector<std::uint32_t> NodeGraph::throughBesides(std::uint32_t node,
+                                                     std::uint32_t besides) const {
+  std::vector<std::uint32_t> nodes{node};
+  for (const std::uint32_t next : m_beside[node]) {
+    if (next == besides) continue;
+    const auto arm = inwardFrom(next, 2 * kArmEndRadii * radius(node), node);
+    nodes.insert(nodes.end(), arm.begin(), arm.end());
+  }
+  return nodes;
 }
 
 Vector3d NodeGraph::outwardAt(std::uint32_t end) const {
@@ -208,46 +223,26 @@ std::optional<std::pair<double, double>> NodeGraph::widthsAround(std::uint32_t a
   return std::pair(here(before), here(after));
 }
 
+void NodeGraph::cut(std::uint32_t a, std::uint32_t b) {
+  std::erase(m_beside[a], b);
+  std::erase(m_beside[b], a);
+}
+
 void NodeGraph::detach(std::uint32_t node, std::span<const std::uint32_t> stem) {
-  const auto cut = [&](std::uint32_t a, std::uint32_t b) {
-    std::erase(m_beside[a], b);
-    std::erase(m_beside[b], a);
-  };
   if (m_parent[node] != kNoNode) cut(node, m_parent[node]);
   m_parent[node] = kNoNode;
-  for (const std::uint32_t gone : stem) {
+  drop(stem);
+}
+
+void NodeGraph::drop(std::span<const std::uint32_t> nodes) {
+  for (const std::uint32_t gone : nodes) {
     for (const std::uint32_t other : std::vector<std::uint32_t>(m_beside[gone])) cut(gone, other);
     m_isVessel[gone] = false;
   }
 }
 
-std::vector<std::uint32_t> NodeGraph::treeOf(std::uint32_t node) const {
-  std::vector<bool> isSeen(m_beside.size(), false);
-  std::vector<std::uint32_t> reached{node};
-  isSeen[node] = true;
-  for (std::size_t k = 0; k < reached.size(); ++k)
-    for (const std::uint32_t j : m_beside[reached[k]]) {
-      if (!isSeen[j]) reached.push_back(j);
-      isSeen[j] = true;
-    }
-  return reached;
-}
-
-bool NodeGraph::hangTogether(std::uint32_t a, std::uint32_t b) const {
-  const std::vector<std::uint32_t> tree = treeOf(a);
-  return std::find(tree.begin(), tree.end(), b) != tree.end();
-}
-
-double NodeGraph::treeLength(std::uint32_t node) const {
-  double length = 0;
-  for (const std::uint32_t i : treeOf(node))
-    for (const std::uint32_t j : m_beside[i])
-      if (i < j) length += (position(i) - position(j)).norm();
-  return length;
-}
-
 void NodeGraph::join(std::uint32_t a, std::uint32_t b) {
-  const bool isLoop = hangTogether(a, b);
+  const bool isLoop = wayBetween(a, b).has_value();
   std::uint32_t last = a;
   const std::vector<DraftNode> between = bridge(m_draft.nodes[a], m_draft.nodes[b]);
   for (const DraftNode& node : between) {
@@ -263,25 +258,6 @@ void NodeGraph::join(std::uint32_t a, std::uint32_t b) {
     m_draft.links.push_back({last, b});
   else
     connect(last, b);
-}
-
-std::vector<std::vector<std::uint32_t>> NodeGraph::endsOfTrees() const {
-  std::vector<std::vector<std::uint32_t>> out;
-  std::vector<bool> isSeen(m_beside.size(), false);
-  for (std::uint32_t i = 0; i < m_beside.size(); ++i) {
-    if (isSeen[i] || !m_isVessel[i]) continue;
-    std::vector<std::uint32_t> tree{i}, ends;
-    isSeen[i] = true;
-    for (std::size_t k = 0; k < tree.size(); ++k) {
-      if (m_beside[tree[k]].size() < 2) ends.push_back(tree[k]);
-      for (const std::uint32_t j : m_beside[tree[k]]) {
-        if (!isSeen[j]) tree.push_back(j);
-        isSeen[j] = true;
-      }
-    }
-    out.push_back(std::move(ends));
-  }
-  return out;
 }
 
 std::vector<formats::StopReason> NodeGraph::reasonsAtEnds() const {

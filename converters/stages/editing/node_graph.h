@@ -3,6 +3,8 @@
 // from its roots.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -64,10 +66,43 @@ public:
 
   /// Removes the edge to the node that a vessel hangs on, and its first nodes, `stem`, before `node`.
   void detach(std::uint32_t node, std::span<const std::uint32_t> stem);
+  /// Removes nodes and their edges.
+  void drop(std::span<const std::uint32_t> nodes);
   /// Joins two nodes by a bridge, or by a link behind a bridge if they are connected already.
   void join(std::uint32_t a, std::uint32_t b);
+  void connect(std::uint32_t a, std::uint32_t b);
+  void cut(std::uint32_t a, std::uint32_t b);
+  void link(std::uint32_t a, std::uint32_t b) { m_draft.links.push_back({a, b}); }
+  /// Whether a link holds a node.
+  [[nodiscard]] bool isLinked(std::uint32_t node) const {
+    return std::any_of(m_draft.links.begin(), m_draft.links.end(),
+                       [&](const auto& link) { return link[0] == node || link[1] == node; });
+  }
+  /// Removes all links, and returns them.
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> takeLinks() {
+    return std::exchange(m_draft.links, {});
+  }
   /// The ends of each tree; of a tree of one node, that.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> endsOfTrees() const;
+  /// The nodes of all vessels that are not within twice its radius of an end.
+  [[nodiscard]] std::vector<std::uint32_t> nodesAwayFromEnds() const;
+  /// The nodes from an end on, before the first that a vessel or an aneurysm leaves.
+  [[nodiscard]] std::vector<std::uint32_t> unforkedFrom(std::uint32_t end) const;
+  /// Number of nodes that were measured in a volume.
+  [[nodiscard]] std::size_t countMeasured(std::span<const std::uint32_t> nodes) const;
+  /// The neighbours of a node.
+  [[nodiscard]] const std::vector<std::uint32_t>& beside(std::uint32_t node) const {
+    return m_beside[node];
+  }
+  /// The stretch from a node on through one of its neighbours; empty if it is shorter than its width.
+  [[nodiscard]] std::optional<Arm> armInto(std::uint32_t node, std::uint32_t next) const;
+  /// Nodes up to eight radii from one on, through all of its neighbours but `besides`.
+  [[nodiscard]] std::vector<std::uint32_t> throughBesides(std::uint32_t node,
+                                                          std::uint32_t besides) const;
+  /// The nodes along the edges from one to another, with both; empty if none lead there.
+  [[nodiscard]] std::vector<std::uint32_t> way(std::uint32_t a, std::uint32_t b) const;
+  /// Length of the way along the edges from one node to another, mm; empty if none leads there.
+  [[nodiscard]] std::optional<double> wayBetween(std::uint32_t a, std::uint32_t b) const;
   /// Length of all edges of the tree that a node belongs to, mm.
   [[nodiscard]] double treeLength(std::uint32_t node) const;
   /// For each node the reason why a branch of the draft ended at it.
@@ -81,16 +116,15 @@ private:
   };
   /// The radii of a vessel from one to four radii behind the first of its nodes.
   [[nodiscard]] std::vector<Width> widthsAlong(std::span<const std::uint32_t> nodes) const;
-  void connect(std::uint32_t a, std::uint32_t b);
   /// The nodes of the tree that a node belongs to, from it on.
   [[nodiscard]] std::vector<std::uint32_t> treeOf(std::uint32_t node) const;
-  [[nodiscard]] bool hangTogether(std::uint32_t a, std::uint32_t b) const;
   /// Nodes from one on, each followed by its `next`, over the reach of an arm.
   [[nodiscard]] std::vector<std::uint32_t> follow(std::uint32_t node,
                                                   const std::vector<std::uint32_t>& next) const;
   [[nodiscard]] std::uint32_t findMain(std::uint32_t node) const;
-  /// Nodes from an end of the graph over a length, mm; the widest vessel goes on at forks.
-  [[nodiscard]] std::vector<std::uint32_t> inwardFrom(std::uint32_t end, double reach) const;
+  /// Nodes from one on, away from `before`, over a length, mm; the widest vessel goes on at forks.
+  [[nodiscard]] std::vector<std::uint32_t> inwardFrom(std::uint32_t node, double reach,
+                                                      std::uint32_t before = kNoNode) const;
 
   Draft& m_draft;
   std::vector<bool> m_isVessel;

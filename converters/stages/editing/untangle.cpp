@@ -13,7 +13,10 @@
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/across_voids.h"
 #include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/into_sides.h"
 #include "converters/stages/editing/node_graph.h"
+#include "converters/stages/editing/overlapping_ends.h"
+#include "converters/stages/editing/rungs.h"
 #include "converters/stages/editing/smooth_axes.h"
 
 namespace lumen::convert {
@@ -56,7 +59,13 @@ public:
     m_graph.orient(m_graph.formerRoots());
     const std::vector<Match> joined = chosen(matches(findEnds(m_graph.chains())));
     join(joined);
-    std::vector<Vector3d> places = joinAcrossVoids(m_graph);
+    std::vector<Vector3d> places = joinOverlappingEnds(m_graph);
+    cutRungs(m_graph);
+    for (const Vector3d& place :
+         joinIntoSides(m_graph, [&](const Vector3d&a, const Vector3d&b) { return isOpen(a, b); }))
+      places.push_back(place);
+    cutRungs(m_graph);
+    for (const Vector3d& place : joinAcrossVoids(m_graph)) places.push_back(place);
     m_graph.orient(roots());
     rebuild();
     for (const Match& match : joined) places.push_back(m_ends[match.a].position);
@@ -126,7 +135,8 @@ private:
     if (facing < kFacingCosine) return std::nullopt;
     double ahead = 1;
     if (length > 0.5 * wide) ahead = std::min(a.outward.dot(gap), -b.outward.dot(gap)) / length;
-    if (ahead < kAheadCosine || !isOpen(a.position, b.position)) return std::nullopt;
+    if (ahead < kAheadCosine) return std::nullopt;
+    if (!isOpen(a.position, b.position) && !isHidden(a, b)) return std::nullopt;
     if (a.isStart() && b.isStart() && !crosses(a, b)) return std::nullopt;
     return length / wide + 2 * (2 - facing - ahead) + 2 * std::log(ratio);
   }
@@ -135,6 +145,28 @@ private:
     constexpr int kPlaces = 16;
     for (int i = 1; i < kPlaces; ++i)
       if (!m_around.isLumen(from + static_cast<double>(i) / kPlaces * (to - from))) return false;
+    return true;
+  }
+
+  /// Whether a straight vessel between two ends touches all along the vessel that both leave, which
+  /// may turn there: it is not seen from outside of that one's lumen.
+  [[nodiscard]] bool isHidden(const VesselEnd& a, const VesselEnd& b) const {
+    if (!a.isStart() || !b.isStart()) return false;
+    const std::vector<std::uint32_t> hiding = m_graph.stretchAround(a.parent);
+    if (std::find(hiding.begin(), hiding.end(), b.parent) == hiding.end()) return false;
+    for (const VesselEnd* end : {&a, &b})
+      if (!isOpen(end->position, m_graph.position(end->parent))) return false;
+    const double wide = std::max(a.radius, b.radius);
+    constexpr int kPlaces = 16;
+    for (int i = 1; i < kPlaces; ++i) {
+      const Vector3d place =
+          a.position + static_cast<double>(i) / kPlaces * (b.position - a.position);
+      if (std::none_of(hiding.begin(), hiding.end(), [&](std::uint32_t node) {
+            return (m_graph.position(node) - place).norm() <
+                   kTouching * (m_graph.radius(node) + wide);
+          }))
+        return false;
+    }
     return true;
   }
 
