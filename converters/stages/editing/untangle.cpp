@@ -61,9 +61,8 @@ public:
     join(joined);
     std::vector<Vector3d> places = joinOverlappingEnds(m_graph);
     cutRungs(m_graph);
-    for (const Vector3d& place :
-         joinIntoSides(m_graph, [&](const Vector3d&a, const Vector3d&b) { return isOpen(a, b); }))
-      places.push_back(place);
+    const auto isLumenBetween = [&](const Vector3d& a, const Vector3d& b) { return isOpen(a, b); };
+    for (const Vector3d& place : joinIntoSides(m_graph, isLumenBetween)) places.push_back(place);
     cutRungs(m_graph);
     for (const Vector3d& place : joinAcrossVoids(m_graph)) places.push_back(place);
     m_graph.orient(roots());

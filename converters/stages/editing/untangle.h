@@ -22,8 +22,11 @@ struct Surrounding {
 /// follow their neighbours (smooth_axes.h).
 ///
 /// - Two ends that face one another through the lumen, of like direction and width, are one vessel:
-///   two that leave a third on both sides cross it, and are joined to one another instead; a tip and
-///   a start, or two tips, are joined by a bridge. A join that closes a loop becomes a link.
+///   two that leave a third on both sides cross it, and are joined to one another instead, also where
+///   that one bends and they touch it all along; a tip and a start, or two tips, are joined by a
+///   bridge. A join that closes a loop becomes a link.
+/// - Tips that overlap are one vessel (overlapping_ends.h), and a tip before the side of another joins
+///   it (into_sides.h). Loops are cut where vessels only touch (rungs.h).
 /// - Ends of two trees that face one another across a void are one vessel, too (across_voids.h).
 /// - Each tree begins at its widest end that leaves the volume, or at its widest end if those that
 ///   leave are less than half as wide.

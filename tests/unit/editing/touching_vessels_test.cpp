@@ -33,6 +33,15 @@ std::vector<Vec3f> between(const Vector3d& from, const Vector3d& to) {
   return places;
 }
 
+/// Places along a line with corners.
+std::vector<Vec3f> through(const std::vector<Vector3d>& corners) {
+  std::vector<Vec3f> places;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    for (const Vec3f& p : between(corners[i - 1], corners[i]))
+      if (places.empty() || p != places.back()) places.push_back(p);
+  return places;
+}
+
 void finish(Case& value) {
   value.models.reset();
   const auto valid = formats::validate(value);
@@ -93,6 +102,42 @@ TEST(TouchingVessels, AStretchThatABranchLeavesStays) {
   EXPECT_NE(std::find(nodes.begin(), nodes.end(), Vec3f{-0.5F, 0, 0}), nodes.end());
 }
 
+/// A vessel that bends where a straight one, which a skeleton leaves on both sides, touches it at a
+/// `distance` from its axis.
+Case bentBesideStraight(double distance) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "bent", through({{-20, 3, 0}, {0, 0, 0}, {20, 3, 0}}), 1);
+  const std::vector<Vec3f>& axis = value.tree.centre;
+  const auto nodeAt = [&](float x) {
+    return static_cast<std::int32_t>(
+        std::find_if(axis.begin(), axis.end(), [&](const Vec3f& p) { return p.x >= x; }) -
+        axis.begin());
+  };
+  const std::int32_t left = nodeAt(-2.5F), right = nodeAt(2.5F);
+  addBeads(value, "left", between({-2.5, -distance, 0}, {-15, -distance, 0}), 0.8F, left);
+  addBeads(value, "right", between({2.5, -distance, 0}, {15, -distance, 0}), 0.8F, right);
+  finish(value);
+  return value;
+}
+
+TEST(TouchingVessels, AVesselThatABentOneHidesIsOneOfItsOwn) {
+  const Surrounding bend{[](const Vector3d& p) { return std::abs(p.x()) > 1.5 || p.y() > -0.3; },
+                         kLumen.isInside};
+  Case value = bentBesideStraight(0.9);
+  EXPECT_EQ(untangle(value, bend).size(), 1U);
+  finish(value);
+  EXPECT_EQ(value.tree.branches.size(), 2U);
+  Case apart = bentBesideStraight(2.6);
+  EXPECT_TRUE(untangle(apart, bend).empty());
+  const Surrounding walled{[](const Vector3d& p) { return p.y() > -0.1 || p.y() < -0.5; },
+                           kLumen.isInside};
+  Case behind = bentBesideStraight(0.9);  // a wall lies between both ends and the bent one
+  EXPECT_TRUE(
+      untangle(behind, {[&](const Vector3d& p) { return bend.isLumen(p) && walled.isLumen(p); },
+                        kLumen.isInside})
+          .empty());
+}
+
 /// A trunk along x, and a vessel that leaves it, goes round and comes back to 2.5 mm before its axis.
 Case comingBack(double end) {
   Case value = formats::test::noBeads();
@@ -145,15 +190,6 @@ TEST(TouchingVessels, ALooseVesselThatEndsJustBeforeAnothersSideIsItsBranch) {
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_GE(value.tree.branches[1].parentNode, 0);
   EXPECT_TRUE(value.tree.links.empty());
-}
-
-/// Places along a line with corners.
-std::vector<Vec3f> through(const std::vector<Vector3d>& corners) {
-  std::vector<Vec3f> places;
-  for (std::size_t i = 1; i < corners.size(); ++i)
-    for (const Vec3f& p : between(corners[i - 1], corners[i]))
-      if (places.empty() || p != places.back()) places.push_back(p);
-  return places;
 }
 
 /// A vessel along x, and a second one that leaves it far behind, turns back to pass at a distance,
