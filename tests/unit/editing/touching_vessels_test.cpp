@@ -90,6 +90,18 @@ TEST(TouchingVessels, TracksBesideOneAnotherStayApart) {
   EXPECT_EQ(value.tree.branches.size(), 2U);
 }
 
+TEST(TouchingVessels, TipsOfOtherWidthOrDirectionInOnePlaceStayApart) {
+  Case wide = overlapping(0.2);
+  for (std::size_t n = 25; n < wide.tree.nodeCount(); ++n) wide.tree.radius[n] = 1.6F;
+  untangle(wide, kLumen);
+  EXPECT_EQ(wide.tree.branches.size(), 2U);  // not one vessel
+  Case across = formats::test::noBeads();
+  addBeads(across, "a", between({-10, 0, 0}, {2, 0, 0}), 1);
+  addBeads(across, "b", between({1.7, 12, 0}, {1.7, -0.3, 0}), 0.9F);
+  finish(across);
+  EXPECT_TRUE(untangle(across, kLumen).empty());
+}
+
 TEST(TouchingVessels, AStretchThatABranchLeavesStays) {
   Case value = formats::test::noBeads();
   addBeads(value, "a", between({-10, 0, 0}, {2, 0, 0}), 1);
