@@ -10,4 +10,6 @@ lumen_test(finding_test
 lumen_test(whole_tree_test
   LIBS lumen_compare lumen_editing lumen_finding lumen_phantom lumen_tracking
   SLOW WholePatient.HasTheVesselThatAnotherHidesAsOne
+       WholePatient.HasAVesselThatIsEnteredWhereItTouchesAsOne
+       WholeCircleOfWillis.HasThreeInletsAndThreeCommunicatingArteries
   SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/finding/track_courses_test.cpp)

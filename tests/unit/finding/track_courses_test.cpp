@@ -7,6 +7,8 @@
 
 #include "converters/base/vectors.h"
 #include "converters/judge/compare/compare.h"
+#include "converters/stages/editing/find_inlets.h"
+#include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/phantom/phantom.h"
@@ -18,8 +20,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-Phantom phantom(const std::string& name, const std::string& clutter = "") {
+Phantom phantom(const std::string& name, const std::string& clutter = "",
+                std::uint64_t seed = PhantomOptions{}.seed) {
   PhantomOptions options;
+  options.seed = seed;
   options.name = name;
   options.clutter = clutter;
   Progress silent;
@@ -127,22 +131,46 @@ TEST(TrackCourses, TheLumenThatKnownVesselsLeaveIsTrackedToo) {
   EXPECT_EQ(both.branches[0].label, "host");
 }
 
+/// A tree with its vessels beside vessels, its crossings and its inlets.
+formats::Case wholeTreeOf(const Volume& volume, Progress& progress) {
+  const FoundVessels found = findVessels(volume, false, progress);
+  formats::Case tree = trackAlongCourses(volume, found.courses, {}, {}, progress,
+                                         [&](std::span<const WorldBall> vessels) {
+                                           return coursesBeside(found, vessels, progress);
+                                         })
+                           .result;
+  const Surrounding around{[&](const Vector3d& p) { return found.isLumen(p); },
+                           [&](const Vector3d& p) { return volume.geometry.containsWorld(p); }};
+  untangle(tree, around);
+  beginAt(tree, furtherInlets(tree.tree, around.isInside));
+  return tree;
+}
+
 /// The first patient has a vessel that touches a wider one for 9 mm, along which its course leads.
 TEST(WholePatient, HasTheVesselThatAnotherHidesAsOne) {
   Progress silent;
   const Phantom made = phantom("patient");
-  const FoundVessels found = findVessels(made.volume, false, silent);
-  formats::Case tree = trackAlongCourses(made.volume, found.courses, {}, {}, silent,
-                                         [&](std::span<const WorldBall> vessels) {
-                                           return coursesBeside(found, vessels, silent);
-                                         })
-                           .result;
-  untangle(tree, {[&](const Vector3d& p) { return found.isLumen(p); },
-                  [&](const Vector3d& p) { return made.volume.geometry.containsWorld(p); }});
+  const formats::Case tree = wholeTreeOf(made.volume, silent);
   const CenterlineScore score = compareCases(tree, made.truth, silent).score;
   EXPECT_LT(score.missed, 1);
   EXPECT_LT(score.falseLength, 3);
   EXPECT_EQ(tree.tree.branches.size(), made.truth.tree.branches.size());
+}
+
+/// The third patient has a vessel that touches another, from which a skeleton gets into its middle.
+TEST(WholePatient, HasAVesselThatIsEnteredWhereItTouchesAsOne) {
+  Progress silent;
+  const Phantom made = phantom("patient", "", 3);
+  const formats::Case tree = wholeTreeOf(made.volume, silent);
+  EXPECT_EQ(tree.tree.branches.size(), made.truth.tree.branches.size());
+  EXPECT_TRUE(tree.tree.links.empty());
+}
+
+TEST(WholeCircleOfWillis, HasThreeInletsAndThreeCommunicatingArteries) {
+  Progress silent;
+  const formats::CenterlineTree tree = wholeTreeOf(phantom("willis").volume, silent).tree;
+  EXPECT_EQ(std::count(tree.parent.begin(), tree.parent.end(), formats::kNoParent), 3);
+  EXPECT_EQ(tree.links.size(), 3U);
 }
 
 TEST(TrackCourses, ACandidateWithoutAWallIsNoVesselAndItsChildrenHangOnTheOneBefore) {
