@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace lumen::convert {
 namespace {
@@ -29,9 +30,12 @@ struct Overlap {
 std::vector<Tip> findTips(const NodeGraph& graph) {
   std::vector<Tip> tips;
   for (const std::vector<std::uint32_t>& ends : graph.endsOfTrees())
-    for (const std::uint32_t end : ends)
-      if (const auto arm = graph.armFrom(end); arm && !graph.isLinked(end))
-        tips.push_back({graph.unforkedFrom(end), graph.outwardAt(end), arm->radius});
+    for (const std::uint32_t end : ends) {
+      const auto arm = graph.armFrom(end);
+      std::vector<std::uint32_t> nodes = graph.unforkedFrom(end);
+      if (arm && !nodes.empty() && !graph.isLinked(end))
+        tips.push_back({std::move(nodes), graph.outwardAt(end), arm->radius});
+    }
   return tips;
 }
 

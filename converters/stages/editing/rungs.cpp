@@ -66,6 +66,10 @@ Stretch rungOn(const NodeGraph& graph, Stretch way) {
 void cutRungs(NodeGraph& graph) {
   for (const auto& [a, b] : graph.takeLinks()) {
     const std::vector<std::uint32_t> way = graph.way(a, b);
+    if (way.size() < 3) {  // no loop, or an edge already
+      graph.link(a, b);
+      continue;
+    }
     graph.connect(a, b);
     const Stretch rung = rungOn(graph, way);
     if (rung.empty()) {

@@ -114,6 +114,24 @@ TEST(TouchingVessels, AStretchThatABranchLeavesStays) {
   EXPECT_NE(std::find(nodes.begin(), nodes.end(), Vec3f{-0.5F, 0, 0}), nodes.end());
 }
 
+TEST(TouchingVessels, ATipWithAnAneurysmStays) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", between({-10, 0, 0}, {2, 0, 0}), 1);
+  addBeads(value, "sac", between({2, 1.5, 0}, {2, 3, 0}), 1.2F, 24);
+  value.tree.branches[1].kind = formats::BranchKind::Aneurysm;
+  addBeads(value, "b", between({10, 0.2, 0}, {-2, 0.2, 0}), 0.9F);
+  finish(value);
+  untangle(value, kLumen);
+  finish(value);
+  const auto sac = std::find_if(
+      value.tree.branches.begin(), value.tree.branches.end(),
+      [](const formats::Branch& b) { return b.kind == formats::BranchKind::Aneurysm; });
+  ASSERT_NE(sac, value.tree.branches.end());
+  ASSERT_GE(sac->parentNode, 0);
+  const Vec3f parent = value.tree.centre[static_cast<std::size_t>(sac->parentNode)];
+  EXPECT_EQ(parent, (Vec3f{2, 0, 0}));
+}
+
 /// A vessel that bends where a straight one, which a skeleton leaves on both sides, touches it at a
 /// `distance` from its axis.
 Case bentBesideStraight(double distance) {
