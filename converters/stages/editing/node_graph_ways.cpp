@@ -2,7 +2,6 @@
 // Trees, ends and ways of a graph that no direction of its edges changes.
 #include <algorithm>
 
-#include "converters/base/vectors.h"
 #include "converters/stages/editing/node_graph.h"
 
 namespace lumen::convert {

@@ -2,7 +2,6 @@
 #include "converters/stages/editing/rungs.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -247,7 +247,7 @@ TEST(TrackCourses, AnotherRandomSeedMovesNoEnd) {
     return trackAlongCourses(made.volume, courses, {}, options, silent).result.tree;
   };
   const formats::CenterlineTree first = tracked(1);
-  for (const std::uint64_t seed : {2, 3, 4}) {
+  for (std::uint64_t seed = 2; seed <= 4; ++seed) {
     const formats::CenterlineTree other = tracked(seed);
     ASSERT_EQ(other.branches.size(), first.branches.size()) << seed;
     for (std::size_t b = 0; b < first.branches.size(); ++b) {
