@@ -86,6 +86,8 @@ public:
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> endsOfTrees() const;
   /// The nodes of all vessels that are not within twice its radius of an end.
   [[nodiscard]] std::vector<std::uint32_t> nodesAwayFromEnds() const;
+  /// Whether an aneurysm leaves a node.
+  [[nodiscard]] bool hasAneurysm(std::uint32_t node) const;
   /// The nodes from an end on, before the first that a vessel or an aneurysm leaves.
   [[nodiscard]] std::vector<std::uint32_t> unforkedFrom(std::uint32_t end) const;
   /// Number of nodes that were measured in a volume.

@@ -6,12 +6,15 @@
 
 namespace lumen::convert {
 
+bool NodeGraph::hasAneurysm(std::uint32_t node) const {
+  return std::any_of(m_draft.branches.begin(), m_draft.branches.end(), [&](const auto& branch) {
+    return branch.record.kind != formats::BranchKind::Vessel && branch.parent == node;
+  });
+}
+
 std::vector<std::uint32_t> NodeGraph::unforkedFrom(std::uint32_t end) const {
   const auto isLeft = [&](std::uint32_t node) {
-    return m_beside[node].size() > 2 ||
-           std::any_of(m_draft.branches.begin(), m_draft.branches.end(), [&](const auto& branch) {
-             return branch.record.kind != formats::BranchKind::Vessel && branch.parent == node;
-           });
+    return m_beside[node].size() > 2 || hasAneurysm(node);
   };
   std::vector<std::uint32_t> nodes;
   std::uint32_t before = kNoNode, next = kNoNode;

@@ -8,7 +8,8 @@
 namespace lumen::convert {
 namespace {
 
-/// Of both radii, which may be wrong by a tenth: lumens of vessels whose axes are this near meet.
+/// Lumens meet if their axes are no farther apart than this many times both radii, which may be wrong
+/// by a tenth.
 constexpr double kMeeting = 1.1;
 
 /// Whether a vessel goes on through a node, besides the way to a neighbour: two of its arms lead away
@@ -40,7 +41,11 @@ bool touchesAlong(const NodeGraph& graph, Stretch stretch) {
   });
 }
 
+/// A stretch that an aneurysm hangs on is none, as it would lose its place.
 bool isRung(const NodeGraph& graph, Stretch stretch) {
+  if (std::any_of(stretch.begin(), stretch.end(),
+                  [&](std::uint32_t node) { return graph.hasAneurysm(node); }))
+    return false;
   const std::vector<std::uint32_t> back(stretch.rbegin(), stretch.rend());
   return goesOn(graph, stretch[0], stretch[1]) && goesOn(graph, back[0], back[1]) &&
          (touchesAlong(graph, stretch) || touchesAlong(graph, back));

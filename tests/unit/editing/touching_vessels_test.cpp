@@ -249,6 +249,17 @@ TEST(TouchingVessels, ALoopIsCutWhereVesselsTouch) {
   EXPECT_LT(value.tree.centre[static_cast<std::size_t>(value.tree.branches[1].parentNode)].x, -20);
 }
 
+TEST(TouchingVessels, NoLoopIsCutWhereAnAneurysmHangs) {
+  Case value = ladder(1.9);
+  addBeads(value, "sac", between({0, -1.5, 0}, {0, -3, 0}), 1.2F, 50);
+  value.tree.branches.back().kind = formats::BranchKind::Aneurysm;
+  finish(value);
+  untangle(value, kLumen);
+  finish(value);
+  EXPECT_EQ(value.tree.links.size(), 1U);
+  EXPECT_GE(value.tree.branches.back().parentNode, 0);
+}
+
 TEST(TouchingVessels, AVesselThatConnectsTwoOthersIsKept) {
   Case value = ladder(4);
   EXPECT_EQ(untangle(value, kLumen).size(), 1U);
