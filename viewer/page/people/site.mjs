@@ -25,6 +25,9 @@ export async function serve(test, folder) {
   });
 }
 
+/** Chromium's words for a request that it drops because its page is left before the answer: no fault of the site. */
+const kDropped = "net::ERR_ABORTED";
+
 /** A page of a site in a browser context, which fails its test for every complaint and every request that leaves `within`. */
 export async function openSite(t, browser, address, { within, ...options }) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
@@ -47,7 +50,10 @@ export async function openSite(t, browser, address, { within, ...options }) {
   page.on("response", response => {
     if (response.status() >= 400) mistakes.push(`${response.status()} ${response.url()}`);
   });
-  page.on("requestfailed", request => mistakes.push(`failed: ${request.url()}`));
+  page.on("requestfailed", request => {
+    const { errorText } = request.failure();
+    if (errorText !== kDropped) mistakes.push(`failed: ${request.url()}: ${errorText}`);
+  });
   t.after(() => {
     if (mistakes.length > 0) throw new Error(`the site complained:\n${mistakes.join("\n")}`);
   });
