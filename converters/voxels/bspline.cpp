@@ -225,7 +225,7 @@ const float* BsplineVolume::Bricks::build(std::size_t id) {
   const auto n = static_cast<int>(id);
   const std::array<int, 3> low{(n % count[0]) * kBrick - 1, (n / count[0] % count[1]) * kBrick - 1,
                                (n / count[0] / count[1]) * kBrick - 1};
-  auto fresh = std::make_unique<float[]>(kBrickFloats);
+  auto fresh = std::make_unique_for_overwrite<float[]>(kBrickFloats);
   std::visit([&](const auto& voxels) { filter(voxels, low, fresh.get()); }, volume.voxels);
   float* expected = nullptr;
   if (!coefficients[id].compare_exchange_strong(expected, fresh.get(), std::memory_order_acq_rel))
@@ -247,7 +247,8 @@ void BsplineVolume::Bricks::filter(const std::vector<T>& voxels, const std::arra
           static_cast<std::size_t>(mirror(low[a] - kHalo + i, size[a]));
   const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
 
-  std::vector<float> planes(static_cast<std::size_t>(kPlane) * kPadded);
+  const auto planes =
+      std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(kPlane) * kPadded);
   std::array<float, static_cast<std::size_t>(kRow) * kPadded> rows;
   std::array<float, kPaddedRow> line{};
   rows.fill(0);
@@ -258,9 +259,9 @@ void BsplineVolume::Bricks::filter(const std::vector<T>& voxels, const std::arra
       filterRun(line.data() + kHalo, 1, taps[0].data(), rows.data() + y * kRow, kStored);
     }
     // rows are contiguous, so the y filter of a whole plane is one run
-    filterRun(rows.data() + kHalo * kRow, kRow, taps[1].data(), planes.data() + z * kPlane, kPlane);
+    filterRun(rows.data() + kHalo * kRow, kRow, taps[1].data(), planes.get() + z * kPlane, kPlane);
   }
-  filterRun(planes.data() + static_cast<std::size_t>(kHalo) * kPlane, kPlane, taps[2].data(), out,
+  filterRun(planes.get() + static_cast<std::size_t>(kHalo) * kPlane, kPlane, taps[2].data(), out,
             static_cast<int>(kBrickFloats));
 }
 

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
+#include "converters/base/zeroed_array.h"
 #include "converters/stages/finding/background.h"
 #include "converters/stages/finding/faded_lumen.h"
 #include "converters/stages/finding/ridges.h"
@@ -144,8 +145,8 @@ float measureContrast(const Histogram& excess, std::size_t voxels) {
 /// The usual strength of the ridges in the background, by blocks of voxels: of noise and texture.
 class UsualRidges {
 public:
-  UsualRidges(const CellBox& cells, const std::vector<float>& strength,
-              const std::vector<std::uint8_t>& mark, const Progress& progress)
+  UsualRidges(const CellBox& cells, const ZeroedArray<float>& strength,
+              const ZeroedArray<std::uint8_t>& mark, const Progress& progress)
       : m_median(blocksAround(cells).count()), m_blocks(blocksAround(cells)) {
     std::vector<Samples> found(m_blocks.count());
     tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
@@ -202,7 +203,7 @@ private:
 };
 
 /// Adds the weak ridges that are connected with the lumen.
-void growIntoWeak(const CellBox& cells, std::vector<std::uint8_t>& mark, const Progress& progress) {
+void growIntoWeak(const CellBox& cells, ZeroedArray<std::uint8_t>& mark, const Progress& progress) {
   constexpr std::size_t kCheckEvery = 1 << 14;
   std::vector<std::size_t> reached;
   const auto from = [&](std::size_t i) {
@@ -223,8 +224,8 @@ void growIntoWeak(const CellBox& cells, std::vector<std::uint8_t>& mark, const P
 
 /// Marks the lumen of wide vessels where they are less bright than the rest.
 void markFaded(const Volume& volume, const Background& background, float sign, float contrast,
-               std::vector<std::uint8_t>& mark, const Progress& progress) {
-  Excess excess{volume.geometry.cells(), std::vector<float>(mark.size()), [&](const Cell& cell) {
+               ZeroedArray<std::uint8_t>& mark, const Progress& progress) {
+  Excess excess{volume.geometry.cells(), ZeroedArray<float>(mark.size()), [&](const Cell& cell) {
                   return static_cast<float>(kAboveNoise) * background.noiseAt(cell);
                 }};
   forEachExcess(volume, background, sign, progress,
@@ -249,13 +250,13 @@ BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& p
   const float contrast = measureContrast(excess, cells.count());
   out.contrast = static_cast<double>(contrast);
 
-  std::vector<std::uint8_t> mark(cells.count(), kBackground);
+  ZeroedArray<std::uint8_t> mark(cells.count());  // kBackground
   const float half = std::max(0.5F * contrast, excess.low);
   forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
     if (value > half) mark[i] = kLumen;
   });
   markFaded(volume, background, sign, contrast, mark, progress);
-  const std::vector<float> strength = ridgeStrength(volume, sign, progress);
+  const ZeroedArray<float> strength = ridgeStrength(volume, sign, progress);
   const UsualRidges usual(cells, strength, mark, progress);
   const float faintRidge = kFaintest * kRidgeShare * contrast;
   forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
+#include "converters/base/zeroed_array.h"
 #include "converters/voxels/cell_box.h"
 
 namespace lumen::convert {
@@ -13,7 +14,7 @@ namespace lumen::convert {
 /// Excess of every voxel of a volume over its background, and what of it is lumen.
 struct Excess {
   CellBox cells;
-  std::vector<float> value;                   ///< for each voxel; brighter is more
+  ZeroedArray<float> value;                   ///< for each voxel; brighter is more
   std::function<float(const Cell&)> leastAt;  ///< the least value there that is no noise
 };
 

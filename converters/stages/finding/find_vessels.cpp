@@ -2,12 +2,16 @@
 #include "converters/stages/finding/find_vessels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <utility>
 #include <variant>
+
+#include <tbb/parallel_for.h>
 
 #include "converters/base/number_text.h"
 #include "converters/stages/finding/bone.h"
@@ -171,15 +175,17 @@ void toWorld(const VolumeGeometry& grid, const VolumeGeometry& world,
 /// The voxels whose centres lie in no ball.
 std::vector<std::size_t> outside(const VolumeGeometry& grid, const std::vector<std::size_t>& voxels,
                                  std::span<const WorldBall> balls, const Progress& progress) {
-  std::vector<bool> isIn(voxels.size(), false);
+  std::vector<std::uint8_t> isIn(voxels.size(), 0);  // bytes, as balls overlap
   const VoxelSet set(grid, voxels);
-  for (const WorldBall& ball : balls) {
+  tbb::parallel_for(std::size_t{0}, balls.size(), [&](std::size_t b) {
     progress.check();
-    set.eachIn(ball.centre, ball.radius, [&](std::uint32_t i) { isIn[i] = true; });
-  }
+    set.eachIn(balls[b].centre, balls[b].radius, [&](std::uint32_t i) {
+      std::atomic_ref(isIn[i]).store(1, std::memory_order_relaxed);
+    });
+  });
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < voxels.size(); ++i)
-    if (!isIn[i]) out.push_back(voxels[i]);
+    if (isIn[i] == 0) out.push_back(voxels[i]);
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <variant>
 
 #include <Eigen/Eigenvalues>
@@ -171,12 +170,12 @@ void eachRow(const CellBox& box, const Visit& visit) {
 
 }  // namespace
 
-std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress) {
+ZeroedArray<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress) {
   const VolumeGeometry geometry = gridGeometry(volume.geometry);
   const CellBox cells = geometry.cells();
   const double voxel = geometry.voxelSize();
   const Eigen::Vector3f spacing = geometry.spacing.cast<float>();
-  std::vector<float> out(cells.count(), 0.0F);
+  ZeroedArray<float> out(cells.count());
   CellBox bricks;
   bricks.size = (cells.size.array() + kBrick - 1) / kBrick;
   tbb::enumerable_thread_specific<Brick> workspaces;

@@ -4,12 +4,8 @@
 // 1998).
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "converters/base/progress.h"
+#include "converters/base/zeroed_array.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -21,6 +17,6 @@ namespace lumen::convert {
 ///
 /// `sign`: 1, or -1 if vessels are darker than their background. Works on bricks, so that its
 /// buffers do not grow with the volume. Throws Error(Cancelled).
-std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress);
+ZeroedArray<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress);
 
 }  // namespace lumen::convert

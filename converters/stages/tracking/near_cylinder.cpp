@@ -6,16 +6,12 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Dense>
-
-#include "converters/base/vectors.h"
+#include "converters/stages/tracking/cylinder_equations.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-using NearVector = Eigen::Matrix<double, 5, 1>;
-using NearMatrix = Eigen::Matrix<double, 5, 5>;
 
 /// Bounds on the radius, in expected ones: those of a depth among voxels.
 constexpr double kNearLeast = 0.5, kNearMost = 1.8;
@@ -31,56 +27,26 @@ constexpr int kStepsPerReach = 2;
 constexpr double kCourseShare = 0.02;
 /// The most of a step, in radii: farther away the wall is not as it looks from here.
 constexpr double kMostStep = 0.5;
-/// Levenberg damping, of the normal matrix' trace.
-constexpr double kNearDamping = 1e-9;
-
-struct NearEquations {
-  NearMatrix normal = NearMatrix::Zero();
-  NearVector right = NearVector::Zero();
-  double weights = 0;
-};
-
-/// Normal equations for (shift in the plane, tilt, radius) over the candidates, by Tukey's weights.
-NearEquations robustEquations(const Candidates& points, const Cylinder& cylinder, double reach) {
-  const auto [e1, e2] = planeBasis(cylinder.axis);
-  NearEquations out;
-  for (std::size_t i = 0; i < points.count(); ++i) {
-    const Vector3d p = points.origin + points.offset(i) - cylinder.centre;
-    const double u = p.dot(e1), v = p.dot(e2), w = p.dot(cylinder.axis);
-    const double distance = std::hypot(u, v);
-    const double residual = distance - cylinder.radius;
-    const double share = residual / reach;
-    if (distance == 0 || std::abs(share) >= 1) continue;
-    const double weight = (1 - share * share) * (1 - share * share);
-    NearVector row;
-    row << -u / distance, -v / distance, -w * u / distance, -w * v / distance, -1.0;
-    out.normal += weight * row * row.transpose();
-    out.right -= weight * residual * row;
-    out.weights += weight;
-  }
-  return out;
-}
 
 /// Moves a cylinder by one step; false if too few candidates are near its wall.
 bool stepRobustly(const Candidates& points, double reach, const Vector3d& course,
                   Cylinder& cylinder) {
-  NearEquations equations = robustEquations(points, cylinder, reach);
+  CylinderEquations equations = robustEquations(points, reach, cylinder);
   if (equations.weights < static_cast<double>(kFewestCandidates) / 2) return false;
-  const auto [e1, e2] = planeBasis(cylinder.axis);
+  const Vector3d &e1 = equations.e1, &e2 = equations.e2;
   const double held = kCourseShare * equations.weights * cylinder.radius * cylinder.radius;
   const Vector3d away = course - cylinder.axis;
   equations.normal(2, 2) += held;
   equations.normal(3, 3) += held;
   equations.right[2] += held * away.dot(e1);
   equations.right[3] += held * away.dot(e2);
-  equations.normal.diagonal().array() += kNearDamping * equations.normal.trace();
-  const NearVector step = equations.normal.ldlt().solve(equations.right);
-  if (!step.allFinite()) return false;
+  const auto step = equations.solve();
+  if (!step) return false;
   const double most = kMostStep * cylinder.radius;
-  const double shift = std::hypot(step[0], step[1]), scale = shift > most ? most / shift : 1;
-  cylinder.centre += scale * (step[0] * e1 + step[1] * e2);
-  cylinder.axis = (cylinder.axis + scale * (step[2] * e1 + step[3] * e2)).normalized();
-  cylinder.radius += std::clamp(step[4], -most, most);
+  const double shift = std::hypot((*step)[0], (*step)[1]), scale = shift > most ? most / shift : 1;
+  cylinder.centre += scale * ((*step)[0] * e1 + (*step)[1] * e2);
+  cylinder.axis = (cylinder.axis + scale * ((*step)[2] * e1 + (*step)[3] * e2)).normalized();
+  cylinder.radius += std::clamp((*step)[4], -most, most);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,9 +30,10 @@ struct Candidates {
 /// Casts rays along the vertices of an icosphere. Not thread-safe: one per thread.
 class RayCaster {
 public:
-  /// `directions`: unit, LPS. `dark`: vessels are darker than their background.
+  /// `directions`: unit, LPS. `dark`: vessels are darker than their background. A ray has `samples`,
+  /// but no more than `mostPerEdge` for each finest edge of a voxel, and at least 16 even so.
   RayCaster(const BsplineVolume& volume, std::vector<Eigen::Vector3d> directions, int samples,
-            bool dark);
+            bool dark, double mostPerEdge = std::numeric_limits<double>::infinity());
 
   /// Rays of `length` mm from `centre` (LPS mm). On each, the place where the intensity falls
   /// fastest, refined between samples by a parabola, if its distance t holds length/12 <= t <= 0.8
@@ -42,6 +44,7 @@ private:
   const BsplineVolume& m_volume;
   std::vector<Eigen::Vector3d> m_directions, m_indexDirections;
   std::vector<float> m_values;
+  double m_mostPerLength = 0;  ///< samples per mm
   float m_sign;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -114,14 +115,15 @@ double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranc
                         const TrackOptions& options, const Progress& progress) {
   const VolumeGeometry& geometry = volume.geometry();
   const std::size_t count = std::min(seeds.size(), kMostClicks);
-  std::vector<float> contrasts;
-  for (std::size_t i = 0; i < count; ++i) {
+  std::vector<float> contrasts(count, std::numeric_limits<float>::quiet_NaN());
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     progress.check();
     const SeedBranch& seed = seeds[i * seeds.size() / count];
     const Eigen::Vector3d click = geometry.indexFromWorld(seed.points[0].position);
     if (geometry.containsIndex(click))
-      contrasts.push_back(contrastAt(volume, click, options.dark ? -1.0F : 1.0F));
-  }
+      contrasts[i] = contrastAt(volume, click, options.dark ? -1.0F : 1.0F);
+  });
+  std::erase_if(contrasts, [](float contrast) { return std::isnan(contrast); });  // outside
   return contrasts.empty() ? 0.0 : std::max(0.0, double{lowerQuantile(contrasts, 0.5)});
 }
 

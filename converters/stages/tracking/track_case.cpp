@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "converters/base/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
@@ -84,10 +86,10 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
   captureSacs(context, tree);
   for (std::size_t i = 0; i < tree.known; ++i)
     correctAdded(tree.branches[i], before[i], tree.seeds[i].kind, shape);
-  for (std::size_t i = tree.known; i < tree.seeds.size(); ++i) {
+  tbb::parallel_for(tree.known, tree.seeds.size(), [&](std::size_t i) {
     correctWalls(tree.branches[i], tree.seeds[i].kind, shape);
     if (tree.isVessel(i)) correctBends(tree.branches[i].nodes);
-  }
+  });
   return shape;
 }
 

@@ -27,7 +27,11 @@ void addSearchRows(TrackOptions& o, OptionTable& table) {
   table.add("axes", &o.axes, "N", "Candidate axes of a node: 6, 21, 81 or 321")
       .among({6, 21, 81, 321})
       .recorded();
-  table.add("samples", &o.samples, "N", "Samples on a ray").in(WholeRange{8, 4096}).recorded();
+  table
+      .add("samples", &o.samples, "N",
+           "Samples on a ray; without clicks at most 8 for each edge of a voxel")
+      .in(WholeRange{8, 4096})
+      .recorded();
   table.add("min-trials", &o.minTrials, "N", "Fewest random circles for each axis")
       .in(WholeRange{1, kMostTrials})
       .recorded();

@@ -18,7 +18,7 @@ struct TrackOptions {
   double inlierBand = 0.10;  ///< r_t: half width of the inlier band, relative to the radius
   int rays = 162;            ///< N_r: an icosphere's vertex count: 12, 42, 162 or 642
   int axes = 81;             ///< N_d: half of an icosphere's vertex count: 6, 21, 81 or 321
-  int samples = 128;         ///< N_p: samples on a ray
+  int samples = 128;         ///< N_p: samples on a ray, at most
   int minTrials = 220;       ///< N_min: RANSAC trials for each axis
   int maxTrials = 500;       ///< N_max
   double step = 0.5;         ///< s: prediction step, in cylinder heights

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// The strength at the voxel of a place in mm.
-float at(const Volume& volume, const std::vector<float>& strength, const Vector3d& place) {
+float at(const Volume& volume, const ZeroedArray<float>& strength, const Vector3d& place) {
   const Vector3d index = volume.geometry.indexFromWorld(place);
   return strength[volume.geometry.index(Cell(index.array().round().matrix().cast<int>()))];
 }

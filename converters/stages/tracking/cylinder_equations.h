@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Linear equations for one step of least squares of a cylinder (docs/method.md, sections 1.4 and
+// 1.13).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "converters/stages/tracking/cylinder.h"
+
+namespace lumen::convert {
+
+/// Normal equations of the residuals (distance to the axis - radius, mm) of wall candidates. The five
+/// unknowns are the shift of the centre along two directions across the axis, the tilts of the axis
+/// towards these, per mm along it, and the radius.
+struct CylinderEquations {
+  Eigen::Matrix<double, 5, 5> normal;
+  Eigen::Matrix<double, 5, 1> right;
+  double weights = 0;      ///< sum over the candidates
+  double squares = 0;      ///< weighted sum of the squared residuals, mm^2
+  Eigen::Vector3d e1, e2;  ///< the directions across the axis, unit
+
+  /// The step that solves the equations, slightly damped, as a short set of candidates leaves the
+  /// tilt free; empty if none is finite.
+  [[nodiscard]] std::optional<Eigen::Matrix<double, 5, 1>> solve() const;
+};
+
+/// Equations of the candidates of these indices, each with weight 1. One on the axis has none.
+CylinderEquations equationsOf(const Candidates& points, std::span<const std::size_t> indices,
+                              const Cylinder& cylinder);
+
+/// Equations of all candidates by Tukey's weights (1 - (residual / reach)^2)^2, and 0 beyond `reach`,
+/// mm.
+CylinderEquations robustEquations(const Candidates& points, double reach, const Cylinder& cylinder);
+
+}  // namespace lumen::convert
