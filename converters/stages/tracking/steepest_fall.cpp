@@ -56,10 +56,12 @@ PlacedFall greatestFall(const float* values, std::size_t end, float sign) {
 SteepestFall steepestFall(std::span<const float> values, float sign) {
   if (values.empty() || std::isnan(values.front())) return {};
   std::size_t end = values.size();
+  // the last sample inside lies at the face of the volume
   if (std::isnan(values.back()))
     end = static_cast<std::size_t>(
-        std::find_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }) -
-        values.begin());
+              std::find_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }) -
+              values.begin()) -
+          1;
   const auto [best, strongest] = greatestFall(values.data(), end, sign);
   // a parabola needs a difference on either side of the best one
   if (best < 2 || best + 2 >= end) return {};

@@ -14,8 +14,8 @@ struct SteepestFall {
 
 /// The steepest fall by central differences; the first of several. `values`: NaN outside of the
 /// volume, and inside of it in one stretch; a line that begins outside has no fall. `sign`: 1, or -1
-/// if vessels are darker than their background. A fall within two samples of an end has no
-/// differences on both sides, and counts as none.
+/// if vessels are darker than their background. A fall within two samples of an end, or
+/// three of the volume's, has no differences on both sides, and counts as none.
 SteepestFall steepestFall(std::span<const float> values, float sign);
 
 }  // namespace lumen::convert

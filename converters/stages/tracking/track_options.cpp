@@ -29,7 +29,7 @@ void addSearchRows(TrackOptions& o, OptionTable& table) {
       .recorded();
   table
       .add("samples", &o.samples, "N",
-           "Samples on a ray; without clicks at most 8 for each edge of a voxel")
+           "Samples on a ray; without clicks at most 16 for each edge of a voxel")
       .in(WholeRange{8, 4096})
       .recorded();
   table.add("min-trials", &o.minTrials, "N", "Fewest random circles for each axis")

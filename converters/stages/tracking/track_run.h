@@ -56,9 +56,8 @@ struct TrackContext {
 };
 
 /// Samples on a ray for each finest edge of a voxel where the course is known: a cubic spline hardly
-/// differs from a parabola over two of them. Tracks from clicks take all: with eight, they lost one
-/// of two arteries that touch.
-constexpr double kSamplesPerEdge = 8.0;
+/// differs from a parabola over four of them. Tracks from clicks take all that they may have.
+constexpr double kSamplesPerEdge = 16.0;
 
 /// Buffers of a track. One per thread; no call reads what another has left in them.
 struct TrackWorkspace {

@@ -20,6 +20,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 SteepestFall reference(const std::vector<float>& values, float sign) {
   std::size_t end = 0;
   while (end < values.size() && !std::isnan(values[end])) ++end;
+  if (end > 0 && end < values.size()) --end;
   std::size_t best = 0;
   float strongest = 0;
   for (std::size_t i = 1; i + 1 < end; ++i) {
