@@ -85,7 +85,7 @@ enum Sum : std::size_t {
     pass.sine[i] = v * inverse;
     pass.along[i] = x * dx + y * dy + z * dz;
     pass.residual[i] = residual;
-    pass.weight[i] = (tukey > 0) & (distance > 0) ? tukey * tukey : 0.0;
+    pass.weight[i] = ((tukey > 0) & (distance > 0)) ? tukey * tukey : 0.0;
   }
   for (std::size_t i = count; i < kPass; ++i) pass.weight[i] = 0;
 }
