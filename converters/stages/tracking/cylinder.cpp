@@ -5,16 +5,19 @@
 #include <cmath>
 #include <cstdint>
 
+#include <Eigen/Dense>
+
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/icosphere.h"
 #include "converters/stages/tracking/circles.h"
-#include "converters/stages/tracking/cylinder_equations.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
 /// Bounds on the radius, in expected radii: a vessel's width does not change by more from one step
 /// to the next.
@@ -39,19 +42,38 @@ constexpr double kConverged = 1e-6;
 /// Bounds on the refined radius, in radii of the start: a fit that leaves them has moved to another
 /// wall.
 constexpr double kLeastRefined = 0.5, kMostRefined = 2.0;
+/// Levenberg damping, of the normal matrix' trace: a short set of points leaves the tilt free, and
+/// this keeps it where it is.
+constexpr double kDamping = 1e-9;
 
 /// One Gauss-Newton step for (shift in the plane, tilt, radius), and the mean squared residual
 /// before it.
 double stepToLeastSquares(const Candidates& points, const std::vector<std::size_t>& inliers,
                           Cylinder& cylinder) {
-  const CylinderEquations equations = equationsOf(points, inliers, cylinder);
-  if (const auto step = equations.solve()) {
-    const Vector3d &e1 = equations.e1, &e2 = equations.e2;
-    cylinder.centre += (*step)[0] * e1 + (*step)[1] * e2;
-    cylinder.axis = (cylinder.axis + (*step)[2] * e1 + (*step)[3] * e2).normalized();
-    cylinder.radius += (*step)[4];
+  const auto [e1, e2] = planeBasis(cylinder.axis);
+  Matrix5d normal = Matrix5d::Zero();
+  Vector5d right = Vector5d::Zero();
+  double squares = 0;
+  for (const std::size_t i : inliers) {
+    const Vector3d p = points.origin + points.offset(i) - cylinder.centre;
+    const double u = p.dot(e1), v = p.dot(e2), w = p.dot(cylinder.axis);
+    const double distance = std::hypot(u, v);
+    if (distance == 0) continue;
+    const double residual = distance - cylinder.radius;
+    Vector5d row;
+    row << -u / distance, -v / distance, -w * u / distance, -w * v / distance, -1.0;
+    normal += row * row.transpose();
+    right -= residual * row;
+    squares += residual * residual;
   }
-  return equations.squares / static_cast<double>(inliers.size());
+  normal.diagonal().array() += kDamping * normal.trace();
+  const Vector5d step = normal.ldlt().solve(right);
+  if (step.allFinite()) {
+    cylinder.centre += step[0] * e1 + step[1] * e2;
+    cylinder.axis = (cylinder.axis + step[2] * e1 + step[3] * e2).normalized();
+    cylinder.radius += step[4];
+  }
+  return squares / static_cast<double>(inliers.size());
 }
 
 /// Trials after which an event of that probability has almost certainly happened.

@@ -58,18 +58,17 @@ enum Sum : std::size_t {
   kRWC,
   kRWS,
   kR,
-  kRR,
   kSums
 };
 
-/// Fills the arrays behind x, y and z. A reach of 0: weight 1 for all.
+/// Fills the arrays behind x, y and z.
 [[gnu::always_inline]] inline void project(const Frame& frame, double reach, std::size_t count,
                                            Pass& pass) {
   const auto [ax, ay, az] = frame.e1;
   const auto [bx, by, bz] = frame.e2;
   const auto [dx, dy, dz] = frame.axis;
   const auto [sx, sy, sz] = frame.shift;
-  const double radius = frame.radius, inverseReach = reach > 0 ? 1 / reach : 0;
+  const double radius = frame.radius, inverseReach = 1 / reach;
 #if !defined(__clang__)
 #pragma GCC ivdep
 #endif
@@ -124,20 +123,18 @@ enum Sum : std::size_t {
     sums[kRWC] += w * rc;
     sums[kRWS] += w * rs;
     sums[kR] += off;
-    sums[kRR] += off * r;
   }
 }
 
-/// `indices`: of the candidates that count; null for the first `count`.
 LUMEN_SIMD_CLONES
-void sumUp(const float* x, const float* y, const float* z, const std::size_t* indices,
-           std::size_t count, const Frame& frame, double reach, std::array<double, kSums>& out) {
+void sumUp(const float* x, const float* y, const float* z, std::size_t count, const Frame& frame,
+           double reach, std::array<double, kSums>& out) {
   std::array<SumLanes, kSums> sums{};
   Pass pass;
   for (std::size_t first = 0; first < count; first += kPass) {
     const std::size_t here = std::min(kPass, count - first);
     for (std::size_t i = 0; i < kPass; ++i) {
-      const std::size_t nth = first + std::min(i, here - 1), at = indices ? indices[nth] : nth;
+      const std::size_t at = first + std::min(i, here - 1);
       pass.x[i] = x[at];
       pass.y[i] = y[at];
       pass.z[i] = z[at];
@@ -153,27 +150,6 @@ std::array<double, 3> arrayOf(const Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-CylinderEquations makeEquations(const Candidates& points, std::span<const std::size_t> indices,
-                                bool isAll, double reach, const Cylinder& cylinder) {
-  CylinderEquations out;
-  std::tie(out.e1, out.e2) = planeBasis(cylinder.axis);
-  const Frame frame{arrayOf(out.e1), arrayOf(out.e2), arrayOf(cylinder.axis),
-                    arrayOf(points.origin - cylinder.centre), cylinder.radius};
-  std::array<double, kSums> s{};
-  sumUp(points.x.data(), points.y.data(), points.z.data(), isAll ? nullptr : indices.data(),
-        isAll ? points.count() : indices.size(), frame, reach, s);
-  // the row of a candidate is -(c, s, w c, w s, 1), and c^2 + s^2 = 1
-  out.normal << s[kCC], s[kCS], s[kWCC], s[kWCS], s[kC],              //
-      s[kCS], s[k1] - s[kCC], s[kWCS], s[kW] - s[kWCC], s[kS],        //
-      s[kWCC], s[kWCS], s[kWWCC], s[kWWCS], s[kWC],                   //
-      s[kWCS], s[kW] - s[kWCC], s[kWWCS], s[kWW] - s[kWWCC], s[kWS],  //
-      s[kC], s[kS], s[kWC], s[kWS], s[k1];
-  out.right << s[kRC], s[kRS], s[kRWC], s[kRWS], s[kR];
-  out.weights = s[k1];
-  out.squares = s[kRR];
-  return out;
-}
-
 }  // namespace
 
 std::optional<Eigen::Matrix<double, 5, 1>> CylinderEquations::solve() const {
@@ -184,14 +160,23 @@ std::optional<Eigen::Matrix<double, 5, 1>> CylinderEquations::solve() const {
   return step;
 }
 
-CylinderEquations equationsOf(const Candidates& points, std::span<const std::size_t> indices,
-                              const Cylinder& cylinder) {
-  return makeEquations(points, indices, false, 0, cylinder);
-}
-
 CylinderEquations robustEquations(const Candidates& points, double reach,
                                   const Cylinder& cylinder) {
-  return makeEquations(points, {}, true, reach, cylinder);
+  CylinderEquations out;
+  std::tie(out.e1, out.e2) = planeBasis(cylinder.axis);
+  const Frame frame{arrayOf(out.e1), arrayOf(out.e2), arrayOf(cylinder.axis),
+                    arrayOf(points.origin - cylinder.centre), cylinder.radius};
+  std::array<double, kSums> s{};
+  sumUp(points.x.data(), points.y.data(), points.z.data(), points.count(), frame, reach, s);
+  // the row of a candidate is -(c, s, w c, w s, 1), and c^2 + s^2 = 1
+  out.normal << s[kCC], s[kCS], s[kWCC], s[kWCS], s[kC],              //
+      s[kCS], s[k1] - s[kCC], s[kWCS], s[kW] - s[kWCC], s[kS],        //
+      s[kWCC], s[kWCS], s[kWWCC], s[kWWCS], s[kWC],                   //
+      s[kWCS], s[kW] - s[kWCC], s[kWWCS], s[kWW] - s[kWWCC], s[kWS],  //
+      s[kC], s[kS], s[kWC], s[kWS], s[k1];
+  out.right << s[kRC], s[kRS], s[kRWC], s[kRWS], s[kR];
+  out.weights = s[k1];
+  return out;
 }
 
 }  // namespace lumen::convert

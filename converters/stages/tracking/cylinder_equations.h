@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear equations for one step of least squares of a cylinder (docs/method.md, sections 1.4 and
+// Linear equations for one step of robust least squares of a cylinder (docs/method.md, section
 // 1.13).
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <span>
 
 #include <Eigen/Core>
 
@@ -20,7 +18,6 @@ struct CylinderEquations {
   Eigen::Matrix<double, 5, 5> normal;
   Eigen::Matrix<double, 5, 1> right;
   double weights = 0;      ///< sum over the candidates
-  double squares = 0;      ///< weighted sum of the squared residuals, mm^2
   Eigen::Vector3d e1, e2;  ///< the directions across the axis, unit
 
   /// The step that solves the equations, slightly damped, as a short set of candidates leaves the
@@ -28,12 +25,8 @@ struct CylinderEquations {
   [[nodiscard]] std::optional<Eigen::Matrix<double, 5, 1>> solve() const;
 };
 
-/// Equations of the candidates of these indices, each with weight 1. One on the axis has none.
-CylinderEquations equationsOf(const Candidates& points, std::span<const std::size_t> indices,
-                              const Cylinder& cylinder);
-
 /// Equations of all candidates by Tukey's weights (1 - (residual / reach)^2)^2, and 0 beyond `reach`,
-/// mm.
+/// mm, and on the axis.
 CylinderEquations robustEquations(const Candidates& points, double reach, const Cylinder& cylinder);
 
 }  // namespace lumen::convert

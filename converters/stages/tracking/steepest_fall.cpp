@@ -55,15 +55,14 @@ PlacedFall greatestFall(const float* values, std::size_t end, float sign) {
 
 SteepestFall steepestFall(std::span<const float> values, float sign) {
   if (values.empty() || std::isnan(values.front())) return {};
-  std::size_t end = values.size();
-  // the last sample inside lies at the face of the volume
+  std::size_t inside = values.size();
   if (std::isnan(values.back()))
-    end = static_cast<std::size_t>(
-              std::find_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }) -
-              values.begin()) -
-          1;
-  const auto [best, strongest] = greatestFall(values.data(), end, sign);
-  // a parabola needs a difference on either side of the best one
+    inside = static_cast<std::size_t>(
+        std::find_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }) -
+        values.begin());
+  const auto [best, strongest] = greatestFall(values.data(), inside, sign);
+  // a parabola needs a difference on either side of the best one; at a face of the volume none is trusted
+  const std::size_t end = inside < values.size() ? inside - 1 : inside;
   if (best < 2 || best + 2 >= end) return {};
   const double before = static_cast<double>(sign * (values[best - 2] - values[best]));
   const double after = static_cast<double>(sign * (values[best] - values[best + 2]));

@@ -18,14 +18,12 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// The first of the greatest falls, one sample at a time.
 SteepestFall reference(const std::vector<float>& values, float sign) {
-  std::size_t end = 0;
-  while (end < values.size() && !std::isnan(values[end])) ++end;
-  if (end > 0 && end < values.size()) --end;
-  std::size_t best = 0;
+  std::size_t end = values.size(), best = 0;
   float strongest = 0;
   for (std::size_t i = 1; i + 1 < end; ++i) {
     const float fall = sign * (values[i - 1] - values[i + 1]);
-    if (fall <= strongest) continue;
+    if (std::isnan(fall)) end = i;
+    if (!(fall > strongest)) continue;
     strongest = fall;
     best = i;
   }
