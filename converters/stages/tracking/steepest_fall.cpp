@@ -61,7 +61,7 @@ SteepestFall steepestFall(std::span<const float> values, float sign) {
         std::find_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }) -
         values.begin());
   const auto [best, strongest] = greatestFall(values.data(), inside, sign);
-  // a parabola needs a difference on either side of the best one; at a face of the volume none is trusted
+  // a parabola needs differences on both sides; at a face of the volume the last is not trusted
   const std::size_t end = inside < values.size() ? inside - 1 : inside;
   if (best < 2 || best + 2 >= end) return {};
   const double before = static_cast<double>(sign * (values[best - 2] - values[best]));
