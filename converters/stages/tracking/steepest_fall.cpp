@@ -2,7 +2,6 @@
 #include "converters/stages/tracking/steepest_fall.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,49 +19,57 @@ using FallPlaces [[gnu::vector_size(4 * kFallLanes)]] = std::int32_t;
 struct PlacedFall {
   std::size_t place = 0;
   float strength = 0;
+  std::size_t end = 0;  ///< places before it count
 };
 
-/// The first of the greatest falls at the places 1 .. end - 2; 0 if nothing falls.
+/// The first of the greatest falls from a place on, before the first that is not known.
+PlacedFall greatestFrom(std::size_t first, std::span<const float> values, float sign,
+                        PlacedFall best) {
+  best.end = values.size();
+  for (std::size_t i = first; i + 1 < best.end; ++i) {
+    const float fall = sign * (values[i - 1] - values[i + 1]);
+    if (std::isnan(fall)) best.end = i;
+    if (fall > best.strength) {
+      best.place = i;
+      best.strength = fall;
+    }
+  }
+  return best;
+}
+
+/// As greatestFrom() from the second sample on, in lanes. Where a fall is not known, it begins anew
+/// without them.
 LUMEN_SIMD_CLONES
-PlacedFall greatestFall(const float* values, std::size_t end, float sign) {
+PlacedFall greatestFall(std::span<const float> values, float sign) {
   FallLanes strongest{};
-  FallPlaces places{}, here{};
+  FallPlaces places{}, here{}, isUnknown{};
   for (std::size_t l = 0; l < kFallLanes; ++l) here[l] = static_cast<std::int32_t>(l) + 1;
   std::size_t i = 1;
-  for (; i + kFallLanes < end; i += kFallLanes) {
-    const FallLanes before = *reinterpret_cast<const LooseFallLanes*>(values + i - 1);
-    const FallLanes after = *reinterpret_cast<const LooseFallLanes*>(values + i + 1);
+  for (; i + kFallLanes < values.size(); i += kFallLanes) {
+    const FallLanes before = *reinterpret_cast<const LooseFallLanes*>(values.data() + i - 1);
+    const FallLanes after = *reinterpret_cast<const LooseFallLanes*>(values.data() + i + 1);
     const FallLanes fall = sign * (before - after);
     const FallPlaces isMore = fall > strongest;
     strongest = isMore ? fall : strongest;
     places = isMore ? here : places;
+    isUnknown |= fall != fall;
     here += static_cast<std::int32_t>(kFallLanes);
   }
   PlacedFall best;
   for (std::size_t l = 0; l < kFallLanes; ++l) {
+    if (isUnknown[l] != 0) return greatestFrom(1, values, sign, {});
     const auto place = static_cast<std::size_t>(places[l]);
     const bool isFirst = strongest[l] == best.strength && place < best.place;
     if (strongest[l] > best.strength || isFirst) best = {place, strongest[l]};
   }
-  for (; i + 1 < end; ++i) {
-    const float fall = sign * (values[i - 1] - values[i + 1]);
-    if (fall > best.strength) best = {i, fall};
-  }
-  return best;
+  return greatestFrom(i, values, sign, best);
 }
 
 }  // namespace
 
 SteepestFall steepestFall(std::span<const float> values, float sign) {
-  if (values.empty() || std::isnan(values.front())) return {};
-  std::size_t inside = values.size();
-  if (std::isnan(values.back()))
-    inside = static_cast<std::size_t>(
-        std::find_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }) -
-        values.begin());
-  const auto [best, strongest] = greatestFall(values.data(), inside, sign);
-  // a parabola needs differences on both sides; at a face of the volume the last is not trusted
-  const std::size_t end = inside < values.size() ? inside - 1 : inside;
+  const auto [best, strongest, end] = greatestFall(values, sign);
+  // a parabola needs a difference on either side of the best one
   if (best < 2 || best + 2 >= end) return {};
   const double before = static_cast<double>(sign * (values[best - 2] - values[best]));
   const double after = static_cast<double>(sign * (values[best] - values[best + 2]));

@@ -12,10 +12,9 @@ struct SteepestFall {
   float strength = -1;  ///< difference of the two samples around; negative if there is none
 };
 
-/// The steepest fall by central differences; the first of several. `values`: NaN outside of the
-/// volume, and inside of it in one stretch; a line that begins outside has no fall. `sign`: 1, or -1
-/// if vessels are darker than their background. A fall within two samples of an end, or
-/// three of the volume's, has no differences on both sides, and counts as none.
+/// The steepest fall by central differences, up to the first sample that is NaN, as those outside of
+/// the volume are; the first of several. `sign`: 1, or -1 if vessels are darker than their background. A
+/// fall within two samples of an end, or three of a NaN, counts as none.
 SteepestFall steepestFall(std::span<const float> values, float sign);
 
 }  // namespace lumen::convert

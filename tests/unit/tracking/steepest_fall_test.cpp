@@ -44,7 +44,9 @@ TEST(SteepestFall, IsThatOfOneSampleAtATimeForAllLengthsAndEnds) {
         std::vector<float> values(size);
         // whole numbers make falls that are equal
         for (float& value : values) value = static_cast<float>(std::floor(random.uniform(0, 9)));
-        std::fill(values.end() - static_cast<std::ptrdiff_t>(beyond), values.end(), kNan);
+        // every other time the line comes back into what is known
+        const std::size_t unknown = size % 2 == 0 ? beyond : (beyond + 1) / 2;
+        std::fill_n(values.end() - static_cast<std::ptrdiff_t>(beyond), unknown, kNan);
         const SteepestFall expected = reference(values, sign), fall = steepestFall(values, sign);
         ASSERT_EQ(fall.sample, expected.sample) << size << ", " << beyond << " outside";
         ASSERT_EQ(fall.strength, expected.strength) << size << ", " << beyond << " outside";
