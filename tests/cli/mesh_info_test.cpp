@@ -9,7 +9,7 @@
 
 namespace lumen::test {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 class MeshInfoTest : public TubeTest {
 protected:

@@ -68,9 +68,9 @@ protected:
 };
 
 TEST_F(MotionTest, InfoNamesTimesPeriodNodesDisplacementAndStrain) {
-  const Outcome json = lumen({"info", "moving.lumen", "--json"});
-  ASSERT_EQ(json.code, 0) << json.err;
-  const Json motion = Json::parse(json.out)["motion"];
+  const Outcome info = lumen({"info", "moving.lumen", "--json"});
+  ASSERT_EQ(info.code, 0) << info.err;
+  const Json motion = Json::parse(info.out)["motion"];
   EXPECT_EQ(motion["times"], 2);
   EXPECT_EQ(motion["period_s"], 1.5);
   EXPECT_EQ(motion["nodes"], 2);

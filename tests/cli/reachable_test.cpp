@@ -17,10 +17,6 @@ using Json = nlohmann::ordered_json;
 using formats::test::addBeads;
 using formats::test::alongX;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// A vessel of radius 1 and 13 mm length with a wall 6 mm from its root, node 11 being the first beyond
 /// it, and one of 2 mm that leaves it 2 mm from the root, behind a wall of its own, from node 22 on.
 formats::Case closedCase() {

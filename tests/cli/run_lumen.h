@@ -16,6 +16,10 @@ struct Outcome {
   std::string err;
 };
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// A folder of its own for each test, gone afterwards, and `lumen` run inside of it.
 class CliTest : public ::testing::Test {
 protected:

@@ -14,10 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != text.npos;
-}
-
 std::string objOf(const convert::TriangleMesh& mesh) {
   std::ostringstream text;
   for (const auto& p : mesh.position) text << "v " << p.x() << " " << p.y() << " " << p.z() << "\n";

@@ -13,10 +13,6 @@ namespace {
 const std::vector<std::string> kCommands = {"convert", "track",    "fit",     "trim",      "info",
                                             "compare", "validate", "phantom", "completion"};
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 using UsageTest = CliTest;

@@ -17,7 +17,7 @@ const std::string kTube =
     "TransformMatrix = 0 -1 0 1 0 0 0 0 1\nPointDim = x y z r id\nNPoints = 2\nPoints = \n"
     "1 2 3 0.5 7\n2 2 3 0.25 8\n";
 
-std::string refusal(const std::string& text) {
+std::string treRefusal(const std::string& text) {
   try {
     parseTre(text, "a.tre");
   } catch (const Error& error) {
@@ -75,23 +75,23 @@ TEST(ReadTre, BinaryPointsAreRead) {
 }
 
 TEST(ReadTre, MistakesAreNamedByTheirLine) {
-  EXPECT_EQ(refusal(""), "a.tre: has no ObjectType; expected a scene of tubes");
-  EXPECT_EQ(refusal("ObjectType = Scene\n"),
+  EXPECT_EQ(treRefusal(""), "a.tre: has no ObjectType; expected a scene of tubes");
+  EXPECT_EQ(treRefusal("ObjectType = Scene\n"),
             "a.tre: has no tube with points; expected ObjectType = Tube");
-  EXPECT_EQ(refusal("hello\n"), "a.tre: line 1 is \"hello\"; expected KEY = VALUE");
-  EXPECT_EQ(refusal(with(kTube, "1 2 3 0.5 7", "1 2 x 0.5 7")),
+  EXPECT_EQ(treRefusal("hello\n"), "a.tre: line 1 is \"hello\"; expected KEY = VALUE");
+  EXPECT_EQ(treRefusal(with(kTube, "1 2 3 0.5 7", "1 2 x 0.5 7")),
             "a.tre: line 15 has \"x\"; expected a number");
-  EXPECT_EQ(refusal(with(kTube, "1 2 3 0.5 7", "1 2 3 0.5 7 9")),
+  EXPECT_EQ(treRefusal(with(kTube, "1 2 3 0.5 7", "1 2 3 0.5 7 9")),
             "a.tre: line 15 has 6 numbers; expected 5, as PointDim");
-  EXPECT_EQ(refusal(with(kTube, "NPoints = 2", "NPoints = 2000000000")),
+  EXPECT_EQ(treRefusal(with(kTube, "NPoints = 2", "NPoints = 2000000000")),
             "a.tre: line 14 begins 2000000000 points of 5 numbers, more than the file holds");
-  EXPECT_EQ(refusal(with(kTube, "NPoints = 2", "NPoints = 3")),
+  EXPECT_EQ(treRefusal(with(kTube, "NPoints = 2", "NPoints = 3")),
             "a.tre: line 16 is the last, but points are missing");
-  EXPECT_EQ(refusal(with(kTube, "PointDim = x y z r id", "PointDim = x y r id q")),
+  EXPECT_EQ(treRefusal(with(kTube, "PointDim = x y z r id", "PointDim = x y r id q")),
             "a.tre: line 14 begins points without the column z in PointDim");
-  EXPECT_EQ(refusal(with(kTube, "PointDim = x y z r id", "PointDim = x y z v id")),
+  EXPECT_EQ(treRefusal(with(kTube, "PointDim = x y z r id", "PointDim = x y z v id")),
             "a.tre: has no radius at any point of it; expected the column r of PointDim");
-  EXPECT_EQ(refusal(with(kTube, "1 2 3 0.5 7", "1 2 inf 0.5 7")),
+  EXPECT_EQ(treRefusal(with(kTube, "1 2 3 0.5 7", "1 2 inf 0.5 7")),
             "a.tre: line 15 has the number inf; expected -1e9 to 1e9");
 }
 

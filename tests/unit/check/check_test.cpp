@@ -19,8 +19,6 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kVoxel = 0.2, kBlur = 0.6 * kVoxel;  // the phantoms' own
-
 Phantom phantomOf(const std::string& name, double noise = 0) {
   PhantomOptions options;
   options.name = name;

@@ -15,9 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kVoxel = 0.2, kBlur = 0.6 * kVoxel;  // the phantoms' own
-constexpr int kEdge = 64;                             // voxels
-constexpr float kDark = 100, kBright = 1100;          // the phantoms' levels
+constexpr int kEdge = 64;                     // voxels
+constexpr float kDark = 100, kBright = 1100;  // the phantoms' levels
 
 /// The tube; its nodes run along the volume.
 struct Tube {

@@ -11,6 +11,8 @@
 
 namespace lumen::convert {
 
+inline constexpr double kVoxel = 0.2, kBlur = 0.6 * kVoxel;  ///< mm, the phantoms' own
+
 /// Gives every node a long row of blobs along its direction, with the iso-level at which the surface
 /// has this radius, mm. All branches have one radius.
 inline void addStraightModels(formats::Case& value, double radius) {

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/progress.h"
+#include "converters/judge/compare/compare.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -47,6 +49,11 @@ inline formats::Case straightTruth() {
   truth.metadata.voxelSize = 0.4;
   addLine(truth, "root", {0, 0, 0}, {20, 0, 0}, 1);
   return truth;
+}
+
+inline Comparison compared(const formats::Case& found, const formats::Case& truth) {
+  Progress progress;
+  return compareCases(found, truth, progress);
 }
 
 }  // namespace lumen::convert

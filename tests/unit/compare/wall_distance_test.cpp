@@ -44,11 +44,6 @@ void addPoints(formats::Case& found) {
   found.points = points;
 }
 
-Comparison compared(const formats::Case& found, const formats::Case& truth) {
-  Progress progress;
-  return compareCases(found, truth, progress);
-}
-
 TEST(WallDistance, IsAbsentWithoutModels) {
   const Comparison result = compared(straightTruth(), straightTruth());
   EXPECT_FALSE(result.wallDistance);

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 
-Bytes contentsOf(const fs::path& file) {
+Bytes bytesOf(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const auto bytes = std::as_bytes(std::span(text));
@@ -35,7 +35,7 @@ void forEachFile(const char* folder, Check check) {
     const std::string name = entry.path().filename().string();
     if (!name.ends_with(".lumen") && !name.ends_with(".lumen.json")) continue;
     SCOPED_TRACE(name);
-    check(contentsOf(entry.path()));
+    check(bytesOf(entry.path()));
     ++count;
   }
   EXPECT_GE(count, 50u);

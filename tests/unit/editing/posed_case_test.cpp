@@ -23,7 +23,7 @@ using field::Vec;
 using formats::Case;
 using formats::Vec3f;
 
-Progress silent;
+Progress quiet;
 
 Vec exact(const Vec3f& v) {
   return {v.x, v.y, v.z};
@@ -44,7 +44,7 @@ Case tube() {
     }
     value.points->offset.push_back(static_cast<std::uint32_t>(value.points->position.size()));
   }
-  fit(value, {}, silent);
+  fit(value, {}, quiet);
   return value;
 }
 
@@ -85,7 +85,7 @@ double worstWall(const Case& value) {
 // spec: M51
 TEST(PosedCase, HasThePosedFieldOfACaseWhoseRadiiStay) {
   const Case value = bending(1);
-  const Case posed = posedCase(value, 0.5, silent);
+  const Case posed = posedCase(value, 0.5, quiet);
   ASSERT_TRUE(formats::validate(posed));
   const field::BlendedField rest = formats::caseField(value), at = formats::caseField(posed);
   const field::PosedField moving(rest, formats::treeViewOf(value.tree),
@@ -99,31 +99,31 @@ TEST(PosedCase, HasThePosedFieldOfACaseWhoseRadiiStay) {
 
 TEST(PosedCase, LeavesTheBlobsOfItsFirstTimeAsTheyAre) {
   const Case value = bending(1);
-  const Case posed = posedCase(value, 0, silent);
+  const Case posed = posedCase(value, 0, quiet);
   EXPECT_EQ(posed.models->centre, value.models->centre);
   EXPECT_EQ(posed.tree, value.tree);
 }
 
 TEST(PosedCase, FitsNewBlobsWhereTheRadiusChanges) {
   const Case value = bending(1.25F);
-  const Case posed = posedCase(value, 1, silent);
+  const Case posed = posedCase(value, 1, quiet);
   EXPECT_FLOAT_EQ(posed.tree.radius[3], 1.25F);
   EXPECT_LT(worstWall(posed), worstWall(value) + 0.01);
 }
 
 TEST(PosedCase, RecordsTheTimeAndHasNoMotion) {
-  const Case posed = posedCase(bending(1), 0.25, silent);
+  const Case posed = posedCase(bending(1), 0.25, quiet);
   EXPECT_FALSE(posed.motion);
   EXPECT_EQ(posed.metadata.steps.back().name, "pose");
   EXPECT_EQ(std::get<double>(posed.metadata.steps.back().parameters.at("time")), 0.25);
 }
 
 TEST(PosedCase, IsRefusedWithoutAMotionOrWallPointsForNewModels) {
-  EXPECT_THROW(posedCase(tube(), 0, silent), Error);
+  EXPECT_THROW(posedCase(tube(), 0, quiet), Error);
   Case value = bending(1.25F);
   value.points.reset();
-  EXPECT_THROW(posedCase(value, 1, silent), Error);
-  EXPECT_NO_THROW(posedCase(value, 0, silent));
+  EXPECT_THROW(posedCase(value, 1, quiet), Error);
+  EXPECT_NO_THROW(posedCase(value, 0, quiet));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
+#include "shapes.h"
 #include "tests/unit/formats/beads.h"
 
 namespace lumen::convert {
@@ -34,15 +35,6 @@ double missing(const Case& value) {
 }
 
 /// The blobs of a node.
-std::vector<std::array<float, 4>> blobsOf(const Case& value, std::uint32_t node) {
-  std::vector<std::array<float, 4>> blobs;
-  for (std::uint32_t k = value.models->offset[node]; k < value.models->offset[node + 1]; ++k) {
-    const auto& c = value.models->centre[k];
-    blobs.push_back({c.x, c.y, c.z, value.models->width[k]});
-  }
-  return blobs;
-}
-
 TEST(OpenEdges, OpensAnEdgeThatIsClosed) {
   Case value = closedTube();
   ASSERT_GT(missing(value), 5);
@@ -64,12 +56,12 @@ TEST(OpenEdges, AddsToTheNodesOfTheEdgeAndChangesNothingElse) {
   openEdges(value);
   EXPECT_EQ(value.tree, before.tree);
   for (std::uint32_t node = 0; node < before.tree.nodeCount(); ++node) {
-    auto blobs = blobsOf(value, node);
+    auto blobs = test::blobsOf(value, node);
     if (node == 10 || node == 11) {
       ASSERT_GE(blobs.size(), 2U);
       blobs.resize(1);
     }
-    EXPECT_EQ(blobs, blobsOf(before, node)) << node;
+    EXPECT_EQ(blobs, test::blobsOf(before, node)) << node;
   }
 }
 

@@ -34,15 +34,6 @@ Nodes allNodes(const Case& value) {
   return nodes;
 }
 
-std::vector<std::array<float, 4>> blobsOf(const Case& value, std::uint32_t node) {
-  std::vector<std::array<float, 4>> blobs;
-  for (std::uint32_t k = value.models->offset[node]; k < value.models->offset[node + 1]; ++k) {
-    const auto& c = value.models->centre[k];
-    blobs.push_back({c.x, c.y, c.z, value.models->width[k]});
-  }
-  return blobs;
-}
-
 /// Nodes in the middle of the first branch.
 Nodes someNodes(const Case& value) {
   const std::uint32_t middle = value.tree.branches[0].nodeCount / 2;
@@ -74,7 +65,7 @@ TEST(Refit, LeavesTheModelsOfAllOtherNodesBitForBit) {
   refitSome(value, due);
   for (std::uint32_t node = 0; node < value.tree.nodeCount(); ++node) {
     const bool isDue = std::find(due.begin(), due.end(), node) != due.end();
-    EXPECT_EQ(blobsOf(value, node) == blobsOf(damaged, node), !isDue) << node;
+    EXPECT_EQ(test::blobsOf(value, node) == test::blobsOf(damaged, node), !isDue) << node;
   }
   EXPECT_EQ(value.tree, before.tree);
   EXPECT_EQ(value.points, before.points);

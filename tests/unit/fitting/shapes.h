@@ -3,6 +3,7 @@
 // centerlines, and the points where rays from each node meet the wall.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -55,5 +56,15 @@ std::vector<double> wallDistances(const TrackedShape& tracked, std::uint32_t fro
 std::string kernelName(formats::Kernel kernel);
 
 double percentile(std::vector<double> values, double share);
+
+/// Centre and width of each blob of a node's model, mm.
+inline std::vector<std::array<float, 4>> blobsOf(const formats::Case& value, std::uint32_t node) {
+  std::vector<std::array<float, 4>> blobs;
+  for (std::uint32_t k = value.models->offset[node]; k < value.models->offset[node + 1]; ++k) {
+    const auto& c = value.models->centre[k];
+    blobs.push_back({c.x, c.y, c.z, value.models->width[k]});
+  }
+  return blobs;
+}
 
 }  // namespace lumen::test

@@ -144,7 +144,7 @@ TEST(Binary, ChecksTheBytesOfChunksThatItIgnores) {
   EXPECT_EQ(codeOf(decodeBinary(file)), "CHUNK_CHECKSUM");
 }
 
-struct Fault {
+struct BinaryFaultRow {
   const char* name;
   void (*change)(Bytes&);
   const char* code;
@@ -166,7 +166,7 @@ void shorten(Bytes& file, const std::string& type, std::uint64_t size) {
   storeLittle(&file[entry + 24], size);
 }
 
-class BinaryFault : public testing::TestWithParam<Fault> {};
+class BinaryFault : public testing::TestWithParam<BinaryFaultRow> {};
 
 // spec: M1, M22, M23, M24, M26, M27, M28
 TEST_P(BinaryFault, IsFound) {
@@ -176,59 +176,64 @@ TEST_P(BinaryFault, IsFound) {
 INSTANTIATE_TEST_SUITE_P(
     All, BinaryFault,
     testing::Values(
-        Fault{"chunk_version", [](Bytes& f) { f[entryOf(f, "NRAD") + 4] = std::byte{2}; },
-              "CHUNK_VERSION"},
-        Fault{"chunk_encoding", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{3}; },
-              "CHUNK_ENCODING"},
-        Fault{"draco_radii", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{2}; },
-              "CHUNK_ENCODING"},
-        Fault{"no_zstd_frame", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{1}; },
-              "CHUNK_DECODE"},
-        Fault{"no_draco_cloud", [](Bytes& f) { f[entryOf(f, "PPOS") + 7] = std::byte{2}; },
-              "CHUNK_DECODE"},
-        Fault{"not_critical", [](Bytes& f) { f[entryOf(f, "NRAD") + 6] = std::byte{0}; },
-              "CHUNK_FIELD"},
-        Fault{"needlessly_critical", [](Bytes& f) { f[entryOf(f, "PPOS") + 6] = std::byte{1}; },
-              "CHUNK_FIELD"},
-        Fault{"twice", [](Bytes& f) { rename(f, "NHEI", "NRAD"); }, "CHUNK_DUPLICATE"},
-        Fault{"points_without_offsets", [](Bytes& f) { rename(f, "POFF", "qOFF"); },
-              "CHUNK_MISSING"},
-        Fault{"models_without_kernel", [](Bytes& f) { rename(f, "MKER", "qKER"); },
-              "CHUNK_MISSING"},
-        Fault{"partial_float", [](Bytes& f) { shorten(f, "NRAD", 23); }, "CHUNK_LENGTH"},
-        Fault{"partial_vector", [](Bytes& f) { shorten(f, "PPOS", 44); }, "CHUNK_LENGTH"},
-        Fault{"one_node_less", [](Bytes& f) { shorten(f, "NRAD", 20); }, "CHUNK_LENGTH"},
-        Fault{"partial_branch", [](Bytes& f) { shorten(f, "BREC", 71); }, "CHUNK_LENGTH"},
-        Fault{"kernel_record_short", [](Bytes& f) { shorten(f, "MKER", 23); }, "CHUNK_LENGTH"},
-        Fault{"kernel_reserved", [](Bytes& f) { setData(f, "MKER", 3, std::uint8_t{1}); },
-              "CHUNK_FIELD"},
-        Fault{"labels_short", [](Bytes& f) { shorten(f, "BLAB", 10); }, "CHUNK_LENGTH"},
-        Fault{"label_size", [](Bytes& f) { setData(f, "BREC", 16, std::uint16_t{0xffff}); },
-              "LABEL_OFFSET"},
-        Fault{"label_offset", [](Bytes& f) { setData(f, "BREC", 24 + 12, 7u); }, "LABEL_OFFSET"},
-        Fault{"label_bytes_left", [](Bytes& f) { setData(f, "BREC", 48 + 16, std::uint16_t{3}); },
-              "CHUNK_LENGTH"},
-        Fault{"label_utf8", [](Bytes& f) { setData(f, "BLAB", 0, std::uint8_t{0xff}); },
-              "TEXT_UTF8"},
-        Fault{"node_count_hostile", [](Bytes& f) { setData(f, "BREC", 4, 0xffffffffu); },
-              "BRANCH_RANGE"},
-        Fault{"offset_hostile", [](Bytes& f) { setData(f, "POFF", 24, 0xffffffffu); },
-              "OFFSET_END"},
-        Fault{"radius_nan", [](Bytes& f) { setData(f, "NRAD", 8, std::nanf("")); }, "NOT_FINITE"},
-        Fault{"mean_rate_nan", [](Bytes& f) { setData(f, "BREC", 20, std::nanf("")); },
-              "NOT_FINITE"},
-        Fault{"mean_rate_negative", [](Bytes& f) { setData(f, "BREC", 20, -0.5f); },
-              "INLIER_RATE_RANGE"},
-        Fault{"metadata_empty",
-              [](Bytes& f) {
-                rename(f, "META", "qETA");
-                rename(f, "NHEI", "META");
-              },
-              "CHUNK_UNKNOWN"},
-        Fault{"metadata_syntax", [](Bytes& f) { setData(f, "META", 0, std::uint8_t{'['}); },
-              "JSON_SYNTAX"},
-        Fault{"metadata_key", [](Bytes& f) { setData(f, "META", 2, std::uint8_t{'C'}); },
-              "JSON_KEY_MISSING"}),
+        BinaryFaultRow{"chunk_version", [](Bytes& f) { f[entryOf(f, "NRAD") + 4] = std::byte{2}; },
+                       "CHUNK_VERSION"},
+        BinaryFaultRow{"chunk_encoding", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{3}; },
+                       "CHUNK_ENCODING"},
+        BinaryFaultRow{"draco_radii", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{2}; },
+                       "CHUNK_ENCODING"},
+        BinaryFaultRow{"no_zstd_frame", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{1}; },
+                       "CHUNK_DECODE"},
+        BinaryFaultRow{"no_draco_cloud", [](Bytes& f) { f[entryOf(f, "PPOS") + 7] = std::byte{2}; },
+                       "CHUNK_DECODE"},
+        BinaryFaultRow{"not_critical", [](Bytes& f) { f[entryOf(f, "NRAD") + 6] = std::byte{0}; },
+                       "CHUNK_FIELD"},
+        BinaryFaultRow{"needlessly_critical",
+                       [](Bytes& f) { f[entryOf(f, "PPOS") + 6] = std::byte{1}; }, "CHUNK_FIELD"},
+        BinaryFaultRow{"twice", [](Bytes& f) { rename(f, "NHEI", "NRAD"); }, "CHUNK_DUPLICATE"},
+        BinaryFaultRow{"points_without_offsets", [](Bytes& f) { rename(f, "POFF", "qOFF"); },
+                       "CHUNK_MISSING"},
+        BinaryFaultRow{"models_without_kernel", [](Bytes& f) { rename(f, "MKER", "qKER"); },
+                       "CHUNK_MISSING"},
+        BinaryFaultRow{"partial_float", [](Bytes& f) { shorten(f, "NRAD", 23); }, "CHUNK_LENGTH"},
+        BinaryFaultRow{"partial_vector", [](Bytes& f) { shorten(f, "PPOS", 44); }, "CHUNK_LENGTH"},
+        BinaryFaultRow{"one_node_less", [](Bytes& f) { shorten(f, "NRAD", 20); }, "CHUNK_LENGTH"},
+        BinaryFaultRow{"partial_branch", [](Bytes& f) { shorten(f, "BREC", 71); }, "CHUNK_LENGTH"},
+        BinaryFaultRow{"kernel_record_short", [](Bytes& f) { shorten(f, "MKER", 23); },
+                       "CHUNK_LENGTH"},
+        BinaryFaultRow{"kernel_reserved", [](Bytes& f) { setData(f, "MKER", 3, std::uint8_t{1}); },
+                       "CHUNK_FIELD"},
+        BinaryFaultRow{"labels_short", [](Bytes& f) { shorten(f, "BLAB", 10); }, "CHUNK_LENGTH"},
+        BinaryFaultRow{"label_size",
+                       [](Bytes& f) { setData(f, "BREC", 16, std::uint16_t{0xffff}); },
+                       "LABEL_OFFSET"},
+        BinaryFaultRow{"label_offset", [](Bytes& f) { setData(f, "BREC", 24 + 12, 7u); },
+                       "LABEL_OFFSET"},
+        BinaryFaultRow{"label_bytes_left",
+                       [](Bytes& f) { setData(f, "BREC", 48 + 16, std::uint16_t{3}); },
+                       "CHUNK_LENGTH"},
+        BinaryFaultRow{"label_utf8", [](Bytes& f) { setData(f, "BLAB", 0, std::uint8_t{0xff}); },
+                       "TEXT_UTF8"},
+        BinaryFaultRow{"node_count_hostile", [](Bytes& f) { setData(f, "BREC", 4, 0xffffffffu); },
+                       "BRANCH_RANGE"},
+        BinaryFaultRow{"offset_hostile", [](Bytes& f) { setData(f, "POFF", 24, 0xffffffffu); },
+                       "OFFSET_END"},
+        BinaryFaultRow{"radius_nan", [](Bytes& f) { setData(f, "NRAD", 8, std::nanf("")); },
+                       "NOT_FINITE"},
+        BinaryFaultRow{"mean_rate_nan", [](Bytes& f) { setData(f, "BREC", 20, std::nanf("")); },
+                       "NOT_FINITE"},
+        BinaryFaultRow{"mean_rate_negative", [](Bytes& f) { setData(f, "BREC", 20, -0.5f); },
+                       "INLIER_RATE_RANGE"},
+        BinaryFaultRow{"metadata_empty",
+                       [](Bytes& f) {
+                         rename(f, "META", "qETA");
+                         rename(f, "NHEI", "META");
+                       },
+                       "CHUNK_UNKNOWN"},
+        BinaryFaultRow{"metadata_syntax",
+                       [](Bytes& f) { setData(f, "META", 0, std::uint8_t{'['}); }, "JSON_SYNTAX"},
+        BinaryFaultRow{"metadata_key", [](Bytes& f) { setData(f, "META", 2, std::uint8_t{'C'}); },
+                       "JSON_KEY_MISSING"}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(Binary, PlacesSyntaxErrorsOfTheMetadataByTheirByteInTheFile) {

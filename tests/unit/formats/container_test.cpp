@@ -127,7 +127,7 @@ TEST(Container, NamesALineEndConversionAsAWrongSignature) {
 }
 
 // One fault, signed again so that only the rule itself can find it.
-struct Fault {
+struct ContainerFaultRow {
   const char* name;
   std::size_t at;
   std::uint64_t value;
@@ -135,11 +135,11 @@ struct Fault {
   const char* code;
 };
 
-class ContainerFault : public testing::TestWithParam<Fault> {};
+class ContainerFault : public testing::TestWithParam<ContainerFaultRow> {};
 
 // spec: M1, M6, M7, M8, M9, M10, M11, M43
 TEST_P(ContainerFault, IsFound) {
-  const Fault& fault = GetParam();
+  const ContainerFaultRow& fault = GetParam();
   Bytes file = twoChunks();
   for (std::size_t i = 0; i < fault.size; ++i)
     file[fault.at + i] = static_cast<std::byte>(fault.value >> (8 * i));
@@ -151,31 +151,31 @@ constexpr std::uint64_t kHuge = 0xffffffffffffffffu;
 
 INSTANTIATE_TEST_SUITE_P(
     All, ContainerFault,
-    testing::Values(Fault{"magic", 0, 'L', 1, "MAGIC"},
-                    Fault{"major_version_zero", 10, 0, 1, "VERSION"},
-                    Fault{"newer_minimum_reader", 10, 0x01020102, 4, "VERSION"},
-                    Fault{"newer_major_version", 10, 0x00020002, 4, "VERSION"},
-                    Fault{"minimum_reader_above_version", 13, 2, 1, "VERSION"},
-                    Fault{"header_size", 14, 128, 2, "HEADER_FIELD"},
-                    Fault{"reserved_header_byte", 40, 1, 1, "HEADER_FIELD"},
-                    Fault{"length_beyond_file", 16, 384, 8, "TRUNCATED"},
-                    Fault{"length_huge", 16, kHuge, 8, "TRUNCATED"},
-                    Fault{"length_short", 16, 256, 8, "TRAILING_BYTES"},
-                    Fault{"chunk_count_beyond_file", 24, 5, 4, "CHUNK_COUNT"},
-                    Fault{"chunk_count_huge", 24, 0xffffffff, 4, "CHUNK_COUNT"},
-                    Fault{"one_chunk_less", 24, 1, 4, "CHUNK_OFFSET"},
-                    Fault{"type_with_space", 64, ' ', 1, "CHUNK_TYPE"},
-                    Fault{"reserved_flag", 70, 5, 1, "CHUNK_FIELD"},
-                    Fault{"reserved_entry_byte", 64 + 63, 1, 1, "CHUNK_FIELD"},
-                    Fault{"hole", 72, 256, 8, "CHUNK_OFFSET"},
-                    Fault{"overlap", 128 + 8, 192, 8, "CHUNK_OFFSET"},
-                    Fault{"unaligned", 72, 193, 8, "CHUNK_OFFSET"},
-                    Fault{"offset_huge", 72, kHuge, 8, "CHUNK_OFFSET"},
-                    Fault{"size_huge", 80, kHuge, 8, "CHUNK_SIZE"},
-                    Fault{"size_beyond_file", 128 + 16, 65, 8, "CHUNK_SIZE"},
-                    Fault{"raw_size_differs", 88, 4, 8, "CHUNK_SIZE"},
+    testing::Values(ContainerFaultRow{"magic", 0, 'L', 1, "MAGIC"},
+                    ContainerFaultRow{"major_version_zero", 10, 0, 1, "VERSION"},
+                    ContainerFaultRow{"newer_minimum_reader", 10, 0x01020102, 4, "VERSION"},
+                    ContainerFaultRow{"newer_major_version", 10, 0x00020002, 4, "VERSION"},
+                    ContainerFaultRow{"minimum_reader_above_version", 13, 2, 1, "VERSION"},
+                    ContainerFaultRow{"header_size", 14, 128, 2, "HEADER_FIELD"},
+                    ContainerFaultRow{"reserved_header_byte", 40, 1, 1, "HEADER_FIELD"},
+                    ContainerFaultRow{"length_beyond_file", 16, 384, 8, "TRUNCATED"},
+                    ContainerFaultRow{"length_huge", 16, kHuge, 8, "TRUNCATED"},
+                    ContainerFaultRow{"length_short", 16, 256, 8, "TRAILING_BYTES"},
+                    ContainerFaultRow{"chunk_count_beyond_file", 24, 5, 4, "CHUNK_COUNT"},
+                    ContainerFaultRow{"chunk_count_huge", 24, 0xffffffff, 4, "CHUNK_COUNT"},
+                    ContainerFaultRow{"one_chunk_less", 24, 1, 4, "CHUNK_OFFSET"},
+                    ContainerFaultRow{"type_with_space", 64, ' ', 1, "CHUNK_TYPE"},
+                    ContainerFaultRow{"reserved_flag", 70, 5, 1, "CHUNK_FIELD"},
+                    ContainerFaultRow{"reserved_entry_byte", 64 + 63, 1, 1, "CHUNK_FIELD"},
+                    ContainerFaultRow{"hole", 72, 256, 8, "CHUNK_OFFSET"},
+                    ContainerFaultRow{"overlap", 128 + 8, 192, 8, "CHUNK_OFFSET"},
+                    ContainerFaultRow{"unaligned", 72, 193, 8, "CHUNK_OFFSET"},
+                    ContainerFaultRow{"offset_huge", 72, kHuge, 8, "CHUNK_OFFSET"},
+                    ContainerFaultRow{"size_huge", 80, kHuge, 8, "CHUNK_SIZE"},
+                    ContainerFaultRow{"size_beyond_file", 128 + 16, 65, 8, "CHUNK_SIZE"},
+                    ContainerFaultRow{"raw_size_differs", 88, 4, 8, "CHUNK_SIZE"},
 
-                    Fault{"padding", 192 + 63, 1, 1, "CHUNK_PADDING"}),
+                    ContainerFaultRow{"padding", 192 + 63, 1, 1, "CHUNK_PADDING"}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(Container, IsRefusedIfItsLastChunkEndsBeforeItDoes) {

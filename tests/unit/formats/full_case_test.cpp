@@ -14,8 +14,8 @@ using test::dataOf;
 using test::entryOf;
 using test::tamperedFull;
 
-// The text of the full case with the first `from` replaced.
-std::string replaced(const std::string& from, const std::string& to) {
+// The text of the full case with the first `from` fullReplaced.
+std::string fullReplaced(const std::string& from, const std::string& to) {
   std::string text = encodeJson(test::fullCase());
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from << "\n" << text;
@@ -69,7 +69,7 @@ TEST(FullCase, LosesOnlyDependentChunksWhenItsNodesChange) {
 
 // spec: M36
 TEST(FullCase, IsRefusedIfItRequiresAnExtensionAndThatIsNamed) {
-  const auto result = decodeJson(replaced(
+  const auto result = decodeJson(fullReplaced(
       "\"nodeArrays\": [\n", "\"extensionsRequired\": [\"ACME_flow\"], \"nodeArrays\": [\n"));
   ASSERT_FALSE(result);
   EXPECT_EQ(test::codeOf(result), "EXTENSION_REQUIRED");
@@ -89,7 +89,7 @@ class FullJson : public testing::TestWithParam<JsonChange> {};
 
 // spec: M25, M33, M47
 TEST_P(FullJson, IsRefused) {
-  const auto result = decodeJson(replaced(GetParam().from, GetParam().to));
+  const auto result = decodeJson(fullReplaced(GetParam().from, GetParam().to));
   ASSERT_FALSE(result);
   EXPECT_EQ(test::codeOf(result), GetParam().code) << result.error().text();
   EXPECT_EQ(result.error().place(), GetParam().place);
@@ -145,30 +145,32 @@ TEST_P(FullBinary, IsRefused) {
   EXPECT_EQ(codeOf(decodeBinary(tamperedFull(GetParam().change))), GetParam().code);
 }
 
-void rename(Bytes& file, const std::string& from, const char (&to)[5]) {
+void renameChunk(Bytes& file, const std::string& from, const char (&to)[5]) {
   storeLittle(&file[entryOf(file, from)], chunkType(to));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, FullBinary,
-    testing::Values(
-        BinaryChange{"array_missing", [](Bytes& f) { rename(f, "NARR", "qARR"); }, "CHUNK_MISSING"},
-        BinaryChange{"links_twice",
-                     [](Bytes& f) {
-                       rename(f, "NINL", "LINK");
-                       f[entryOf(f, "LINK") + 6] = std::byte{1};
-                     },
-                     "CHUNK_DUPLICATE"},
-        BinaryChange{"link_beyond", [](Bytes& f) { storeLittle(&f[dataOf(f, "LINK") + 20], 6u); },
-                     "LINK_NODE"},
-        BinaryChange{"array_short",
-                     [](Bytes& f) {
-                       const std::size_t entry = entryOf(f, "NARR");
-                       for (std::size_t i = 68; i < 72; ++i) f[dataOf(f, "NARR") + i] = {};
-                       storeLittle(&f[entry + 16], std::uint64_t{68});
-                       storeLittle(&f[entry + 24], std::uint64_t{68});
-                     },
-                     "CHUNK_LENGTH"}),
+    testing::Values(BinaryChange{"array_missing", [](Bytes& f) { renameChunk(f, "NARR", "qARR"); },
+                                 "CHUNK_MISSING"},
+                    BinaryChange{"links_twice",
+                                 [](Bytes& f) {
+                                   renameChunk(f, "NINL", "LINK");
+                                   f[entryOf(f, "LINK") + 6] = std::byte{1};
+                                 },
+                                 "CHUNK_DUPLICATE"},
+                    BinaryChange{"link_beyond",
+                                 [](Bytes& f) { storeLittle(&f[dataOf(f, "LINK") + 20], 6u); },
+                                 "LINK_NODE"},
+                    BinaryChange{"array_short",
+                                 [](Bytes& f) {
+                                   const std::size_t entry = entryOf(f, "NARR");
+                                   for (std::size_t i = 68; i < 72; ++i)
+                                     f[dataOf(f, "NARR") + i] = {};
+                                   storeLittle(&f[entry + 16], std::uint64_t{68});
+                                   storeLittle(&f[entry + 24], std::uint64_t{68});
+                                 },
+                                 "CHUNK_LENGTH"}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace

@@ -156,24 +156,24 @@ TEST(Json, IgnoresUnknownKeysOfANewerMinorVersionOnly) {
   EXPECT_EQ(codeOf(decodeJson(text)), "OK");
 }
 
-struct Fault {
+struct JsonCaseFaultRow {
   const char* name;
   const char *from, *to;
   const char *code, *place;
 };
 
-class JsonFault : public testing::TestWithParam<Fault> {};
+class JsonCaseFault : public testing::TestWithParam<JsonCaseFaultRow> {};
 
 // spec: M1, M28, M32, M33, M45
-TEST_P(JsonFault, IsFoundAtItsPlace) {
-  const Fault& fault = GetParam();
+TEST_P(JsonCaseFault, IsFoundAtItsPlace) {
+  const JsonCaseFaultRow& fault = GetParam();
   const auto result = decodeJson(replaced(fault.from, fault.to));
   ASSERT_FALSE(result);
   EXPECT_EQ(test::codeOf(result), fault.code) << result.error().text();
   EXPECT_EQ(result.error().place(), fault.place) << result.error().text();
 }
 
-const Fault kFaults[] = {
+const JsonCaseFaultRow kFaults[] = {
     {"format", "\"lumen\"", "\"obj\"", "NOT_LUMEN", "/format"},
     {"version_text", "\"1.0\"", "\"1\"", "VERSION", "/version"},
     {"version_zero", "\"1.0\"", "\"0.9\"", "VERSION", "/version"},
@@ -236,7 +236,7 @@ const Fault kFaults[] = {
     {"points_null", "\"points\": {", "\"points\": null, \"x-points\": {", "JSON_TYPE", "/points"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, JsonFault, testing::ValuesIn(kFaults),
+INSTANTIATE_TEST_SUITE_P(All, JsonCaseFault, testing::ValuesIn(kFaults),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 // spec: M49

@@ -113,7 +113,7 @@ TEST(Motion, IsTakenFromTheOtherChunksOfAnOlderProgram) {
   }
 }
 
-struct Breach {
+struct MotionBreachRow {
   const char* name;
   void (*change)(Motion&);
   const char* code;
@@ -121,10 +121,9 @@ struct Breach {
   std::size_t offset;  ///< in the chunk
 };
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kNodesAt = 16 + 8 * 3, kPosesAt = kNodesAt + 4 * 3;
 
-const Breach kBreaches[] = {
+const MotionBreachRow kBreaches[] = {
     {"time_equal", [](Motion& m) { m.time[1] = m.time[0]; }, "MOTION_TIME", "/motion/time/1", 24},
     {"time_infinite", [](Motion& m) { m.time[2] = INFINITY; }, "NOT_FINITE", "/motion/time/2", 32},
     {"period_as_long", [](Motion& m) { m.period = m.time[2] - m.time[0]; }, "MOTION_PERIOD",
@@ -133,7 +132,7 @@ const Breach kBreaches[] = {
     {"node_beyond", [](Motion& m) { m.node[2] = 6; }, "MOTION_NODE", "/motion/node/2",
      kNodesAt + 8},
     {"node_twice", [](Motion& m) { m.node[1] = 1; }, "MOTION_NODE", "/motion/node/1", kNodesAt + 4},
-    {"centre_nan", [](Motion& m) { m.pose[4].centre.y = kNan; }, "NOT_FINITE",
+    {"centre_nan", [](Motion& m) { m.pose[4].centre.y = test::kNan; }, "NOT_FINITE",
      "/motion/centre/1/1/1", kPosesAt + 32 * 4 + 4},
     {"rotation_long", [](Motion& m) { m.pose[3].rotation[3] = 0.802f; }, "MOTION_ROTATION",
      "/motion/rotation/1/0", kPosesAt + 32 * 3 + 12},
@@ -142,12 +141,12 @@ const Breach kBreaches[] = {
        m.pose[8].rotation = {0, 0, 0, 0};
      },
      "MOTION_ROTATION", "/motion/rotation/2/2", kPosesAt + 32 * 8 + 12},
-    {"rotation_nan", [](Motion& m) { m.pose[0].rotation[1] = kNan; }, "NOT_FINITE",
+    {"rotation_nan", [](Motion& m) { m.pose[0].rotation[1] = test::kNan; }, "NOT_FINITE",
      "/motion/rotation/0/0/1", kPosesAt + 16},
     {"factor_zero", [](Motion& m) { m.pose[1].factor = 0; }, "MOTION_FACTOR", "/motion/factor/0/1",
      kPosesAt + 32 + 28}};
 
-class MotionBreach : public testing::TestWithParam<Breach> {};
+class MotionBreach : public testing::TestWithParam<MotionBreachRow> {};
 
 // spec: M2, M39
 TEST_P(MotionBreach, IsNamedWithItsPlace) {

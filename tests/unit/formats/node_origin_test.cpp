@@ -42,9 +42,9 @@ TEST(NodeOrigin, IsGivenBackByBothEncodings) {
   EXPECT_EQ(readNodeOrigins(*binary), kMixed);
   const std::string text = encodeJson(value);
   const auto bytes = std::as_bytes(std::span(text));
-  const auto json = decodeCase(bytes);
-  ASSERT_TRUE(json);
-  EXPECT_EQ(readNodeOrigins(*json), kMixed);
+  const auto decoded = decodeCase(bytes);
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(readNodeOrigins(*decoded), kMixed);
 }
 
 TEST(NodeOrigin, LeavesNothingBehindWhenAllNodesAreMeasured) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "formats/container/container.h"
 
 namespace lumen::formats::test {
+
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 using Bytes = std::vector<std::byte>;
 

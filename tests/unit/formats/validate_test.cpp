@@ -11,11 +11,10 @@
 namespace lumen::formats {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 // A change that breaks one rule, and what validate() must say.
-struct Breach {
+struct CaseBreach {
   const char* name;
   void (*change)(Case&);
   const char* code;
@@ -29,7 +28,7 @@ SourceVolume& source(Case& c) {
   return *c.metadata.source;
 }
 
-const Breach kTreeBreaches[] = {
+const CaseBreach kTreeBreaches[] = {
     {"no_node",
      [](Case& c) {
        c.tree = {};
@@ -44,10 +43,11 @@ const Breach kTreeBreaches[] = {
     {"branch_count", [](Case& c) { c.tree.branch.pop_back(); }, "ARRAY_LENGTH", "/tree/branch"},
     {"rate_count", [](Case& c) { c.tree.inlierRate.pop_back(); }, "ARRAY_LENGTH",
      "/tree/inlierRate"},
-    {"centre_nan", [](Case& c) { c.tree.centre[2].y = kNan; }, "NOT_FINITE", "/tree/centre/2/1"},
+    {"centre_nan", [](Case& c) { c.tree.centre[2].y = test::kNan; }, "NOT_FINITE",
+     "/tree/centre/2/1"},
     {"centre_infinite", [](Case& c) { c.tree.centre[0].z = -kInf; }, "NOT_FINITE",
      "/tree/centre/0/2"},
-    {"direction_nan", [](Case& c) { c.tree.direction[1].x = kNan; }, "NOT_FINITE",
+    {"direction_nan", [](Case& c) { c.tree.direction[1].x = test::kNan; }, "NOT_FINITE",
      "/tree/direction/1/0"},
     {"direction_zero",
      [](Case& c) {
@@ -61,7 +61,7 @@ const Breach kTreeBreaches[] = {
     {"radius_infinite", [](Case& c) { c.tree.radius[5] = kInf; }, "NOT_FINITE", "/tree/radius/5"},
     {"height_negative", [](Case& c) { c.tree.height[3] = -0.1f; }, "HEIGHT_RANGE",
      "/tree/height/3"},
-    {"height_nan", [](Case& c) { c.tree.height[3] = kNan; }, "NOT_FINITE", "/tree/height/3"},
+    {"height_nan", [](Case& c) { c.tree.height[3] = test::kNan; }, "NOT_FINITE", "/tree/height/3"},
     {"rate_above_one", [](Case& c) { c.tree.inlierRate[0] = 1.01f; }, "INLIER_RATE_RANGE",
      "/tree/inlierRate/0"},
     {"rate_negative", [](Case& c) { c.tree.inlierRate[0] = -0.5f; }, "INLIER_RATE_RANGE",
@@ -121,11 +121,11 @@ const Breach kTreeBreaches[] = {
      "/tree/branches/0/stopReason"},
     {"mean_rate", [](Case& c) { c.tree.branches[0].meanInlierRate = 2.0f; }, "INLIER_RATE_RANGE",
      "/tree/branches/0/meanInlierRate"},
-    {"mean_rate_nan", [](Case& c) { c.tree.branches[0].meanInlierRate = kNan; }, "NOT_FINITE",
+    {"mean_rate_nan", [](Case& c) { c.tree.branches[0].meanInlierRate = test::kNan; }, "NOT_FINITE",
      "/tree/branches/0/meanInlierRate"},
 };
 
-const Breach kPayloadBreaches[] = {
+const CaseBreach kPayloadBreaches[] = {
     {"point_offset_count", [](Case& c) { c.points->offset.pop_back(); }, "ARRAY_LENGTH",
      "/points/offset"},
     {"point_offset_none", [](Case& c) { c.points->offset.clear(); }, "ARRAY_LENGTH",
@@ -136,17 +136,17 @@ const Breach kPayloadBreaches[] = {
      "/points/offset/3"},
     {"point_offset_end", [](Case& c) { c.points->offset[6] = 5; }, "OFFSET_END",
      "/points/offset/6"},
-    {"point_nan", [](Case& c) { c.points->position[1].x = kNan; }, "NOT_FINITE",
+    {"point_nan", [](Case& c) { c.points->position[1].x = test::kNan; }, "NOT_FINITE",
      "/points/position/1/0"},
     {"kernel", [](Case& c) { c.models->kernel = Kernel{4}; }, "ENUM_VALUE", "/models/kernel"},
     {"kernel_parameter_zero", [](Case& c) { c.models->kernelParameter = 0; }, "KERNEL_PARAMETER",
      "/models/kernelParameter"},
-    {"kernel_parameter_nan", [](Case& c) { c.models->kernelParameter = kNan; }, "NOT_FINITE",
+    {"kernel_parameter_nan", [](Case& c) { c.models->kernelParameter = test::kNan; }, "NOT_FINITE",
      "/models/kernelParameter"},
     {"unused_kernel_parameter_nan",
      [](Case& c) {
        c.models->kernel = Kernel::Quartic;
-       c.models->kernelParameter = kNan;
+       c.models->kernelParameter = test::kNan;
      },
      "NOT_FINITE", "/models/kernelParameter"},
     {"iso_level_zero", [](Case& c) { c.models->isoLevel = 0; }, "ISO_LEVEL", "/models/isoLevel"},
@@ -157,11 +157,11 @@ const Breach kPayloadBreaches[] = {
     {"blob_width_count", [](Case& c) { c.models->width.pop_back(); }, "ARRAY_LENGTH",
      "/models/width"},
     {"blob_width_zero", [](Case& c) { c.models->width[4] = 0; }, "WIDTH_RANGE", "/models/width/4"},
-    {"blob_centre_nan", [](Case& c) { c.models->centre[4].z = kNan; }, "NOT_FINITE",
+    {"blob_centre_nan", [](Case& c) { c.models->centre[4].z = test::kNan; }, "NOT_FINITE",
      "/models/centre/4/2"},
     {"voxel_size_zero", [](Case& c) { c.metadata.voxelSize = 0; }, "VOXEL_SIZE",
      "/metadata/voxelSize"},
-    {"voxel_size_nan", [](Case& c) { c.metadata.voxelSize = kNan; }, "NOT_FINITE",
+    {"voxel_size_nan", [](Case& c) { c.metadata.voxelSize = test::kNan; }, "NOT_FINITE",
      "/metadata/voxelSize"},
     {"source_size", [](Case& c) { source(c).size[1] = 0; }, "SOURCE_SIZE",
      "/metadata/source/size/1"},
@@ -196,7 +196,7 @@ void setExtensions(Case& c, std::vector<std::string> used, std::vector<std::stri
   c.metadata.extensionsRequired = std::move(required);
 }
 
-const Breach kFullBreaches[] = {
+const CaseBreach kFullBreaches[] = {
     {"link_beyond",
      [](Case& c) {
        c.tree.links[2] = {4, 6};
@@ -274,8 +274,8 @@ const Breach kFullBreaches[] = {
      "NODE_ARRAY_COMPONENTS", "/metadata/nodeArrays/0/components"},
     {"array_length", [](Case& c) { c.nodeArrays[0].components = 2; }, "ARRAY_LENGTH",
      "/nodeArrays/ACME_flow.velocity"},
-    {"array_nan", [](Case& c) { std::get<0>(c.nodeArrays[0].values)[4] = kNan; }, "NOT_FINITE",
-     "/nodeArrays/ACME_flow.velocity/4"},
+    {"array_nan", [](Case& c) { std::get<0>(c.nodeArrays[0].values)[4] = test::kNan; },
+     "NOT_FINITE", "/nodeArrays/ACME_flow.velocity/4"},
     {"other_chunk_is_known", [](Case& c) { c.otherChunks[0].type = "NRAD"; }, "JSON_CHUNK_DATA",
      "/otherChunks/0"},
     {"other_chunk_type", [](Case& c) { c.otherChunks[0].type = "a b"; }, "JSON_CHUNK_DATA",
@@ -291,7 +291,7 @@ const Breach kFullBreaches[] = {
      "LIMIT", "/otherChunks"},
 };
 
-class Validate : public testing::TestWithParam<Breach> {};
+class Validate : public testing::TestWithParam<CaseBreach> {};
 
 // spec: M2, M3, M4, M29, M38, M39, M41
 TEST_P(Validate, NamesTheBrokenRuleAndItsPlace) {
@@ -312,9 +312,9 @@ INSTANTIATE_TEST_SUITE_P(Payload, Validate, testing::ValuesIn(kPayloadBreaches),
 // Those of motions are in motion_test.cpp.
 TEST(ValidateRules, OfTheModelAllHaveABreachAbove) {
   std::set<std::string> covered;
-  for (const Breach& breach : kTreeBreaches) covered.insert(breach.code);
-  for (const Breach& breach : kPayloadBreaches) covered.insert(breach.code);
-  for (const Breach& breach : kFullBreaches) covered.insert(breach.code);
+  for (const CaseBreach& breach : kTreeBreaches) covered.insert(breach.code);
+  for (const CaseBreach& breach : kPayloadBreaches) covered.insert(breach.code);
+  for (const CaseBreach& breach : kFullBreaches) covered.insert(breach.code);
   for (const ErrorRule& rule : errorRules())
     if (rule.code >= ErrorCode::Limit && rule.code < ErrorCode::IoMissing &&
         rule.code != ErrorCode::LabelOffset &&  // of the binary encoding alone

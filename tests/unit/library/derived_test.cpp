@@ -14,7 +14,7 @@
 namespace lumen::convert {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 std::string digestOf(const std::string& text) {
   return sha256(std::as_bytes(std::span(text)));

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string refusal(const Json& record) {
+std::string recordRefusal(const Json& record) {
   try {
     readRecord(record.dump(), "x/record.json");
   } catch (const PathError& error) {
@@ -129,26 +129,26 @@ TEST(Record, RefusesWhatTheSchemaRefusesAndSaysWhere) {
   for (const auto& fault : faults) {
     Json bad = good;
     bad[Json::json_pointer(fault.pointer)] = fault.value;
-    const std::string message = refusal(bad);
+    const std::string message = recordRefusal(bad);
     EXPECT_NE(message.find(fault.message), std::string::npos) << fault.pointer << ": " << message;
     EXPECT_TRUE(message.starts_with("x/record.json: ")) << message;
   }
   for (const auto& [key, value] : good.items()) {
     Json bad = good;
     bad.erase(key);
-    EXPECT_NE(refusal(bad).find("\"" + key + "\" is missing"), std::string::npos) << key;
+    EXPECT_NE(recordRefusal(bad).find("\"" + key + "\" is missing"), std::string::npos) << key;
   }
 }
 
 TEST(Record, ListsExactlyOneCaseAndSortedFiles) {
   Json bad = Json::parse(recordText(madeRecord()));
   std::swap(bad["files"][1], bad["files"][2]);
-  EXPECT_NE(refusal(bad).find("sorted by path"), std::string::npos);
+  EXPECT_NE(recordRefusal(bad).find("sorted by path"), std::string::npos);
   bad = Json::parse(recordText(madeRecord()));
   bad["files"][0]["role"] = "other";
-  EXPECT_NE(refusal(bad).find("exactly one file"), std::string::npos);
+  EXPECT_NE(recordRefusal(bad).find("exactly one file"), std::string::npos);
   bad["files"][2]["role"] = "case";
-  EXPECT_NE(refusal(bad).find("for case.lumen alone"), std::string::npos);
+  EXPECT_NE(recordRefusal(bad).find("for case.lumen alone"), std::string::npos);
 }
 
 TEST(Record, HasNoPathThatLeavesTheFolderOrClashes) {
@@ -177,8 +177,8 @@ TEST(Record, HasNoPathThatLeavesTheFolderOrClashes) {
     bad["files"][2]["path"] = path;
     std::sort(bad["files"].begin(), bad["files"].end(),
               [](const Json& a, const Json& b) { return a["path"] < b["path"]; });
-    EXPECT_TRUE(refusal(bad).starts_with("path: x/record.json: at \"/files/"))
-        << path << refusal(bad);
+    EXPECT_TRUE(recordRefusal(bad).starts_with("path: x/record.json: at \"/files/"))
+        << path << recordRefusal(bad);
   }
   for (const auto& [first, second] : {std::pair{"a/b", "a/B"}, {"x", "x/y"}, {"X/y", "x"}}) {
     Json bad = good;
@@ -188,7 +188,8 @@ TEST(Record, HasNoPathThatLeavesTheFolderOrClashes) {
     }
     std::sort(bad["files"].begin(), bad["files"].end(),
               [](const Json& a, const Json& b) { return a["path"] < b["path"]; });
-    EXPECT_TRUE(refusal(bad).starts_with("path: ")) << first << ' ' << second << refusal(bad);
+    EXPECT_TRUE(recordRefusal(bad).starts_with("path: "))
+        << first << ' ' << second << recordRefusal(bad);
   }
 }
 

@@ -15,15 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
 // A tenth of what docs/measures.md promises of measures through volumes.
 constexpr double kLength = 0.0005, kCurvature = 0.003, kTorsion = 0.008, kArea = 0.002,
                  kAngle = 0.2, kVolume = 0.002, kIndex = 0.003;
-
-CaseMeasures measuresOf(const formats::Case& value) {
-  Progress progress;
-  return measureCase(value, {}, progress);
-}
 
 void expectShare(const Measured& found, double truth, double share) {
   EXPECT_EQ(found.absent, "");

@@ -14,11 +14,6 @@
 namespace lumen::convert::test {
 namespace {
 
-CaseMeasures measuresOf(const formats::Case& value) {
-  Progress progress;
-  return measureCase(value, {}, progress);
-}
-
 Tube childOf(int parent, double along, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
              const std::string& label) {
   Tube tube = straightTube(from, to - from, (to - from).norm(), 0.8);

@@ -3,14 +3,24 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "converters/base/progress.h"
+#include "converters/judge/measure/measure_case.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert::test {
+
+inline constexpr double kPi = std::numbers::pi;
+
+inline CaseMeasures measuresOf(const formats::Case& value, MeasureOptions options = {}) {
+  Progress progress;
+  return measureCase(value, options, progress);
+}
 
 /// A tube along a curve, s in mm from 0 to `length`.
 struct Tube {

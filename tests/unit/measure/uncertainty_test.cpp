@@ -13,13 +13,6 @@
 namespace lumen::convert::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-CaseMeasures measuresOf(const formats::Case& value, MeasureOptions options = {}) {
-  Progress progress;
-  return measureCase(value, options, progress);
-}
-
 /// Moves every centre by independent errors of this standard deviation in each direction.
 void shake(formats::Case& value, double sd, std::uint64_t seed) {
   Random random(seed);

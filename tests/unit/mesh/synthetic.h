@@ -117,4 +117,9 @@ inline formats::Case sphereCase(double radius, double width) {
   return result;
 }
 
+/// Distance from the axis of a tube along x through (0, 0.05, 0.07) mm.
+inline double offAxis(const Eigen::Vector3d& p) {
+  return std::hypot(p.y() - 0.05, p.z() - 0.07);
+}
+
 }  // namespace lumen::test

@@ -14,6 +14,7 @@
 #include "converters/geometry/tube_tree_distance.h"
 #include "converters/stages/phantom/phantom.h"
 #include "formats/case/case_file.h"
+#include "small_volume.h"
 
 namespace lumen::convert {
 namespace {
@@ -29,10 +30,6 @@ Phantom made(const std::string& clutter, const std::string& name = "tube") {
   options.clutter = clutter;
   Progress progress;
   return makePhantom(options, progress);
-}
-
-const std::vector<std::int16_t>& voxelsOf(const Phantom& phantom) {
-  return std::get<std::vector<std::int16_t>>(phantom.volume.voxels);
 }
 
 /// Voxels that clutter makes brighter by more than a tenth of the contrast, and darker.

@@ -9,13 +9,12 @@
 #include "converters/stages/phantom/design.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/phantom/render.h"
+#include "small_volume.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-
-const Frame kFrame{0.2, 25.4};
 
 Phantom make(const std::string& name, double slice = 0) {
   PhantomOptions options;

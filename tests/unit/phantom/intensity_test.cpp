@@ -10,6 +10,7 @@
 #include "converters/stages/phantom/design.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/phantom/render.h"
+#include "small_volume.h"
 
 namespace lumen::convert {
 namespace {
@@ -25,10 +26,6 @@ Phantom make(const std::string& name, double noise, double bias, double psf) {
   options.psf = psf;
   Progress progress;
   return makePhantom(options, progress);
-}
-
-const std::vector<std::int16_t>& voxelsOf(const Phantom& phantom) {
-  return std::get<std::vector<std::int16_t>>(phantom.volume.voxels);
 }
 
 template <class Visit>

@@ -8,13 +8,12 @@
 #include "converters/stages/phantom/design.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/phantom/render.h"
+#include "small_volume.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-
-const Frame kFrame{0.2, 25.4};
 
 double note(const Design& design, const std::string& name) {
   return std::get<double>(design.notes.at("true." + name));

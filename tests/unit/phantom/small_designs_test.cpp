@@ -9,13 +9,12 @@
 #include "converters/stages/phantom/design.h"
 #include "converters/stages/phantom/phantom.h"
 #include "formats/case/case_file.h"
+#include "small_volume.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-
-const Frame kFrame{0.2, 25.4};
 
 double radius(const Design& design, std::size_t node) {
   return static_cast<double>(design.tree.radius[node]);

@@ -20,7 +20,7 @@ using test::straightVessels;
 
 constexpr double kRadius = 2;
 
-Camera cameraOf(const formats::Case& value, View view, double turn = 0) {
+Camera smallCameraOf(const formats::Case& value, View view, double turn = 0) {
   Framing framing;
   framing.view = view;
   framing.turn = turn;
@@ -49,7 +49,7 @@ TEST(Trace, EveryHitLiesOnTheWall) {
   ASSERT_EQ(blob_model_open_bytes(file.data(), file.size(), nullptr, &opened), BLOB_OK);
   const std::unique_ptr<blob_model, void (*)(blob_model*)> model(opened, &blob_model_close);
   for (const double turn : {0.0, 0.7, 2.5}) {
-    const Camera camera = cameraOf(value, View::Anterior, turn);
+    const Camera camera = smallCameraOf(value, View::Anterior, turn);
     const TracedSurface surface = traced(value, camera);
     int hits = 0;
     for (int y = 0; y < surface.height; ++y)
@@ -69,7 +69,7 @@ TEST(Trace, EveryHitLiesOnTheWall) {
 
 TEST(Trace, ATubeIsSeenAsWideAsItIsWithItsNormals) {
   const formats::Case value = straightVessels({{{0, 0, 0}, {0, 0, 20}}}, kRadius);
-  const Camera camera = cameraOf(value, View::Anterior);
+  const Camera camera = smallCameraOf(value, View::Anterior);
   const TracedSurface surface = traced(value, camera);
   const int y = surface.height / 2;
   for (int x = 0; x < surface.width; ++x) {
@@ -87,7 +87,7 @@ TEST(Trace, ATubeIsSeenAsWideAsItIsWithItsNormals) {
 // At each pixel the vessel whose cylinder is nearer, although each lies in part in the other.
 TEST(Trace, VesselsThatTouchStayApart) {
   const formats::Case value = kissing();
-  const Camera camera = cameraOf(value, View::Anterior);
+  const Camera camera = smallCameraOf(value, View::Anterior);
   const TracedSurface surface = traced(value, camera);
   const auto front = [](double off, double axis) {
     const double square = kRadius * kRadius - off * off;
@@ -112,7 +112,7 @@ TEST(Trace, WhatIsInFrontHidesWhatIsBehind) {
   const formats::Case value =
       straightVessels({{{0, 0, 0}, {0, 0, 20}}, {{0, 8, 0}, {0, 8, 20}}}, kRadius);
   for (const auto& [view, branch] : {std::pair{View::Anterior, 0U}, {View::Posterior, 1U}}) {
-    const TracedSurface surface = traced(value, cameraOf(value, view));
+    const TracedSurface surface = traced(value, smallCameraOf(value, view));
     for (std::size_t pixel = 0; pixel < surface.depth.size(); ++pixel) {
       if (!surface.isHit(pixel)) continue;
       ASSERT_EQ(value.tree.branch[surface.node[pixel]], branch);
@@ -122,7 +122,7 @@ TEST(Trace, WhatIsInFrontHidesWhatIsBehind) {
 
 TEST(Trace, AnyNumberOfThreadsGivesTheSameBits) {
   const formats::Case value = kissing();
-  const Camera camera = cameraOf(value, View::Left, 0.4);
+  const Camera camera = smallCameraOf(value, View::Left, 0.4);
   const TracedSurface many = traced(value, camera);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const TracedSurface single = traced(value, camera);
@@ -136,7 +136,7 @@ TEST(Trace, StopsWhenItIsCancelled) {
   const formats::Case value = kissing();
   Progress progress;
   progress.cancel();
-  EXPECT_THROW((void)SurfaceTracer(value).trace(cameraOf(value, View::Best), progress), Error);
+  EXPECT_THROW((void)SurfaceTracer(value).trace(smallCameraOf(value, View::Best), progress), Error);
 }
 
 }  // namespace

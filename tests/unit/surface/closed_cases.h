@@ -2,12 +2,15 @@
 // Closed surfaces of synthetic cases.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
+#include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/cut_ends.h"
 #include "converters/stages/surface/extract.h"
 #include "formats/case/case_field.h"
@@ -41,6 +44,23 @@ inline formats::Case forkCase() {
   addVessel(result, "side", straightPath({10, 1.5, 0}, {0, 1, 0}, 8), 0.8, 1.0, 10);
   addModels(result);
   return result;
+}
+
+/// Area of the triangles of a group, mm^2.
+inline double areaOf(const convert::CaseSurface& surface, std::uint32_t group) {
+  convert::TriangleMesh part{surface.mesh.position, {}};
+  for (std::size_t t = 0; t < surface.group.size(); ++t)
+    if (surface.group[t] == group) part.triangle.push_back(surface.mesh.triangle[t]);
+  return measureFacts(part).area;
+}
+
+/// Expects a manifold surface without crossings, of this Euler characteristic.
+inline void expectClosed(const convert::CaseSurface& surface, std::ptrdiff_t euler) {
+  const MeshFacts facts = measureFacts(surface.mesh);
+  EXPECT_EQ(facts.euler, euler);
+  EXPECT_EQ(facts.boundaryEdges, 0U);
+  EXPECT_EQ(facts.badEdges, 0U);
+  EXPECT_EQ(convert::selfIntersections(surface.mesh).pairs.size(), 0U);
 }
 
 }  // namespace lumen::test

@@ -35,10 +35,6 @@ void expectClosed(const CaseSurface& surface) {
   EXPECT_GT(facts.volume, 0);
 }
 
-double offAxis(const Eigen::Vector3d& p) {
-  return std::hypot(p.y() - 0.05, p.z() - 0.07);
-}
-
 class DecimateTo : public testing::TestWithParam<double> {};
 
 TEST_P(DecimateTo, StaysWithinTheErrorAndSaysIt) {
@@ -59,7 +55,7 @@ TEST_P(DecimateTo, StaysWithinTheErrorAndSaysIt) {
     const auto& p = surface.mesh.position;
     const Triangle& c = surface.mesh.triangle[t];
     const Eigen::Vector3d inside = 0.2 * p[c[0]] + 0.3 * p[c[1]] + 0.5 * p[c[2]];
-    EXPECT_NEAR(offAxis(inside), 1.0, 0.035 + 1.2 * maxError);
+    EXPECT_NEAR(test::offAxis(inside), 1.0, 0.035 + 1.2 * maxError);
   }
 }
 

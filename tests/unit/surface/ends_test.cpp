@@ -27,25 +27,10 @@ double unevenness(const CaseSurface& surface, const SurfaceEnd& end) {
   return most;
 }
 
-double areaOf(const CaseSurface& surface, std::uint32_t group) {
-  TriangleMesh part{surface.mesh.position, {}};
-  for (std::size_t t = 0; t < surface.group.size(); ++t)
-    if (surface.group[t] == group) part.triangle.push_back(surface.mesh.triangle[t]);
-  return test::measureFacts(part).area;
-}
-
 std::vector<std::string> namesOf(const CaseSurface& surface) {
   std::vector<std::string> names;
   for (const FaceGroup& group : surface.groups) names.push_back(group.name);
   return names;
-}
-
-void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
-  const test::MeshFacts facts = test::measureFacts(surface.mesh);
-  EXPECT_EQ(facts.euler, euler);
-  EXPECT_EQ(facts.boundaryEdges, 0U);
-  EXPECT_EQ(facts.badEdges, 0U);
-  EXPECT_EQ(selfIntersections(surface.mesh).pairs.size(), 0U);
 }
 
 TEST(EndPlanes, OfATubeStandHalfAHeightBeyondItsNodes) {
@@ -94,15 +79,15 @@ TEST(CutEnds, ATubeBecomesACylinder) {
   const EndsReport report = cut(closed);
   EXPECT_EQ(report.flat, 2U);
   EXPECT_EQ(report.rounded, 0U);
-  expectClosed(closed.surface, 2);
+  test::expectClosed(closed.surface, 2);
   EXPECT_EQ(namesOf(closed.surface), (std::vector<std::string>{"wall", "inlet", "outlet-tube"}));
   ASSERT_EQ(closed.surface.ends.size(), 2U);
   for (const SurfaceEnd& end : closed.surface.ends) {
     EXPECT_GE(unevenness(closed.surface, end), 0);
     EXPECT_LT(unevenness(closed.surface, end), 1e-12);
     // the opening is as wide as the vessel or nearly so
-    EXPECT_GT(areaOf(closed.surface, end.group), 0.64 * M_PI);
-    EXPECT_LT(areaOf(closed.surface, end.group), 1.05 * M_PI);
+    EXPECT_GT(test::areaOf(closed.surface, end.group), 0.64 * M_PI);
+    EXPECT_LT(test::areaOf(closed.surface, end.group), 1.05 * M_PI);
   }
   for (const Eigen::Vector3d& p : closed.surface.mesh.position) {
     EXPECT_GT(p.x(), 0.03 - 1 - 1e-6);
@@ -126,7 +111,7 @@ TEST(CutEnds, TheRimLiesOnTheField) {
 TEST(CutEnds, OfAForkAreThreeAndNamedByTheTree) {
   test::ClosedCase closed(test::forkCase());
   EXPECT_EQ(cut(closed).flat, 3U);
-  expectClosed(closed.surface, 2);
+  test::expectClosed(closed.surface, 2);
   EXPECT_EQ(namesOf(closed.surface),
             (std::vector<std::string>{"wall", "inlet", "outlet-trunk", "outlet-side"}));
 }
@@ -139,7 +124,7 @@ TEST(CutEnds, InletsHaveTheirLabelsWhereThereAreSeveral) {
   test::addModels(source);
   test::ClosedCase closed(std::move(source));
   EXPECT_EQ(cut(closed).flat, 4U);
-  expectClosed(closed.surface, 4);
+  test::expectClosed(closed.surface, 4);
   EXPECT_EQ(namesOf(closed.surface),
             (std::vector<std::string>{"wall", "inlet-a", "outlet-a", "inlet-b", "outlet-b"}));
 }
@@ -156,9 +141,9 @@ TEST(CutEnds, ThePlaneOfOneEndDoesNotCutTheOtherLegOfABend) {
   test::addModels(source);
   test::ClosedCase closed(std::move(source));
   EXPECT_EQ(cut(closed).flat, 2U);
-  expectClosed(closed.surface, 2);
+  test::expectClosed(closed.surface, 2);
   for (const SurfaceEnd& end : closed.surface.ends)
-    EXPECT_LT(areaOf(closed.surface, end.group), 1.05 * M_PI);
+    EXPECT_LT(test::areaOf(closed.surface, end.group), 1.05 * M_PI);
 }
 
 TEST(CutEnds, AnEndThatAnotherVesselLeavesStaysRoundAndSaysSo) {
@@ -172,10 +157,10 @@ TEST(CutEnds, AnEndThatAnotherVesselLeavesStaysRoundAndSaysSo) {
   const EndsReport report = cut(closed);
   EXPECT_EQ(report.flat, 2U);
   EXPECT_EQ(report.rounded, 1U);
-  expectClosed(closed.surface, 2);
+  test::expectClosed(closed.surface, 2);
   ASSERT_EQ(closed.surface.groups.size(), 4U);
   EXPECT_EQ(closed.surface.groups[2], (FaceGroup{"cap-trunk", FaceKind::Cap}));
-  EXPECT_GT(areaOf(closed.surface, 2), 0);
+  EXPECT_GT(test::areaOf(closed.surface, 2), 0);
   ASSERT_FALSE(report.messages.empty());
   EXPECT_NE(report.messages[0].find("the end of branch \"trunk\" stays round"), std::string::npos);
 }

@@ -12,39 +12,24 @@
 namespace lumen::convert {
 namespace {
 
-void cut(test::ClosedCase& closed) {
+void cutAll(test::ClosedCase& closed) {
   Progress silent;
   cutEnds(closed.surface, closed.field, silent);
 }
 
-double areaOf(const CaseSurface& surface, std::uint32_t group) {
-  TriangleMesh part{surface.mesh.position, {}};
-  for (std::size_t t = 0; t < surface.group.size(); ++t)
-    if (surface.group[t] == group) part.triangle.push_back(surface.mesh.triangle[t]);
-  return test::measureFacts(part).area;
-}
-
-void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
-  const test::MeshFacts facts = test::measureFacts(surface.mesh);
-  EXPECT_EQ(facts.euler, euler);
-  EXPECT_EQ(facts.boundaryEdges, 0U);
-  EXPECT_EQ(facts.badEdges, 0U);
-  EXPECT_EQ(selfIntersections(surface.mesh).pairs.size(), 0U);
-}
-
 TEST(ExtendEnds, AddsTubesOfTheOpeningsArea) {
   test::ClosedCase closed(test::forkCase());
-  cut(closed);
+  cutAll(closed);
   const double before = test::measureFacts(closed.surface.mesh).volume;
   std::vector<SurfaceEnd> ends = closed.surface.ends;
   double added = 0;
   std::vector<double> area;
   for (const SurfaceEnd& end : ends) {
-    area.push_back(areaOf(closed.surface, end.group));
+    area.push_back(test::areaOf(closed.surface, end.group));
     added += area.back() * 5 * std::sqrt(area.back() / M_PI);
   }
   EXPECT_TRUE(extendEnds(closed.surface, closed.source, {{"", {0, 5}}}).empty());
-  expectClosed(closed.surface, 2);
+  test::expectClosed(closed.surface, 2);
   // the blend may be a little wider or narrower than the tube
   EXPECT_NEAR(test::measureFacts(closed.surface.mesh).volume, before + added, 0.05 * added);
   for (std::size_t e = 0; e < ends.size(); ++e) {
@@ -52,14 +37,14 @@ TEST(ExtendEnds, AddsTubesOfTheOpeningsArea) {
     EXPECT_EQ(end.group, ends[e].group);
     EXPECT_NEAR((end.centre - ends[e].centre).norm(), 5 * std::sqrt(area[e] / M_PI), 1e-9);
     // a regular polygon in the circle of the opening's area
-    EXPECT_NEAR(areaOf(closed.surface, end.group), area[e], 0.03 * area[e]);
-    EXPECT_GT(areaOf(closed.surface, end.group), 0);
+    EXPECT_NEAR(test::areaOf(closed.surface, end.group), area[e], 0.03 * area[e]);
+    EXPECT_GT(test::areaOf(closed.surface, end.group), 0);
   }
 }
 
 TEST(ExtendEnds, TheTubesEndIsACircleInAPlane) {
   test::ClosedCase closed(test::tubeCase(10));
-  cut(closed);
+  cutAll(closed);
   extendEnds(closed.surface, closed.source, {{"tube", {4, 0}}});
   const auto rims = findRims(closed.surface);
   ASSERT_EQ(rims.size(), 2U);
@@ -80,7 +65,7 @@ TEST(ExtendEnds, TheTubesEndIsACircleInAPlane) {
 TEST(ExtendEnds, LeavesAlongTheWallsTangent) {
   // At the rim the tube's triangles turn by little more than the wall's do at the row before.
   test::ClosedCase closed(test::tubeCase(10));
-  cut(closed);
+  cutAll(closed);
   const auto rims = findRims(closed.surface);
   std::vector<Eigen::Vector3d> at;
   for (std::size_t i = 0; i < rims[1].size(); ++i)
@@ -110,7 +95,7 @@ TEST(ExtendEnds, LeavesAlongTheWallsTangent) {
 
 TEST(ExtendEnds, TrianglesAreNearlyEquilateral) {
   test::ClosedCase closed(test::tubeCase(10));
-  cut(closed);
+  cutAll(closed);
   const std::size_t before = closed.surface.mesh.triangle.size();
   extendEnds(closed.surface, closed.source, {{"tube", {0, 5}}});
   std::vector<double> angles;
@@ -133,7 +118,7 @@ TEST(ExtendEnds, TrianglesAreNearlyEquilateral) {
 
 TEST(ExtendEnds, OneBranchOnly) {
   test::ClosedCase closed(test::forkCase());
-  cut(closed);
+  cutAll(closed);
   const std::vector<SurfaceEnd> ends = closed.surface.ends;
   extendEnds(closed.surface, closed.source, {{"side", {3, 0}}});
   EXPECT_EQ(closed.surface.ends[0].centre, ends[0].centre);
@@ -153,7 +138,7 @@ formats::Case pointingCase() {
 
 TEST(ExtendEnds, SaysWhatATubeRunsInto) {
   test::ClosedCase closed(pointingCase());
-  cut(closed);
+  cutAll(closed);
   const auto messages = extendEnds(closed.surface, closed.source, {{"two", {0, 7}}});
   ASSERT_EQ(messages.size(), 1U);
   EXPECT_EQ(messages[0],
@@ -162,11 +147,11 @@ TEST(ExtendEnds, SaysWhatATubeRunsInto) {
 
 TEST(ExtendFreeEnds, LeavesTheEndWhoseTubeWouldRunIntoAnotherVessel) {
   test::ClosedCase closed(pointingCase());
-  cut(closed);
+  cutAll(closed);
   const std::vector<SurfaceEnd> before = closed.surface.ends;
   ASSERT_EQ(before.size(), 4U);
   extendFreeEnds(closed.surface, closed.source, {0, 7});
-  expectClosed(closed.surface, 4);
+  test::expectClosed(closed.surface, 4);
   for (std::size_t e = 0; e < before.size(); ++e) {
     const SurfaceEnd& end = closed.surface.ends[e];
     const bool isStuck = closed.surface.groups[end.group].name == "outlet-two";
@@ -180,7 +165,7 @@ TEST(ExtendFreeEnds, LeavesTheEndWhoseTubeWouldRunIntoAnotherVessel) {
 
 TEST(ExtendEnds, RefusesUnknownLabelsAndTwoLengthsAndTooMuch) {
   test::ClosedCase closed(test::tubeCase(10));
-  cut(closed);
+  cutAll(closed);
   EXPECT_THROW(extendEnds(closed.surface, closed.source, {{"tub", {0, 5}}}), Error);
   EXPECT_THROW(extendEnds(closed.surface, closed.source, {{"", {0, 5}}, {"", {1, 0}}}), Error);
   EXPECT_THROW(extendEnds(closed.surface, closed.source, {{"", {1e12, 0}}}), Error);

@@ -37,10 +37,6 @@ TriangleMesh onlyPatch(const formats::Case& source) {
   return toPatch(surface);
 }
 
-double offAxis(const Eigen::Vector3d& p) {
-  return std::hypot(p.y() - 0.05, p.z() - 0.07);
-}
-
 TEST(Polygonise, ABlobIsASphere) {
   constexpr double kWidth = 0.5, kCell = 0.2;
   const double radius = formats::isoRadius(formats::Kernel::Cauchy, 0.2, kWidth, 0.1);
@@ -86,7 +82,7 @@ TEST(Polygonise, PatchesOfATubeMeetOnTheRadicalPlanesAndItsEndsAreFlat) {
     const auto plane = nearest - planes.begin();
     found.insert(plane);
     if (plane != 0 && plane != 4) {
-      EXPECT_NEAR(offAxis(patch.position[v]), 1.0, 0.04);
+      EXPECT_NEAR(test::offAxis(patch.position[v]), 1.0, 0.04);
     }
   }
   EXPECT_EQ(found.size(), 5U);
@@ -96,7 +92,7 @@ TEST(Polygonise, ATubeHasItsRadius) {
   const TriangleMesh patch = onlyPatch(test::tubeCase(8));
   for (const Eigen::Vector3d& p : patch.position)
     if (p.x() > 2 && p.x() < 5.5) {
-      EXPECT_NEAR(offAxis(p), 1.0, 0.03);
+      EXPECT_NEAR(test::offAxis(p), 1.0, 0.03);
     }
 }
 

@@ -41,13 +41,6 @@ struct Walls {
   }
 };
 
-double areaOf(const CaseSurface& surface, std::uint32_t group) {
-  TriangleMesh part{surface.mesh.position, {}};
-  for (std::size_t t = 0; t < surface.group.size(); ++t)
-    if (surface.group[t] == group) part.triangle.push_back(surface.mesh.triangle[t]);
-  return test::measureFacts(part).area;
-}
-
 TEST(ThickWall, OfATubeIsAPipe) {
   const Walls walls(test::tubeCase(10), 0.3);
   EXPECT_EQ(walls.report.flat, 2U);
@@ -67,10 +60,10 @@ TEST(ThickWall, OfATubeIsAPipe) {
   EXPECT_EQ(pipe.groups[3], (FaceGroup{"outlet-tube", FaceKind::Outlet}));
   for (std::uint32_t e = 0; e < 2; ++e) {
     EXPECT_EQ(pipe.ends[e].group, e + 2);
-    EXPECT_NEAR(areaOf(pipe, e + 2),
-                areaOf(walls.outer, e + 1) - areaOf(walls.inner.surface, e + 1), 1e-9);
+    EXPECT_NEAR(test::areaOf(pipe, e + 2),
+                test::areaOf(walls.outer, e + 1) - test::areaOf(walls.inner.surface, e + 1), 1e-9);
   }
-  EXPECT_GT(areaOf(pipe, 1), 1.2 * areaOf(pipe, 0));  // 1.3 times as wide
+  EXPECT_GT(test::areaOf(pipe, 1), 1.2 * test::areaOf(pipe, 0));  // 1.3 times as wide
 }
 
 TEST(ThickWall, OfAForkHasAHandleForEachEndButOne) {

@@ -9,11 +9,11 @@
 namespace lumen::convert {
 namespace {
 
-const Eigen::Vector3d kCentre(6.3, 6.1, 6.2);
+const Eigen::Vector3d kMiddle(6.3, 6.1, 6.2);
 
 Volume ball(double radius) {
   return drawVolume(64, 0.2,
-                    [&](const Eigen::Vector3d& p) { return (p - kCentre).norm() - radius; });
+                    [&](const Eigen::Vector3d& p) { return (p - kMiddle).norm() - radius; });
 }
 
 TEST(Rays, MeetTheWallOfABallInEveryDirection) {
@@ -21,7 +21,7 @@ TEST(Rays, MeetTheWallOfABallInEveryDirection) {
   const BsplineVolume spline(volume);
   RayCaster rays(spline, icosphere(3), 128, false);
   Candidates points;
-  rays.cast(kCentre, 6.0, points);
+  rays.cast(kMiddle, 6.0, points);
   ASSERT_EQ(points.count(), 162u);
   for (std::size_t i = 0; i < points.count(); ++i)
     EXPECT_NEAR(points.offset(i).norm(), 2.0, 0.05);  // a quarter of a voxel
@@ -33,9 +33,9 @@ TEST(Rays, SeeADarkBallOnlyWhenToldSo) {
     v = static_cast<std::int16_t>(1000 - v);
   const BsplineVolume spline(volume);
   Candidates points;
-  RayCaster(spline, icosphere(2), 128, true).cast(kCentre, 6.0, points);
+  RayCaster(spline, icosphere(2), 128, true).cast(kMiddle, 6.0, points);
   EXPECT_EQ(points.count(), 42u);
-  RayCaster(spline, icosphere(2), 128, false).cast(kCentre, 6.0, points);
+  RayCaster(spline, icosphere(2), 128, false).cast(kMiddle, 6.0, points);
   for (std::size_t i = 0; i < points.count(); ++i)
     EXPECT_GT(std::abs(points.offset(i).norm() - 2.0), 0.05);
 }
@@ -45,9 +45,9 @@ TEST(Rays, DropWallsNearerThanATwelfthOrFartherThanFourFifthsOfTheirLength) {
   const BsplineVolume spline(volume);
   RayCaster rays(spline, icosphere(2), 128, false);
   Candidates points;
-  rays.cast(kCentre, 2.4, points);  // 0.8 * 2.4 = 1.92 < 2
+  rays.cast(kMiddle, 2.4, points);  // 0.8 * 2.4 = 1.92 < 2
   EXPECT_EQ(points.count(), 0u);
-  rays.cast(kCentre, 26.0, points);  // 26 / 12 = 2.17 > 2
+  rays.cast(kMiddle, 26.0, points);  // 26 / 12 = 2.17 > 2
   EXPECT_EQ(points.count(), 0u);
 }
 

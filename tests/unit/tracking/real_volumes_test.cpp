@@ -15,12 +15,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Tracked {
+struct TrackedFile {
   TrackResult out;
   std::size_t seeds = 0;
 };
 
-Tracked trackFile(const std::string& volume, VolumeFormat format, const std::string& seedsFile) {
+TrackedFile trackFile(const std::string& volume, VolumeFormat format,
+                      const std::string& seedsFile) {
   Progress silent;
   const auto seeds = readSeeds(std::filesystem::path(LUMEN_TEST_DATA) / seedsFile);
   const auto file = std::filesystem::path(LUMEN_SHARED_DATA) / volume;
@@ -57,11 +58,11 @@ class Angiogram3dra : public testing::Test {
 protected:
   void SetUp() override {
     if (absent("aneurism-3dra.nrrd")) GTEST_SKIP() << "aneurism-3dra.nrrd is not here";
-    static const Tracked once =
+    static const TrackedFile once =
         trackFile("aneurism-3dra.nrrd", VolumeFormat::Nrrd, "aneurism-3dra.seeds.json");
     tracked = &once;
   }
-  const Tracked* tracked = nullptr;
+  const TrackedFile* tracked = nullptr;
 };
 
 TEST_F(Angiogram3dra, AtLeastNineInTenClicksTrackAVessel) {
@@ -112,7 +113,8 @@ TEST_F(Angiogram3dra, TheKissingAnteriorCerebralArteriesAreTwoVessels) {
 
 TEST(AngiogramAorta, TheAortaBothIliacsAndBothRenalsAreTracked) {
   if (absent("aorta/aorta.mha")) GTEST_SKIP() << "aorta/aorta.mha is not here";
-  const Tracked tracked = trackFile("aorta/aorta.mha", VolumeFormat::MetaImage, "aorta.seeds.json");
+  const TrackedFile tracked =
+      trackFile("aorta/aorta.mha", VolumeFormat::MetaImage, "aorta.seeds.json");
   EXPECT_EQ(tracked.out.result.tree.branches.size(), tracked.seeds);
   EXPECT_GT(measureLength(chainOf(tracked.out.result, "aorta")), 300);
   EXPECT_GT(measureLength(chainOf(tracked.out.result, "left-iliac")), 100);
@@ -122,7 +124,7 @@ TEST(AngiogramAorta, TheAortaBothIliacsAndBothRenalsAreTracked) {
 
 TEST(AngiogramFistula, TheVeinAndTheFistulaAreTracked) {
   if (absent("avf/avf.nii")) GTEST_SKIP() << "avf/avf.nii is not here";
-  const Tracked tracked = trackFile("avf/avf.nii", VolumeFormat::Nifti, "avf.seeds.json");
+  const TrackedFile tracked = trackFile("avf/avf.nii", VolumeFormat::Nifti, "avf.seeds.json");
   EXPECT_GT(measureLength(chainOf(tracked.out.result, "vein")), 50);
   EXPECT_GT(measureLength(chainOf(tracked.out.result, "fistula")), 55);
 }

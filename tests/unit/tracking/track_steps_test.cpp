@@ -30,7 +30,7 @@ struct Tracked {
   TrackRun run{context, Random(1)};
 };
 
-TrackedNode nodeAt(const Vector3d& centre, const Vector3d& direction, double radius) {
+TrackedNode steadyNodeAt(const Vector3d& centre, const Vector3d& direction, double radius) {
   TrackedNode node;
   node.centre = centre;
   node.direction = direction;
@@ -44,7 +44,7 @@ TrackedBranch lineOfNodes(const Vector3d& from, const Vector3d& direction, int c
                           double radius) {
   TrackedBranch branch;
   for (int i = 0; i < count; ++i)
-    branch.nodes.push_back(nodeAt(from + 0.4 * i * direction, direction, radius));
+    branch.nodes.push_back(steadyNodeAt(from + 0.4 * i * direction, direction, radius));
   return branch;
 }
 
@@ -114,11 +114,12 @@ TEST(TrackToEnd, ATrackThatComesBackIntoItselfHasTurnedBack) {
 TEST(DropTip, DropsAtMostThreeNodesThatAreMuchWiderThanThoseBefore) {
   TrackedBranch branch = lineOfNodes({0, 0, 0}, Vector3d::UnitZ(), 20, 1.0);
   for (int i = 0; i < 2; ++i)
-    branch.nodes.push_back(nodeAt({0, 0, 8.0 + 0.4 * i}, Vector3d::UnitZ(), 2.0));
+    branch.nodes.push_back(steadyNodeAt({0, 0, 8.0 + 0.4 * i}, Vector3d::UnitZ(), 2.0));
   dropTip(branch.nodes);
   EXPECT_EQ(branch.nodes.size(), 20u);
   for (int i = 0; i < 6; ++i)
-    branch.nodes.push_back(nodeAt({0, 0, 8.0 + 0.4 * i}, Vector3d::UnitZ(), 2.0 * std::pow(2, i)));
+    branch.nodes.push_back(
+        steadyNodeAt({0, 0, 8.0 + 0.4 * i}, Vector3d::UnitZ(), 2.0 * std::pow(2, i)));
   dropTip(branch.nodes);
   EXPECT_EQ(branch.nodes.size(), 23u);
 }
