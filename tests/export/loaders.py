@@ -43,11 +43,15 @@ def ends_of_tree(tree):
 
 def farthest(found, expected):
     """The greatest distance of one of `found` from the nearest of `expected`."""
-    worst = 0.0
-    for chunk in np.array_split(found, max(1, len(found) // 500)):
-        squared = ((chunk[:, None, :] - expected[None, :, :]) ** 2).sum(axis=2).min(axis=1)
-        worst = max(worst, float(np.sqrt(squared.max())))
-    return worst
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStaticPointLocator
+    points, data, locator = vtkPoints(), vtkPolyData(), vtkStaticPointLocator()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(expected, dtype=float)))
+    data.SetPoints(points)
+    locator.SetDataSet(data)
+    nearest = expected[[locator.FindClosestPoint(p) for p in found]]
+    return float(np.linalg.norm(found - nearest, axis=1).max(initial=0.0))
 
 
 def vtk_points(reader, file):

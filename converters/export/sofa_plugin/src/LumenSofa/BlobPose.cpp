@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <LumenSofa/BlobPose.h>
+#include <LumenSofa/points_on_nodes.h>
 #include <LumenSofa/stop_scene.h>
 #include <sofa/core/ObjectFactory.h>
 #include <sofa/helper/ScopedAdvancedTimer.h>
@@ -15,8 +16,6 @@ namespace {
 using sofa::type::Quat;
 using sofa::type::Vec3;
 using Coord = sofa::defaulttype::Rigid3Types::Coord;
-
-constexpr std::size_t kMostWeights = 24;  // libblob's: nodes that answer at a point
 
 // A point that a frame carries from where the frame was to where it is.
 Vec3 carried(const Vec3& point, const Coord& from, const Coord& to) {

@@ -5,11 +5,6 @@
 #include <sofa/type/Quat.h>
 
 namespace lumensofa {
-namespace {
-
-constexpr std::size_t kMostWeights = 24;  // libblob's: nodes that answer at a point
-
-}  // namespace
 
 PointsOnNodes::PointsOnNodes(const blob_model* rest, std::uint32_t flags, const Coords& points)
     : m_rest(points) {

@@ -11,6 +11,8 @@
 
 namespace lumensofa {
 
+inline constexpr std::size_t kMostWeights = 24;  ///< libblob's: nodes that answer at a point
+
 /// Points of a vessel at rest, each with the nodes that answer at it and their weights.
 class PointsOnNodes {
 public:
