@@ -5,13 +5,14 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: ./bootstrap.sh demo|test|packages [PACKAGE...]
+Usage: ./bootstrap.sh demo|test|nightly|packages [PACKAGE...]
 
   demo       make a synthetic angiogram in ./demo, turn it into a case and a mesh, and score the result
-  test       build everything and run all tests
+  test       build everything but what the night needs, and run all tests but those of the night
+  nightly    build everything, and run the tests of the night: slow ones, and many programs of others
   packages   only install what the tests need, and each PACKAGE
 
-All install the missing Debian packages (with sudo unless run as root); demo and test build into build/release.
+All install the missing Debian packages (with sudo unless run as root); all but packages build into build/release.
 TEXT
 }
 
@@ -149,7 +150,7 @@ run_ctest() {
   local report=$PWD/build/release/tests.xml status=0
   say "Running the tests"
   rm -rf "$report" build/release/results
-  ctest --test-dir build/release --output-on-failure -j "$(nproc)" --output-junit "$report" || status=$?
+  ctest --test-dir build/release --output-on-failure -j "$(nproc)" --output-junit "$report" "$@" || status=$?
   if [ ! -s "$report" ]; then
     echo "bootstrap.sh: ctest left no report" >&2
     exit 1
@@ -177,9 +178,7 @@ install_test_packages() {
   # the JSON answers against their schemas, what judges the manual page, and what reads VTP
   packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
   # signatures of libraries
-  packages+=(curl minisign openssh-client rclone)
-  # cohorts: a Slurm of one machine
-  packages+=(slurm-wlm munge)
+  packages+=(curl minisign openssh-client)
   # the query on a flat buffer, on the processor by pocl, and its translations
   packages+=(ocl-icd-opencl-dev opencl-headers pocl-opencl-icd python3-pycparser)
   # the viewer's page, as a person would use it
@@ -196,6 +195,7 @@ install_test_packages() {
   install_packages "${packages[@]}" "$@"
 }
 
+# $1: include or exclude, the tests of the night
 run_tests() {
   install_test_packages
   build_page
@@ -204,13 +204,17 @@ run_tests() {
   install_from_npm tests/mujoco "MuJoCo"
   install_from_npm tests/library "The RO-Crate library"
   install_from_npm tests/pipelines "The BIDS validator"
-  run_ctest
+  case "$1" in
+    exclude) run_ctest --label-exclude nightly ;;
+    include) run_ctest --label-regex nightly ;;
+  esac
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
 case "${1:-}" in
   demo) run_demo ;;
-  test) run_tests ;;
+  test) run_tests exclude ;;
+  nightly) run_tests include ;;
   packages) install_test_packages "${@:2}" ;;
   -h | --help) usage ;;
   *)

@@ -43,6 +43,7 @@ ROOMS = [
     {"draw/raster": [], "draw/overlay": ["draw/raster"], "draw/picture": ["draw/raster"],
      "draw/report": ["draw/overlay", "draw/raster"]},
     {"export/shared": []},
+    {"export/targets": []},
     {"export/targets/" + name: [] for name in ("cathsim", "engines", "grid", "isaac", "mujoco", "oned", "openfoam", "print",
                                                "simvascular", "slicer", "sofa", "steve", "svzerod")},
     {"export": []},

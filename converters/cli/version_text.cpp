@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/export/shared/folder_texts.h"
+#include "converters/export/shared/text_files.h"
 #include "converters/io/seeds/seeds_json.h"
 #include "converters/library/json_values.h"
 #include "formats/container/container.h"

@@ -7,8 +7,8 @@
 
 #include "converters/base/number_text.h"
 #include "converters/engine/answer_text.h"
-#include "converters/export/shared/tree_losses.h"
-#include "converters/stages/surface/patches/cell_size.h"
+#include "converters/export/shared/paths.h"
+#include "converters/stages/surface/patches/polygonise.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

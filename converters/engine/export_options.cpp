@@ -12,7 +12,7 @@
 #include "converters/base/suggestion.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"
-#include "converters/export/shared/flow_option_name.h"
+#include "converters/export/shared/flow_inlets.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

@@ -17,7 +17,7 @@
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
-#include "converters/stages/trees_from_surfaces/label_naming.h"
+#include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

@@ -9,7 +9,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/export/shared/folder_texts.h"
+#include "converters/export/shared/text_files.h"
 
 namespace lumen::convert {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "converters/export/shared/target.h"
-#include "converters/export/targets/grid/grid_options.h"
-#include "converters/export/targets/openfoam/openfoam_options.h"
-#include "converters/export/targets/sofa/sofa_options.h"
+#include "converters/export/targets/grid/grid.h"
+#include "converters/export/targets/openfoam/openfoam.h"
+#include "converters/export/targets/sofa/export_sofa.h"
 
 namespace lumen::convert {
 

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: the row that each states, and its function with the options that it takes.
+#include "converters/export/targets/targets.h"
+
 #include "converters/export/export_case.h"
-#include "converters/export/targets/cathsim/export_cathsim.h"
-#include "converters/export/targets/engines/engines.h"
 #include "converters/export/targets/grid/grid.h"
-#include "converters/export/targets/isaac/isaac.h"
-#include "converters/export/targets/mujoco/export_mujoco.h"
-#include "converters/export/targets/oned/oned.h"
 #include "converters/export/targets/openfoam/openfoam.h"
-#include "converters/export/targets/print/print.h"
-#include "converters/export/targets/simvascular/simvascular.h"
-#include "converters/export/targets/slicer/slicer.h"
 #include "converters/export/targets/sofa/export_sofa.h"
-#include "converters/export/targets/steve/steve.h"
-#include "converters/export/targets/svzerod/svzerod.h"
 
 namespace lumen::convert {
 

@@ -10,7 +10,6 @@
 #include "converters/base/error.h"
 #include "converters/base/tree_figures.h"
 #include "converters/export/shared/insertion.h"
-#include "converters/export/shared/named_end.h"
 #include "converters/judge/measure/measure_case.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/case_field.h"

@@ -8,7 +8,7 @@
 #include "converters/base/option_name.h"
 #include "converters/cli/command_line.h"
 #include "converters/cli/commands.h"
-#include "converters/export/shared/flow_option_name.h"
+#include "converters/export/shared/flow_inlets.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {

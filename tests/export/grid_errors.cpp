@@ -20,8 +20,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "converters/export/shared/cdf.h"
-#include "converters/export/shared/vdb.h"
+#include "converters/export/shared/grid_files.h"
 #include "converters/stages/surface/closed_surface.h"
 #include "formats/case/case_file.h"
 #include "tests/unit/export/kissing.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/judge/measure/measure_text.h"
+#include "converters/judge/measure/measure_case.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"
 #include "viewer/session/tagged.h"

@@ -11,7 +11,6 @@
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/fitting/fit.h"
-#include "converters/stages/fitting/refit.h"
 #include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"

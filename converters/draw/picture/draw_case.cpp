@@ -12,7 +12,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/draw/picture/marks.h"
-#include "converters/draw/picture/shade.h"
+#include "converters/draw/picture/trace.h"
 #include "converters/io/mesh/vertex_color.h"
 #include "converters/judge/check/check.h"
 

@@ -11,6 +11,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/draw/picture/camera.h"
+#include "converters/draw/raster/picture.h"
 #include "formats/case/case.h"
 
 struct blob_model;
@@ -47,5 +48,27 @@ private:
   const formats::CenterlineTree& m_tree;
   std::shared_ptr<const blob_model> m_model;
 };
+
+}  // namespace lumen::convertnamespace lumen::convert {
+
+// Light on a traced surface.
+
+/// Colours of linear light.
+using Light = Eigen::Vector3f;
+
+/// A channel of linear light, 0 to 1, as sRGB (IEC 61966-2-1).
+std::uint8_t encodeSrgb(float light);
+
+/// Share of the sky that each pixel sees, 0 to 1: less in forks, between vessels, and behind
+/// others. It follows from the depths around the pixel, within `reach` pixels (L. Bavoil, M. Sainz,
+/// Image-space horizon-based ambient occlusion, 2008, in few directions).
+std::vector<float> computeOcclusion(const TracedSurface& surface, const Camera& camera,
+                                    double reach);
+
+/// The picture of a surface that has `samples` times `samples` pixels for each of the background's:
+/// lit from the upper left in front, with the colour of each node, over the background. Its bits do
+/// not depend on the number of threads.
+Picture shade(const TracedSurface& surface, const Camera& camera, const std::vector<Light>& colours,
+              const Picture& background, int samples);
 
 }  // namespace lumen::convert

@@ -4,12 +4,26 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "converters/base/html.h"
 #include "converters/draw/report/tree_profiles.h"
 #include "converters/judge/check/check.h"
 
 namespace lumen::convert {
+
+// The axis of a plot.
+
+/// An axis from 0 to `end`; marks are multiples of 1, 2 or 5 times a power of ten.
+struct Axis {
+  double end = 1;
+  std::vector<double> marks;  ///< 0 is the first
+  int digits = 0;             ///< behind the decimal point of a mark
+};
+
+/// The axis with one mark besides 0 at least, and at most `most`, which is at least 3. An `end`
+/// that is not above 0, or is not finite, becomes 1.
+Axis axisTo(double end, int most);
 
 /// A plot of 58 by 36 mm: mm along the vessel to the right, radius in mm upwards, both from 0;
 /// confidence, if there is one, as an area behind it from 0 to 1; places where branches leave, as

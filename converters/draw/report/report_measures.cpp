@@ -6,7 +6,6 @@
 
 #include "converters/base/number_text.h"
 #include "converters/draw/report/report_page.h"
-#include "converters/draw/report/table.h"
 
 namespace lumen::convert {
 

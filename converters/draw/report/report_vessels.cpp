@@ -11,7 +11,6 @@
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/report_page.h"
-#include "converters/draw/report/table.h"
 #include "converters/draw/report/tree_profiles.h"
 
 namespace lumen::convert {

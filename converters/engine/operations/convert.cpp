@@ -20,7 +20,7 @@
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/editing/edit_request.h"
 #include "converters/stages/fitting/fit.h"
-#include "converters/stages/surface/patches/cell_size.h"
+#include "converters/stages/surface/patches/polygonise.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

@@ -15,8 +15,8 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/time_option.h"
-#include "converters/judge/measure/measure_changes.h"
-#include "converters/judge/measure/measure_text.h"
+#include "converters/judge/measure/measure_case.h"
+#include "converters/judge/measure/measure_tables.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
 

@@ -14,7 +14,7 @@
 #include "converters/engine/reachable_answer.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
-#include "converters/stages/fitting/refit.h"
+#include "converters/stages/fitting/fit.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/cdf.h"
-
+// Declared in grid_files.h.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/export/shared/grid_files.h"
 #include "converters/export/shared/grid_shortcuts.h"
 
 namespace lumen::convert {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/far_field.h"
-
+// Declared in grid_shortcuts.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "blob.h"
 #include "converters/base/vectors.h"
+#include "converters/export/shared/grid_shortcuts.h"
 
 namespace lumen::convert {
 

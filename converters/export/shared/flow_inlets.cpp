@@ -15,7 +15,6 @@
 #include "converters/base/parsed_number.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
-#include "converters/export/shared/flow_option_name.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/topology.h"

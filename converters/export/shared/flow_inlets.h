@@ -5,9 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
+
+// Names of the options of flow solvers' targets, which rows and messages share (base/option_name.h).
+
+struct FlowOptionNames {
+  OptionName inlets{"inlets"};
+  OptionName cells{"cells"};
+  OptionName flow{"flow"};
+};
+
+inline constexpr FlowOptionNames kFlowOption{};
 
 /// An inlet that a person states.
 struct StatedInlet {

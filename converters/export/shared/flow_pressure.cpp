@@ -9,8 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include "converters/base/number_text.h"
-#include "converters/export/shared/blood.h"
-#include "converters/export/shared/units.h"
+#include "converters/export/shared/frame.h"
 
 namespace lumen::convert {
 

@@ -11,6 +11,11 @@
 
 namespace lumen::convert {
 
+// Units of simulators in those of lumen, millimetres, and in SI units.
+
+inline constexpr double kMetres = 1e-3, kCentimetres = 0.1;  ///< in a millimetre
+inline constexpr double kCgsResistance = 1e-5;               ///< dyn s/cm^5 of Pa s/m^3
+
 enum class LengthUnit : std::uint8_t { Millimetre, Centimetre, Metre };
 
 /// Directions of the axes of a right-handed frame.

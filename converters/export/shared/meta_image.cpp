@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/meta_image.h"
-
+// Declared in grid_files.h.
 #include "converters/base/number_text.h"
+#include "converters/export/shared/grid_files.h"
 
 namespace lumen::convert {
 

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "converters/export/shared/frame.h"
-#include "converters/export/shared/named_end.h"
+#include "converters/export/shared/insertion.h"
 
 namespace lumen::convert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/near_cells.h"
-
+// Declared in grid_shortcuts.h.
 #include <algorithm>
 #include <cmath>
 
 #include "converters/base/vectors.h"
+#include "converters/export/shared/grid_shortcuts.h"
 
 namespace lumen::convert {
 
@@ -75,6 +75,14 @@ void NearCells::mark(const Eigen::Vector3d& centre, double reach) {
 
 bool NearCells::contains(const Eigen::Vector3d& point) const {
   return m_isNear[indexOf(cellOf(point))] != 0;
+}
+
+GridShortcuts::GridShortcuts(const GridSource& source, const Lattice& lattice, Progress& progress)
+    : m_source(source) {
+  if (std::isfinite(source.band))
+    m_source.near = &m_near.emplace(source, lattice);
+  else
+    m_source.far = &m_far.emplace(source, lattice, progress);
 }
 
 }  // namespace lumen::convert

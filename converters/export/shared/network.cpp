@@ -11,8 +11,8 @@
 #include "converters/base/error.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
-#include "converters/export/shared/blood.h"
-#include "converters/export/shared/units.h"
+#include "converters/export/shared/flow_pressure.h"
+#include "converters/export/shared/frame.h"
 #include "converters/geometry/disjoint_sets.h"
 
 namespace lumen::convert {

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "converters/export/shared/flow_inlets.h"
-#include "converters/export/shared/named_end.h"
+#include "converters/export/shared/insertion.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

@@ -2,7 +2,7 @@
 // Replacement of vdb.cpp where lumen is built without OpenVDB.
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
-#include "converters/export/shared/vdb.h"
+#include "converters/export/shared/grid_files.h"
 
 namespace lumen::convert {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/npy.h"
-
+// Declared in grid_files.h.
 #include <bit>
+
+#include "converters/export/shared/grid_files.h"
 
 namespace lumen::convert {
 

@@ -11,7 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
-#include "converters/export/shared/units.h"
+#include "converters/export/shared/frame.h"
 #include "converters/io/mesh/plain_names.h"
 
 namespace lumen::convert {
@@ -91,3 +91,23 @@ std::string encodePth(const BranchPath& path, std::size_t id) {
 }
 
 }  // namespace lumen::convert
+
+namespace lumen {
+
+std::vector<std::string> treeLosses(const formats::CenterlineTree& tree) {
+  const auto sacs = static_cast<std::size_t>(std::count_if(
+      tree.branches.begin(), tree.branches.end(),
+      [](const formats::Branch& branch) { return branch.kind == formats::BranchKind::Aneurysm; }));
+  std::vector<std::string> losses;
+  if (!tree.links.empty())
+    losses.push_back(
+        "a centerline file holds trees, so " +
+        counted(tree.links.size(), "link that closes a loop is", "links that close loops are") +
+        " left out");
+  if (sacs > 0)
+    losses.push_back("a centerline file holds vessels, so " +
+                     counted(sacs, "aneurysm becomes one", "aneurysms become vessels"));
+  return losses;
+}
+
+}  // namespace lumen

@@ -35,3 +35,13 @@ std::string encodePth(const BranchPath& path, std::size_t id);
 std::string pointElement(const std::string& name, const Eigen::Vector3d& v);
 
 }  // namespace lumen::convert
+
+namespace lumen {
+
+// Sentences on the parts of a tree that a file of lines of points cannot hold.
+
+/// Sentences without a full stop about links that close loops and aneurysms; none if there is
+/// neither.
+std::vector<std::string> treeLosses(const formats::CenterlineTree& tree);
+
+}  // namespace lumen

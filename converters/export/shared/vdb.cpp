@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/vdb.h"
-
+// Declared in grid_files.h.
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -12,6 +11,7 @@
 #include <openvdb/tools/Prune.h>
 
 #include "converters/base/sha256.h"
+#include "converters/export/shared/grid_files.h"
 
 namespace lumen::convert {
 

@@ -2,19 +2,38 @@
 // Agreement of a case with its volume (docs/method.md, section 7).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "converters/base/progress.h"
-#include "converters/judge/check/open_ends.h"
 #include "converters/judge/check/places.h"
 #include "converters/judge/check/wall_offsets.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
+
+// Ends of branches of a case, and whether the volume shows that the vessel continues.
+
+/// The first node of a root or the last one of a branch, where nothing of the case is joined to it.
+struct OpenEnd {
+  std::uint32_t node = 0;
+  bool first = false;                                 ///< the branch begins here
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, along the vessel
+  double goesOn = 0;                                  ///< mm of visible vessel beyond it; 0 if none
+  std::optional<std::size_t> vessel;  ///< number of the missing vessel that goes on the farthest
+};
+
+/// The open ends of all vessels, branch by branch. An end continues in a missing vessel that comes
+/// within two radii and three voxels of the node, ahead of it, with its own tip or the place where
+/// it was reached from that branch; that vessel gets `atEnd`.
+std::vector<OpenEnd> findOpenEnds(const formats::CenterlineTree& tree, double voxel,
+                                  std::vector<MissingVessel>& vessels);
 
 /// Position of the wall with respect to the edges of the volume. Lengths in mm, positive where the
 /// model is too wide; NaN without samples. Shares refer to the judged samples, in [0, 1].

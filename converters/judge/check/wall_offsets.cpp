@@ -10,7 +10,6 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
-#include "converters/judge/check/ideal_edge.h"
 #include "converters/judge/check/wall_samples.h"
 
 namespace lumen::convert {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/compare/centerline_score.h"
-
+// Declared in compare.h.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/compare/compare.h"
 #include "converters/judge/compare/sampled_path.h"
 
 namespace lumen::convert {

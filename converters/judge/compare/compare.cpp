@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "converters/base/error.h"
-#include "converters/judge/compare/centerline_score.h"
-#include "converters/judge/compare/wall_distance.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {

@@ -91,4 +91,27 @@ struct Comparison {
 /// Error(Cancelled).
 Comparison compareCases(const formats::Case& found, const formats::Case& truth, Progress& progress);
 
+// Centerline measures, and the assignment of found branches to true ones.
+
+struct CenterlineComparison {
+  CenterlineScore all;                  ///< vessels only
+  std::vector<CenterlineScore> branch;  ///< one per true branch
+};
+
+/// The scores by the rules of compare.h. `step`: mm between samples.
+CenterlineComparison compareCenterlines(const formats::CenterlineTree& found,
+                                        const formats::CenterlineTree& truth, double step,
+                                        Progress& progress);
+
+// Distance of a case's surface from the true wall.
+
+struct WallComparison {
+  std::optional<Quantiles> all;
+  std::vector<std::optional<Quantiles>> branch;  ///< one per true branch
+};
+
+/// The distances of Comparison::wallDistance. `found` has models.
+WallComparison compareWalls(const formats::Case& found, const formats::CenterlineTree& truth,
+                            Progress& progress);
+
 }  // namespace lumen::convert

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/compare/wall_distance.h"
-
+// Declared in compare.h.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "converters/base/vectors.h"
 #include "converters/geometry/surface_projection.h"
 #include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/compare/compare.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::convert {

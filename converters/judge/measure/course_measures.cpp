@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/measure/course_measures.h"
-
+// Declared in vessel_measures.h.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/judge/measure/taper.h"
+#include "converters/judge/measure/vessel_measures.h"
 
 namespace lumen::convert {
 

@@ -9,7 +9,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/tube_tree_distance.h"
-#include "converters/judge/measure/taper.h"
+#include "converters/judge/measure/vessel_measures.h"
 
 namespace lumen::convert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/measure/fork_measures.h"
+// Declared in vessel_measures.h.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/vectors.h"
-#include "converters/judge/measure/course_measures.h"
 #include "converters/judge/measure/fork_arm.h"
+#include "converters/judge/measure/vessel_measures.h"
 
 namespace lumen::convert {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/measure/measure_changes.h"
-
+// Declared in measure_tables.h.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +7,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/measure/measure_tables.h"
 
 namespace lumen::convert {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/measure/narrowing_measures.h"
+// Declared in vessel_measures.h.
 
 #include <algorithm>
 #include <cmath>
 
 #include "converters/base/statistics.h"
-#include "converters/judge/measure/course_measures.h"
-#include "converters/judge/measure/taper.h"
+#include "converters/judge/measure/vessel_measures.h"
 
 namespace lumen::convert {
 

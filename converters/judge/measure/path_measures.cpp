@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/measure/path_measures.h"
+// Declared in vessel_measures.h.
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,8 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
-#include "converters/judge/measure/course_measures.h"
 #include "converters/judge/measure/fork_arm.h"
-#include "converters/judge/measure/taper.h"
+#include "converters/judge/measure/vessel_measures.h"
 
 namespace lumen::convert {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/measure/sac_measures.h"
-
+// Declared in measures.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,10 +9,11 @@
 #include <variant>
 
 #include "converters/base/vectors.h"
-#include "converters/judge/measure/course_measures.h"
+#include "converters/judge/measure/measures.h"
 #include "converters/judge/measure/sac_shape.h"
 #include "converters/judge/measure/sac_tree.h"
-#include "converters/judge/measure/wall_noise.h"
+#include "converters/judge/measure/vessel_measures.h"
+#include "converters/judge/measure/wall.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::convert {

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/judge/measure/section.h"
 #include "converters/judge/measure/smooth_axis.h"
 #include "converters/judge/measure/wall.h"
-#include "converters/judge/measure/wall_noise.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

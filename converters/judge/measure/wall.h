@@ -54,4 +54,49 @@ private:
   std::shared_ptr<const blob_model> m_model;
 };
 
+}  // namespace lumen::convertnamespace lumen::convert {
+
+// Figures of a cross-section of the wall (docs/measures.md, section 3).
+
+struct Section {
+  double area = 0;       ///< mm^2
+  double perimeter = 0;  ///< mm
+  /// Distance of two parallel lines that touch the section on either side, mm.
+  double least = 0, greatest = 0;
+  double circularity = 0;                              ///< 4 pi area / perimeter^2: 1 for a circle
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< mm
+  /// Volume and area of the wall for each mm along an axis of this curvature vector (normal times
+  /// curvature, 1/mm), by Pappus.
+  double volumeRate = 0, wallRate = 0;
+};
+
+/// The figures of a closed ring. `bend`: the axis' curvature vector, 1/mm.
+Section sectionOf(const CutPlane& plane, const WallRing& ring, const Eigen::Vector3d& bend);
+
+// Uncertainty of the wall: spread of wall points around the surface, and the voxel size
+// (docs/measures.md, section 7).
+
+/// Standard deviations that make half of a 95 % interval.
+inline constexpr double kHalfInterval = 1.96;
+
+/// Uncertainty of the wall along the vessels of a case.
+class WallNoise {
+public:
+  /// Unknown everywhere for a case without wall points.
+  WallNoise(const formats::Case& source, const Wall& wall);
+
+  /// Standard deviation of the radius of a section at a node, mm: that of its mean, and of one place
+  /// on its wall. NaN where it is unknown.
+  [[nodiscard]] double ofMean(std::uint32_t node) const;
+  [[nodiscard]] double ofPlace(std::uint32_t node) const;
+  /// The part that all sections share, mm.
+  [[nodiscard]] double shared() const { return m_shared; }
+  [[nodiscard]] bool isKnown() const { return !m_variance.empty(); }
+
+private:
+  std::vector<double> m_variance;  // of wall points around the surface, mm^2
+  std::vector<double> m_count;     // independent wall points that a section rests on
+  double m_shared = 0;
+};
+
 }  // namespace lumen::convert

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "converters/stages/fitting/energy_kernels.h"
-#include "converters/stages/fitting/normal_equations.h"
 
 namespace lumen::convert::fitting {
 namespace {

@@ -46,11 +46,17 @@
 #include <span>
 #include <vector>
 
-#include "converters/stages/fitting/blob.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert::fitting {
+
+// The terms of local models.
+
+/// One term width * phi(|X - centre|^2 / width^2) of the model, in the fit's frame (see energy.h).
+struct Blob {
+  double x = 0, y = 0, z = 0, width = 0;
+};
 
 /// Length of a voxel in the fit's frame: the voxel that the thesis' weights were tuned at, in mm.
 constexpr double kReferenceVoxel = 0.2;

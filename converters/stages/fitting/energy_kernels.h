@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "converters/stages/fitting/blob.h"
+#include "converters/stages/fitting/energy.h"
 #include "formats/field/kernel.h"
 
 namespace lumen::convert::fitting {
@@ -61,5 +61,16 @@ void evaluateBlock(const BlockParameters& parameters, const Block& block,
 void accumulateField(const BlockParameters& parameters, std::size_t count, const double* x,
                      const double* y, const double* z, std::span<const Blob> blobs,
                      double* const (&sums)[10]);
+
+// Sums over the rows of a Jacobian, in an order that is the same on every machine.
+
+/// a += J^T J (n x n row-major, upper triangle) and b += J^T r, for n columns of `rows` values; n
+/// is a multiple of 4, `rows` of 4.
+void multiplyTransposed(const double* jacobian, std::size_t columnStride, std::size_t n,
+                        const double* residual, std::size_t rows, double* a, double* b);
+
+/// sums[i] = sum of the `rows` values of column i < n; n is a multiple of 4, `rows` of 4.
+void sumColumns(const double* jacobian, std::size_t columnStride, std::size_t n, std::size_t rows,
+                double* sums);
 
 }  // namespace lumen::convert::fitting

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "converters/base/vectors.h"
-#include "converters/stages/fitting/ring.h"
 
 namespace lumen::convert::fitting {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "converters/stages/fitting/refit.h"
+#include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/unmeasured.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "converters/base/vectors.h"
-#include "converters/stages/fitting/ring.h"
+#include "converters/stages/fitting/seam.h"
 #include "formats/case/node_origin.h"
 
 namespace lumen::convert {

@@ -3,14 +3,161 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
 #include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
 
 namespace lumen::convert {
+
+namespace {
+
+double lengthAbove(const formats::CenterlineTree& tree, std::uint32_t node) {
+  const std::int32_t parent = tree.parent[node];
+  if (parent < 0) return 0;
+  return (toEigen(tree.centre[node]) - toEigen(tree.centre[static_cast<std::size_t>(parent)]))
+      .norm();
+}
+
+std::vector<bool> chooseStations(const formats::CenterlineTree& tree) {
+  std::vector<bool> isStation(tree.nodeCount(), false);
+  for (const formats::Branch& branch : tree.branches) {
+    isStation[branch.firstNode + branch.nodeCount - 1] = true;
+    if (branch.parentNode < 0)
+      isStation[branch.firstNode] = true;
+    else
+      isStation[static_cast<std::size_t>(branch.parentNode)] = true;
+  }
+  for (const formats::Branch& branch : tree.branches) {
+    const std::uint32_t end = branch.firstNode + branch.nodeCount;
+    double way = 0, left = 0;
+    for (std::uint32_t i = branch.firstNode + 1; i < end; ++i) left += lengthAbove(tree, i);
+    for (std::uint32_t i = branch.firstNode; i < end; ++i) {
+      way += lengthAbove(tree, i);
+      if (i > branch.firstNode) left -= lengthAbove(tree, i);
+      // a tip is as far from the station before it as others are: alone it would be turned by little
+      if (!isStation[i] && std::min(way, left) < double{tree.radius[i]}) continue;
+      isStation[i] = true;
+      way = 0;
+    }
+  }
+  return isStation;
+}
+
+}  // namespace
+
+Stations placeStations(const formats::CenterlineTree& tree) {
+  constexpr std::uint32_t kNone = UINT32_MAX;
+  const std::vector<bool> isStation = chooseStations(tree);
+  Stations s;
+  std::vector<double> way(tree.nodeCount(), 0.0);  // mm from the station above
+  s.between.resize(tree.nodeCount(), {kNone, kNone, 0.0});
+  std::vector<std::uint32_t> index(tree.nodeCount(), kNone);
+  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
+    const std::int32_t parent = tree.parent[i];
+    std::int32_t above = -1;
+    if (parent >= 0) {
+      const auto p = static_cast<std::uint32_t>(parent);
+      way[i] = lengthAbove(tree, i) + (isStation[p] ? 0.0 : way[p]);
+      above = static_cast<std::int32_t>(isStation[p] ? index[p] : s.between[p].above);
+    }
+    if (!isStation[i]) {
+      s.between[i].above = static_cast<std::uint32_t>(above);
+      continue;
+    }
+    index[i] = static_cast<std::uint32_t>(s.node.size());
+    s.node.push_back(i);
+    s.parent.push_back(above);
+    s.gap.push_back(way[i]);
+    s.between[i] = {index[i], index[i], 0.0};
+  }
+  // from the tips up: the next station of the same branch
+  for (std::uint32_t i = static_cast<std::uint32_t>(tree.nodeCount()); i-- > 0;) {
+    if (isStation[i]) continue;
+    const std::uint32_t next = i + 1;  // of the same branch, as its last node is a station
+    s.between[i].below = isStation[next] ? index[next] : s.between[next].below;
+    const double gap = s.gap[s.between[i].below];
+    s.between[i].share = gap > 0 ? way[i] / gap : 0.0;
+  }
+  s.length.assign(s.size(), 0.0);
+  std::vector<int> children(s.size(), 0);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.parent[i] < 0) continue;
+    s.length[i] += 0.5 * s.gap[i];
+    s.length[static_cast<std::size_t>(s.parent[i])] += 0.5 * s.gap[i];
+    ++children[static_cast<std::size_t>(s.parent[i])];
+  }
+  for (std::size_t i = 0; i < s.size(); ++i)
+    s.end.push_back(s.parent[i] < 0 ? (children[i] == 1 ? -1 : 0) : (children[i] == 0 ? 1 : 0));
+  return s;
+}
+
+std::vector<Eigen::Vector3d> Stations::spread(const std::vector<Eigen::Vector3d>& moves) const {
+  std::vector<Eigen::Vector3d> all;
+  for (const Between& b : between)
+    all.emplace_back((1 - b.share) * moves[b.above] + b.share * moves[b.below]);
+  return all;
+}
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Places of a disc of radius 1: its middle, and rings with equal areas for each place.
+constexpr double kRing = 1.7;
+constexpr int kInner = 4, kOuter = 8, kAround = 10;
+
+Vector3d smoothingOf(const Volume& volume, double smoothing) {
+  const Vector3d& spacing = volume.geometry.spacing;
+  return spacing.cwiseMin(smoothing / BsplineVolume::kMostSmoothing * Vector3d::Ones())
+      .cwiseProduct(Vector3d::Constant(BsplineVolume::kMostSmoothing))
+      .cwiseMin(Vector3d::Constant(smoothing));
+}
+
+}  // namespace
+
+Evidence::Evidence(const Volume& volume, bool dark, double smoothing)
+    : m_voxels(volume, smoothingOf(volume, smoothing)), m_sign(dark ? -1.0 : 1.0) {}
+
+Evidence::Disc Evidence::discAt(const Vector3d& centre, const Vector3d& direction,
+                                double radius) const {
+  const auto [u, v] = planeBasis(direction);
+  const VolumeGeometry& geometry = m_voxels.geometry();
+  const auto meanOf = [&, &u = u, &v = v](double at, int count) {
+    double sum = 0;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + 0.5) / count;
+      const Vector3d place = centre + at * radius * (std::cos(angle) * u + std::sin(angle) * v);
+      sum += double{m_voxels.sample(geometry.indexFromWorld(place))};
+    }
+    return sum / count;
+  };
+  const double middle = double{m_voxels.sample(geometry.indexFromWorld(centre))};
+  const double inside = (middle + kInner * meanOf(0.45, kInner) + kOuter * meanOf(0.8, kOuter)) /
+                        (1 + kInner + kOuter);
+  return {m_sign * inside, m_sign * meanOf(kRing, kAround)};
+}
+
+double Evidence::contrastAt(const Vector3d& centre, const Vector3d& direction,
+                            double radius) const {
+  const Disc disc = discAt(centre, direction, radius);
+  const double contrast = disc.inside - disc.around;
+  return std::isfinite(contrast) ? contrast : 0.0;
+}
+
+double Evidence::contrastOfEnd(const Vector3d& centre, const Vector3d& direction,
+                               const Vector3d& outward, double radius) const {
+  const Disc disc = discAt(centre, direction, radius);
+  const Disc beyond = discAt(centre + 2 * radius * outward, direction, radius);
+  const double contrast = disc.inside - std::max(disc.around, beyond.inside);
+  return std::isfinite(contrast) ? contrast : 0.0;
+}
+
 namespace {
 
 using Eigen::Vector3d;

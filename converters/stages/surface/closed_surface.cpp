@@ -9,19 +9,17 @@
 
 #include "converters/base/error.h"
 #include "converters/geometry/self_intersections.h"
-#include "converters/stages/surface/bare_stretches.h"
 #include "converters/stages/surface/cut_ends.h"
 #include "converters/stages/surface/decimate.h"
 #include "converters/stages/surface/end_planes.h"
 #include "converters/stages/surface/extract.h"
 #include "converters/stages/surface/flow_extension.h"
-#include "converters/stages/surface/offset_field.h"
-#include "converters/stages/surface/overlaps.h"
-#include "converters/stages/surface/refine.h"
-#include "converters/stages/surface/surface_size.h"
+#include "converters/stages/surface/mend_crossings.h"
+#include "converters/stages/surface/remesh_target.h"
+#include "converters/stages/surface/reported_places.h"
 #include "converters/stages/surface/thick_wall.h"
-#include "converters/stages/surface/thin_walls.h"
 #include "converters/stages/surface/to_surface_mesh.h"
+#include "converters/stages/surface/wall_thickness.h"
 #include "formats/case/case_field.h"
 #include "formats/view/text_rules.h"
 
@@ -33,7 +31,7 @@ constexpr double kLatticeShare = 1.0;
 // Distance by which touching lumens are drawn apart, in wall thicknesses, so that each keeps a
 // third of it as its wall.
 constexpr double kSharedWall = 0.5;
-// Length by which a lumen is prolonged where its wall is made, in radii: a cell of the lattice.
+// Prolongation of a lumen behind its ends while its wall is made, in radii: a cell of the lattice.
 constexpr double kBeyondEnds = 1;
 // Reduction of a wall's thickness that is allowed in the middle of a triangle, as a share of it.
 constexpr double kWallSag = 0.03;
@@ -162,7 +160,7 @@ private:
     return solid;
   }
 
-  // Those of the file, for the report.
+  // Counts the crossings of the surface with places as a file has them, for the report.
   std::size_t countCrossings(CaseSurface& surface) {
     m_progress.begin("crossings", 0);
     roundToFloats(surface.mesh);

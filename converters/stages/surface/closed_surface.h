@@ -12,10 +12,9 @@
 
 #include "converters/base/progress.h"
 #include "converters/io/mesh/surface_mesh.h"
-#include "converters/stages/surface/length.h"
-#include "converters/stages/surface/overlaps.h"
 #include "converters/stages/surface/remesh_target.h"
-#include "converters/stages/surface/touching.h"
+#include "converters/stages/surface/reported_places.h"
+#include "converters/stages/surface/surface_options.h"
 #include "converters/stages/surface/wall_thickness.h"
 #include "formats/case/case.h"
 

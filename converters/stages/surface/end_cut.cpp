@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/vectors.h"
-#include "converters/stages/surface/flat_delaunay.h"
+#include "converters/stages/surface/flat_region.h"
 
 namespace lumen::convert {
 namespace {

@@ -11,6 +11,12 @@
 
 namespace lumen::convert {
 
+// Hollows within a solid.
+
+/// Drops the connected parts of a closed surface that look inwards: hollows within others. Returns
+/// their number. O(v + t).
+std::size_t dropHollows(CaseSurface& surface);
+
 /// Results of extraction besides the surface.
 struct ExtractionReport {
   std::size_t trees = 0;  ///< connected trees of the case: closed surfaces

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/flat_delaunay.h"
-
+// Declared in flat_region.h.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/geometry/exact_predicates.h"
+#include "converters/stages/surface/flat_region.h"
 
 namespace lumen::convert {
 namespace {

@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 
 #include "converters/geometry/exact_predicates.h"
-#include "converters/stages/surface/flat_delaunay.h"
 
 namespace lumen::convert {
 namespace {

@@ -38,4 +38,14 @@ bool isWithin(const Loop2& inner, const Loop2& outer);
 /// without these properties.
 FlatMesh triangulateRegion(const Loop2& outer, const std::vector<Loop2>& holes, double edge);
 
+// Improvement of triangles within a triangulated region of a plane.
+
+/// Puts `points`, each within a triangle, into the mesh, flips edges until they are Delaunay's but
+/// for those of the boundary (Lawson, 1977), and moves the new points to the middle of their
+/// neighbours.
+void addInnerPoints(FlatMesh& mesh, const std::vector<Eigen::Vector2d>& points);
+
+/// Splits the edge between two points, if two triangles share it, in its middle.
+void splitEdge(FlatMesh& mesh, std::uint32_t a, std::uint32_t b);
+
 }  // namespace lumen::convert

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/length.h"
-
+// Declared in surface_options.h.
 #include <charconv>
 #include <cmath>
 
 #include "converters/base/error.h"
+#include "converters/stages/surface/surface_options.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

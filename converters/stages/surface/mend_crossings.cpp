@@ -13,9 +13,29 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include "converters/stages/surface/box_set.h"
+#include "converters/geometry/box_tree_walk.h"
+#include "converters/stages/surface/remesh.h"
 
 namespace lumen::convert {
+
+Box3d boxOf(const TriangleMesh& mesh, const Triangle& triangle) {
+  Box3d box;
+  for (const std::uint32_t v : triangle) box.add(mesh.position[v]);
+  return box;
+}
+
+BoxSet::BoxSet(std::vector<Box3d> boxes) : m_boxes(std::move(boxes)) {
+  if (m_boxes.empty()) return;
+  std::vector<Eigen::Vector3d> middles;
+  middles.reserve(m_boxes.size());
+  for (const Box3d& box : m_boxes) middles.push_back(box.middle());
+  m_tree = BoxTree<double>(m_boxes, middles);
+}
+
+bool BoxSet::meets(const Box3d& box) const {
+  return anyItemNear(m_tree, box, [&](std::uint32_t i) { return m_boxes[i].meets(box); });
+}
+
 namespace {
 
 constexpr std::size_t kMostPairs = 1'000'000;
@@ -217,6 +237,53 @@ std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Prog
   found = std::move(left);
   std::sort(all.begin(), all.end());
   return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
+}
+
+namespace {
+
+constexpr int kMostRepeats = 4;
+constexpr double kFirstReach = 1;  // radii around a crossing
+
+void addPlaces(const CaseSurface& surface, const SheetField& field, const SelfIntersections& found,
+               double radii, std::vector<Box3d>& places) {
+  for (const auto& pair : found.pairs)
+    for (const std::uint32_t t : pair)
+      for (const std::uint32_t v : surface.mesh.triangle[t])
+        places.emplace_back().add(surface.mesh.position[v], radii * field.radius(surface.node[v]));
+}
+
+std::vector<std::uint8_t> verticesIn(const CaseSurface& surface, const std::vector<Box3d>& places) {
+  if (places.empty()) return {};
+  const BoxSet set(places);
+  std::vector<std::uint8_t> isIn(surface.mesh.position.size());
+  tbb::parallel_for(std::size_t{0}, isIn.size(), [&](std::size_t v) {
+    Box3d point;
+    point.add(surface.mesh.position[v]);
+    isIn[v] = set.meets(point) ? 1 : 0;
+  });
+  return isIn;
+}
+
+}  // namespace
+
+RefineReport refine(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+                    Progress& progress) {
+  const CaseSurface given = surface;
+  RepeatedRemesh remeshing(given, field, edge, progress);
+  CrossingSearch search;
+  std::vector<Box3d> places;
+  double reach = kFirstReach;
+  for (int repeats = 0;; ++repeats) {
+    const RemeshReport made = remeshing.run(verticesIn(given, places), surface);
+    SelfIntersections left = mendCrossings(surface, field, search, progress);
+    if (left.pairs.empty()) return {made.offField, made.sharp, 0};
+    if (repeats == kMostRepeats) {
+      const std::size_t moved = smoothCrossings(surface, left, progress);
+      return {made.offField + moved, made.sharp, left.pairs.size()};
+    }
+    addPlaces(surface, field, left, reach, places);
+    reach *= 2;
+  }
 }
 
 }  // namespace lumen::convert

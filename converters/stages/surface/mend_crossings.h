@@ -9,11 +9,32 @@
 #include <vector>
 
 #include "converters/base/progress.h"
+#include "converters/geometry/box.h"
+#include "converters/geometry/box_tree.h"
 #include "converters/geometry/self_intersections.h"
+#include "converters/geometry/triangle_mesh.h"
 #include "converters/stages/surface/case_surface.h"
+#include "converters/stages/surface/remesh_target.h"
 #include "converters/stages/surface/sheet_field.h"
 
 namespace lumen::convert {
+
+// Boxes in which something is the matter, few beside the triangles of a surface.
+
+/// The box of a triangle's corners.
+Box3d boxOf(const TriangleMesh& mesh, const Triangle& triangle);
+
+/// Boxes, and whether another one meets any of them. Any number of threads may ask.
+class BoxSet {
+public:
+  explicit BoxSet(std::vector<Box3d> boxes);
+  [[nodiscard]] bool isEmpty() const { return m_boxes.empty(); }
+  [[nodiscard]] bool meets(const Box3d& box) const;
+
+private:
+  std::vector<Box3d> m_boxes;
+  BoxTree<double> m_tree;
+};
 
 /// Finds the crossings of meshes that are made one after another and share most triangles.
 class CrossingSearch {
@@ -49,5 +70,20 @@ SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
 /// cross. Vertices of flat ends stay. Leaves the surface as it was if no fewer pairs are left; else
 /// `found` becomes those. Returns the number of vertices that were moved. Throws Error(Cancelled).
 std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress);
+
+// Remeshing that does not make a surface pass through itself.
+
+/// Remaining faults after refine().
+struct RefineReport {
+  std::size_t offField = 0, sharp = 0;  ///< see RemeshReport
+  std::size_t crossings = 0;            ///< pairs of triangles that pass through each other
+};
+
+/// Remeshes a surface that does not intersect itself (remesh.h) and mends crossings
+/// (mend_crossings.h). Where some are left, the surface stays as it was given within a radius of
+/// them, and all else is remeshed again; then within two, four and eight radii. Throws
+/// Error(Cancelled).
+RefineReport refine(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+                    Progress& progress);
 
 }  // namespace lumen::convert

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/length.h"
 #include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/surface_options.h"
+#include "formats/case/case.h"
 
 namespace lumen::convert {
 
@@ -35,5 +37,20 @@ void gradeLengths(const TriangleMesh& mesh, std::vector<double>& length);
 /// distance to it, so that a thin branch's short edges grow gently into a wide one's.
 std::vector<double> targetLengths(const CaseSurface& surface, const SheetField& field,
                                   const EdgeLength& edge);
+
+// Estimates of the size of the surface of a case.
+
+/// Triangles that a surface may have, and the memory that one takes while it is made.
+constexpr double kMaxSurfaceTriangles = 1 << 24, kBytesPerTriangle = 400;
+
+/// The approximate number of triangles of the surface of a tree, with an outer surface if there is
+/// a wall of that thickness. O(nodes).
+double expectedTriangles(const formats::CenterlineTree& tree, const EdgeLength& edge,
+                         const std::optional<Length>& thickness);
+
+/// Throws Error(InvalidInput) if more than kMaxSurfaceTriangles are to be expected; the sentence
+/// states the numbers, and an edge or a thickness that is enough.
+void requireFewTriangles(const formats::CenterlineTree& tree, const EdgeLength& edge,
+                         const std::optional<Length>& thickness);
 
 }  // namespace lumen::convert

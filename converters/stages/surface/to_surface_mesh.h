@@ -2,12 +2,31 @@
 // The surface of a case in the form for writers of meshes.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
 #include "converters/base/progress.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/sheet_field.h"
+#include "formats/case/case.h"
+#include "formats/case/topology.h"
 
 namespace lumen::convert {
+
+// Values of a tree at a place on the wall.
+
+struct VesselValues {
+  float radius = 0;                 ///< mm
+  std::optional<float> confidence;  ///< the inlier rate, in [0, 1]; nothing if the tree has none
+};
+
+/// The values of the nodes, linear along the edges of the tree that end in `node`, at the point of
+/// these edges nearest to `point`, mm, LPS.
+VesselValues vesselAt(const formats::CenterlineTree& tree, const formats::Neighbours& edges,
+                      const Eigen::Vector3d& point, std::uint32_t node);
 
 /// A surface as a mesh for writers: its vertices, triangles and groups, the labels of the case that
 /// `field` is of, and at each vertex the radius and the inlier rate of its place along the vessel.

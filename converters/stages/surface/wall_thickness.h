@@ -11,8 +11,9 @@
 
 #include "converters/base/progress.h"
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/length.h"
 #include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/surface_options.h"
+#include "converters/stages/surface/thick_wall.h"
 
 namespace lumen::convert {
 
@@ -32,5 +33,13 @@ struct WallThickness {
 /// Measures a solid of thickWall(). Throws Error(Cancelled).
 WallThickness measureWall(const CaseSurface& solid, const SheetField& field,
                           const Length& thickness, Progress& progress);
+
+// Walls between touching vessels that are thinner than asked for.
+
+/// A sentence for each pair of branches between which the wall whose outer surface is `outer` is
+/// thinner than was asked, with the least thickness and its place, mm, LPS; the thinnest first, at
+/// most five, then the number of further ones. Throws Error(Cancelled).
+std::vector<std::string> thinWalls(const CaseSurface& outer, const OffsetField& field,
+                                   Progress& progress);
 
 }  // namespace lumen::convert

@@ -16,10 +16,7 @@
 #include "converters/geometry/triangle_tree.h"
 #include "converters/stages/repair/repair.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
-#include "converters/stages/trees_from_surfaces/inner_side.h"
-#include "converters/stages/trees_from_surfaces/inside_voxels.h"
-#include "converters/stages/trees_from_surfaces/nodes_on_lines.h"
-#include "converters/stages/trees_from_surfaces/vessel_lines.h"
+#include "converters/stages/trees_from_surfaces/vessel_line.h"
 
 namespace lumen::convert {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
-#include "converters/stages/trees_from_surfaces/inside_voxels.h"
-#include "converters/stages/trees_from_surfaces/vessel_lines.h"
+#include "converters/stages/trees_from_surfaces/closed_mesh.h"
+#include "converters/stages/trees_from_surfaces/vessel_line.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/vessel_paths.h"
 #include "converters/voxels/voxel_set.h"

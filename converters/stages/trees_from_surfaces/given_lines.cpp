@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
-#include "converters/stages/trees_from_surfaces/vessel_lines.h"
+#include "converters/stages/trees_from_surfaces/vessel_line.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/trees_from_surfaces/inner_side.h"
-
+// Declared in closed_mesh.h.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +12,7 @@
 
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/icosphere.h"
+#include "converters/stages/trees_from_surfaces/closed_mesh.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/trees_from_surfaces/inside_voxels.h"
-
+// Declared in closed_mesh.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "converters/base/error.h"
 #include "converters/geometry/mesh_measures.h"
+#include "converters/stages/trees_from_surfaces/closed_mesh.h"
 
 namespace lumen::convert {
 namespace {

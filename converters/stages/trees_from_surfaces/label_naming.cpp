@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/trees_from_surfaces/label_naming.h"
-
+// Declared in label_mesh.h.
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "converters/base/vectors.h"
+#include "converters/stages/trees_from_surfaces/label_mesh.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/trees_from_surfaces/nodes_on_lines.h"
-
+// Declared in vessel_line.h.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/icosphere.h"
+#include "converters/stages/trees_from_surfaces/vessel_line.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"
 

@@ -10,8 +10,12 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/progress.h"
 #include "converters/geometry/triangle_tree.h"
+#include "converters/io/centerline/centerline_file.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
+#include "converters/voxels/volume.h"
+#include "formats/case/case.h"
 
 namespace lumen::convert {
 
@@ -96,5 +100,36 @@ const MeshEnd* endAt(const Eigen::Vector3d& tip, const ClosedMesh& surface);
 /// Extends a line to the end of its lumen: straight on to the wall, or to the centre of a flat end
 /// there, if that is within `reach` depths.
 void extend(VesselLine& line, bool atStart, double reach, const LumenGeometry& lumen);
+
+// The courses of all vessels inside of a surface: found, or from a centerline of another program.
+
+struct VesselLines {
+  std::vector<VesselLine> lines;   ///< parents first
+  std::vector<std::string> notes;  ///< remarks for the user, a sentence each
+};
+
+/// The vessels of each connected part of the inside (docs/method.md, section 10): from its widest
+/// flat end, or else from its widest tip. `grid` is that of insideGrid(). `allOpenings`: a line leads to
+/// each opening, however short it is. Throws Error(Cancelled).
+VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, bool allOpenings,
+                      Progress& progress);
+
+/// The chains of a centerline (mm, LPS), without their parts outside. Throws Error(InvalidInput),
+/// `name` (of its file, printable) first, if less than half of its points lie inside; the message
+/// reports if more would with x and y negated or in another unit.
+VesselLines clipLines(const CenterlineFile& centerline, const std::string& name,
+                      const LumenGeometry& lumen);
+
+// The lines of vessels as a tree of nodes with wall points.
+
+/// Tree and wall points of the lines, a branch each, in their order. Nodes are a width apart; those
+/// of a child within its parent's lumen are bridged and have no points. Wall points are where rays
+/// from a node's centre first meet the wall, without those that belong to nodes near by along the
+/// tree: those more than three quarters of the distance towards them, by power. So another vessel's
+/// wall, which no ray reaches, and the far wall of a fork belong to no node. No radius is below
+/// `least`, mm: where a line passes so near to the wall, nothing shows how wide the lumen is.
+/// Throws Error(Cancelled).
+formats::Case nodesOnLines(const std::vector<VesselLine>& lines, const LumenGeometry& lumen,
+                           double least, Progress& progress);
 
 }  // namespace lumen::convert

@@ -10,7 +10,7 @@
 
 #include "converters/stages/editing/edit.h"
 #include "converters/stages/editing/wall_edits.h"
-#include "converters/stages/fitting/refit.h"
+#include "converters/stages/fitting/fit.h"
 #include "formats/case/enum_names.h"
 #include "packages/python/src/case_object.h"
 #include "packages/python/src/python_error.h"

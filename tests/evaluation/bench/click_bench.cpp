@@ -12,7 +12,7 @@
 #include "converters/base/vectors.h"
 #include "converters/io/volume/read_volume.h"
 #include "converters/stages/editing/edit.h"
-#include "converters/stages/fitting/refit.h"
+#include "converters/stages/fitting/fit.h"
 #include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/case/case_field.h"

@@ -135,7 +135,7 @@ class Sources:
 
     def build(self):
         """Builds the copy; a constant that the compiler needs stays as it is."""
-        settings = ["-DLUMEN_BUILD_TESTS=OFF", "-DLUMEN_BUILD_BENCHMARKS=OFF"]
+        settings = ["-DLUMEN_BUILD_TESTS=OFF", "-DLUMEN_BUILD_NIGHTLY=OFF"]
         while True:
             self.write()
             subprocess.run(["cmake", "--preset", "release", *settings], cwd=self.copy, check=True, capture_output=True)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/check/ideal_edge.h"
-
 #include <gtest/gtest.h>
+
+#include "converters/judge/check/wall_samples.h"
 
 namespace lumen::convert {
 namespace {

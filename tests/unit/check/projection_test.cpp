@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/draw/overlay/projection.h"
-
 #include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "converters/draw/overlay/overlay.h"
 
 namespace lumen::convert {
 namespace {

@@ -11,7 +11,6 @@
 #include "converters/judge/check/check.h"
 #include "converters/stages/editing/edit.h"
 #include "converters/stages/fitting/fit.h"
-#include "converters/stages/fitting/refit.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/vessel_at_click.h"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of Discregrid, read by Bullet.
-#include "converters/export/shared/cdf.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +10,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
+#include "converters/export/shared/grid_files.h"
 #include "kissing.h"
 
 namespace lumen::test {

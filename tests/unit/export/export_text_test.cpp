@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/export_text.h"
-
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+
+#include "converters/export/shared/text_files.h"
 
 namespace lumen::convert {
 

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/export/shared/blood.h"
 #include "tests/unit/export/made_tree.h"
 
 namespace lumen::convert {

@@ -8,7 +8,7 @@
 #include "../mesh/synthetic.h"
 #include "converters/base/progress.h"
 #include "converters/export/export_case.h"
-#include "converters/export/shared/markdown_text.h"
+#include "converters/export/shared/text_files.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/markdown_text.h"
-
 #include <gtest/gtest.h>
+
+#include "converters/export/shared/text_files.h"
 
 namespace lumen::convert {
 

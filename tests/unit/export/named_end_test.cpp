@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/shared/named_end.h"
-
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include <gtest/gtest.h>
+
+#include "converters/export/shared/insertion.h"
 
 namespace lumen::convert {
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/export/shared/blood.h"
+#include "converters/export/shared/flow_pressure.h"
 #include "tests/unit/export/made_tree.h"
 
 namespace lumen::convert {

@@ -10,10 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/export/shared/blood.h"
+#include "converters/export/shared/flow_pressure.h"
 #include "converters/export/targets/openfoam/foam_patches.h"
 #include "converters/export/targets/openfoam/openfoam_cells.h"
-#include "converters/export/targets/openfoam/waveform.h"
 #include "tests/unit/export/made_tree.h"
 
 namespace lumen::convert {

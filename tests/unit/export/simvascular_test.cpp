@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/simvascular/simvascular.h"
-
 #include <algorithm>
 #include <regex>
 #include <string>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../surface/closed_cases.h"
+#include "converters/export/targets/targets.h"
 
 namespace lumen::test {
 

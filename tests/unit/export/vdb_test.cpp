@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Level sets, read by OpenVDB.
-#include "converters/export/shared/vdb.h"
-
 #include <cmath>
 #include <sstream>
 
@@ -10,6 +8,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
+#include "converters/export/shared/grid_files.h"
 #include "kissing.h"
 
 namespace lumen::test {

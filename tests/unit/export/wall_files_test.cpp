@@ -9,10 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/progress.h"
-#include "converters/export/targets/cathsim/export_cathsim.h"
-#include "converters/export/targets/engines/engines.h"
-#include "converters/export/targets/isaac/isaac.h"
-#include "converters/export/targets/print/print.h"
+#include "converters/export/targets/targets.h"
 #include "kissing.h"
 
 namespace lumen::test {

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
-#include "converters/stages/fitting/subdivision.h"
 
 namespace lumen::convert::fitting {
 namespace {

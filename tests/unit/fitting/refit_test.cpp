@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/fitting/refit.h"
 
 #include <cmath>
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/fitting/image/contrast_along.h"
-
 #include <gtest/gtest.h>
+
+#include "converters/stages/fitting/image/section_fit.h"
 
 namespace lumen::convert::fitting {
 namespace {

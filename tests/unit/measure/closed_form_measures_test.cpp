@@ -7,7 +7,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/judge/measure/measure_case.h"
-#include "converters/judge/measure/section.h"
+#include "converters/judge/measure/wall.h"
 #include "tests/unit/measure/shapes.h"
 
 namespace lumen::convert::test {

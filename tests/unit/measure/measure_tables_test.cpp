@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Empty values with reasons, tables, and changes between two cases.
+#include "converters/judge/measure/measure_tables.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,8 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/csv_rows.h"
-#include "converters/judge/measure/measure_changes.h"
-#include "converters/judge/measure/measure_text.h"
+#include "converters/judge/measure/measure_case.h"
 #include "tests/unit/measure/shapes.h"
 
 namespace lumen::convert::test {

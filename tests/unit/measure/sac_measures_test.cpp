@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/judge/measure/sac_measures.h"
-
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -9,11 +7,11 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/measure/measures.h"
 #include "converters/judge/measure/neck_plane.h"
 #include "converters/judge/measure/sac_shape.h"
 #include "converters/judge/measure/sac_tree.h"
 #include "converters/judge/measure/wall.h"
-#include "converters/judge/measure/wall_noise.h"
 #include "tests/unit/measure/exact_design.h"
 
 namespace lumen::convert {

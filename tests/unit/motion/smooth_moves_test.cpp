@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/motion/smooth_moves.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
+#include "converters/stages/motion/track_motion.h"
 #include "trees.h"
 
 namespace lumen::convert {

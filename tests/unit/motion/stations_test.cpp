@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/motion/stations.h"
-
 #include <algorithm>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include "converters/stages/motion/search.h"
 #include "trees.h"
 
 namespace lumen::convert {

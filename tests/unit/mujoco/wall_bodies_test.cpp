@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies that carry pieces of a wall while its vessels move.
-#include "converters/export/targets/mujoco/wall_bodies.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../export/kissing.h"
+#include "converters/export/targets/mujoco/wall_pieces.h"
 
 namespace lumen::convert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/mujoco/wire_reach.h"
-
 #include <utility>
 
 #include <gtest/gtest.h>
+
+#include "converters/export/targets/mujoco/wire.h"
 
 namespace lumen::convert {
 

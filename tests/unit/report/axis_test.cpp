@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/draw/report/axis.h"
-
 #include <cmath>
 #include <limits>
 #include <string>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/number_text.h"
+#include "converters/draw/report/profile_plot.h"
 
 namespace lumen::convert {
 namespace {

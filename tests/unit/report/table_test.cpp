@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/draw/report/table.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "converters/draw/report/report_page.h"
 
 namespace lumen::convert {
 namespace {

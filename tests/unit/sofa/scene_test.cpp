@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/export/targets/sofa/dialect.h"
+#include "converters/export/targets/sofa/scene_tree.h"
 
 namespace lumen::convert {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/bare_stretches.h"
-
 #include <gtest/gtest.h>
 
 #include "closed_cases.h"
+#include "converters/stages/surface/reported_places.h"
 
 namespace lumen::convert {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/stages/surface/length.h"
+#include "converters/stages/surface/surface_options.h"
 
 namespace lumen::convert {
 namespace {

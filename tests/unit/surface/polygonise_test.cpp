@@ -12,7 +12,6 @@
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
 #include "converters/io/mesh/write_gltf.h"
-#include "converters/stages/surface/patches/cell_size.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_field.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/surface_size.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 #include "../mesh/synthetic.h"
 #include "converters/base/error.h"
 #include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/remesh_target.h"
 
 namespace lumen::convert {
 namespace {

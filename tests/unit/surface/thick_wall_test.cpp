@@ -17,7 +17,6 @@
 #include "converters/geometry/triangle_tree.h"
 #include "converters/stages/surface/closed_surface.h"
 #include "converters/stages/surface/flow_extension.h"
-#include "converters/stages/surface/offset_field.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::convert {

@@ -14,7 +14,6 @@
 #include "converters/geometry/mesh_measures.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
-#include "converters/stages/trees_from_surfaces/label_naming.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/trees_from_surfaces/label_naming.h"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "converters/stages/trees_from_surfaces/label_mesh.h"
 
 namespace lumen::convert {
 namespace {

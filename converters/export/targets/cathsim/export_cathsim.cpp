@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/cathsim/export_cathsim.h"
-
+// Declared in targets.h.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +12,12 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/mujoco_text.h"
+#include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
-#include "converters/export/shared/tree_losses.h"
+#include "converters/export/shared/text_files.h"
 #include "converters/export/targets/cathsim/wall_prisms.h"
+#include "converters/export/targets/targets.h"
 #include "formats/case/binary_encode.h"
 
 namespace lumen::convert {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Conventions: Godot 3 and 4, "Node type customization using name suffixes"; Unity, "Importing LOD
 // meshes"; glTF's extension MSFT_lod; Unreal, "Simple versus complex collision".
-#include "converters/export/targets/engines/engines.h"
-
+// Declared in targets.h.
 #include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "converters/base/option_name.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/surface.h"
+#include "converters/export/shared/text_files.h"
+#include "converters/export/targets/targets.h"
 #include "converters/io/mesh/write_gltf.h"
 
 namespace lumen::convert {

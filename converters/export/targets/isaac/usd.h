@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "converters/export/shared/frame.h"
-#include "converters/export/shared/named_end.h"
+#include "converters/export/shared/insertion.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "formats/case/case.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/mujoco/export_mujoco.h"
-
+// Declared in targets.h.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,16 +11,15 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/export/shared/export_text.h"
+#include "converters/export/shared/frame.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/export/shared/mujoco_text.h"
+#include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
-#include "converters/export/shared/tree_losses.h"
-#include "converters/export/shared/units.h"
-#include "converters/export/targets/mujoco/wall_bodies.h"
+#include "converters/export/shared/text_files.h"
 #include "converters/export/targets/mujoco/wall_pieces.h"
 #include "converters/export/targets/mujoco/wire.h"
-#include "converters/export/targets/mujoco/wire_reach.h"
+#include "converters/export/targets/targets.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

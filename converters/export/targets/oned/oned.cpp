@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/oned/oned.h"
-
+// Declared in targets.h.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,13 +9,12 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/export/shared/blood.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/flow_inlets.h"
-#include "converters/export/shared/flow_option_name.h"
 #include "converters/export/shared/flow_pressure.h"
-#include "converters/export/shared/units.h"
+#include "converters/export/shared/frame.h"
+#include "converters/export/shared/text_files.h"
 #include "converters/export/targets/oned/oned_network.h"
+#include "converters/export/targets/targets.h"
 
 namespace lumen::convert {
 

@@ -9,8 +9,8 @@
 
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
-#include "converters/export/shared/blood.h"
-#include "converters/export/shared/units.h"
+#include "converters/export/shared/flow_pressure.h"
+#include "converters/export/shared/frame.h"
 #include "converters/io/mesh/plain_names.h"
 
 namespace lumen::convert {

@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "converters/export/shared/named_end.h"
+#include <Eigen/Core>
+
+#include "converters/export/shared/insertion.h"
 #include "converters/export/shared/network.h"
+#include "converters/export/shared/target.h"
 #include "converters/export/targets/openfoam/openfoam_cells.h"
 #include "converters/io/mesh/surface_mesh.h"
 
@@ -39,5 +42,33 @@ std::vector<FoamPatch> foamPatches(const SurfaceMesh& mesh, const std::vector<in
 /// Inlets without an outlet, and outlets without an inlet, become walls, for which a sentence is
 /// returned. Throws Error(InvalidInput) if nothing flows.
 std::vector<std::string> assignFlows(std::vector<FoamPatch>& patches, const FlowNetwork& network);
+
+// The texts of a case of OpenFOAM.
+
+/// Values that the dictionaries state. Lengths are in m.
+struct FoamCase {
+  std::vector<FoamPatch> patches;
+  FoamBlock block;
+  int layers = 0;
+  std::vector<Eigen::Vector3d> inside;  ///< a point in each connected part
+  FoamFlow flow = FoamFlow::Steady;
+};
+
+/// Allrun and all dictionaries.
+std::vector<ExportFile> foamDictionaries(const FoamCase& foam);
+
+/// Rows of each end: name, kind, m^3/s, Pa above the outlet that holds the pressure, by Poiseuille.
+std::string expectedTable(const std::vector<FoamPatch>& patches);
+
+// The flow through an artery over a cycle of the heart.
+
+/// s: the period of the waveform.
+inline constexpr double kCycle = 1.1;
+
+/// Flow of the common carotid artery at a time, in s, over its mean: 1 in the mean. Boileau et al., A
+/// benchmark study of numerical schemes for one-dimensional arterial blood flow modelling, Int J
+/// Numer Meth Biomed Eng 31, 2015: a Fourier series with a mean of 6.5 ml/s, of which harmonics above
+/// the eleventh, below 0.3 % of it, are left out.
+double carotidFlow(double time);
 
 }  // namespace lumen::convert

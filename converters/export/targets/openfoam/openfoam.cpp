@@ -11,13 +11,12 @@
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
-#include "converters/export/shared/blood.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/flow_inlets.h"
-#include "converters/export/shared/flow_option_name.h"
+#include "converters/export/shared/flow_pressure.h"
+#include "converters/export/shared/frame.h"
 #include "converters/export/shared/surface.h"
-#include "converters/export/shared/units.h"
-#include "converters/export/targets/openfoam/foam_dictionaries.h"
+#include "converters/export/shared/text_files.h"
+#include "converters/export/targets/openfoam/foam_patches.h"
 #include "converters/io/mesh/write_plain.h"
 
 namespace lumen::convert {

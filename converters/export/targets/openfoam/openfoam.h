@@ -2,10 +2,21 @@
 // A case as a case of OpenFOAM: the mesh of the inside and a steady, laminar flow.
 #pragma once
 
+#include <cstdint>
+
 #include "converters/export/shared/target.h"
-#include "converters/export/targets/openfoam/openfoam_options.h"
 
 namespace lumen::convert {
+
+// Options of `lumen export openfoam` alone.
+
+enum class FoamGrain : std::uint8_t { Coarse, Medium, Fine };
+enum class FoamFlow : std::uint8_t { Steady, Pulsatile };
+
+struct FoamOptions {
+  FoamGrain cells = FoamGrain::Medium;
+  FoamFlow flow = FoamFlow::Steady;
+};
 
 /// Case in metres: constant/triSurface/vessel.stl with a solid for each end, dictionaries for
 /// blockMesh, snappyHexMesh and the solver, Allrun, and the pressures that Poiseuille expects. Parts

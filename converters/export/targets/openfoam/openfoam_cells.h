@@ -11,7 +11,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/export/shared/frame.h"
-#include "converters/export/targets/openfoam/openfoam_options.h"
+#include "converters/export/targets/openfoam/openfoam.h"
 #include "converters/geometry/box.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/stages/editing/trim.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/print/print.h"
-
+// Declared in targets.h.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +11,10 @@
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/vectors.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/surface.h"
+#include "converters/export/shared/text_files.h"
 #include "converters/export/targets/print/three_mf.h"
+#include "converters/export/targets/targets.h"
 #include "converters/geometry/triangle_tree.h"
 #include "converters/io/mesh/write_plain.h"
 

@@ -9,7 +9,7 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
-#include "converters/export/shared/export_text.h"
+#include "converters/export/shared/text_files.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/simvascular/simvascular.h"
-
+// Declared in targets.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,12 +15,11 @@
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/vectors.h"
-#include "converters/export/shared/export_text.h"
+#include "converters/export/shared/frame.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
-#include "converters/export/shared/tree_losses.h"
-#include "converters/export/shared/units.h"
-#include "converters/export/shared/volume_mesh.h"
+#include "converters/export/shared/text_files.h"
+#include "converters/export/targets/targets.h"
 #include "converters/io/mesh/plain_names.h"
 #include "converters/io/mesh/vtk_array.h"
 #include "converters/io/mesh/write_vtp.h"

@@ -2,8 +2,7 @@
 // Tags and attributes as Slicer's nodes read them: vtkMRMLModelNode, vtkMRMLModelStorageNode,
 // vtkMRMLMarkupsCurveNode, vtkMRMLMarkupsFiducialNode, vtkMRMLMarkupsJsonStorageNode,
 // vtkMRMLMarkupsDisplayNode.
-#include "converters/export/targets/slicer/slicer.h"
-
+// Declared in targets.h.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,10 +16,10 @@
 #include "converters/base/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/base/xml_text.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
-#include "converters/export/shared/tree_losses.h"
+#include "converters/export/shared/text_files.h"
+#include "converters/export/targets/targets.h"
 #include "converters/io/centerline/write_centerline.h"
 #include "converters/io/mesh/write_vtp.h"
 

@@ -2,9 +2,16 @@
 #include "converters/export/targets/sofa/scene_tree.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "converters/base/number_text.h"
 #include "converters/base/xml_text.h"
+#include "converters/export/targets/sofa/scene_parts.h"
 
 namespace lumen::convert {
 
@@ -126,6 +133,153 @@ std::string printPython(const SceneItem& root, const std::vector<std::string>& a
     if (datum.name != "name") out += "    root." + datum.name + " = " + numbers(datum.value) + "\n";
   pythonChildren(root, "root", out);
   return out + "    return root\n";
+}
+
+namespace {
+
+// clang-format off
+const std::map<std::string, std::string_view>& plugins() {
+  static const std::map<std::string, std::string_view> table = {
+      {"AdaptiveBeamForceFieldAndMass", "BeamAdapter"},
+      {"AdaptiveBeamMapping", "BeamAdapter"},
+      {"BTDLinearSolver", "Sofa.Component.LinearSolver.Direct"},
+      {"BVHNarrowPhase", "Sofa.Component.Collision.Detection.Algorithm"},
+      {"BeamAdapterActionController", "BeamAdapter"},
+      {"BeamBlobContact", "LumenSofa"},
+      {"BeamInterpolation", "BeamAdapter"},
+      {"BlobField", "LumenSofa"},
+      {"BlobMotion", "LumenSofa"},
+      {"BlobPose", "LumenSofa"},
+      {"BruteForceBroadPhase", "Sofa.Component.Collision.Detection.Algorithm"},
+      {"CollisionPipeline", "Sofa.Component.Collision.Detection.Algorithm"},
+      {"CollisionResponse", "Sofa.Component.Collision.Response.Contact"},
+      {"DefaultContactManager", "Sofa.Component.Collision.Response.Contact"},
+      {"DefaultPipeline", "Sofa.Component.Collision.Detection.Algorithm"},
+      {"DefaultVisualManagerLoop", ""},
+      {"DirectionalLight", "Sofa.GL.Component.Shader"},
+      {"DiscreteGridField", "SofaImplicitField"},
+      {"DiscreteIntersection", "Sofa.Component.Collision.Detection.Intersection"},
+      {"Edge2QuadTopologicalMapping", "Sofa.Component.Topology.Mapping"},
+      {"EdgeSetGeometryAlgorithms", "Sofa.Component.Topology.Container.Dynamic"},
+      {"EdgeSetTopologyContainer", "Sofa.Component.Topology.Container.Dynamic"},
+      {"EdgeSetTopologyModifier", "Sofa.Component.Topology.Container.Dynamic"},
+      {"EulerImplicitSolver", "Sofa.Component.ODESolver.Backward"},
+      {"FixedConstraint", "Sofa.Component.Constraint.Projective"},
+      {"FixedProjectiveConstraint", "Sofa.Component.Constraint.Projective"},
+      {"FreeMotionAnimationLoop", "Sofa.Component.AnimationLoop"},
+      {"IdentityMapping", "Sofa.Component.Mapping.Linear"},
+      {"InteractiveCamera", "Sofa.Component.Visual"},
+      {"InterventionalRadiologyController", "BeamAdapter"},
+      {"LCPConstraintSolver", "Sofa.Component.Constraint.Lagrangian.Solver"},
+      {"LightManager", "Sofa.GL.Component.Shader"},
+      {"LineCollisionModel", "Sofa.Component.Collision.Geometry"},
+      {"LinearSolverConstraintCorrection", "Sofa.Component.Constraint.Lagrangian.Correction"},
+      {"LocalMinDistance", "Sofa.Component.Collision.Detection.Intersection"},
+      {"MechanicalObject", "Sofa.Component.StateContainer"},
+      {"MeshOBJLoader", "Sofa.Component.IO.Mesh"},
+      {"MeshTopology", "Sofa.Component.Topology.Container.Constant"},
+      {"MultiAdaptiveBeamMapping", "BeamAdapter"},
+      {"OglModel", "Sofa.GL.Component.Rendering3D"},
+      {"PointCollisionModel", "Sofa.Component.Collision.Geometry"},
+      {"QuadSetGeometryAlgorithms", "Sofa.Component.Topology.Container.Dynamic"},
+      {"QuadSetTopologyContainer", "Sofa.Component.Topology.Container.Dynamic"},
+      {"QuadSetTopologyModifier", "Sofa.Component.Topology.Container.Dynamic"},
+      {"RegularGridTopology", "Sofa.Component.Topology.Container.Grid"},
+      {"RestShapeSpringsForceField", "Sofa.Component.SolidMechanics.Spring"},
+      {"RigidDistanceGridCollisionModel", "SofaDistanceGrid"},
+      {"RodSpireSection", "BeamAdapter"},
+      {"RodStraightSection", "BeamAdapter"},
+      {"TriangleCollisionModel", "Sofa.Component.Collision.Geometry"},
+      {"VisualStyle", "Sofa.Component.Visual"},
+      {"WireBeamInterpolation", "BeamAdapter"},
+      {"WireRestShape", "BeamAdapter"},
+      {"WriteState", "Sofa.Component.Playback"},
+  };
+  return table;
+}
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOldNames = {{
+    {"CollisionPipeline", "DefaultPipeline"},
+    {"CollisionResponse", "DefaultContactManager"},
+    {"FixedProjectiveConstraint", "FixedConstraint"},
+}};
+// clang-format on
+
+double numberOf(const SceneItem& item, const std::string& name) {
+  const std::string value = item.value(name);
+  return value.empty() ? 0 : std::stod(value);
+}
+
+/// The material and shape of a straight shaft and a curved tip, at the WireRestShape itself. The
+/// lengths of a wire without a straight part, or of a tip without a curl, state that.
+void stateAtRestShape(SceneItem& node) {
+  std::vector<SceneItem> sections;
+  for (const SceneItem& item : node.children)
+    if (item.type == "RodStraightSection" || item.type == "RodSpireSection")
+      sections.push_back(item);
+  std::erase_if(node.children, [](const SceneItem& item) {
+    return item.type == "RodStraightSection" || item.type == "RodSpireSection";
+  });
+  const auto shape =
+      std::find_if(node.children.begin(), node.children.end(),
+                   [](const SceneItem& item) { return item.type == "WireRestShape"; });
+  if (sections.empty() || shape == node.children.end()) return;
+  const SceneItem &shaft = sections.front(), &tip = sections.back();
+  const double straight = numberOf(shaft, "length");
+  const double whole = straight + (sections.size() > 1 ? numberOf(tip, "length") : 0);
+  std::erase_if(shape->data, [](const SceneDatum& datum) { return datum.name == "wireMaterials"; });
+  shape->comment =
+      "lengths and radii in mm, moduli in kPa, densities in kg / mm^3; Extremity: of the tip";
+  shape->set("length", whole)
+      .set("straightLength", straight)
+      .set("spireDiameter", std::max(numberOf(tip, "spireDiameter"), 1.0))
+      .set("spireHeight", numberOf(tip, "spireHeight"))
+      .set("youngModulus", shaft.value("youngModulus"))
+      .set("youngModulusExtremity", tip.value("youngModulus"))
+      .set("poissonRatio", shaft.value("poissonRatio"))
+      .set("radius", shaft.value("radius"))
+      .set("radiusExtremity", tip.value("radius"))
+      .set("massDensity", shaft.value("massDensity"))
+      .set("massDensityExtremity", tip.value("massDensity"))
+      .set("keyPoints", sceneNumbers({0, straight, whole}))
+      .set("densityOfBeams", shaft.value("nbBeams") + " " + tip.value("nbBeams"))
+      .set("numEdgesCollis", shaft.value("nbBeams") + " " + tip.value("nbBeams"))
+      .set("numEdges",
+           static_cast<int>(numberOf(shaft, "nbEdgesVisu") + numberOf(tip, "nbEdgesVisu")));
+}
+
+void collectTypes(const SceneItem& item, std::set<std::string>& types) {
+  if (!item.isNode()) types.insert(item.type);
+  for (const SceneItem& child : item.children) collectTypes(child, types);
+}
+
+}  // namespace
+
+void toV23_06(SceneItem& root) {
+  for (const auto& [now, then] : kOldNames)
+    if (root.type == now) root.type = then;
+  stateAtRestShape(root);
+  for (SceneItem& child : root.children) toV23_06(child);
+}
+
+std::string sofaPlugin(const std::string& type) {
+  const auto found = plugins().find(type);
+  if (found == plugins().end()) throw std::logic_error(type + " has no plugin");
+  return std::string(found->second);
+}
+
+void addPlugins(SceneItem& root) {
+  std::set<std::string> types, names;
+  collectTypes(root, types);
+  for (const std::string& type : types) names.insert(sofaPlugin(type));
+  names.erase("");
+  std::vector<SceneItem> items;
+  for (const std::string& name : names) {
+    SceneItem item{"RequiredPlugin", ""};
+    item.set("pluginName", name);
+    items.push_back(std::move(item));
+  }
+  root.children.insert(root.children.begin(), items.begin(), items.end());
 }
 
 }  // namespace lumen::convert

@@ -43,4 +43,14 @@ std::string printXml(const SceneItem& root, const std::vector<std::string>& abou
 /// The scene in Python, for SofaPython3: a module with createScene(root).
 std::string printPython(const SceneItem& root, const std::vector<std::string>& about);
 
+// Differences between versions of SOFA, and the plugins of its components.
+
+/// Rewrites a scene for SOFA v23.06, which stEVE uses: components have their old names, and a
+/// wire's material is stated at its WireRestShape.
+void toV23_06(SceneItem& root);
+
+/// The plugin of a component; empty for those of the core. A component that is not in the table is
+/// a mistake of this library.
+std::string sofaPlugin(const std::string& type);
+
 }  // namespace lumen::convert

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/steve/steve.h"
-
+// Declared in targets.h.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -9,10 +8,10 @@
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
-#include "converters/export/shared/tree_losses.h"
+#include "converters/export/shared/text_files.h"
+#include "converters/export/targets/targets.h"
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/mesh/write_vtp.h"
 

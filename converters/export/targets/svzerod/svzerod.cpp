@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/svzerod/svzerod.h"
-
+// Declared in targets.h.
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -10,13 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/export/shared/blood.h"
-#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/flow_inlets.h"
-#include "converters/export/shared/flow_option_name.h"
 #include "converters/export/shared/flow_pressure.h"
+#include "converters/export/shared/frame.h"
 #include "converters/export/shared/network.h"
-#include "converters/export/shared/units.h"
+#include "converters/export/shared/text_files.h"
+#include "converters/export/targets/targets.h"
 #include "converters/io/mesh/plain_names.h"
 
 namespace lumen::convert {

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "converters/geometry/triangle_mesh.h"
+#include "formats/case/case.h"
+#include "formats/case/topology.h"
 
 namespace lumen::convert {
 
@@ -35,5 +39,23 @@ void roundToFloat(TriangleMesh& patch);
 /// Gives every vertex but one fan of triangles: where several fans meet in a point, and along edges
 /// that have not exactly two opposite triangles, each fan gets a vertex of its own.
 void separateFans(TriangleMesh& patch);
+
+// The part of space in which a node draws the wall.
+
+/// The part of space in which a node draws the surface: the intersection of these half-spaces.
+struct NodeCell {
+  std::vector<HalfSpace> radical;  ///< its power cell
+  std::vector<HalfSpace> ends;     ///< where the vessel is cut open
+};
+
+/// The cell of `node`. Nothing if it is empty.
+///
+/// Its power cell is bounded by the radical planes (equal power |X - O|^2 - r^2) to its neighbours,
+/// as the blended field has them, that have a model: it is where following a point ends at the
+/// node.
+///
+/// The cell is cut flat at free ends (end_planes.h).
+std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Neighbours& edges,
+                                 std::span<const std::uint32_t> neighbours, std::uint32_t node);
 
 }  // namespace lumen::convert

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texts of exported folders: files below targets/NAME/texts, which are part of the program.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "converters/export/shared/target.h"
+
+namespace lumen::convert {
+
+struct TextValue {
+  std::string_view name;
+  std::string value;
+};
+
+/// `text` with a value in the place of each {name}; names begin with a small letter and have
+/// letters only, so other braces stay. A placeholder alone on its line goes with its line break if
+/// the value is empty or ends with one. Throws std::logic_error, a fault of the program, for a
+/// placeholder without a value and a value without a placeholder.
+std::string filled(std::string_view text, std::initializer_list<TextValue> values);
+
+/// filled() of the file targets/NAME/texts/FILE; `name` is "NAME/FILE". Throws std::logic_error if
+/// there is none.
+std::string exportText(std::string_view name, std::initializer_list<TextValue> values = {});
+
+// Texts of cases in Markdown (CommonMark 0.30, and GitHub's tables, strikethrough and addresses).
+
+/// `text` as one line that shows as itself, also in the cell of a table and at the beginning of a
+/// paragraph: no character of it is markup, and characters that do not show are written out
+/// (formats::printable()).
+std::string markdownText(std::string_view text);
+
+// The two files that every exported folder has: README.md for people and lumen-export.json for
+// programs.
+
+/// `version` of lumen-export.json, spec/export.md.
+inline constexpr int kManifestVersion = 1;
+
+/// README.md: title, how to start, files, units and frame, named ends.
+std::string readmeText(const TargetRow& target, const ExportFrame& frame,
+                       const ExportResult& result);
+
+/// lumen-export.json, spec/export.md, with all files of `result`. Equal folders give equal bytes.
+std::string makeManifest(const TargetRow& target, const ExportFrame& frame,
+                         const formats::Case& source, const OptionTexts& options,
+                         const ExportResult& result);
+
+}  // namespace lumen::convert
