@@ -1,5 +1,5 @@
 lumen_test(editing_test
-  LABELS memory
+  LABELS memory_slow
   LIBS lumen_editing lumen_base lumen_geometry lumen_centerline lumen_fitting lumen_phantom
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/edit_test.cpp

@@ -1,5 +1,5 @@
 lumen_test(library_test
-  LABELS memory
+  LABELS memory_slow
   LIBS lumen_library
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/build_list_test.cpp
@@ -12,7 +12,7 @@ lumen_test(library_test
 
 # Whether a library is what it says, by its parts, and from outside with the programs that sign.
 lumen_test(library_trust_test
-  LABELS memory
+  LABELS memory_slow
   LIBS lumen_library lumen_base
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/bag_check_test.cpp

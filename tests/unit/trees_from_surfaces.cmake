@@ -1,5 +1,5 @@
 lumen_test(trees_from_surfaces_test
-  LABELS memory threads slow
+  LABELS memory_slow threads slow
   LIBS lumen_fitting lumen_trees_from_surfaces lumen_surface
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/trees_from_surfaces/case_of_mesh_test.cpp

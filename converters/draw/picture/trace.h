@@ -49,8 +49,6 @@ private:
   std::shared_ptr<const blob_model> m_model;
 };
 
-}  // namespace lumen::convertnamespace lumen::convert {
-
 // Light on a traced surface.
 
 /// Colours of linear light.

@@ -54,8 +54,6 @@ private:
   std::shared_ptr<const blob_model> m_model;
 };
 
-}  // namespace lumen::convertnamespace lumen::convert {
-
 // Figures of a cross-section of the wall (docs/measures.md, section 3).
 
 struct Section {
