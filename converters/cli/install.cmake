@@ -36,7 +36,7 @@ install(FILES ${spec}/answers/README.md ${spec}/answers/answers.txt DESTINATION 
 install(FILES ${spec}/lumen.md ${spec}/seeds.md ${spec}/errors.md ${spec}/coverage.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen)
 install(DIRECTORY ${spec}/figures DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen
-  FILES_MATCHING PATTERN "*.svg")
+  FILES_MATCHING PATTERN "*.png")
 # the pages of spec/ link to the schemas as files beside them
 file(RELATIVE_PATH up /${CMAKE_INSTALL_DOCDIR}/spec /${schemas})
 file(CREATE_LINK ${up} ${CMAKE_CURRENT_BINARY_DIR}/schema SYMBOLIC)

@@ -392,9 +392,8 @@ def reply(file, questions):
     try:
         case = read_binary(data) if binary else check_case(parse_json(data))
         return {"accepted": True, "case": case, "answers": list(map(Case(case).answer, questions)) if questions else []}
-    except Refused as e:
-        code, at = ("CHUNK_LENGTH" if binary and e.args[0] == "ARRAY_LENGTH" else e.args[0]), e.args[1]
-        return {"accepted": False, "code": code, "place": f"byte {at}" if type(at) is int else at}
+    except Refused as e: code, at = e.args
+    return {"accepted": False, "code": "CHUNK_LENGTH" if binary and code == "ARRAY_LENGTH" else code, "place": f"byte {at}" if type(at) is int else at}
 
 if __name__ == "__main__":
     for call in map(json.loads, sys.stdin) if len(sys.argv) == 1 else [{"file": sys.argv[1], "questions": json.load(sys.stdin)}]:

@@ -21,7 +21,7 @@ EXPECTED = SCHEMAS | ANSWERS | WORKFLOW | {
     "bin/lumen", "bin/lumen-bids", "share/man/man1/lumen.1", "share/bash-completion/completions/lumen",
     *(f"share/doc/lumen/{name}" for name in ("LICENSE", "THIRD_PARTY.md", "CITATION.cff")),
     *(f"share/doc/lumen/spec/{name}" for name in ("lumen.md", "seeds.md", "errors.md", "coverage.md", "schema", "answers")),
-    *(f"share/doc/lumen/spec/figures/{p.name}" for p in (ROOT / "spec/figures").glob("*.svg"))}
+    *(f"share/doc/lumen/spec/figures/{p.name}" for p in (ROOT / "spec/figures").glob("*.png"))}
 failures = []
 
 
