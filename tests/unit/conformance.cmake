@@ -16,8 +16,7 @@ lumen_test(conformance_test
   LABELS memory
   LIBS lumen_case
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/damage_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/verdict_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/set_test.cpp)
 target_include_directories(conformance_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_definitions(conformance_test PRIVATE LUMEN_CONFORMANCE="${LUMEN_CONFORMANCE_SET}")
 add_dependencies(conformance_test conformance_set)
@@ -45,3 +44,9 @@ python_test(Conformance.FilesHaveTheirDigests quick ${conformance}/make.py --che
 # that a reader of other people, which is started for each file, is run, too
 python_test(Conformance.OfAReaderThatIsStartedForEachFileHolds quick ${conformance}/run.py --set ${LUMEN_CONFORMANCE_SET}
   --only golden --lacks zstd --lacks draco --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
+if(NOT LUMEN_SANITIZE)
+  add_test(NAME Conformance.ArchiveOfAReleaseHoldsTheSet COMMAND bash -ec "rm -rf archive && mkdir archive && \
+    '${PROJECT_SOURCE_DIR}/packages/conformance/build.sh' archive && cd archive && tar -xzf *.tar.gz && cd lumen-*/ && \
+    '${PYTHON}' run.py --set . --lines --exact --reader '$<TARGET_FILE:case_reader>'")
+  set_tests_properties(Conformance.ArchiveOfAReleaseHoldsTheSet PROPERTIES LABELS slow)
+endif()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every valid file of the conformance set, cut and flipped in all places, and both readers of this
-// repository over the hostile files.
+// Every valid file of the conformance set, cut and flipped in all places, both readers of this
+// repository over the hostile files, and the verdict of each file.
 //
 // No byte of a valid `.lumen` file is harmless: the header and the table have a CRC-32C each, every
 // chunk has one in the table whether it is known or not, what is between the chunks must be zero,
@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,7 +20,9 @@
 #include <gtest/gtest.h>
 
 #include "formats/case/case_file.h"
+#include "formats/container/container.h"
 #include "formats/view/case_view.h"
+#include "unit/formats/chunk_source.h"
 
 namespace lumen::formats {
 namespace {
@@ -59,7 +62,7 @@ std::vector<std::filesystem::path> filesOf(const std::string& folder,
         (extension != ".json" || entry.path().stem().extension() == ".lumen"))
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  EXPECT_FALSE(files.empty());
+  EXPECT_GE(files.size(), 50u);
   return files;
 }
 
@@ -129,6 +132,80 @@ TEST(EveryHostileFile, IsRefusedByTheViewUnlessItsMetadataAreAtFault) {
     const auto view = viewCase(bytes.span(), Verify::All);
     EXPECT_TRUE(needsMetadata || !view) << file;
   }
+}
+
+// The verdict of a file does not depend on how many of its issues are listed, nor on notes that
+// come before its faults.
+
+template <class Check>
+void forEachFile(const char* folder, Check check) {
+  for (const char* extension : {".lumen", ".json"})
+    for (const auto& file : filesOf(folder, extension)) {
+      SCOPED_TRACE(file);
+      check(contentsOf(file));
+    }
+}
+
+void expectOneVerdict(const Bytes& file, bool valid) {
+  const ValidationReport all = validateBytes(file, 100000);
+  EXPECT_EQ(all.valid(), valid);
+  EXPECT_EQ(all.unlisted(), 0u);
+  for (const std::size_t maximum : {0u, 1u, 2u}) {
+    const ValidationReport cut = validateBytes(file, maximum);
+    EXPECT_EQ(cut.counts, all.counts) << maximum;
+    EXPECT_EQ(cut.issues.size(), std::min(maximum, all.issues.size()));
+    for (std::size_t i = 0; i < cut.issues.size(); ++i)
+      EXPECT_EQ(cut.issues[i].text(), all.issues[i].text());
+  }
+}
+
+// The file with 150 chunks more that a reader notes and ignores, in front of all others; nothing
+// if its container is at fault.
+Bytes withNotes(const Bytes& file) {
+  const auto container = readContainer(file);
+  if (!container || container->version > kFormatVersion) return {};
+  std::vector<ChunkSource> chunks(150, ChunkSource{chunkType("note"), 1, false});
+  for (const Chunk& c : container->chunks) {
+    if (!verifyChunk(c)) return {};
+    chunks.push_back(sourceOf(c));
+  }
+  return writeContainer(chunks);
+}
+
+TEST(Verdict, OfEveryHostileFileIsTheSameHoweverManyIssuesAreListed) {
+  forEachFile("hostile", [](const Bytes& file) {
+    if (!file.empty()) expectOneVerdict(file, false);
+  });
+}
+
+TEST(Verdict, OfEveryValidFileIsTheSameHoweverManyIssuesAreListed) {
+  forEachFile("valid", [](const Bytes& file) { expectOneVerdict(file, true); });
+}
+
+TEST(Verdict, OfEveryHostileFileIsTheSameBehindManyNotes) {
+  std::set<ErrorCode> seen;
+  forEachFile("hostile", [&](const Bytes& file) {
+    const Bytes noted = withNotes(file);
+    if (noted.empty()) return;
+    const ValidationReport plain = validateBytes(file, 1);
+    const ValidationReport report = validateBytes(noted, 1);
+    EXPECT_FALSE(report.valid());
+    EXPECT_EQ(report.counts.errors, plain.counts.errors);
+    EXPECT_GE(report.counts.total(), report.counts.errors);
+    ASSERT_EQ(report.issues.size(), 1u);
+    EXPECT_EQ(report.issues[0].code, plain.issues[0].code);
+    seen.insert(report.issues[0].code);
+  });
+  EXPECT_GE(seen.size(), 30u);  // kinds of faults
+}
+
+TEST(Verdict, OfEveryValidFileIsTheSameBehindManyNotes) {
+  forEachFile("valid", [](const Bytes& file) {
+    const Bytes noted = withNotes(file);
+    if (noted.empty()) return;
+    expectOneVerdict(noted, true);
+    EXPECT_GE(validateBytes(noted, 1).counts.information, 150u);
+  });
 }
 
 }  // namespace
