@@ -216,10 +216,10 @@ def angiogram(folder, blob, data):
 
 def conformance(folder, blob):
     """Answers of validation and libblob for each file of the conformance set."""
-    (folder.path / "spec").symlink_to(ROOT / "spec/conformance")
+    subprocess.run([sys.executable, "-B", ROOT / "spec/conformance/make.py", folder.path / "spec"], check=True)
     folder.seen.add("spec")
     for kind in ("valid", "hostile"):
-        files = sorted(f for f in (ROOT / "spec/conformance" / kind).iterdir()
+        files = sorted(f for f in (folder.path / "spec" / kind).iterdir()
                        if f.name.endswith((".lumen", ".lumen.json")))
         names = [f"spec/{kind}/{f.name}" for f in files]
         done = subprocess.run([folder.lumen, "validate", "--json", "--privacy", *names],

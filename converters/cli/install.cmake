@@ -9,8 +9,19 @@ set(completion ${CMAKE_CURRENT_BINARY_DIR}/completions/lumen)
 add_custom_command(OUTPUT ${man_page} COMMAND write_man ${man_page} DEPENDS write_man VERBATIM)
 file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/completions)
 add_custom_command(OUTPUT ${completion} COMMAND lumen completion bash > ${completion} DEPENDS lumen VERBATIM)
+# schemas of the JSON answers; Debian's Python first, as in tests/tools.cmake
+find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(PYTHON NAMES python3 REQUIRED)
+set(spec ${PROJECT_SOURCE_DIR}/spec)
+set(answers ${PROJECT_BINARY_DIR}/spec/answers)
+add_custom_command(OUTPUT ${answers}/parts.schema.json
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${answers}
+  COMMAND ${PYTHON} -B ${spec}/answers/make.py ${answers}
+  DEPENDS ${spec}/answers/make.py ${spec}/answers/answers.txt VERBATIM)
+add_custom_target(answer_schemas DEPENDS ${answers}/parts.schema.json)
 # all of the component that is built: cmake --build BUILD -t lumen_program
 add_custom_target(lumen_program ALL DEPENDS lumen ${man_page} ${completion})
+add_dependencies(lumen_program answer_schemas)
 
 install(TARGETS lumen COMPONENT lumen)
 install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT lumen)
@@ -18,14 +29,14 @@ install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lumen)
 
-set(spec ${PROJECT_SOURCE_DIR}/spec)
 set(schemas ${CMAKE_INSTALL_DATADIR}/lumen/schema)
 install(DIRECTORY ${spec}/schema/ DESTINATION ${schemas} COMPONENT lumen FILES_MATCHING PATTERN "*.schema.json")
-install(DIRECTORY ${spec}/answers DESTINATION ${schemas} COMPONENT lumen)
+install(DIRECTORY ${answers} DESTINATION ${schemas} COMPONENT lumen)
+install(FILES ${spec}/answers/README.md ${spec}/answers/answers.txt DESTINATION ${schemas}/answers COMPONENT lumen)
 install(FILES ${spec}/lumen.md ${spec}/seeds.md ${spec}/errors.md ${spec}/coverage.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen)
 install(DIRECTORY ${spec}/figures DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen
-  FILES_MATCHING PATTERN "*.svg")
+  FILES_MATCHING PATTERN "*.png")
 # the pages of spec/ link to the schemas as files beside them
 file(RELATIVE_PATH up /${CMAKE_INSTALL_DOCDIR}/spec /${schemas})
 file(CREATE_LINK ${up} ${CMAKE_CURRENT_BINARY_DIR}/schema SYMBOLIC)

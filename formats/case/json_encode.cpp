@@ -15,18 +15,13 @@ namespace {
 
 void writeSource(JsonWriter& json, const SourceVolume& source) {
   json.beginObject();
-  json.key("size");
-  json.beginArray(true);
+  json.key("size").beginArray(true);
   for (const std::uint32_t count : source.size) json.integer(count);
   json.end();
-  json.key("spacing");
-  json.array(source.spacing);
-  json.key("origin");
-  json.array(source.origin);
-  json.key("direction");
-  json.array(source.direction);
-  json.key("sha256");
-  json.text(source.sha256);
+  json.key("spacing").array(source.spacing);
+  json.key("origin").array(source.origin);
+  json.key("direction").array(source.direction);
+  json.key("sha256").text(source.sha256);
   json.end();
 }
 
@@ -40,12 +35,9 @@ struct ParameterWriter {
 
 void writeStep(JsonWriter& json, const Step& step) {
   json.beginObject();
-  json.key("name");
-  json.text(step.name);
-  json.key("tool");
-  json.text(step.tool);
-  json.key("parameters");
-  json.beginObject();
+  json.key("name").text(step.name);
+  json.key("tool").text(step.tool);
+  json.key("parameters").beginObject();
   for (const auto& [name, value] : step.parameters) {
     json.key(name);
     std::visit(ParameterWriter{json}, value);
@@ -56,35 +48,24 @@ void writeStep(JsonWriter& json, const Step& step) {
 
 void writeBranch(JsonWriter& json, const Branch& branch) {
   json.beginObject(true);
-  json.key("label");
-  json.text(branch.label);
-  json.key("kind");
-  json.text(enumName(kBranchKindNames, branch.kind));
-  json.key("parentNode");
-  json.integer(branch.parentNode);
-  json.key("firstNode");
-  json.integer(branch.firstNode);
-  json.key("nodeCount");
-  json.integer(branch.nodeCount);
-  json.key("stopReason");
-  json.text(enumName(kStopReasonNames, branch.stopReason));
-  if (branch.meanInlierRate) {
-    json.key("meanInlierRate");
-    json.real(*branch.meanInlierRate);
-  }
+  json.key("label").text(branch.label);
+  json.key("kind").text(enumName(kBranchKindNames, branch.kind));
+  json.key("parentNode").integer(branch.parentNode);
+  json.key("firstNode").integer(branch.firstNode);
+  json.key("nodeCount").integer(branch.nodeCount);
+  json.key("stopReason").text(enumName(kStopReasonNames, branch.stopReason));
+  if (branch.meanInlierRate) json.key("meanInlierRate").real(*branch.meanInlierRate);
   json.end();
 }
 
 template <class Value>
 void writeArray(JsonWriter& json, std::string_view name, const std::vector<Value>& values) {
-  json.key(name);
-  json.array(std::span<const Value>(values));
+  json.key(name).array(std::span<const Value>(values));
 }
 
 void writeTree(JsonWriter& json, const CenterlineTree& tree) {
   json.beginObject();
-  json.key("branches");
-  json.beginArray();
+  json.key("branches").beginArray();
   for (const Branch& branch : tree.branches) writeBranch(json, branch);
   json.end();
   writeArray(json, "centre", tree.centre);
@@ -107,12 +88,9 @@ void writePoints(JsonWriter& json, const PointSets& points) {
 
 void writeModels(JsonWriter& json, const BlobbyModels& models) {
   json.beginObject();
-  json.key("kernel");
-  json.text(enumName(kKernelNames, models.kernel));
-  json.key("kernelParameter");
-  json.real(models.kernelParameter);
-  json.key("isoLevel");
-  json.real(models.isoLevel);
+  json.key("kernel").text(enumName(kKernelNames, models.kernel));
+  json.key("kernelParameter").real(models.kernelParameter);
+  json.key("isoLevel").real(models.isoLevel);
   writeArray(json, "offset", models.offset);
   writeArray(json, "centre", models.centre);
   writeArray(json, "width", models.width);
@@ -123,8 +101,7 @@ void writeModels(JsonWriter& json, const BlobbyModels& models) {
 template <class Part>
 void writePoses(JsonWriter& json, std::string_view name, const Motion& motion, Part part) {
   using Value = decltype(part(motion.pose.front()));
-  json.key(name);
-  json.beginArray();
+  json.key(name).beginArray();
   const std::size_t nodes = motion.node.size();
   std::vector<Value> row(nodes);
   for (std::size_t t = 0; t < motion.time.size(); ++t) {
@@ -136,10 +113,7 @@ void writePoses(JsonWriter& json, std::string_view name, const Motion& motion, P
 
 void writeMotion(JsonWriter& json, const Motion& motion) {
   json.beginObject();
-  if (motion.period != 0) {
-    json.key("period");
-    json.real(motion.period);
-  }
+  if (motion.period != 0) json.key("period").real(motion.period);
   writeArray(json, "time", motion.time);
   writeArray(json, "node", motion.node);
   writePoses(json, "centre", motion, [](const Pose& pose) { return pose.centre; });
@@ -157,68 +131,45 @@ void writeNodeArrays(JsonWriter& json, const std::vector<NodeArray>& arrays) {
 
 void writeOtherChunk(JsonWriter& json, const OtherChunk& chunk) {
   json.beginObject(true);
-  json.key("type");
-  json.text(chunk.type);
-  json.key("version");
-  json.integer(chunk.version);
-  json.key("independent");
-  json.boolean(chunk.independent);
-  json.key("encoding");
-  json.integer(chunk.encoding);
-  if (chunk.encoding != 0) {
-    json.key("rawSize");
-    json.size(chunk.rawSize);
-  }
-  json.key("data");
-  json.text(base64(chunk.bytes));
+  json.key("type").text(chunk.type);
+  json.key("version").integer(chunk.version);
+  json.key("independent").boolean(chunk.independent);
+  json.key("encoding").integer(chunk.encoding);
+  if (chunk.encoding != 0) json.key("rawSize").size(chunk.rawSize);
+  json.key("data").text(base64(chunk.bytes));
   json.end();
 }
 
 void writeTexts(JsonWriter& json, std::string_view name, const std::vector<std::string>& texts) {
   if (texts.empty()) return;
-  json.key(name);
-  json.beginArray(true);
+  json.key(name).beginArray(true);
   for (const std::string& text : texts) json.text(text);
   json.end();
 }
 
 void writeArrayInfo(JsonWriter& json, const NodeArray& array) {
   json.beginObject(true);
-  json.key("name");
-  json.text(array.name);
-  json.key("type");
-  json.text(kArrayTypeNames[array.values.index()]);
-  json.key("components");
-  json.integer(array.components);
-  if (!array.unit.empty()) {
-    json.key("unit");
-    json.text(array.unit);
-  }
+  json.key("name").text(array.name);
+  json.key("type").text(kArrayTypeNames[array.values.index()]);
+  json.key("components").integer(array.components);
+  if (!array.unit.empty()) json.key("unit").text(array.unit);
   json.end();
 }
 
 void writeQuantisation(JsonWriter& json, const PointQuantisation& quantisation) {
   json.beginObject(true);
-  json.key("bits");
-  json.integer(quantisation.bits);
-  json.key("step");
-  json.real(quantisation.step);
+  json.key("bits").integer(quantisation.bits);
+  json.key("step").real(quantisation.step);
   json.end();
 }
 
 void writeProvenance(JsonWriter& json, const Metadata& metadata) {
-  if (metadata.voxelSize) {
-    json.key("voxelSize");
-    json.real(*metadata.voxelSize);
-  }
+  if (metadata.voxelSize) json.key("voxelSize").real(*metadata.voxelSize);
   if (metadata.source) {
     json.key("source");
     writeSource(json, *metadata.source);
   }
-  if (!metadata.parentSha256.empty()) {
-    json.key("parentSha256");
-    json.text(metadata.parentSha256);
-  }
+  if (!metadata.parentSha256.empty()) json.key("parentSha256").text(metadata.parentSha256);
   if (metadata.pointQuantisation) {
     json.key("pointQuantisation");
     writeQuantisation(json, *metadata.pointQuantisation);
@@ -230,25 +181,18 @@ void writeProvenance(JsonWriter& json, const Metadata& metadata) {
 void writeMetadata(JsonWriter& json, const Metadata& metadata,
                    const std::vector<NodeArray>& nodeArrays) {
   json.beginObject();
-  json.key("coordinateSystem");
-  json.text(kCoordinateSystem);
-  json.key("units");
-  json.text(kUnits);
+  json.key("coordinateSystem").text(kCoordinateSystem);
+  json.key("units").text(kUnits);
   writeProvenance(json, metadata);
-  if (!metadata.note.empty()) {
-    json.key("note");
-    json.text(metadata.note);
-  }
+  if (!metadata.note.empty()) json.key("note").text(metadata.note);
   writeTexts(json, "extensionsUsed", metadata.extensionsUsed);
   writeTexts(json, "extensionsRequired", metadata.extensionsRequired);
   if (!nodeArrays.empty()) {
-    json.key("nodeArrays");
-    json.beginArray();
+    json.key("nodeArrays").beginArray();
     for (const NodeArray& array : nodeArrays) writeArrayInfo(json, array);
     json.end();
   }
-  json.key("steps");
-  json.beginArray();
+  json.key("steps").beginArray();
   for (const Step& step : metadata.steps) writeStep(json, step);
   json.end();
   json.end();
@@ -263,12 +207,9 @@ std::string metadataJson(const Metadata& metadata, const std::vector<NodeArray>&
 std::string encodeJson(const Case& value) {
   JsonWriter json(JsonStyle::Readable);
   json.beginObject();
-  json.key("format");
-  json.text("lumen");
-  json.key("version");
-  json.text(versionText(versionOf(value)));
-  json.key("minimumReader");
-  json.text(versionText(kMinimumReader));
+  json.key("format").text("lumen");
+  json.key("version").text(versionText(versionOf(value)));
+  json.key("minimumReader").text(versionText(kMinimumReader));
   json.key("metadata");
   writeMetadata(json, value.metadata, value.nodeArrays);
   json.key("tree");
@@ -290,8 +231,7 @@ std::string encodeJson(const Case& value) {
     writeNodeArrays(json, value.nodeArrays);
   }
   if (!value.otherChunks.empty()) {
-    json.key("otherChunks");
-    json.beginArray();
+    json.key("otherChunks").beginArray();
     for (const OtherChunk& chunk : value.otherChunks) writeOtherChunk(json, chunk);
     json.end();
   }

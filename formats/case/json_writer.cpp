@@ -106,12 +106,13 @@ void JsonWriter::end() {
   m_text += level.close;
 }
 
-void JsonWriter::key(std::string_view name) {
+JsonWriter& JsonWriter::key(std::string_view name) {
   separate();
   appendText(m_text, name);
   m_text += ':';
   if (m_style == JsonStyle::Readable) m_text += ' ';
   m_afterKey = true;
+  return *this;
 }
 
 void JsonWriter::text(std::string_view value) {

@@ -28,7 +28,8 @@ public:
   void beginObject(bool oneLine = false);
   void beginArray(bool oneLine = false);
   void end();
-  void key(std::string_view name);
+  /// Begins a member of an object; its value is written next.
+  JsonWriter& key(std::string_view name);
   void text(std::string_view value);
   void boolean(bool value);
   void integer(std::int64_t value);

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a reader of lumen cases over the conformance set: see README.md.
 
-run.py --reader "CMD" [--lacks zstd] [--lacks draco] [--lacks motion] [--exact] [--queries-only] [--tolerance 1e-6] [--only TEXT]
+run.py --reader "CMD" [--lines] [--set FOLDER] [--lacks zstd] [--lacks draco] [--lacks motion] [--exact] [--queries-only]
+       [--tolerance 1e-6] [--only TEXT]
 
 Exit status: 0 all as expected, 1 not."""
-import argparse, concurrent.futures, copy, json, os, pathlib, resource, shlex, subprocess, sys
+import argparse, concurrent.futures, copy, json, os, pathlib, resource, shlex, subprocess, sys, tempfile, threading
 
-import make
+import encoding, make
 
-HERE = pathlib.Path(__file__).resolve().parent
+PATIENCE = 120  # seconds until an answer
 OPTIONAL = ("links", "otherChunks", "nodeArrays", "extensionsUsed", "extensionsRequired", "unit")  # where empty is absent
 NOT_COMPARED = ("format", "version", "minimumReader")
 INTEGERS = ("branches", "parent", "branch", "links", "offset", "otherChunks", "node")  # of these keys, numbers are integers
@@ -23,13 +24,13 @@ def same_number(a, b, path, integer_arrays):
         return int(a) == int(b)
     if path[:1] == ("metadata",) or path[-1] in ("kernelParameter", "isoLevel", "period") or "time" in path:
         return float(a) == float(b)
-    return make.f32_bits(a) == make.f32_bits(b)
+    return encoding.f32_bits(a) == encoding.f32_bits(b)
 
 
 def difference(expected, found, integer_arrays, path=()):
     """Where two cases in the JSON encoding differ, or None. Numbers are those of the field's type."""
     place = "/" + "/".join(map(str, path))
-    if isinstance(expected, make.Number) and isinstance(found, make.Number):
+    if isinstance(expected, encoding.Number) and isinstance(found, encoding.Number):
         if "parameters" in path and bool(set(expected) & set(".eE")) != bool(set(found) & set(".eE")):
             return f"{place}: {found}, expected {expected}: integers and reals are kept apart"
         return None if same_number(expected, found, path, integer_arrays) else f"{place}: {found}, expected {expected}"
@@ -66,15 +67,56 @@ def remove(case, pointer):
     case.pop(last, None)
 
 
-def call(reader, file, questions):
-    """Output of the reader as JSON, or the reason why there is none."""
-    try:
-        done = subprocess.run([*reader, str(file)], input=json.dumps(questions).encode(), capture_output=True, timeout=120)
-        if done.returncode != 0:
-            return f"exit status {done.returncode}: {done.stderr.decode(errors='replace')[-300:]}"
-        return make.parse(done.stdout.decode())
-    except (subprocess.TimeoutExpired, ValueError) as error:
-        return f"no answer: {str(error)[:200]}"
+class EachFile:
+    """A reader that is started once for each file. Its answers are the output as JSON, or the reason why there is none."""
+
+    def __init__(self, command):
+        self.command = command
+
+    def call(self, file, questions):
+        try:
+            done = subprocess.run([*self.command, str(file)], input=json.dumps(questions).encode(), capture_output=True, timeout=PATIENCE)
+            if done.returncode != 0:
+                return f"exit status {done.returncode}: {done.stderr.decode(errors='replace')[-300:]}"
+            return encoding.parse(done.stdout.decode())
+        except (subprocess.TimeoutExpired, ValueError) as error:
+            return f"no answer: {str(error)[:200]}"
+
+    def end(self):
+        return None
+
+
+class Lines:
+    """A reader that is started once, and again after a file at which it ended or gave no answer."""
+
+    def __init__(self, command):
+        self.command, self.process = command, None
+
+    def call(self, file, questions):
+        if self.process is None:
+            self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        timer = threading.Timer(PATIENCE, self.process.kill)
+        timer.start()
+        try:
+            self.process.stdin.write(json.dumps({"file": str(file), "questions": questions}).encode() + b"\n")
+            self.process.stdin.flush()
+            return encoding.parse(self.process.stdout.readline().decode())
+        except (OSError, ValueError) as error:
+            self.process.kill()
+            return f"no answer: {str(error)[:200]}, exit status {self.end()}"
+        finally:
+            timer.cancel()
+
+    def end(self):
+        """Closes the reader's input, and waits for its end: its exit status, or None for 0."""
+        if self.process is None: return None
+        try:
+            self.process.stdin.close()
+        except OSError:
+            pass  # the reader has ended, and what was meant for it cannot be written
+        self.process.stdout.close()
+        status, self.process = self.process.wait(), None
+        return status or None
 
 
 def wrong_answer(expected, found, keys, tolerance):
@@ -109,9 +151,9 @@ def check_valid(options, file):
     about = json.loads((file.parent / f"{stem}.queries.json").read_text())
     if "motion" in options.lacks: about["queries"] = [q for q in about["queries"] if "time" not in q]
     questions = [{key: q[key] for key in ("point", "current", "time") if key in q} for q in about["queries"]]
-    out = call(options.reader, file, questions)
+    out = options.reader.call(file, questions)
     if isinstance(out, str): return out
-    expected = make.parse((file.parent / f"{stem}.lumen.json").read_text())
+    expected = encoding.parse((file.parent / f"{stem}.lumen.json").read_text())
     gone = [k for e in options.lacks for k in about["lacking"].get(e, ())] if file.suffix == ".lumen" else []
     if gone and not out.get("accepted"):
         return None if out.get("code") == "CHUNK_ENCODING" else f"refused as {out.get('code')}, expected CHUNK_ENCODING"
@@ -146,7 +188,7 @@ def place_is_right(report, out, exact):
 
 def check_hostile(options, file):
     report = json.loads((file.parent / (file.name.split(".")[0] + ".report.json")).read_text())
-    out = call(options.reader, file, [])
+    out = options.reader.call(file, [])
     if isinstance(out, str): return out
     if options.queries_only:
         accepted = out.get("accepted") or out.get("code") == "NO_MODELS"
@@ -164,26 +206,41 @@ def check_hostile(options, file):
 def main():
     parser = argparse.ArgumentParser(description="Runs a reader over the conformance set; see README.md.")
     parser.add_argument("--reader", required=True, type=shlex.split, help="command, to which the name of a file is added; {python} is the Python that runs this")
+    parser.add_argument("--lines", action="store_true", help="the command is started once, and is given the files as lines of its input")
+    parser.add_argument("--set", type=pathlib.Path, help="folder in which make.py has made the set; without it, the set is made in a temporary one")
     parser.add_argument("--lacks", action="append", default=[], choices=["zstd", "draco", "motion"], help="encodings that the reader does not have; motion: it answers of the case at rest alone")
     parser.add_argument("--exact", action="store_true", help="places must be those of the reports")
     parser.add_argument("--queries-only", action="store_true", help="the reader answers queries and gives no case; binary files only")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="of the numbers in answers; 1e-5 for a reader that computes with f32")
     parser.add_argument("--only", default="", help="files whose name contains this")
     options = parser.parse_args()
-    options.reader = [sys.executable if word == "{python}" else word for word in options.reader]
+    command = [sys.executable if word == "{python}" else word for word in options.reader]
+    options.reader = (Lines if options.lines else EachFile)(command)
+    if options.set: sys.exit(run(options))
+    with tempfile.TemporaryDirectory(prefix="lumen-conformance-") as folder:
+        options.set = pathlib.Path(folder)
+        make.write(options.set)
+        sys.exit(run(options))
+
+
+def run(options):
+    """The exit status."""
     endings = (".lumen",) if options.queries_only else (".lumen", ".lumen.json")
     jobs = [(check, file) for check, folder in ((check_valid, "valid"), (check_hostile, "hostile"))
-            for file in sorted((HERE / folder).iterdir())
+            for file in sorted((options.set / folder).iterdir())
             if file.name.endswith(endings) and options.only in file.name]
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    with concurrent.futures.ThreadPoolExecutor(1 if options.lines else os.cpu_count()) as pool:
         results = list(pool.map(lambda job: job[0](options, job[1]), jobs))
     for (_, file), wrong in zip(jobs, results):
-        if wrong: print(f"{file.relative_to(HERE)}: {wrong}")
+        if wrong: print(f"{file.relative_to(options.set)}: {wrong}")
     failed = sum(map(bool, results))
+    if status := options.reader.end():
+        print(f"the reader ended with exit status {status}")
+        failed += 1
     valid = sum(check is check_valid for check, _ in jobs)
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024
     print(f"{valid} valid and {len(jobs) - valid} hostile files: {failed} not as expected; at most {memory} MiB of memory")
-    sys.exit(1 if failed or not jobs else 0)
+    return 1 if failed or not jobs else 0
 
 
 if __name__ == "__main__":

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the figures of ../lumen.md with the fields of the reference reader.
 
-make.py [FOLDER]    writes the SVG files, the same bytes each time with the same Matplotlib; with FOLDER, PNG files into it"""
-import math, pathlib, sys
+make.py [FOLDER]    writes PNG files beside itself, or into FOLDER"""
+import io, math, pathlib, sys
 
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "reference"))
@@ -17,7 +18,7 @@ from lumen_reader import Case, kernel  # noqa: E402
 LEVEL, PARAMETER = 0.1, 0.2
 INK, GREY, WALL = "#222222", "#888888", "#b2182b"
 COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#997700", "#4477aa"]
-plt.rcParams.update({"svg.hashsalt": "lumen", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
+plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
                      "axes.edgecolor": GREY, "axes.labelcolor": INK, "text.color": INK, "xtick.color": INK, "ytick.color": INK})
 
 
@@ -87,8 +88,9 @@ def bare(axes):
 
 
 def saved(figure, name):
-    if len(sys.argv) > 1: figure.savefig(pathlib.Path(sys.argv[1]) / f"{name}.png", dpi=110, facecolor="white")
-    else: figure.savefig(HERE / f"{name}.svg", metadata={"Date": None}, facecolor="white")
+    image, folder = io.BytesIO(), pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+    figure.savefig(image, dpi=150, facecolor="white")
+    Image.open(image).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(folder / f"{name}.png", optimize=True)
     plt.close(figure)
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A basic reader of lumen cases, written from spec/lumen.md and spec/schema alone. Without zstd and Draco, it refuses critical
-chunks in them and ignores groups of others. Called as spec/conformance/README.md says: lumen_reader.py FILE < questions.json"""
+chunks in them and ignores groups of others. Called as spec/conformance/README.md says: lumen_reader.py FILE < questions.json, or lumen_reader.py < lines"""
 import base64, copy, functools, json, math, pathlib, re, struct, sys
 from fractions import Fraction
 
@@ -387,13 +387,14 @@ class Case:
         out = {"node": node, "power": self.power(node, p)}
         return {**out, **self.shown(self.local(node, p)), "blended": self.shown(self.blended(node, p))} if self.models else out
 
-if __name__ == "__main__":
-    data, binary = pathlib.Path(sys.argv[1]).read_bytes(), not sys.argv[1].endswith(".json")
+def reply(file, questions):
+    data, binary = pathlib.Path(file).read_bytes(), not file.endswith(".json")
     try:
         case = read_binary(data) if binary else check_case(parse_json(data))
-        questions = json.load(sys.stdin)
-        answers = list(map(Case(case).answer, questions)) if questions else []
-        print(json.dumps({"accepted": True, "case": case, "answers": answers}))
-    except Refused as e:
-        code, at = ("CHUNK_LENGTH" if binary and e.args[0] == "ARRAY_LENGTH" else e.args[0]), e.args[1]
-        print(json.dumps({"accepted": False, "code": code, "place": f"byte {at}" if type(at) is int else at}))
+        return {"accepted": True, "case": case, "answers": list(map(Case(case).answer, questions)) if questions else []}
+    except Refused as e: code, at = e.args
+    return {"accepted": False, "code": "CHUNK_LENGTH" if binary and code == "ARRAY_LENGTH" else code, "place": f"byte {at}" if type(at) is int else at}
+
+if __name__ == "__main__":
+    for call in map(json.loads, sys.stdin) if len(sys.argv) == 1 else [{"file": sys.argv[1], "questions": json.load(sys.stdin)}]:
+        print(json.dumps(reply(**call)), flush=True)

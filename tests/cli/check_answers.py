@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Holds every JSON answer of lumen to its schema in spec/answers.
 
-check_answers.py LUMEN
+check_answers.py LUMEN BUILD
 
+BUILD is the build folder, which has the schemas and the conformance set.
 Runs each command with --json on good and bad input, and validates what it prints. Then it breaks each answer in
 every place (a key more, a key less, a value of another type), which the schema must refuse, and tells which key of
 a schema no answer had. Exit status: 0 all held, 1 something did not."""
@@ -14,8 +15,10 @@ import jsonschema
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "tests/library"))
 from made import Maker, ssh_key
-ANSWERS = ROOT / "spec/answers"
-CONFORMANCE = ROOT / "spec/conformance"
+if len(sys.argv) != 3: sys.exit(__doc__)
+BUILD = pathlib.Path(sys.argv[2]).resolve()
+ANSWERS = BUILD / "spec/answers"
+CONFORMANCE = BUILD / "spec/conformance"
 HOSTILE = ROOT.parent / "shared/hostile"  # not in the repository
 SCHEMAS = {p.name: json.loads(p.read_text()) for p in sorted(ANSWERS.glob("*.schema.json"))}
 BAD = {"no-such-file.lumen": None, "empty.lumen": b"", "text.lumen": b"not a case", "seeds.json": b'{"format": "lumen-seeds"}',
@@ -69,7 +72,7 @@ def loose(schema, place):
 
 
 def check_schemas():
-    readme = (ANSWERS / "README.md").read_text()
+    readme = (ROOT / "spec/answers/README.md").read_text()
     for name, schema in SCHEMAS.items():
         jsonschema.Draft202012Validator.check_schema(schema)
         if schema["$id"] != name: complain(f"{name}: its $id is {schema['$id']}")
@@ -328,7 +331,6 @@ def check_that_all_is_used():
 
 
 def main():
-    if len(sys.argv) != 2: sys.exit(__doc__)
     lumen = str(pathlib.Path(sys.argv[1]).resolve())
     check_schemas()
     with tempfile.TemporaryDirectory(prefix="lumen-answers-") as name:

@@ -12,7 +12,8 @@ import json, os, pathlib, re, shutil, subprocess, sys, tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCHEMAS = {f"share/lumen/{p.relative_to(ROOT / 'spec')}" for p in (ROOT / "spec/schema").glob("*.json")}
-ANSWERS = {f"share/lumen/schema/{p.relative_to(ROOT / 'spec')}" for p in (ROOT / "spec/answers").iterdir()}
+NAMES = re.findall(r"^== (\S+)", (ROOT / "spec/answers/answers.txt").read_text(), re.M)
+ANSWERS = {f"share/lumen/schema/answers/{p}" for p in ("README.md", "answers.txt", *(f"{name}.schema.json" for name in NAMES))}
 PIPELINES = ROOT / "converters/pipelines"
 WORKFLOW = {f"share/lumen/pipelines/{p.relative_to(PIPELINES)}" for part in ("bids/lumen_bids", "snakemake")
             for p in (PIPELINES / part).rglob("*") if p.is_file() and p.suffix != ".pyc"}
@@ -20,7 +21,7 @@ EXPECTED = SCHEMAS | ANSWERS | WORKFLOW | {
     "bin/lumen", "bin/lumen-bids", "share/man/man1/lumen.1", "share/bash-completion/completions/lumen",
     *(f"share/doc/lumen/{name}" for name in ("LICENSE", "THIRD_PARTY.md", "CITATION.cff")),
     *(f"share/doc/lumen/spec/{name}" for name in ("lumen.md", "seeds.md", "errors.md", "coverage.md", "schema", "answers")),
-    *(f"share/doc/lumen/spec/figures/{p.name}" for p in (ROOT / "spec/figures").glob("*.svg"))}
+    *(f"share/doc/lumen/spec/figures/{p.name}" for p in (ROOT / "spec/figures").glob("*.png"))}
 failures = []
 
 

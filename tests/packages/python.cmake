@@ -3,7 +3,7 @@ if(HAS_NUMPY AND NOT LUMEN_SANITIZE)
   python_test(PythonPackage.lumen_blob quick -W error::ResourceWarning -m unittest test_model)
   set_tests_properties(PythonPackage.lumen_blob PROPERTIES
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/libblob/python/tests
-    ENVIRONMENT "PYTHONPATH=${PROJECT_SOURCE_DIR}/libblob/python;LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>;LUMEN_BLOB_MODEL=${PROJECT_SOURCE_DIR}/spec/conformance/valid/bifurcation.lumen")
+    ENVIRONMENT "PYTHONPATH=${PROJECT_SOURCE_DIR}/libblob/python;LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>;LUMEN_BLOB_MODEL=${LUMEN_CONFORMANCE_SET}/valid/bifurcation.lumen")
 endif()
 
 # The Python package lumen, as its users have it: views, operations, queries, the notebook, the stubs.

@@ -1,20 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws docs/measures.svg: the definitions of docs/measures.md on shapes with closed forms.
+"""Draws docs/measures.png: the definitions of docs/measures.md on shapes with closed forms.
 
-measures.py [FILE]    writes the SVG, the same bytes each time with the same Matplotlib; FILE may end in .png
+measures.py [FILE]    writes the picture, or into FILE
 
 Every line is computed from the formula that it shows: the window's weights, the circle of curvature, rays and tangents
 of a section, the beginnings and vectors of a fork's arms, a healthy calibre, and a neck plane."""
-import math, pathlib, sys
+import io, math, pathlib, sys
 
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 
 INK, GREY, LIGHT, WALL, BLUE, GREEN = "#222222", "#888888", "#d8d8d8", "#b2182b", "#4477aa", "#228833"
-plt.rcParams.update({"svg.hashsalt": "lumen", "svg.fonttype": "none", "font.size": 8, "axes.titlesize": 9, "axes.titlelocation": "left",
+plt.rcParams.update({"font.size": 8, "axes.titlesize": 9, "axes.titlelocation": "left",
                      "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": GREY, "text.color": INK,
                      "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK})
 
@@ -216,8 +217,10 @@ def main():
     figure, places = plt.subplots(2, 3, figsize=(10, 6.2))
     for draw, axes in zip((curve, section, path, fork, narrowing, aneurysm), places.flat): draw(axes)
     figure.tight_layout(w_pad=1.5)
-    out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2] / "docs/measures.svg"
-    figure.savefig(out, metadata={"Date": None} if out.suffix == ".svg" else None, dpi=110)
+    out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2] / "docs/measures.png"
+    image = io.BytesIO()
+    figure.savefig(image, dpi=130)
+    Image.open(image).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(out, optimize=True)
 
 
 if __name__ == "__main__":

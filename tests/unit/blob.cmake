@@ -18,7 +18,8 @@ lumen_test(blob_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/wall_step_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/wall_test.cpp)
 target_include_directories(blob_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
-target_compile_definitions(blob_test PRIVATE LUMEN_CONFORMANCE="${PROJECT_SOURCE_DIR}/spec/conformance")
+target_compile_definitions(blob_test PRIVATE LUMEN_CONFORMANCE="${LUMEN_CONFORMANCE_SET}")
+add_dependencies(blob_test conformance_set)
 
 # The header as C99 and as C++11, pedantic.
 foreach(language C CXX)

@@ -46,7 +46,7 @@ add_executable(cuda_query_points ${PROJECT_SOURCE_DIR}/libblob/examples/cuda/que
 target_include_directories(cuda_query_points PRIVATE ${folder}/runtime)
 target_link_libraries(cuda_query_points PRIVATE lumen_options lumen::blob_cuda cuda_stand_in)
 add_test(NAME BlobCuda.TheExampleRunsOnTheStandIn
-  COMMAND cuda_query_points ${PROJECT_SOURCE_DIR}/spec/conformance/valid/bifurcation.lumen)
+  COMMAND cuda_query_points ${LUMEN_CONFORMANCE_SET}/valid/bifurcation.lumen)
 set_tests_properties(BlobCuda.TheExampleRunsOnTheStandIn PROPERTIES LABELS quick
   PASS_REGULAR_EXPRESSION "greatest distance -0[.][0-9]+ mm")
 python_test(BlobCuda.KernelsRoundAsTheLibraryAndCallNothing quick ${folder}/check_ptx.py

@@ -346,7 +346,7 @@ def report(results):
           r["steps"] if r["converged"] else f"**{r['steps']}, not converged**",
           "{:.1g}, {:.1g}".format(*r["residuals"][-1]), f"{r['balance']:.4f}", f"{r['seconds']:.0f}"]
          for name, r in results.items()])
-    text += "![Residuals of the pressure](flows_pressure.svg)\n![Residuals of the speed](flows_speed.svg)\n\n" + PARTS + "\n"
+    text += "Pictures `flows_pressure.svg` and `flows_speed.svg`: residuals of the pressure and of the speed.\n\n" + PARTS + "\n"
     text += table(
         ["case, inlet", "Reynolds", "Dean", "path, mm", "entrance, mm", "rho u^2 / 2", "svZeroD", "Poiseuille", "bends", "x mesh", "+ speed", "+ widenings", "sum",
          "OpenFOAM", "beside the sum"],

@@ -61,7 +61,7 @@ void Report::table(const Table& table) {
 }
 
 void Report::picture(const std::string& file, const std::string& caption) {
-  m_body += "![" + caption + "](" + file + ")\n\n";
+  m_body += "Picture `" + file + "`: " + caption + ".\n\n";
 }
 
 std::string Report::markdown() const {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // libblob behind the protocol of spec/conformance/README.md, through its public functions alone:
-// blob_reader [--doubles] FILE < questions.json. With --doubles, value and gradient are those of
+// blob_reader [--doubles] < lines. With --doubles, value and gradient are those of
 // blob_query_hessian().
 #include <cstdint>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -89,28 +88,31 @@ json answer(const blob_model* model, bool doubles, const json& question) {
   return out;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const bool doubles = argc == 3 && std::string_view(argv[1]) == "--doubles";
-  if (argc != 2 && !doubles) return 2;
+json reply(const std::string& file, bool doubles, const json& questions) {
   char message[512] = "";
   blob_open_def how = blob_open_def_default();
   how.message = message;
   how.message_size = sizeof message;
   blob_model* model;
-  const blob_status status = blob_model_open(argv[argc - 1], &how, &model);
-  if (status != BLOB_OK) {
-    std::cout << refusal(status, message) << '\n';
-    return 0;
-  }
-  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  const blob_status status = blob_model_open(file.c_str(), &how, &model);
+  if (status != BLOB_OK) return refusal(status, message);
   json answers = json::array();
   {
-    Moving moving(argv[argc - 1], model);
-    for (const json& question : json::parse(text))
+    Moving moving(file.c_str(), model);
+    for (const json& question : questions)
       answers.push_back(answer(moving.at(question), doubles, question));
   }
   blob_model_close(model);
-  std::cout << json{{"accepted", true}, {"answers", answers}} << '\n';
+  return {{"accepted", true}, {"answers", answers}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool doubles = argc == 2 && std::string_view(argv[1]) == "--doubles";
+  if (argc != 1 && !doubles) return 2;
+  for (std::string line; std::getline(std::cin, line);) {
+    const json request = json::parse(line);
+    std::cout << reply(request.at("file"), doubles, request.at("questions")) << std::endl;
+  }
 }

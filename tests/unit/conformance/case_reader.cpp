@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our reader behind the protocol of spec/conformance/README.md: case_reader FILE < questions.json
+// Our reader behind the protocol of spec/conformance/README.md: case_reader < lines
+#include <algorithm>
 #include <cstdint>
 #include <iostream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -78,20 +78,22 @@ json refusal(const Issue& error) {
   return out;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 2) return 2;
-  const auto value = readCaseFile(argv[1]);
-  if (!value) {
-    std::cout << refusal(value.error()).dump() << '\n';
-    return 0;
-  }
-  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+std::string reply(const json& request) {
+  const auto value = readCaseFile(request.at("file").get<std::string>());
+  if (!value) return refusal(value.error()).dump();
   const BlendedField field = fieldOf(*value);
   json answers = json::array();
-  for (const json& question : json::parse(text)) answers.push_back(answer(*value, field, question));
+  for (const json& question : request.at("questions"))
+    answers.push_back(answer(*value, field, question));
   // the case is written by the library's own encoder, so that it is tested too
-  std::cout << R"({"accepted": true, "answers": )" << answers.dump()
-            << ", \"case\": " << encodeJson(*value) << "}\n";
+  std::string found = encodeJson(*value);
+  std::replace(found.begin(), found.end(), '\n', ' ');
+  return R"({"accepted": true, "answers": )" + answers.dump() + ", \"case\": " + found + "}";
+}
+
+}  // namespace
+
+int main() {
+  for (std::string line; std::getline(std::cin, line);)
+    std::cout << reply(json::parse(line)) << std::endl;
 }

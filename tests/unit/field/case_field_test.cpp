@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field of a case, from its data model and from its bytes.
+// The field of a case.
 #include "formats/case/case_field.h"
 
 #include <cstdint>
@@ -8,8 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "formats/case/blobby.h"
-#include "formats/case/case_as_view.h"
-#include "formats/view/view_field.h"
 
 namespace lumen::formats {
 namespace {
@@ -54,16 +52,6 @@ TEST(CaseField, ParentsAndLinksAreEdges) {
   const field::BlendedField blended = caseField(smallCase());
   const auto around = blended.neighbours(0);
   EXPECT_EQ(std::vector(around.begin(), around.end()), (std::vector<std::uint32_t>{1, 2, 3}));
-}
-
-TEST(CaseField, AViewOfTheCaseGivesTheSame) {
-  const Case value = smallCase();
-  const CaseAsView asView(value);
-  const field::BlendedField expected = caseField(value);
-  const field::BlendedField found(treeViewOf(asView.view()), modelsViewOf(*asView.view().models));
-  for (std::uint32_t node = 0; node < 4; ++node)
-    EXPECT_EQ(found.blended({0.7, 0.5, 0.1}, node).value,
-              expected.blended({0.7, 0.5, 0.1}, node).value);
 }
 
 }  // namespace
