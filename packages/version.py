@@ -17,10 +17,7 @@ NUMBER = r"([0-9]+\.[0-9]+\.[0-9]+)"
 # Names of files, and what stands before the version there; (?m) makes ^ the start of a line.
 PLACES = {
     "CITATION.cff": [r"(?m)^version: "],
-    "pyproject.toml": [r'(?m)^version = "'],
     "package.json": [r'(?m)^  "version": "'],
-    "vcpkg.json": [r'(?m)^  "version(?:-semver|-string)?": "'],
-    "conanfile.py": [r'(?m)^    version = "'],
     "export.md": [r'"generator": "lumen '],
     "library.md": [r'"generator": "lumen '],
     "debian/changelog": [r"\Alumen \("],

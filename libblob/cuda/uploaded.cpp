@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <cstring>
 
-#include "kernels.h"
+namespace lumen::blob::cuda {
+
+/// PTX of libblob/device/query.cu, zero-terminated; the build makes it (write_ptx.cmake).
+extern const char kKernels[];
+
+}  // namespace lumen::blob::cuda
 
 using namespace lumen::blob::cuda;
 

@@ -7,7 +7,7 @@
  *     if (blob_cuda_create(packed, bytes, NULL, &vessels) != BLOB_CUDA_OK) return 1;
  *     blob_cuda_columns c = blob_cuda_columns_default();
  *     c.count = 6553600;                                  // all from cudaMalloc(), cuMemAlloc(),
- *     c.point = point;                                    // PyTorch, JAX, Warp...
+ *     c.point = point;                                    // PyTorch, CuPy...
  *     c.cursor = cursor;                                  // kept from step to step
  *     c.answer = answer;                                  // distance and normal
  *     blob_cuda_query(vessels, stream, BLOB_BLENDED, &c); // returns before the answers are there
@@ -72,7 +72,7 @@ typedef struct blob_cuda blob_cuda;
 /* Options. */
 typedef struct blob_cuda_def {
   int device;          /* number of the device, whose primary context is used, as by CUDA's runtime,
-                          PyTorch, JAX and Warp; -1 (default): the context that is current on the
+                          PyTorch and others; -1 (default): the context that is current on the
                           calling thread, and where there is none the primary one of device 0 */
   char* message;       /* null, or a buffer for a zero-terminated sentence about a failure */
   size_t message_size; /* bytes at `message` */

@@ -5,7 +5,7 @@
  *
  *     blob_device_query_exact(words, vessel, BLOB_DEVICE_BLENDED, point, &cursor, &s);
  *
- * The search is that of libblob/src/newton_projection.h, in floats relative to the query point and as
+ * The search is that of libblob/src/nearest.cpp, in floats relative to the query point and as
  * steps between evaluations of f, so that one copy of the query is in a kernel. It learns how the
  * wall bends from its normals at two places about a foot, not from second derivatives. The distance
  * is right to 1e-5 of the node's radius; bits are not those of blob_query().

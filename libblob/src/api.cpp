@@ -9,13 +9,11 @@
 #include <new>
 
 #include "answer.h"
+#include "boundary.h"
 #include "build_model.h"
-#include "check_definition.h"
 #include "columns.h"
-#include "construct.h"
 #include "hessian.h"
 #include "locate.h"
-#include "misuse.h"
 #include "nearest.h"
 #include "open_case.h"
 #include "segment.h"

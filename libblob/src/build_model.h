@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model from a checked definition.
+// A model from a definition.
 #pragma once
 
 #include <memory>
 
+#include "blob.h"
 #include "model.h"
 
 namespace lumen::blob {
+
+/// Checks everything that queries rely on: counts, ranges, indices, finite numbers.
+blob_status checkDefinition(const blob_model_def& def) noexcept;
 
 /// Builds a model from a checked definition. Throws std::bad_alloc and nothing else.
 std::unique_ptr<blob_model> buildModel(const blob_model_def& def);

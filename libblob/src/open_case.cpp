@@ -2,6 +2,7 @@
 #include "open_case.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -9,16 +10,80 @@
 #include <vector>
 
 #include "build_model.h"
-#include "check_definition.h"
 #include "formats/container/printable.h"
 #include "formats/view/case_view.h"
-#include "mapped_file.h"
 #include "posed_model.h"
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#elif !defined(__wasm__)
+#include <fstream>
+#endif
 
 namespace lumen::blob {
 namespace {
 
 using formats::ErrorCode;
+
+/// A file mapped into memory where the system can, read into memory elsewhere.
+class MappedFile {
+public:
+  /// Maps or reads a file; false as a bool if it cannot be opened, is no regular file, or is empty.
+  explicit MappedFile(const char* path);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  explicit operator bool() const { return m_data != nullptr; }
+  [[nodiscard]] const void* data() const { return m_data; }
+  [[nodiscard]] std::size_t size() const { return m_size; }
+
+private:
+  const void* m_data = nullptr;
+  std::size_t m_size = 0;
+  std::vector<double> m_copy;  ///< bytes where files cannot be mapped; doubles for alignment
+};
+
+#if defined(__unix__) || defined(__APPLE__)
+MappedFile::MappedFile(const char* path) {
+  const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return;
+  struct stat status {};
+  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* data = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
+    if (data != MAP_FAILED) {
+      m_data = data;
+      m_size = size;
+    }
+  }
+  close(file);
+}
+
+MappedFile::~MappedFile() {
+  if (m_data != nullptr) munmap(const_cast<void*>(m_data), m_size);
+}
+#elif defined(__wasm__)
+// no files exist here, and streams would be most of the library
+MappedFile::MappedFile(const char*) {}
+MappedFile::~MappedFile() = default;
+#else
+MappedFile::MappedFile(const char* path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  if (size <= 0) return;
+  m_copy.resize((static_cast<std::size_t>(size) + sizeof(double) - 1) / sizeof(double));
+  file.seekg(0);
+  if (!file.read(reinterpret_cast<char*>(m_copy.data()), size)) return;
+  m_data = m_copy.data();
+  m_size = static_cast<std::size_t>(size);
+}
+
+MappedFile::~MappedFile() = default;
+#endif
 
 blob_status fail(const blob_open_def& def, blob_status status, std::string_view sentence) {
   if (def.message != nullptr && def.message_size > 0) {

@@ -6,13 +6,14 @@
 #include <numeric>
 
 #include "answer.h"
-#include "construct.h"
+#include "boundary.h"
+#include "formats/field/blend.h"
+#include "formats/field/vector.h"
 #include "locate.h"
-#include "misuse.h"
+#include "nodes_in_doubles.h"
 #include "open_case.h"
 #include "posed_model.h"
 #include "simd/backend.h"
-#include "weights.h"
 
 namespace {
 
@@ -88,6 +89,48 @@ bool areInReach(std::size_t count, const double (*centres)[3]) noexcept {
     for (int axis = 0; axis < 3; ++axis)
       if (!(std::abs(centres[i][axis]) <= kFarthestCentre)) return false;
   return true;
+}
+
+struct NodeWeights {
+  unsigned count = 0;
+  std::uint32_t node[lumen::field::ActiveNodes::kMostActive];
+  double weight[lumen::field::ActiveNodes::kMostActive];  // their sum is 1
+};
+
+// The nodes of positive weight at a point for the cursor at `node`; `node` alone where none has.
+NodeWeights weighNodes(const blob_model& model, std::uint32_t flags, const double* point,
+                       std::uint32_t node) noexcept {
+  NodeWeights found;
+  double sum = 0;
+  if ((flags & BLOB_LOCAL) == 0) {
+    const NodesInDoubles nodes(model);
+    lumen::field::visitActiveNodes(node, [&](std::uint32_t k, lumen::field::ActiveNodes& active) {
+      const double weight = lumen::field::blendWeight<1>(nodes, k, point, active).value;
+      if (!(weight > 0)) return false;
+      found.node[found.count] = k;
+      found.weight[found.count++] = weight;
+      sum += weight;
+      return true;
+    });
+  }
+  if (found.count == 0) {
+    found.count = 1;
+    found.node[0] = node;
+    found.weight[0] = sum = 1;
+  }
+  for (unsigned i = 0; i < found.count; ++i) found.weight[i] /= sum;
+  return found;
+}
+
+// The way of a point, mm, that rides on a node from one pose to another, in which it is given.
+lumen::field::Vec displacementOf(const blob_pose& pose, const blob_pose& before, std::uint32_t node,
+                                 const double* point) noexcept {
+  const NodePose &now = pose.pose[node], &then = before.pose[node];
+  const lumen::field::Vec x = lumen::field::Vec{point[0], point[1], point[2]} - now.centre;
+  // relative to the centres, so that small steps keep their digits
+  const lumen::field::Vec rest = (1.0 / now.factor) * lumen::field::rotatedBack(now.rotation, x);
+  const lumen::field::Vec was = then.factor * lumen::field::rotated(then.rotation, rest);
+  return (now.centre - then.centre) + (x - was);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // @ts-check
-// libblob's query by WebGPU: batches of points on a GPUDevice, by the shader ../device/query.wgsl. Typed by JSDoc.
+// libblob's query by WebGPU: batches of points on a GPUDevice, by the shader query.wgsl. Typed by JSDoc.
 // Units: mm, in the case's frame (LPS), as 32-bit floats. Distances are negative in the lumen.
 import { Flags, NOWHERE, State } from "./blob.mjs";
 

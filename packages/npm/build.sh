@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # build.sh OUT: makes the npm packages @lumen/blob and @lumen/viewer as OUT/NAME.tgz. Needs `npm ci` in viewer/page, and blob.wasm
-# (target blob_wasm) in $LUMEN_BUILD (default: build/release). Equal sources give equal bytes.
+# and query.wgsl (targets blob_wasm and blob_shader) in $LUMEN_BUILD (default: build/release). Equal sources give equal bytes.
 set -euo pipefail
 [ $# -eq 1 ] || { sed -n '3,4p' "$0" >&2; exit 2; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -11,6 +11,8 @@ build=${LUMEN_BUILD:-$root/build/release}
 page=$root/viewer/page
 wasm=$(find "$build/libblob" -name blob.wasm | head -n 1)
 [ -n "$wasm" ] || { echo "build.sh: no blob.wasm in $build; cmake --build it with -t blob_wasm" >&2; exit 1; }
+shader=$build/libblob/query.wgsl
+[ -f "$shader" ] || { echo "build.sh: no query.wgsl in $build; cmake --build it with -t blob_shader (Debian: python3-pycparser)" >&2; exit 1; }
 [ -d "$page/node_modules" ] || { echo "build.sh: npm ci in viewer/page is missing" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -20,7 +22,7 @@ cp "$root/libblob/wasm/blob.mjs" "$root/libblob/wasm/gpu.mjs" "$work/blob/"
 { # as a module, because bundlers differ in how they import texts; the shader has neither ` nor ${ nor a backslash
   echo "// SPDX-License-Identifier: Apache-2.0"
   echo "/** The text of query.wgsl. */"
-  printf 'export const shader = `%s\n`;\n' "$(cat "$root/libblob/device/query.wgsl")"
+  printf 'export const shader = `%s\n`;\n' "$(cat "$shader")"
 } >"$work/blob/query_wgsl.mjs"
 for package in blob viewer; do
   cp "$root/LICENSE" "$root/THIRD_PARTY.md" "$work/$package/"

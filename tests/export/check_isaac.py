@@ -10,12 +10,6 @@ import argparse, json, math, pathlib, shutil, subprocess, sys, tempfile
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent.parent / "packages/python/tests"))
-try:
-    import warp as wp
-except ImportError:
-    import warp_stand_in as wp
-    sys.modules["warp"] = wp
 KEYS = ["shape_zyx", "spacing_zyx_mm", "origin_xyz_mm", "hu_range", "mu_range", "source"]
 failures = []
 
@@ -122,41 +116,6 @@ def check_stage(folder, modules, points, radii):
     expect(abs(stage["centerline"]["widths"][0] * meters * 1000 - 2 * radii[0]) < 1e-4, "widths are not diameters")
 
 
-def check_query(folder, points, radii):
-    """vessel_warp.py, by Warp or by its stand-in, in the frame of the folder: what is inside is that of the mask, and the distance
-    grows by the step along the normal."""
-    for name in ("query_warp", "vessel_warp"): sys.modules.pop(name, None)
-    sys.path.insert(0, str(folder))
-    import vessel_warp
-    sys.path.remove(str(folder))
-    about, manifest = (json.loads((folder / name).read_text()) for name in ("metadata.json", "lumen-export.json"))
-    mm = {"m": 0.001, "mm": 1}[manifest["unit"]]
-    spacing = np.array(about["spacing_zyx_mm"])
-    mask = np.load(folder / "vessel_mask.npy", allow_pickle=False)
-    random = np.random.default_rng(4)
-    node = random.integers(len(points), size=150)
-    voxel = np.rint((points[node] + radii[node, None] * random.uniform(-1.5, 1.5, (150, 3)) - about["origin_xyz_mm"])[:, ::-1] / spacing)
-    voxel = voxel.astype(int)
-    places = voxel[:, ::-1] * spacing[::-1] + about["origin_xyz_mm"]
-    wall, count = vessel_warp.VesselWall(), len(places)
-    distance, normal = wp.zeros(count, dtype=wp.float32), wp.zeros(count, dtype=wp.vec3)
-    cursor = wp.full(count, wp.uint32(vessel_warp.NOWHERE), dtype=wp.uint32)
-
-    def ask(at):
-        wall.query(wp.array(at.astype(np.float32), dtype=wp.vec3), cursor, distance, normal)
-        return distance.numpy().copy() / mm, normal.numpy().copy()
-
-    at = np.array([in_folder(manifest, place) for place in places])
-    depth, outward = ask(at)
-    inside = mask[tuple(voxel.T)] == 1
-    sure = np.abs(depth) > 0.01  # mm
-    expect(0.2 < inside.mean() < 0.8 and sure.mean() > 0.9, f"the voxels prove nothing: {inside.mean()}, {sure.mean()}")
-    expect(np.array_equal((depth < 0)[sure], inside[sure]), "vessel_warp.py and the mask disagree")
-    near = np.abs(depth) < 0.3 * radii[node]
-    ahead, _ = ask(at + 0.02 * mm * outward)
-    expect(near.sum() > 20 and np.abs((ahead - depth)[near] - 0.02).max() < 0.004, "the distance does not grow along the normal")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lumen")
@@ -173,7 +132,6 @@ def main():
             lumen(options.lumen, folder, "export", "isaac", "fork.lumen", out, "--quiet", *arguments)
             points, radii = check_graph(folder / out, tree)
             check_volumes(folder / out, points, radii)
-            check_query(folder / out, points, radii)
             if can_load: check_stage(folder / out, options.modules, points, radii)
     if failures: return 1
     if not can_load: print("node or three (npm ci in viewer/page) is missing: vessel.usda was not loaded")

@@ -298,10 +298,10 @@ def read_isaac(folder):
 
 def read_grid(folder):
     """By VTK's reader of MetaImage: in the lumen its samples are libblob's distances at the places that it gives."""
-    library = os.environ.get("LUMEN_BLOB_LIBRARY")
-    if not library: return None, "LUMEN_BLOB_LIBRARY does not state where libblob.so is"
-    sys.path.insert(0, str(HERE.parent.parent / "libblob/python"))
-    import lumen_blob
+    try:
+        from lumen import blob
+    except ImportError:
+        return None, "the Python package lumen is missing; PYTHONPATH has its folder, BUILD/packages/python"
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOImage import vtkMetaImageReader
     reader = vtkMetaImageReader()
@@ -311,7 +311,7 @@ def read_grid(folder):
     values = vtk_to_numpy(image.GetPointData().GetScalars())
     inside = np.flatnonzero(values < 0)
     places = np.array([image.GetPoint(int(i)) for i in inside])
-    model = lumen_blob.Model(str(folder.parent / "landmark.lumen"))
+    model = blob.Model(str(folder.parent / "landmark.lumen"))
     distances = model.query(places).distance if len(places) else np.zeros(0)
     off = float(np.abs(distances - values[inside]).max(initial=0))
     faults = [] if len(places) > 1000 and off <= 1e-4 else [f"{len(places)} samples in the lumen, {off:.3g} mm off"]

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs what `lumen export mujoco` and `lumen export cathsim` write in the official engine (npm: @mujoco/mujoco), and
-asks libblob whether the guidewire stays in the lumen. Exits with 77, saying so, without node, the engine or NumPy.
+asks libblob whether the guidewire stays in the lumen. Exits with 77, saying so, without node, the engine or the Python package lumen.
 
-    check_mujoco.py --lumen LUMEN --blob LIBBLOB.so [--case CASE.lumen --speed M/S]
+    check_mujoco.py --lumen LUMEN [--case CASE.lumen --speed M/S]
 
 Without --case: synthetic phantoms, and it fails if
 - the engine refuses a folder, or its sites are not at the ends that lumen-export.json names,
@@ -14,6 +14,7 @@ Without --case: synthetic phantoms, and it fails if
 With --case: prints the figures of that case.
 """
 import argparse
+import importlib.util
 import json
 import math
 import os
@@ -37,10 +38,8 @@ def skip(reason):
 class Bench:
     def __init__(self, arguments, folder):
         self.lumen, self.folder, self.failures = arguments.lumen, folder, 0
-        sys.path.insert(0, os.path.join(HERE, "..", "..", "libblob", "python"))
-        os.environ["LUMEN_BLOB_LIBRARY"] = os.path.abspath(arguments.blob)
-        import lumen_blob
-        self.open = lumen_blob.Model
+        from lumen import blob
+        self.open = blob.Model
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -80,15 +79,15 @@ def deepest(model, answer, inlet):
     """Greatest distance to the wall of the wire's axis past the inlet, mm, of any record and of the last one, and the
     distance of the farthest point from the lumen; below 0 is in the lumen."""
     import numpy as np
-    worst, cursors = [], None
+    worst, cursor = [], None
     origin, out = np.array(inlet["position"]) * 1e3, np.array(inlet["direction"])
     for record in answer["records"]:
         points = np.array(record["points"]) * 1e3
         if not np.isfinite(points).all():
             return float("nan"), float("nan")
-        if cursors is None:
-            cursors = model.cursors(points)
-        distance = model.query(points, cursors).distance
+        if cursor is None:
+            cursor = model.cursor(points)
+        distance = model.query(points, cursor).distance
         # the introducer ends at the first node, half a millimetre or more behind the inlet
         inside = (points - origin) @ out < 0
         worst.append(float(distance[inside].max()) if inside.any() else float("inf"))
@@ -236,7 +235,6 @@ def check_moving(bench, speed):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--lumen", required=True)
-    parser.add_argument("--blob", required=True)
     parser.add_argument("--case")
     parser.add_argument("--speed", type=float, default=0.004)
     parser.add_argument("--keep", help="a folder for what is written")
@@ -245,6 +243,8 @@ def main():
         skip("node is not here (apt install nodejs npm)")
     if not os.path.isdir(os.path.join(HERE, "node_modules", "@mujoco", "mujoco")):
         skip("the engine is not here (npm ci in tests/mujoco)")
+    if importlib.util.find_spec("lumen") is None:
+        skip("the Python package lumen is not here; PYTHONPATH has its folder, BUILD/packages/python")
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(arguments, arguments.keep or scratch)
         if arguments.case:

@@ -38,7 +38,7 @@ FAULTS = [
           "if (delta < 0) std::swap(enter, leave);", "if (delta < 0 && i < 2) std::swap(enter, leave);", "blob_test"),
     Fault("two entries of the Hessian are exchanged in the curvature", "libblob/src/hessian.cpp",
           "h[4] * g[0] + h[5] * g[1] + h[2] * g[2]", "h[5] * g[0] + h[4] * g[1] + h[2] * g[2]", "blob_test"),
-    Fault("the second node of a link is not checked", "libblob/src/check_definition.cpp",
+    Fault("the second node of a link is not checked", "libblob/src/build_model.cpp",
           "def.link[i][0] >= count || def.link[i][1] >= count", "def.link[i][0] >= count || def.link[i][0] >= count",
           "blob_test"),
     Fault("a box of nodes knows the radius of its last node only", "libblob/src/locate.cpp",

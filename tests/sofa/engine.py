@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs scenes in an installed SOFA without a window, and measures what an instrument did in them."""
-import os, pathlib, re, subprocess, sys, xml.etree.ElementTree
+import os, pathlib, re, subprocess, xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLUGINS = ["BeamAdapter", "SofaImplicitField", "SofaDistanceGrid"]
@@ -94,14 +94,6 @@ def depths(model, times, points, tools):
         samples = np.concatenate([np.stack(between, 1).reshape(-1, 3), place[-1:]])
         steps = np.linalg.norm(np.diff(samples, axis=0), axis=1)
         behind = np.concatenate([np.cumsum(steps[::-1])[::-1], [0]])
-        distance = model.query(samples, model.cursors(samples)).distance
+        distance = model.query(samples, model.cursor(samples)).distance
         result.append(float((distance + tools.radius_at(behind, time)).max()))
     return np.array(result)
-
-
-def blob(library):
-    """lumen_blob, with that library."""
-    os.environ["LUMEN_BLOB_LIBRARY"] = str(library)
-    sys.path.insert(0, str(ROOT / "libblob/python"))
-    import lumen_blob
-    return lumen_blob

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exports cases as scenes of SOFA, runs them in the real engine, and measures whether the instrument stays inside.
 
-run_exports.py --lumen LUMEN --blob LIBBLOB [--sofa FOLDER] [--steps N] [--case NAME|FILE ...] [--wall WALL ...]
+run_exports.py --lumen LUMEN [--sofa FOLDER] [--steps N] [--case NAME|FILE ...] [--wall WALL ...]
                [--instrument KIND ...] [--plugin FILE] [--insert LABEL] [--markdown FILE] [--keep FOLDER]
 
 A case is a phantom of lumen, which is made, tracked and fitted here, or a file; `coronary-beating` is a case with a motion,
@@ -21,7 +21,6 @@ LIMIT, SHARE = 0.1, 99  # mm, per cent
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lumen", required=True, type=lambda p: pathlib.Path(p).resolve())
-    parser.add_argument("--blob", required=True, help="libblob.so")
     parser.add_argument("--sofa", help="an installed SOFA; else LUMEN_SOFA, else beside the repository")
     parser.add_argument("--steps", type=int, default=2000)
     parser.add_argument("--case", nargs="*", default=["bifurcation", "helix", "aneurysm"])
@@ -97,8 +96,11 @@ def main():
     if sofa is None:
         print("skipped: no SOFA; LUMEN_SOFA names the folder of an installed one")
         return 77
-    blob = engine.blob(options.blob)
-    model_of = lambda case: blob.Model(str(case))
+    try:
+        from lumen import blob
+    except ImportError:
+        print("skipped: the Python package lumen is missing; PYTHONPATH has its folder, BUILD/packages/python")
+        return 77
     head = (f"| case | wall | instrument | inserted, mm | depth of {SHARE} %, mm | deepest, mm | steps / s | complaints |\n"
             "|---|---|---|---|---|---|---|---|")
     rows = []
@@ -111,7 +113,7 @@ def main():
             case = case_file(options, folder, name)
             for wall in options.wall:
                 for instrument in options.instrument:
-                    rows.append(check(options, usable, model_of, folder, case, wall, instrument))
+                    rows.append(check(options, usable, blob.Model, folder, case, wall, instrument))
                     print(row(rows[-1]), flush=True)
     if options.markdown:
         pathlib.Path(options.markdown).write_text("\n".join([head] + [row(r) for r in rows]) + "\n")

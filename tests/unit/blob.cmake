@@ -33,17 +33,6 @@ foreach(language C CXX)
   set_tests_properties(BlobHeader.IsUsedFrom${language} PROPERTIES LABELS quick)
 endforeach()
 
-# Installs the library elsewhere and builds a plain C project against it, by CMake and by pkg-config.
-if(NOT LUMEN_SANITIZE)
-  add_test(NAME BlobInstall.APlainCProjectUsesIt
-    COMMAND ${CMAKE_COMMAND}
-      -D BUILD=${PROJECT_BINARY_DIR} -D WORK=${CMAKE_CURRENT_BINARY_DIR}/blob_install
-      -D PROJECT=${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consumer
-      -D LIBDIR=${CMAKE_INSTALL_LIBDIR} -D CC=${CMAKE_C_COMPILER}
-      -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consume.cmake)
-  set_tests_properties(BlobInstall.APlainCProjectUsesIt PROPERTIES LABELS slow)
-endif()
-
 # blob_device.h as other processors compile it: OpenCL C, run on whatever device there is (Debian's pocl makes one
 # of this processor).
 find_package(OpenCL QUIET)
@@ -61,5 +50,3 @@ if(OpenCL_FOUND AND NOT LUMEN_SANITIZE)
 elseif(NOT LUMEN_SANITIZE)
   message(STATUS "OpenCL (ocl-icd-opencl-dev, pocl-opencl-icd) not found: the kernel of libblob/device is not run")
 endif()
-# query.wgsl and the text for Warp are what the header gives (python3-pycparser).
-python_test(BlobDevice.TranslationsAreThoseOfTheHeader quick ${PROJECT_SOURCE_DIR}/libblob/device/translate/translate.py --check)

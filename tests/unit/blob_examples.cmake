@@ -1,4 +1,4 @@
-# Tests of the outputs of libblob/examples, libblob/python and libblob/wasm; each part where it is built.
+# Tests of the outputs of libblob/examples and libblob/wasm; each part where it is built.
 lumen_test(blob_examples_test
   LIBS lumen_options catheter_rod
   SOURCES
@@ -55,22 +55,15 @@ if(TARGET blob_wasm AND NODE)
 endif()
 
 # query.wgsl in Chromium; a Gaussian case, because that kernel has code of its own.
-if(TARGET blob_wasm AND NODE AND NOT LUMEN_SANITIZE)
+if(TARGET blob_wasm AND TARGET blob_shader AND NODE AND NOT LUMEN_SANITIZE)
+  get_target_property(shader blob_shader SHADER)
   add_test(NAME BlobExamples.Makes_kissing_gaussian
     COMMAND ${CMAKE_COMMAND} -D LUMEN=$<TARGET_FILE:lumen> -D NAME=kissing -D KERNEL=gaussian -D FOLDER=${models}
       -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/make_model.cmake)
   set_tests_properties(BlobExamples.Makes_kissing_gaussian PROPERTIES LABELS slow FIXTURES_SETUP blob_gaussian)
   add_test(NAME BlobDevice.AnswersOnWebGpuAreThoseOfTheLibrary
-    COMMAND ${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_webgpu.mjs ${PROJECT_SOURCE_DIR}/libblob ${wasm}
+    COMMAND ${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_webgpu.mjs ${PROJECT_SOURCE_DIR}/libblob ${shader} ${wasm}
       ${models}/kissing.lumen ${models}/bifurcation.lumen ${models}/kissing_gaussian.lumen)
   set_tests_properties(BlobDevice.AnswersOnWebGpuAreThoseOfTheLibrary PROPERTIES LABELS foreign SKIP_RETURN_CODE 77 TIMEOUT 600
     FIXTURES_REQUIRED "blob_kissing;blob_bifurcation;blob_gaussian")
-endif()
-
-if(HAS_NUMPY AND NOT LUMEN_SANITIZE)
-  python_test(Python.UnitTests foreign
-    -W error -m unittest discover -s ${PROJECT_SOURCE_DIR}/libblob/python/tests)
-  set_tests_properties(Python.UnitTests PROPERTIES
-    FIXTURES_REQUIRED blob_kissing
-    ENVIRONMENT "PYTHONPATH=${PROJECT_SOURCE_DIR}/libblob/python;LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>;LUMEN_BLOB_MODEL=${models}/kissing.lumen")
 endif()

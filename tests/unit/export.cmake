@@ -61,7 +61,7 @@ python_test(Export.OneCaseIsLocatedAgainInEveryFolder foreign
   ${CMAKE_CURRENT_SOURCE_DIR}/export/landmarks.py $<TARGET_FILE:lumen>)
 if(TEST Export.OneCaseIsLocatedAgainInEveryFolder)
   set_tests_properties(Export.OneCaseIsLocatedAgainInEveryFolder PROPERTIES
-    ENVIRONMENT LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>)
+    ENVIRONMENT "PYTHONPATH=${LUMEN_PYTHON_PATH}")
 endif()
 python_test(Export.HardCasesAreWrittenWholeOrRefused slow
   ${CMAKE_CURRENT_SOURCE_DIR}/export/bad_inputs.py $<TARGET_FILE:lumen>)

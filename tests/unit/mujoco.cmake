@@ -7,4 +7,7 @@ lumen_test(mujoco_export_test
 
 # Exports for MuJoCo and CathSim, in the official engine: `npm ci` in tests/mujoco; skipped, saying so, without it.
 python_test(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls foreign
-  ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen> --blob $<TARGET_FILE:blob>)
+  ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen>)
+if(TEST MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls)
+  set_tests_properties(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls PROPERTIES ENVIRONMENT "PYTHONPATH=${LUMEN_PYTHON_PATH}")
+endif()

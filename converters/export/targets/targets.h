@@ -31,9 +31,8 @@ TargetRow blenderRow();
 
 /// The cache, always in mm and LPS, its arrays in the order z, y, x: metadata.json, mu_volume.npy
 /// (synthetic: see isaac.cpp), vessel_mask.npy, centerline_points_mm.npy, centerline_edges.npy,
-/// centerline_radii_mm.npy. vessel_query.bin, the case as a buffer of libblob in mm and LPS, with
-/// query_warp.py and vessel_warp.py, which ask it in Warp. vessel.usda in the folder's frame: a thick
-/// wall. Throws Error(Usage) for too many samples, and as wallSurface().
+/// centerline_radii_mm.npy. vessel.usda in the folder's frame: a thick wall. Throws Error(Usage) for
+/// too many samples, and as wallSurface().
 ExportResult exportIsaac(const ExportInput& input);
 
 TargetRow isaacRow();

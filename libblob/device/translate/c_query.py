@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The functions of blob_device.h as a tree of C (python3-pycparser), and the types of their expressions.
 
-`Writer` walks a function and hands typed pieces of text to a language, which a subclass writes. A pointer into the buffer is
-the index of a word there. A parameter that is a pointer to const is a value; any other pointer is an output, which is read, too.
-The part of C is that of the header: no `goto`, no `switch`, no `while`, and `for` loops that count upwards by one."""
+A pointer into the buffer is the index of a word there. A parameter that is a pointer to const is a value; any other pointer is an
+output, which is read, too. The part of C is that of the header: no `goto`, no `switch`, no `while`, and `for` loops that count upwards by one."""
 import pathlib
 import re
 from collections import namedtuple
@@ -55,11 +54,10 @@ def type_of(node):
 
 
 class Names(c_ast.NodeVisitor):
-    """Names that a part of a function indexes, changes, itself or by a function that it calls, and counts with."""
+    """Names that a part of a function indexes, and those that it counts with."""
 
-    def __init__(self, node, functions):
-        self.functions = functions
-        self.indexed, self.changed, self.counters = set(), set(), set()
+    def __init__(self, node):
+        self.indexed, self.counters = set(), set()
         self.visit(node)
 
     def visit_ArrayRef(self, node):
@@ -67,33 +65,10 @@ class Names(c_ast.NodeVisitor):
             self.indexed.add(node.name.name)
         self.generic_visit(node)
 
-    def visit_Assignment(self, node):
-        self.changed.add(root_of(node.lvalue))
-        self.generic_visit(node)
-
-    def visit_UnaryOp(self, node):
-        if node.op in ("p++", "++", "--", "p--"):
-            self.changed.add(root_of(node.expr))
-        self.generic_visit(node)
-
-    def visit_FuncCall(self, node):
-        parameters = self.functions[node.name.name].parameters if node.name.name in self.functions else ()
-        for argument, parameter in zip(node.args.exprs, parameters):
-            if parameter.kind == "out":
-                self.changed.add(root_of(argument))
-        self.generic_visit(node)
-
     def visit_For(self, node):
         self.counters.add(node.init.lvalue.name)
         for part in (node.cond, node.stmt):
             self.visit(part)
-
-
-def root_of(node):
-    """The variable that an lvalue is a part of."""
-    while not isinstance(node, c_ast.ID):
-        node = node.expr if isinstance(node, c_ast.UnaryOp) else node.name
-    return node.name
 
 
 class Query:
@@ -110,7 +85,7 @@ class Query:
                     field.name: type_of(field.type) for field in node.type.type.decls}
 
     def add_function(self, node):
-        indexed = Names(node.body, {}).indexed
+        indexed = Names(node.body).indexed
         parameters = []
         for declaration in node.decl.type.args.params:
             kind, name = type_of(declaration.type), declaration.name
@@ -122,8 +97,3 @@ class Query:
             parameters.append(Parameter(name, kind, mode))
         name = node.decl.name
         self.functions[name] = Function(name, type_of(node.decl.type.type), parameters, node.body)
-
-    @staticmethod
-    def reads_buffer(function):
-        """Whether a function has a place in the buffer among its parameters."""
-        return any(p.type in ("words", "vessel", "node") for p in function.parameters)

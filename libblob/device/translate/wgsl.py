@@ -2,10 +2,10 @@
 """The query in WGSL, the language of WebGPU's shaders."""
 from pycparser import c_ast
 
-from c_query import Expression
-from writer import Writer
+from c_query import BITS, RANK, Expression, Names, type_of
 
 MOST_WRITTEN_OUT = 4  # turns of a loop
+COMPARISONS = ("==", "!=", "<", ">", "<=", ">=")
 TYPES = {"float": "f32", "int": "i32", "word": "u32", "words": "u32", "bits": "u32", "bool": "bool"}
 
 HEAD = """\
@@ -62,12 +62,14 @@ fn blob_%(name)s_points(@builtin(global_invocation_id) id: vec3<u32>) {
 TAIL += KERNEL % {"name": "query"} + KERNEL % {"name": "query_exact"}
 
 
-class Wgsl(Writer):
-    indentation = 1
-    breaks_at = 0
-    operators = {}
-    negation = "!"
-    square_root = "sqrt"
+class Wgsl:
+    """The text of the shader."""
+
+    def __init__(self, query):
+        self.query, self.lines, self.depth = query, [], 0
+        self.variables, self.outputs, self.counters = {}, [], set()
+        self.known = {}  # the value of a counter whose loop is written out
+        self.temporaries, self.copies = 0, []
 
     def text(self):
         self.lines = [HEAD.rstrip("\n"), ""]
@@ -89,7 +91,152 @@ class Wgsl(Writer):
             return f"array<{self.type(kind[1])}, {kind[2]}>"
         return f"blob_device_{kind}"
 
+    def line(self, text):
+        """A line of the text, indented."""
+        self.lines.append("  " * self.depth + text)
+
     # ------------------------------------------------------------ expressions
+
+    def converted(self, e, wanted):
+        """An expression as one of another type."""
+        words = {"words": "word"}
+        if words.get(e.type, e.type) == words.get(wanted, wanted):
+            return e
+        if e.literal is not None:
+            return Expression(self.literal(e.literal, wanted), wanted)
+        if wanted == "bool":
+            return self.compared("!=", e, self.integer(0))
+        if e.type == "bool":
+            return self.choice(e, self.converted(self.integer(1), wanted), self.converted(self.integer(0), wanted))
+        return Expression(f"{self.type(wanted)}({e.text})", wanted)
+
+    @staticmethod
+    def integer(number):
+        return Expression(str(number), "int", 9, number)
+
+    def common(self, a, b):
+        """Both expressions as the type that C computes in."""
+        for kind in ("float", "words", "word", "int"):
+            if kind in (a.type, b.type):
+                wanted = "word" if kind == "words" else kind
+                return self.converted(a, wanted), self.converted(b, wanted), kind
+        return a, b, a.type
+
+    def settled(self, e):
+        """A literal that stands alone, as an expression of WGSL."""
+        return Expression(self.literal(e.literal, "int"), "int") if e.literal is not None else e
+
+    def joined(self, op, a, b, kind):
+        """Two expressions about an operator, in the parentheses that WGSL needs."""
+        rank = RANK[op]
+
+        def inner(e, is_right):
+            if rank >= RANK["+"]:
+                is_bare = e.rank > rank or (e.rank == rank and not is_right)
+            elif rank in (RANK["|"], RANK["<<"]):
+                is_bare = e.rank > RANK["*"]
+            else:  # a comparison stands bare within && and ||, but no && within ||
+                is_bare = e.rank >= RANK["+"] or rank < e.rank == RANK["=="]
+            return e.text if is_bare else f"({e.text})"
+
+        return Expression(f"{inner(a, False)} {op} {inner(b, True)}", kind, rank)
+
+    def compared(self, op, a, b):
+        a, b, _ = self.common(a, b)
+        return self.joined(op, self.settled(a), self.settled(b), "bool")
+
+    def expression(self, node):
+        return getattr(self, "of_" + type(node).__name__.lower())(node)
+
+    def value(self, node, wanted):
+        """The text of an expression as a type."""
+        return self.settled(self.converted(self.expression(node), wanted)).text
+
+    def of_constant(self, node):
+        text = node.value.lower()
+        if node.type == "float":
+            return Expression(self.literal(float(text.rstrip("f")), "float", text.rstrip("f")), "float")
+        if text.endswith("u"):
+            return Expression(self.literal(int(text[:-1], 0), "word", text[:-1]), "word")
+        return self.integer(int(text, 0))
+
+    def of_id(self, node):
+        if node.name in self.query.constants:
+            text = self.query.constants[node.name]
+            return Expression(node.name, "word") if text.endswith("u") else Expression(node.name, "int")
+        if node.name in self.known:
+            return self.integer(self.known[node.name])
+        kind = self.variables[node.name]
+        if kind == BITS:
+            raise ValueError("a union is used by its members alone")
+        return Expression(self.variable(node.name), kind)
+
+    def of_structref(self, node):
+        name = node.name.name if isinstance(node.name, c_ast.ID) else None
+        if name is not None and self.variables[name] == BITS:
+            word = Expression(self.variable(name), "word")
+            return word if node.field.name == "word" else Expression(f"bitcast<f32>({word.text})", "float")
+        e = self.expression(node.name)
+        return Expression(f"{e.text}.{node.field.name}", self.query.records[e.type][node.field.name])
+
+    def of_arrayref(self, node):
+        e = self.expression(node.name)
+        if e.type == "words":
+            index = self.expression(node.subscript)
+            place = e if index.literal == 0 else self.joined("+", e, self.converted(index, "word"), "words")
+            return Expression(f"blob_device_buffer[{place.text}]", "word")
+        index = self.settled(self.expression(node.subscript))
+        return Expression(f"{e.text}[{index.text}]", e.type[1])
+
+    def of_unaryop(self, node):
+        e = self.expression(node.expr)
+        if node.op == "*":
+            return Expression(f"blob_device_buffer[{e.text}]", "word") if e.type == "words" else e
+        if node.op == "!":
+            if e.type == "int":
+                return self.compared("==", e, self.integer(0))
+            return Expression(f"!({e.text})", "bool", 8)
+        if node.op == "-":
+            if e.literal is not None:
+                return self.integer(-e.literal)
+            return Expression("-" + (e.text if e.rank > 7 else f"({e.text})"), e.type, 8)
+        raise ValueError(f"operator {node.op} within an expression")
+
+    def of_binaryop(self, node):
+        a, b = self.expression(node.left), self.expression(node.right)
+        if node.op in ("&&", "||"):
+            return self.joined(node.op, self.converted(a, "bool"), self.converted(b, "bool"), "bool")
+        if node.op in COMPARISONS:
+            return self.compared(node.op, a, b)
+        if node.op in ("<<", ">>"):
+            return self.joined(node.op, a, self.converted(b, "word"), a.type)
+        if a.literal is not None and b.literal is not None and node.op == "+":
+            return self.integer(a.literal + b.literal)
+        a, b, kind = self.common(a, b)
+        return self.joined(node.op, self.settled(a), self.settled(b), kind)
+
+    def of_ternaryop(self, node):
+        then, other, _ = self.common(self.expression(node.iftrue), self.expression(node.iffalse))
+        return self.choice(self.converted(self.expression(node.cond), "bool"), self.settled(then), self.settled(other))
+
+    def of_cast(self, node):
+        wanted = node.to_type.type.type.names[0].replace("blob_device_", "")
+        return self.converted(self.settled(self.expression(node.expr)), wanted)
+
+    def of_funccall(self, node):
+        name, arguments = node.name.name, node.args.exprs
+        if name == "sqrt":
+            return Expression(f"sqrt({self.value(arguments[0], 'float')})", "float")
+        if name == "blob_device_float":
+            return Expression(f"bitcast<f32>({self.value(arguments[0], 'word')})", "float")
+        function = self.query.functions[name]
+        values = []
+        for argument, parameter in zip(arguments, function.parameters):
+            if isinstance(argument, c_ast.UnaryOp) and argument.op == "&":
+                argument = argument.expr
+            values.append(argument if parameter.kind == "out" else self.value(argument, parameter.type))
+        texts = [v if isinstance(v, str) else self.address(v) for v in values]
+        return Expression(f"{name}({', '.join(texts)})", function.result)
 
     @staticmethod
     def literal(number, kind, text=None):
@@ -98,24 +245,12 @@ class Wgsl(Writer):
             return (text if "." in text or "e" in text else text + ".0") + "f"
         return (text or str(number)) + ("u" if kind in ("word", "words") else "")
 
-    def conversion(self, text, wanted):
-        return f"{self.type(wanted)}({text})"
-
     def variable(self, name):
         return f"(*{name})" if name in self.outputs else name
 
-    def choice(self, condition, then, other):
-        return Expression(f"select({other.text}, {then.text}, {condition.text})", then.type)
-
-    def reinterpreted(self, text, wanted):
-        return f"bitcast<{self.type(wanted)}>({text})"
-
     @staticmethod
-    def loaded(index):
-        return f"blob_device_buffer[{index}]"
-
-    def call(self, function, values):
-        return f"{function.name}({', '.join(v if isinstance(v, str) else self.address(v) for v in values)})"
+    def choice(condition, then, other):
+        return Expression(f"select({other.text}, {then.text}, {condition.text})", then.type)
 
     def address(self, target):
         """A pointer to a variable. One to a member, which not every implementation takes, is that of a copy."""
@@ -132,34 +267,120 @@ class Wgsl(Writer):
 
     # ------------------------------------------------------------ statements
 
-    def begin(self, function):
-        self.copies = []
+    def function(self, function):
+        self.variables = {p.name: p.type for p in function.parameters}
+        self.outputs = [p.name for p in function.parameters if p.kind == "out"]
+        self.result = function.result
+        self.counters = Names(function.body).counters
+        self.temporaries, self.copies = 0, []
         parts = [f"{p.name}: " + (f"ptr<function, {self.type(p.type)}>" if p.kind == "out" else self.type(p.type))
                  for p in function.parameters]
         result = "" if function.result == "void" else f" -> {self.type(function.result)}"
         self.lines.append("")
         self.line(f"fn {function.name}({', '.join(parts)}){result} {{")
-        self.depth = 1
+        for parameter in function.parameters:
+            if parameter.kind == "in" and parameter.name in self.assigned(function.body):
+                raise ValueError(f"{function.name} changes its parameter {parameter.name}")
+        self.block(function.body)
+        self.line("}")
 
-    def end(self, _):
-        self.depth = 0
+    @staticmethod
+    def assigned(body):
+        """Names that an assignment changes; those that calls change are outputs."""
+        names = set()
+
+        class Assignments(c_ast.NodeVisitor):
+            def visit_Assignment(self, node):
+                if isinstance(node.lvalue, c_ast.ID):
+                    names.add(node.lvalue.name)
+                self.generic_visit(node)
+
+        Assignments().visit(body)
+        return names
+
+    def statements(self, node):
+        for item in (node.block_items if isinstance(node, c_ast.Compound) else [node]) or []:
+            getattr(self, "do_" + type(item).__name__.lower(), self.do_other)(item)
+
+    def block(self, node):
+        self.depth += 1
+        self.statements(node)
+        self.depth -= 1
+
+    def do_compound(self, node):
+        self.statements(node)
+
+    def do_other(self, node):
+        raise ValueError(f"a statement that is not translated: {node}")
+
+    def do_decl(self, node):
+        kind, name = type_of(node.type), node.name
+        self.variables[name] = kind
+        if name in self.counters:
+            return
+        is_constant = "const" in node.quals or kind == "words"
+        if node.init is None:
+            self.declare(name, kind, None, False)
+        elif isinstance(node.init, c_ast.TernaryOp) and kind in self.query.records:
+            self.declare(name, kind, None, False)
+            self.choose(c_ast.ID(name), node.init)
+        else:
+            self.declare(name, kind, self.value(node.init, kind), is_constant)
+
+    def choose(self, target, node):
+        """A choice between records, of which only one is computed."""
+        self.do_if(c_ast.If(node.cond, c_ast.Assignment("=", target, node.iftrue),
+                            c_ast.Assignment("=", target, node.iffalse)))
+
+    def do_assignment(self, node):
+        if isinstance(node.rvalue, c_ast.Assignment):  # a = b = c
+            self.do_assignment(node.rvalue)
+            innermost = node.rvalue
+            while isinstance(innermost, c_ast.Assignment):
+                innermost = innermost.rvalue
+            self.do_assignment(c_ast.Assignment(node.op, node.lvalue, innermost))
+            return
+        target = node.lvalue
+        if isinstance(target, c_ast.StructRef) and isinstance(target.name, c_ast.ID) \
+                and self.variables[target.name.name] == BITS and target.field.name == "number":
+            self.line(f"{self.variable(target.name.name)} = bitcast<u32>({self.value(node.rvalue, 'float')});")
+            return
+        place = self.expression(target)
+        self.line(f"{place.text} {node.op} {self.value(node.rvalue, place.type)};")
+
+    def do_unaryop(self, node):
+        e = self.expression(node.expr)
+        self.line(f"{e.text} {node.op[-1]}= {self.literal(1, e.type)};")
+
+    def do_funccall(self, node):
+        self.line(self.expression(node).text + ";")
+        for text, copy in self.copies:
+            self.line(f"{text} = {copy};")
+        self.copies = []
+
+    def do_return(self, node):
+        self.line("return;" if node.expr is None else f"return {self.value(node.expr, self.result)};")
+
+    def do_for(self, node):
+        """A loop over elements of an array is written out: some implementations index values by constants alone."""
+        counter, kind = node.init.lvalue.name, self.variables[node.init.lvalue.name]
+        if node.cond.op != "<" or node.cond.left.name != counter or node.next.expr.name != counter:
+            raise ValueError("a loop that does not count upwards by one")
+        start, bound = self.value(node.init.rvalue, kind), node.cond.right
+        if isinstance(bound, c_ast.Constant) and int(bound.value) <= MOST_WRITTEN_OUT:
+            for value in range(int(start), int(bound.value)):
+                self.known[counter] = value
+                self.statements(node.stmt)
+            del self.known[counter]
+            return
+        self.line(f"for (var {counter}: {self.type(kind)} = {start}; {counter} < {self.value(bound, kind)}; "
+                  f"{counter} += {self.literal(1, kind)}) {{")
+        self.block(node.stmt)
         self.line("}")
 
     def declare(self, name, kind, value, is_constant):
         word = "let" if is_constant else "var"
         self.line(f"{word} {name}: {self.type(kind)}" + ("" if value is None else f" = {value}") + ";")
-
-    def assign(self, place, op, value):
-        self.line(f"{place} {op} {value};")
-
-    def alone(self, call):
-        self.line(call + ";")
-        for text, copy in self.copies:
-            self.line(f"{text} = {copy};")
-        self.copies = []
-
-    def give(self, value):
-        self.line("return;" if value is None else f"return {value};")
 
     def do_if(self, node, before=""):
         self.line(f"{before}if ({self.value(node.cond, 'bool')}) {{")
@@ -170,19 +391,6 @@ class Wgsl(Writer):
         if node.iffalse is not None:
             self.line("} else {")
             self.block(node.iffalse)
-        self.line("}")
-
-    def count(self, counter, kind, start, bound, body):
-        """A loop over elements of an array is written out: some implementations index values by constants alone."""
-        if isinstance(bound, c_ast.Constant) and int(bound.value) <= MOST_WRITTEN_OUT:
-            for value in range(int(start), int(bound.value)):
-                self.known[counter] = value
-                self.statements(body)
-            del self.known[counter]
-            return
-        self.line(f"for (var {counter}: {self.type(kind)} = {start}; {counter} < {self.value(bound, kind)}; "
-                  f"{counter} += {self.literal(1, kind)}) {{")
-        self.block(body)
         self.line("}")
 
     def do_break(self, _):

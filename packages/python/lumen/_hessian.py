@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The second derivative of the distance to the wall, for lumen.torch and lumen.jax."""
+"""The second derivative of the distance to the wall, for lumen.torch."""
 import numpy as np
 
 from . import blob

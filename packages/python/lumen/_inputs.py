@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import secrets
 import tempfile
 from typing import Any
 
@@ -72,16 +73,15 @@ class Volume:
         path = os.fspath(path)
         if not path.endswith(".nrrd"):
             raise ValueError(f"{path}: found a name without .nrrd, expected one with it")
-        with tempfile.NamedTemporaryFile(dir=os.path.dirname(path) or ".", suffix=".nrrd",
-                                         delete=False) as file:
+        unfinished = os.path.join(os.path.dirname(path), f".lumen-{secrets.token_hex(8)}.nrrd")
+        with open(unfinished, "xb") as file:
             try:
                 self._write_to(file)
                 file.flush()
                 os.fsync(file.fileno())
-                os.chmod(file.name, 0o666 & ~_umask())
-                os.replace(file.name, path)
+                os.replace(unfinished, path)
             except BaseException:
-                os.unlink(file.name)
+                os.unlink(unfinished)
                 raise
 
     def _type_name(self):
@@ -105,12 +105,6 @@ class Volume:
 
     def __repr__(self):
         return f"<lumen.Volume {self.array.shape} {self.array.dtype}, {self.spacing} mm>"
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def seeds_document(seeds: Any) -> dict:

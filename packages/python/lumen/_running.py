@@ -109,7 +109,7 @@ def run(command: str, *arguments, progress=None, threads=None, strict=False, **o
     strict : bool
         A warning is an error.
     **options
-        The command's options; ``lumen.run.options("info")`` lists them.
+        The command's options; ``lumen.options_of("info")`` lists them.
 
     Returns
     -------

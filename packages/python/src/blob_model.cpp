@@ -49,11 +49,7 @@ SharedModel opened(const std::string& subject, bool verify, const Open& open) {
   definition.message = message.data();
   definition.message_size = message.size();
   blob_model* model = nullptr;
-  blob_status status = BLOB_OK;
-  {
-    const py::gil_scoped_release released;
-    status = open(definition, &model);
-  }
+  const blob_status status = released([&] { return open(definition, &model); });
   if (status != BLOB_OK) {
     const std::string reason = message[0] != '\0' ? message.data() : blob_status_text(status);
     raise(invalidInput(subject + ": " + reason), subject);
@@ -72,7 +68,8 @@ SharedModel openFile(const std::filesystem::path& file, bool verify) {
 }
 
 SharedModel openCase(const CaseObject& source) {
-  if (const auto valid = formats::validate(source.value); !valid) raise(valid.error(), "");
+  const auto valid = released([&] { return formats::validate(source.value); });
+  if (!valid) raise(valid.error(), "");
   return opened("case", false, [&](const blob_open_def& definition, blob_model** model) {
     const auto bytes = formats::encodeBinary(source.value);
     return blob_model_open_bytes(bytes.data(), bytes.size(), &definition, model);
@@ -288,18 +285,22 @@ using Words = py::array_t<std::uint32_t, py::array::c_style | py::array::forceca
 Words packed(const std::vector<SharedModel>& models) {
   std::vector<const blob_model*> pointers;
   for (const SharedModel& model : models) pointers.push_back(model->model.get());
-  const std::size_t size = blob_device_pack(pointers.data(), pointers.size(), nullptr, 0);
+  const auto pack = [&](std::uint32_t* words, std::size_t room) {
+    return released(
+        [&] { return blob_device_pack(pointers.data(), pointers.size(), words, room); });
+  };
+  const std::size_t size = pack(nullptr, 0);
   if (size == 0) throw py::value_error("models: expected at least one, and less than 16 GiB");
   Words words(static_cast<py::ssize_t>(size / sizeof(std::uint32_t)));
-  if (blob_device_pack(pointers.data(), pointers.size(), words.mutable_data(), size) != size)
-    throw std::bad_alloc();
+  if (pack(words.mutable_data(), size) != size) throw std::bad_alloc();
   return words;
 }
 
 /// Raises lumen.Error for words that are no buffer of pack().
 void checkPacked(const Words& words) {
   const auto size = static_cast<std::size_t>(words.size()) * sizeof(std::uint32_t);
-  const blob_status status = blob_device_check(words.data(), size);
+  const std::uint32_t* const data = words.data();
+  const blob_status status = released([&] { return blob_device_check(data, size); });
   if (status != BLOB_OK)
     raise(invalidInput(std::string("packed models: ") + blob_status_text(status)), "");
 }

@@ -40,15 +40,14 @@ py::tuple edited(const CaseObject& self, const std::function<Change(Case&)>& edi
   Case value;
   Change change;
   std::optional<Error> failure;
-  {
-    const py::gil_scoped_release released;
+  released([&] {
     try {
       value = self.value;
       change = edit(value);
     } catch (const Error& error) {
       failure = error;
     }
-  }
+  });
   if (failure) raise(*failure);
   return py::make_tuple(sharedCase(std::move(value)),
                         py::make_tuple(change.sentence, arrayOf(change.before),
@@ -114,7 +113,7 @@ void addWallEdits(py::module_& module) {
 /// Fits the models of the given nodes again, with the options of the case's last fit.
 SharedCase refitted(const CaseObject& self, const std::vector<std::uint32_t>& nodes,
                     const py::object& report, int threads) {
-  const SharedCase result = sharedCase(self.value);
+  const SharedCase result = released([&] { return sharedCase(self.value); });
   runWatched({report, threads}, [&](Progress& progress) {
     convert::refit(result->value, nodes, convert::recordedFitOptions(result->value), progress);
   });

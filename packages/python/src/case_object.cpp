@@ -137,34 +137,24 @@ void addParts(py::class_<CaseObject, SharedCase>& type) {
   });
 }
 
-formats::Expected<Case> decoded(std::span<const std::byte> bytes) {
-  const py::gil_scoped_release released;
-  return formats::decodeCase(bytes);
-}
-
 SharedCase readCase(const fs::path& file) {
-  const auto read = [&] {
-    const py::gil_scoped_release released;
-    return formats::readFileBytes(file);
-  }();
+  const auto read = released([&] { return formats::readFileBytes(file); });
   if (!read) raise(read.error(), formats::printable(file.string()));
-  auto value = decoded(*read);
+  auto value = released([&] { return formats::decodeCase(*read); });
   if (!value) raise(value.error(), formats::printable(file.string()));
   return sharedCase(*std::move(value));
 }
 
 SharedCase decodeBytes(const py::bytes& bytes) {
   const auto text = static_cast<std::string_view>(bytes);
-  auto value = decoded(std::as_bytes(std::span(text.data(), text.size())));
+  auto value = released(
+      [&] { return formats::decodeCase(std::as_bytes(std::span(text.data(), text.size()))); });
   if (!value) raise(value.error(), "");
   return sharedCase(*std::move(value));
 }
 
 void requireValid(const CaseObject& self) {
-  const formats::Status valid = [&] {
-    const py::gil_scoped_release released;
-    return formats::validate(self.value);
-  }();
+  const formats::Status valid = released([&] { return formats::validate(self.value); });
   if (!valid) raise(valid.error(), "");
 }
 
@@ -202,7 +192,7 @@ SharedCase withMotion(const CaseObject& self, const std::vector<double>& times,
     std::memcpy(static_cast<void*>(motion->pose.data()), poses.data(),
                 motion->pose.size() * sizeof(formats::Pose));
   }
-  SharedCase made = sharedCase(self.value);
+  const SharedCase made = released([&] { return sharedCase(self.value); });
   made->value.motion = std::move(motion);
   requireValid(*made);
   return made;
@@ -225,35 +215,33 @@ void addMotion(py::class_<CaseObject, SharedCase>& type) {
 
 py::bytes encodeBytes(const CaseObject& self, bool isJson, bool compress, int pointBits) {
   requireValid(self);
-  if (pointBits != 0 && isJson) {
-    CaseObject rounded = self;
-    formats::quantisePoints(rounded.value, pointBits);
-    return formats::encodeJson(rounded.value);
-  }
-  if (isJson) return formats::encodeJson(self.value);
-  std::vector<std::byte> bytes;
-  {
-    const py::gil_scoped_release released;
-    bytes = formats::encodeBinary(self.value, {compress, pointBits});
-  }
+  if (isJson)
+    return released([&] {
+      if (pointBits == 0) return formats::encodeJson(self.value);
+      Case rounded = self.value;
+      formats::quantisePoints(rounded, pointBits);
+      return formats::encodeJson(rounded);
+    });
+  const auto bytes = released([&] {
+    return formats::encodeBinary(self.value, {compress, pointBits});
+  });
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 void writeCase(const CaseObject& self, const fs::path& file, bool isJson, bool compress,
                int pointBits) {
   requireValid(self);
-  const formats::Status status = [&] {
-    const py::gil_scoped_release released;
+  const formats::Status status = released([&] {
     return formats::writeCaseFile(
         self.value, file, isJson ? formats::CaseEncoding::Json : formats::CaseEncoding::Binary,
         {compress, pointBits});
-  }();
+  });
   if (!status) raise(status.error(), formats::printable(file.string()));
 }
 
 py::tuple issuesOf(const CaseObject& self, std::size_t most) {
   formats::IssueList issues(most);
-  formats::checkCase(self.value, issues);
+  released([&] { formats::checkCase(self.value, issues); });
   const formats::IssueCounts counts = issues.counts();
   py::list facts;
   for (const formats::Issue& issue : issues.take()) facts.append(issueFacts(issue));
@@ -274,10 +262,10 @@ void addCase(py::module_& module) {
   type.def("write", &writeCase);
   type.def("issues", &issuesOf);
   type.def("copy", [](const CaseObject& self, bool isWritable) {
-    return sharedCase(self.value, isWritable);
+    return released([&] { return sharedCase(self.value, isWritable); });
   });
   type.def("equals", [](const CaseObject& self, const CaseObject& other) {
-    return self.value == other.value;
+    return released([&] { return self.value == other.value; });
   });
 }
 

@@ -93,7 +93,8 @@ py::tuple runCommand(const std::string& name, const std::vector<std::string>& ar
   using Json = engine::Json;
   py::object json = py::none();
   if (!answer.json.is_null())
-    json = py::str(answer.json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    json = py::str(
+        released([&] { return answer.json.dump(-1, ' ', false, Json::error_handler_t::replace); }));
   return py::make_tuple(json, text + answer.text, answer.code, messages.warnings, messages.details);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults of lumen as exceptions of Python: lumen.Error, which lumen/_errors.py defines.
+// Faults of lumen as exceptions of Python: lumen.Error, which lumen/_errors.py defines; and work
+// without Python's lock.
 #pragma once
 
 #include <string>
@@ -10,6 +11,13 @@
 #include "formats/container/issue.h"
 
 namespace lumen::python {
+
+/// The result of `work`, during which other threads of Python run. It touches no object of Python.
+template <class Work>
+auto released(const Work& work) {
+  const pybind11::gil_scoped_release released;
+  return work();
+}
 
 /// Raises lumen.Error with the message, the kind and the exit code of `error`. `file` may be empty.
 /// The caller holds Python's lock.

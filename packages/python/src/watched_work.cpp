@@ -116,23 +116,20 @@ void look(const py::object& report, const StageState& now, StageState& shown) {
   report(now.stage, now.done, now.total);
 }
 
-/// Watches until the work has ended. An exception of Python cancels the work and is returned.
-std::optional<py::error_already_set> watchUntilEnd(Worker& worker, WatchedProgress& progress,
-                                                   const py::object& report) {
-  StageState shown;
-  while (true) {
-    bool hasEnded = false;
-    {
-      const py::gil_scoped_release released;
-      hasEnded = worker.wait();
-    }
-    try {
+/// Watches until the work has ended. Whatever is thrown meanwhile, by Python or by its binding,
+/// cancels the work and is returned; null without one.
+std::exception_ptr watchUntilEnd(Worker& worker, WatchedProgress& progress,
+                                 const py::object& report) {
+  try {
+    StageState shown;
+    for (bool hasEnded = false; !hasEnded;) {
+      hasEnded = released([&] { return worker.wait(); });
       look(report, progress.state(), shown);
-    } catch (py::error_already_set& raised) {
-      progress.cancel();
-      return raised;
     }
-    if (hasEnded) return std::nullopt;
+    return nullptr;
+  } catch (...) {
+    progress.cancel();
+    return std::current_exception();
   }
 }
 
@@ -147,10 +144,9 @@ Messages runWatched(const Watch& watch, const std::function<void(Progress&)>& wo
   }
   WatchedProgress progress(watch.strict);
   Worker worker(progress, work);
-  const auto raised = watchUntilEnd(worker, progress, watch.report);
+  const std::exception_ptr raised = watchUntilEnd(worker, progress, watch.report);
   std::optional<Error> failure;
-  {
-    const py::gil_scoped_release released;
+  released([&] {
     try {
       worker.finish();
     } catch (const Error& error) {
@@ -160,8 +156,8 @@ Messages runWatched(const Watch& watch, const std::function<void(Progress&)>& wo
     } catch (const std::exception& error) {
       failure = failed(std::string("unexpected: ") + error.what());
     }
-  }
-  if (raised) throw py::error_already_set(*raised);
+  });
+  if (raised) std::rethrow_exception(raised);
   if (failure) raise(*failure);
   return progress.takeMessages();
 }

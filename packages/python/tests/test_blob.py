@@ -9,7 +9,7 @@ import numpy as np
 
 import lumen
 from fixture import sample
-from lumen import blob
+from lumen import _hessian, blob
 
 
 class BlobTest(unittest.TestCase):
@@ -54,6 +54,22 @@ class BlobTest(unittest.TestCase):
             np.testing.assert_allclose((ahead - behind) / 2e-4, np.stack(row, axis=1), atol=1e-4)
         np.testing.assert_allclose(answer.value, self.model.query(self.points, cursor, flags).value, atol=1e-6)
         self.assertEqual(self.model.hessian(self.points[0]).hessian.shape, (6,))
+
+    def test_the_hessian_of_the_distance_is_that_of_differences_of_the_normal(self):
+        answer = self.model.query(self.points, flags=blob.DISTANCE_EXACT)
+        points = self.points[np.abs(answer.distance) < 0.5 * self.case.tree.radius[answer.node]]
+        cursor = self.model.cursor(points)
+        hessian = _hessian.of_distance(self.model, points, cursor)
+        columns = []
+        for axis in range(3):
+            step = 1e-3 * np.eye(3)[axis]
+            ahead, behind = (self.model.query(points + s * step, cursor.copy(), blob.DISTANCE_EXACT).normal for s in (1, -1))
+            columns.append((ahead - behind) / 2e-3)
+        scale = np.linalg.norm(hessian, axis=(1, 2))
+        error = np.linalg.norm(hessian - np.stack(columns, axis=-1), axis=(1, 2)) / scale
+        self.assertGreater(np.median(scale), 0.1)  # 1/mm
+        self.assertLess(np.median(error), 0.001)
+        self.assertLess(np.quantile(error, 0.9), 0.005)
 
     def test_models_are_packed_into_words_that_pass_the_check(self):
         one, two = blob.pack(self.model), blob.pack([self.model, self.model])

@@ -5,6 +5,8 @@ import json
 import os
 import pickle
 import tempfile
+import threading
+import time
 import unittest
 
 import numpy as np
@@ -70,6 +72,54 @@ class ViewsTest(unittest.TestCase):
     def test_metadata_state_the_steps(self):
         names = [step["name"] for step in self.case.metadata["steps"]]
         self.assertEqual(names[-1], "fit")
+
+
+class LargeCaseTest(unittest.TestCase):
+    """Calls that take long leave the other threads of Python running."""
+
+    @classmethod
+    def setUpClass(cls):
+        nodes = 200_000
+        branch = {"label": "a", "kind": "vessel", "parentNode": -1, "firstNode": 0, "nodeCount": nodes, "stopReason": "unknown"}
+        text = json.dumps({
+            "format": "lumen", "version": "1.1", "minimumReader": "1.0",
+            "metadata": {"coordinateSystem": "LPS", "units": "mm", "steps": []},
+            "tree": {"branches": [branch], "centre": [[0, 0, 0.1 * i] for i in range(nodes)], "direction": nodes * [[0, 0, 1]],
+                     "radius": nodes * [1], "height": nodes * [0.5], "parent": list(range(-1, nodes - 1)), "branch": nodes * [0]}})
+        cls.case = lumen.Case.from_bytes(text.encode())
+
+    @staticmethod
+    def longest_pause(work):
+        """The longest time in which another thread stood still, as a share of the time of `work`."""
+        ticks, is_done = [time.perf_counter()], threading.Event()
+
+        def tick():
+            while not is_done.is_set():
+                ticks.append(time.perf_counter())
+                time.sleep(0.0005)
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        began = time.perf_counter()
+        work()
+        seconds = time.perf_counter() - began
+        is_done.set()
+        thread.join()
+        return np.diff([*ticks, time.perf_counter()]).max() / seconds
+
+    def expect_others_to_run(self, work):
+        # a busy machine may hold the thread up as well, but not each time
+        self.assertLess(min(self.longest_pause(work) for _ in range(5)), 0.5)
+
+    def test_others_run_while_a_case_is_encoded_as_json(self):
+        self.expect_others_to_run(lambda: self.case.to_bytes(json=True))
+
+    def test_others_run_while_a_case_is_checked(self):
+        self.expect_others_to_run(self.case.validate)
+
+    def test_others_run_while_a_case_is_compared(self):
+        other = self.case.copy()
+        self.expect_others_to_run(lambda: [self.assertEqual(self.case, other) for _ in range(50)])
 
 
 class MotionTest(unittest.TestCase):

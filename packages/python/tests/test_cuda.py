@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""lumen._cuda and lumen._xla on the stand-in for NVIDIA's driver, whose device is the memory of arrays of NumPy.
+"""lumen._cuda on the stand-in for NVIDIA's driver, whose device is the memory of arrays of NumPy.
 
 LUMEN_BLOB_CUDA_LIBRARY names libblob-cuda; LD_LIBRARY_PATH has the folder of the stand-in, libcuda.so.1."""
 import ctypes
@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 from fixture import sample
-from lumen import _cuda, _xla, blob
+from lumen import _cuda, blob
 
 try:
     DRIVER = ctypes.CDLL("libcuda.so.1")
@@ -36,8 +36,10 @@ def model_and_points():
     return model, (tree.centre[node] + tree.radius[node, None] * offset).astype(np.float32)
 
 
-class Queries:
-    """Facts of both interfaces; query() launches the exact query of `points`, `nodes` and `answer`."""
+@unittest.skipUnless(HAS_STAND_IN and "LUMEN_BLOB_CUDA_LIBRARY" in os.environ,
+                     "the stand-in for the driver or libblob-cuda is missing")
+class CudaTest(unittest.TestCase):
+    """Queries at addresses."""
 
     @classmethod
     def setUpClass(cls):
@@ -48,6 +50,10 @@ class Queries:
     def setUp(self):
         self.nodes = self.known.copy()
         self.answer = np.full((len(self.points), 4), -7, np.float32)
+
+    def query(self, **options):
+        addresses = (array.ctypes.data for array in (self.points, self.nodes, self.answer))
+        _cuda.vessels(self.model, 0).query(len(self.points), *addresses, **options)
 
     def expect_exact_answers(self):
         wanted = self.model.query(self.points, flags=blob.DISTANCE_EXACT)
@@ -82,19 +88,6 @@ class Queries:
         self.expect_exact_answers()
         DRIVER.cuStreamDestroy_v2(stream)
 
-
-NEEDS_STAND_IN = unittest.skipUnless(HAS_STAND_IN and "LUMEN_BLOB_CUDA_LIBRARY" in os.environ,
-                                     "the stand-in for the driver or libblob-cuda is missing")
-
-
-@NEEDS_STAND_IN
-class CudaTest(Queries, unittest.TestCase):
-    """Queries at addresses."""
-
-    def query(self, **options):
-        addresses = (array.ctypes.data for array in (self.points, self.nodes, self.answer))
-        _cuda.vessels(self.model, 0).query(len(self.points), *addresses, **options)
-
     def test_flags_reach_the_query(self):
         self.query(flags=blob.BLENDED)
         DRIVER.cuStreamSynchronize(None)
@@ -119,99 +112,6 @@ class CudaTest(Queries, unittest.TestCase):
             _cuda.Vessels(np.zeros(64, np.uint32), 0)
         with self.assertRaisesRegex(ValueError, "2\\^32"):
             _cuda.vessels(self.model, 0).query(1 << 32, 0, 0, 0)
-
-
-# pylint: disable=protected-access
-def buffer(array):
-    """An argument or result of a call of XLA."""
-    dims = (ctypes.c_int64 * array.ndim)(*array.shape)
-    return _xla._Buffer(ctypes.sizeof(_xla._Buffer), None, 0, array.ctypes.data, array.ndim, dims)
-
-
-def buffers(*arrays):
-    pointers = (ctypes.POINTER(_xla._Buffer) * len(arrays))(*(ctypes.pointer(buffer(array)) for array in arrays))
-    return _xla._Buffers(ctypes.sizeof(_xla._Buffers), None, len(arrays), None, pointers)
-
-
-class Runtime:
-    """The part of XLA's runtime that calls a handler."""
-
-    def __init__(self, stream=0, ordinal=0, size=None):
-        self.errors = []
-        self.stream, self.ordinal = stream, ordinal
-        self.interface = _xla._Interface(size or ctypes.sizeof(_xla._Interface))
-        self.interface.create_error = _xla._CreateError(self.create_error)
-        self.interface.get_stream = _xla._GetStream(self.get_stream)
-        self.interface.get_ordinal = _xla._GetOrdinal(self.get_ordinal)
-
-    def create_error(self, arguments):
-        self.errors.append((arguments.contents.code, arguments.contents.message.decode()))
-        return 1000 + len(self.errors)
-
-    def get_stream(self, arguments):
-        arguments.contents.stream = self.stream
-
-    def get_ordinal(self, arguments):
-        arguments.contents.ordinal = self.ordinal
-
-    def call(self, model, points, nodes, answer, moved=None):
-      
-        scalar = _xla._Scalar(_xla._S64, ctypes.pointer(ctypes.c_int64(model)))
-        attributes = _xla._Attributes(ctypes.sizeof(_xla._Attributes), None, 1, (ctypes.c_int * 1)(_xla._SCALAR), None,
-                                      (ctypes.POINTER(_xla._Scalar) * 1)(ctypes.pointer(scalar)))
-        frame = _xla._Frame(ctypes.sizeof(_xla._Frame), None, ctypes.pointer(self.interface), None, 3, buffers(points, nodes),
-                            buffers(answer, nodes if moved is None else moved), attributes)
-        return _xla._handler(ctypes.pointer(frame))
-
-
-@NEEDS_STAND_IN
-class XlaTest(Queries, unittest.TestCase):
-    """Calls of XLA's interface, as its header states them."""
-
-    def call(self, runtime, **changes):
-        arrays = {"points": self.points, "nodes": self.nodes, "answer": self.answer, **changes}
-        return runtime.call(_xla.number_of(self.model), **arrays)
-
-    def query(self, **options):
-        self.assertIsNone(self.call(Runtime(**options)))
-
-    def test_any_leading_axes_are_points(self):
-        self.assertIsNone(self.call(Runtime(), points=self.points.reshape(4, 500, 3), nodes=self.nodes.reshape(4, 500)))
-        DRIVER.cuStreamSynchronize(None)
-        self.expect_exact_answers()
-
-    def test_the_handler_states_its_version(self):
-      
-        metadata = _xla._Metadata(ctypes.sizeof(_xla._Metadata))
-        metadata.traits = 0
-        base = (ctypes.sizeof(_xla._MetadataExtension), _xla._METADATA, None)
-        extension = _xla._MetadataExtension(base, ctypes.pointer(metadata))
-        first = ctypes.cast(ctypes.pointer(extension), ctypes.POINTER(_xla._Extension))
-        frame = _xla._Frame(ctypes.sizeof(_xla._Frame), first)
-        self.assertIsNone(_xla._handler(ctypes.pointer(frame)))
-        self.assertEqual((metadata.version.major, metadata.version.minor, metadata.traits), (0, 1, 0))
-
-    def test_layouts_are_those_of_the_header(self):
-      
-        def offsets(kind, *names):
-            return [getattr(kind, name).offset for name in names]
-
-        self.assertEqual(offsets(_xla._Interface, "create_error", "get_stream", "get_ordinal"), [48, 80, 184])
-        self.assertEqual(offsets(_xla._Frame, "arguments", "results", "attributes"), [40, 80, 120])
-
-    def test_faults_are_errors_of_the_runtime(self):
-        runtime = Runtime(size=100)
-        self.assertEqual(self.call(runtime), 1001)
-        self.assertRegex(runtime.errors[0][1], "does not state the device")
-        runtime = Runtime(ordinal=7)
-        self.assertEqual(self.call(runtime), 1001)
-        self.assertRegex(runtime.errors[0][1], "lumen.jax: libblob-cuda: .*no device 7")
-        self.assertEqual(self.call(runtime, moved=self.nodes.copy()), 1002)
-        self.assertTrue((self.answer == -7).all())
-
-    def test_one_number_names_one_model(self):
-        self.assertEqual(_xla.number_of(self.model), _xla.number_of(self.model))
-        self.assertNotEqual(_xla.number_of(self.model), _xla.number_of(blob.Model(sample().case)))
 
 
 class MissingTest(unittest.TestCase):

@@ -4,6 +4,7 @@ import contextlib
 import inspect
 import io
 import os
+import re
 import signal
 import struct
 import subprocess
@@ -17,6 +18,11 @@ import warnings
 
 import numpy as np
 
+try:
+    import _testcapi
+except ImportError:
+    _testcapi = None
+
 import lumen
 from fixture import sample
 
@@ -25,6 +31,22 @@ SLOW = "patient"
 
 
 class VolumeTest(unittest.TestCase):
+    def test_a_written_volume_has_the_mode_of_the_umask_which_stays(self):
+        volume = lumen.Volume(np.zeros((2, 2, 2), np.uint8))
+        before = os.umask(0o027)
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "a.nrrd")
+                # a file that another thread makes meanwhile must not be writable by everybody
+                with unittest.mock.patch("os.umask", side_effect=AssertionError("the umask was set")):
+                    volume.write(path)
+                self.assertEqual(os.stat(path).st_mode & 0o777, 0o640)
+                with unittest.mock.patch("os.fsync", side_effect=OSError("the disk is full")), self.assertRaises(OSError):
+                    volume.write(path)
+                self.assertEqual(os.listdir(folder), ["a.nrrd"])
+        finally:
+            os.umask(before)
+
     def test_a_written_volume_is_read_with_its_geometry(self):
         turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]])
         array = np.arange(24, dtype=np.int16).reshape(2, 3, 4)
@@ -231,6 +253,25 @@ class OptionsTest(unittest.TestCase):
             lumen.track(volume, seeds=outside, seeds_only=True, strict=True)
 
 
+class NamesTest(unittest.TestCase):
+    def test_names_in_docstrings_and_in_the_guide_exist(self):
+        folder = os.path.dirname(lumen.__file__)
+        guide = os.path.join(os.path.dirname(__file__), "../../../docs/python.md")
+        texts = [guide, *(os.path.join(folder, name) for name in os.listdir(folder) if name.endswith(".py"))]
+        names = set()
+        for path in texts:
+            with open(path, encoding="utf-8") as file:
+                names.update(re.findall(r"(?<![\w./-])lumen((?:\.[A-Za-z]\w*)+)", file.read()))
+        self.assertGreater(len(names), 20)
+        for name in names - {".libs", ".json"}:
+            if name.startswith(".torch"):
+                continue  # needs PyTorch
+            value = lumen
+            for part in name.split(".")[1:]:
+                self.assertTrue(hasattr(value, part), f"lumen{name}")
+                value = getattr(value, part)
+
+
 class WatchedTest(unittest.TestCase):
     def test_progress_is_reported_by_the_calling_thread(self):
         calls = []
@@ -253,6 +294,23 @@ class WatchedTest(unittest.TestCase):
             with unittest.mock.patch("tempfile.tempdir", folder), self.assertRaises(Enough):
                 lumen.phantom(SLOW, progress=stop)
             self.assertEqual(os.listdir(folder), [])
+
+    @unittest.skipIf(_testcapi is None, "Python's module _testcapi is missing")
+    def test_a_state_that_cannot_be_handed_over_stops_the_work(self):
+        seen = []
+
+        def arm(*state):
+            is_first = not any(total > 256 for _, _, total in seen)
+            seen.append(state)
+            if is_first and state[2] > 256:  # Python makes an object for such a number
+                _testcapi.set_nomemory(1, 2)  # the next text is made, the number behind it is not
+
+        self.addCleanup(_testcapi.remove_mem_hooks)
+        with self.assertRaises((RuntimeError, MemoryError)):
+            lumen.phantom(SLOW, progress=arm)
+        _testcapi.remove_mem_hooks()
+        stage, done, total = seen[-1]
+        self.assertLess(done, 0.9 * total, f"{stage}: the work went on: {seen}")
 
     def test_ctrl_c_raises_and_leaves_nothing_half_written(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -8,8 +8,8 @@ SOFA is an installed SOFA v25.06, PLUGIN the folder of libLumenSofa.so, LUMEN th
 makes it), FOLDER what comes out: scenes, recorded frames, pictures, sofa_chapter5.md. NAMEs select from: guidewire (from the
 carotid's root through the siphon), distal (from behind the aneurysm into the middle cerebral artery), coil (a wire with a spiral rest shape into the aneurysm), touching (a wire in an
 anterior cerebral artery beside another). Each runs on the implicit wall (plugin, the thesis' local models) and on meshes of
-the case's closed surface of about 100,000 and 24,000 triangles, in the same scene otherwise. libblob for the measurement
-comes from LUMEN_BLOB_LIBRARY.
+the case's closed surface of about 100,000 and 24,000 triangles, in the same scene otherwise. The Python
+package lumen measures: PYTHONPATH=BUILD/packages/python.
 """
 import json
 import os
@@ -19,11 +19,10 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "libblob" / "python"))
-import lumen_blob  # noqa: E402  pylint: disable=wrong-import-position
-import sofa_pictures  # noqa: E402  pylint: disable=wrong-import-position
-from sofa_run import LEAK, axis_points, depths, run_scene  # noqa: E402  pylint: disable=wrong-import-position
-from sofa_scene import Instrument, Scene, Section, scene_text  # noqa: E402  pylint: disable=wrong-import-position
+import sofa_pictures
+from lumen import blob
+from sofa_run import LEAK, axis_points, depths, run_scene
+from sofa_scene import Instrument, Scene, Section, scene_text
 
 MESHES = {"mesh 100k": ("--edge", "0.77r"), "mesh 24k": ("--edge", "0.8r", "--max-error", "0.25")}
 # Nitinol's effective modulus of a wound or ground guidewire is a tenth to a third of the solid's 60 GPa; its tip's less
@@ -44,7 +43,7 @@ class Case:
         self.branch = np.array(tree["branch"])
         self.branches = {b["label"]: b for b in tree["branches"]}
         self.labels = [b["label"] for b in tree["branches"]]
-        self.model = lumen_blob.Model(path)
+        self.model = blob.Model(path)
 
     def nodes(self, label):
         b = self.branches[label]

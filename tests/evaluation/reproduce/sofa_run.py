@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lumen import blob
+
 LEAK = 1.0  # mm: no contact is that deep; the wire has gone through the wall
 # of SOFA's timers: finding contacts, and making constraints of them
 COLLISION = ("CollisionDetection", "Build Constraint Matrix")
@@ -101,6 +103,15 @@ def axis_points(frames, between=2):
     return np.vstack([np.stack(points, axis=1).reshape(-1, 3), p[-1:]])
 
 
+def distances(model, points, nodes):
+    """mm, of points to the wall of the blended field of a lumen.blob.Model; the nodes of the points move."""
+    cursor = blob.Cursor(len(nodes))
+    cursor.node[:] = nodes
+    distance = model.query(points, cursor).distance
+    nodes[:] = cursor.node
+    return distance
+
+
 def depths(model, run, radius, first):
     """mm, of the instrument's surface beyond the wall of the blended field, for each step at its deepest point; and the nodes
     of the last step. Cursors follow the tree from the node `first` on: what a wire goes into elsewhere does not count as its
@@ -116,5 +127,5 @@ def depths(model, run, radius, first):
         # counted from the tip; what has come out begins where the last one was
         new = len(points) - len(cursors)
         cursors = np.concatenate([np.full(max(0, new), cursors[0], dtype=np.uint32), cursors[max(0, -new):]])
-        deepest.append(float((model.query(points, cursors).distance + radius).max()))
+        deepest.append(float((distances(model, points, cursors) + radius).max()))
     return np.array(deepest), cursors

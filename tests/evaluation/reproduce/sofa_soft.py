@@ -8,24 +8,24 @@ SOFA is an installed SOFA v25.06, PLUGIN the folder of libLumenSofa.so, LUMEN th
 aneurism-3dra.nrrd, FOLDER what comes out: case, scenes, recorded frames, a picture, sofa_soft.md. A voxel is taken as
 0.5 mm, which gives the internal carotid artery its published width (Krejza et al., Carotid artery diameter in men and
 women, Stroke 37, 2006: 4.7 and 5.1 mm). NAMEs select from: soft (the vessel gives way), implicit (the same wall at rest),
-mesh (about 100,000 triangles at rest), and soft-stiff and implicit-stiff, with a shaft of solid nitinol. libblob for the measurement comes from LUMEN_BLOB_LIBRARY: depths are those of
-the wall where it is at each step, on all of the wire, by a pose of its own, not by the plugin.
+mesh (about 100,000 triangles at rest), and soft-stiff and implicit-stiff, with a shaft of solid nitinol. The Python package lumen measures walls at
+rest (PYTHONPATH=BUILD/packages/python), and libblob itself the vessel that moves (LUMEN_BLOB_LIBRARY, BUILD/libblob/libblob.so): depths
+are those of the wall where it is at each step, on all of the wire, by a pose of its own, not by the plugin.
 """
 import ctypes
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "libblob" / "python"))
-import lumen_blob  # noqa: E402  pylint: disable=wrong-import-position
-import sofa_pictures  # noqa: E402  pylint: disable=wrong-import-position
-from lumen_blob._library import lib  # noqa: E402  pylint: disable=wrong-import-position
-from sofa_chapter5 import GUIDEWIRE, Case  # noqa: E402  pylint: disable=wrong-import-position
-from sofa_run import axis_points, depths, run_scene  # noqa: E402  pylint: disable=wrong-import-position
-from sofa_scene import Instrument, Scene, Section, SoftVessel, quaternion, scene_text  # noqa: E402  pylint: disable=wrong-import-position
+from lumen import read
+import sofa_pictures
+from sofa_chapter5 import GUIDEWIRE, Case
+from sofa_run import axis_points, depths, run_scene
+from sofa_scene import Instrument, Scene, Section, SoftVessel, quaternion, scene_text
 
 VOXEL = 0.5      # mm
 SPACING = 3.0    # mm, of the vessel's frames
@@ -38,10 +38,12 @@ CLICKS = Path(__file__).resolve().parents[2] / "data" / "aneurism-3dra.seeds.jso
 CHORD = 6.0      # mm, over which directions are taken for the turns of a vessel
 
 
-class Transform(ctypes.Structure):
-    _fields_ = [("centre", ctypes.c_double * 3), ("rotation", ctypes.c_double * 4), ("factor", ctypes.c_double)]
-
-
+# blob_sample
+SAMPLE = np.dtype([("value", "f8"), ("gradient", "f8", 3), ("distance", "f8"), ("normal", "f8", 3), ("node", "u4"), ("state", "u4")])
+lib = ctypes.CDLL(os.environ["LUMEN_BLOB_LIBRARY"])
+lib.blob_model_open.argtypes = [ctypes.c_char_p, ctypes.c_void_p, ctypes.POINTER(ctypes.c_void_p)]
+lib.blob_query_many.argtypes = [ctypes.c_void_p, ctypes.c_uint32, ctypes.c_size_t] + 3 * [ctypes.c_void_p]
+lib.blob_query_many.restype = None
 lib.blob_pose_create.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.POINTER(ctypes.c_void_p)]
 lib.blob_pose_model.argtypes, lib.blob_pose_model.restype = [ctypes.c_void_p], ctypes.c_void_p
 lib.blob_pose_set.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]
@@ -60,18 +62,17 @@ def product(a, b):
                            a[:, 3:] * b[:, 3:] - (a[:, :3] * b[:, :3]).sum(1, keepdims=True)], axis=1)
 
 
-class Posed(lumen_blob.Model):
+class Posed:
     """A case's model in the pose of frames that carry nodes of one chain, as BlobPose has it: nodes between two frames
-    follow both, by the lengths along the tree, all others the nearest one."""
+    follow both, by the lengths along the tree, all others the nearest one. Its models last as long as the process."""
 
     def __init__(self, case, nodes, rest):
-        super().__init__(case.path)
-        self.rest_model, self.frames0 = self._handle, rest
-        self.pose = ctypes.c_void_p()
-        if lib.blob_pose_create(self.rest_model, None, self.pose) != 0:
+        model, self.pose, self.frames0 = ctypes.c_void_p(), ctypes.c_void_p(), rest
+        if lib.blob_model_open(case.path.encode(), None, model) != 0 or lib.blob_pose_create(model, None, self.pose) != 0:
             raise RuntimeError("no pose")
-        self._handle = ctypes.c_void_p(lib.blob_pose_model(self.pose))
-        self.centre, _, parent = lumen_blob.Model(case.path).nodes()
+        self.model = lib.blob_pose_model(self.pose)
+        tree = read(case.path).tree
+        self.centre, parent = tree.centre.astype(float), tree.parent
         count = len(parent)
         own = np.full(count, -1)
         own[nodes] = np.arange(len(nodes))
@@ -90,9 +91,11 @@ class Posed(lumen_blob.Model):
         whole = up[self.moved] + down[self.moved]
         self.share = np.where(self.first != self.second, up[self.moved] / np.where(whole > 0, whole, 1), 0)[:, None]
 
-    def __del__(self):
-        # the pose and the model at rest last as long as the process
-        self._handle = None
+    def distances(self, points, nodes):
+        """mm, of points to the wall of the blended field; the nodes of the points move."""
+        points, samples = np.ascontiguousarray(points, float), np.empty(len(points), SAMPLE)
+        lib.blob_query_many(self.model, 0, len(points), points.ctypes.data, nodes.ctypes.data, samples.ctypes.data)
+        return samples["distance"]
 
     def set(self, frames):
         """`frames`: (n, 7), as SOFA records them."""
@@ -160,7 +163,7 @@ def posed_depths(model, run, vessel, radius, first):
             cursors = np.array([first], dtype=np.uint32)
         new = len(points) - len(cursors)
         cursors = np.concatenate([np.full(max(0, new), cursors[0], dtype=np.uint32), cursors[max(0, -new):]])
-        deepest.append(float((model.query(points, cursors).distance + radius).max()))
+        deepest.append(float((model.distances(points, cursors) + radius).max()))
     return np.array(deepest), cursors
 
 
@@ -229,7 +232,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     path = scaled_case(lumen, data, folder)
     case = Case(str(lumen), str(path), folder)
-    case.parent = case.model.nodes()[2]
+    case.parent = read(path).tree.parent
     nodes = list(case.nodes("ica"))
     first = nodes[1]
     chosen = frames_along(case, nodes, STEPS * 0.2 + MARGIN)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shader libblob/device/query.wgsl in Chromium, against blob.wasm, which has the bits of the native library.
+// The shader query.wgsl in Chromium, against blob.wasm, which has the bits of the native library.
 //
-//   device_webgpu.mjs LIBBLOB BLOB.wasm CASE...    LIBBLOB: the folder of libblob's sources
+//   device_webgpu.mjs LIBBLOB QUERY.wgsl BLOB.wasm CASE...    LIBBLOB: the folder of libblob's sources
 //
 // Prints what it compared. Exit code 1: answers differ by more than blob_device.h allows; 77: no browser, or no adapter.
 // CHROMIUM: the browser.
@@ -9,13 +9,13 @@ import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { basename, join, resolve } from "node:path";
 
-const kSkipped = 77, kPoints = 100_000;
+const kSkipped = 77, kPoints = 25_000;
 const kDistance = 1e-5; // radii, at points within a radius of the wall; else relative
 const kSameNode = 0.99999, kExact = 2;
 const kSameFoot = 0.99; // exact distances: elsewhere another place of the wall is nearest about it
 const kAddress = "http://localhost/"; // a secure context, which WebGPU needs; no request leaves the browser
 
-const [libblob, wasm, ...cases] = process.argv.slice(2);
+const [libblob, shaderFile, wasm, ...cases] = process.argv.slice(2);
 const browserFile = process.env.CHROMIUM ?? "/usr/bin/chromium";
 
 function skip(why) {
@@ -35,7 +35,7 @@ const kFiles = {
   "page.html": () => "<!doctype html><title>WebGPU</title>",
   "blob.mjs": () => readFileSync(join(libblob, "wasm/blob.mjs")),
   "gpu.mjs": () => readFileSync(join(libblob, "wasm/gpu.mjs")),
-  "query.wgsl": () => readFileSync(join(libblob, "device/query.wgsl")),
+  "query.wgsl": () => readFileSync(shaderFile),
   "blob.wasm": () => readFileSync(wasm),
   ...Object.fromEntries(cases.map(file => [basename(file), () => readFileSync(file)])),
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <new>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,8 +10,6 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include "blob.h"
-#include "converters/base/embedded_text.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
@@ -158,9 +154,6 @@ std::string encodeUsda(const SurfaceMesh& mesh, const formats::CenterlineTree& t
        {"ends", endPrims(ends, frame)}});
 }
 
-/// query_warp.py of libblob, as the list of export/CMakeLists.txt has it.
-std::span<const EmbeddedText> warpQueryFiles();
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -256,24 +249,6 @@ void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid
   add("centerline_radii_mm.npy", encodeNpy(tree.radius, {nodes}), "f32, of each node, mm");
 }
 
-/// The case as the flat buffer of libblob's blob_device.h. Throws std::bad_alloc.
-std::string packedModel(const blob_model& model) {
-  const blob_model* const models[1] = {&model};
-  std::string bytes(blob_device_pack(models, 1, nullptr, 0), '\0');
-  if (bytes.empty() || blob_device_pack(models, 1, bytes.data(), bytes.size()) != bytes.size())
-    throw std::bad_alloc();
-  return bytes;
-}
-
-void addQuery(ExportResult& result, const blob_model& model) {
-  result.files.push_back({"vessel_query.bin", packedModel(model),
-                          "the case as a buffer of libblob: u32 and f32, mm, LPS", "mm"});
-  result.files.push_back({"query_warp.py", std::string(warpQueryFiles().front().bytes),
-                          "libblob's query as functions of NVIDIA Warp", ""});
-  result.files.push_back({"vessel_warp.py", exportText("isaac/vessel_warp.py"),
-                          "distance to the wall in Warp, in place of a mesh query", ""});
-}
-
 }  // namespace
 
 ExportResult exportIsaac(const ExportInput& input) {
@@ -283,7 +258,6 @@ ExportResult exportIsaac(const ExportInput& input) {
   const VesselDistance vessels(input.source);
   const DistanceGrid grid = makeGrid(input, vessels, shape);
   addCache(result, input, grid);
-  addQuery(result, vessels.model());
   result.files.push_back({"vessel.usda",
                           encodeUsda(wall.mesh, input.source.tree, wall.ends, input.frame),
                           "USD: wall with physics schemas, centerline, ends", ""});
@@ -299,13 +273,12 @@ TargetRow isaacRow() {
   return {.name = "isaac",
           .title = "catheter navigation of isaac-for-healthcare, and Isaac Sim",
           .files = {"metadata.json", "mu_volume.npy", "vessel_mask.npy", "centerline_points_mm.npy",
-                    "centerline_edges.npy", "centerline_radii_mm.npy", "vessel.usda",
-                    "vessel_query.bin", "query_warp.py", "vessel_warp.py"},
+                    "centerline_edges.npy", "centerline_radii_mm.npy", "vessel.usda"},
           .units = {LengthUnit::Metre, LengthUnit::Millimetre},
           .axes = {Axes::Lps, Axes::Lsa},
           .holds =
               "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of "
-              "USD, and its ends; the case itself as a query for Warp",
+              "USD, and its ends",
           .lacks = "names of branches, and that an aneurysm is one",
           .options = {kOption.edge, kOption.maxError, kOption.thickness, kOption.grid}};
 }

@@ -1,25 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Times of lumen.torch and lumen.jax on a CUDA device beside libblob-cuda alone, and their distances beside libblob's.
+"""Times of lumen.torch on a CUDA device beside libblob-cuda alone, and their distances beside libblob's.
 
-    PYTHONPATH=build/release/packages/python:libblob/python LUMEN_BLOB_LIBRARY=build/release/libblob/libblob.so cuda.py CASE [POINTS]
+    PYTHONPATH=build/release/packages/python cuda.py CASE [POINTS]
 
 Points lie about nodes in runs of 100, as those of a wire, at 0.5 to 1.2 radii. Times are medians of 20 calls after 3, by events of
-CUDA; those of JAX are wall times of 10 after 3. Needs torch; jax where that is installed."""
-import statistics, sys, time
+CUDA. Needs torch."""
+import statistics, sys
 
 import numpy as np
 import torch
 
 import lumen.torch
-import lumen_blob
 from lumen import _cuda, blob
 
 LOOKED_AT = 100_000  # points whose distances are compared
 
 
 def points_about(path, count):
-    centre, radius, _ = lumen_blob.Model(path).nodes()
+    tree = lumen.read(path).tree
+    centre, radius = tree.centre, tree.radius
     random = np.random.default_rng(1)
     runs = (count + 99) // 100
     node = np.repeat(random.integers(len(radius), size=runs), 100)[:count]
@@ -63,24 +63,6 @@ def time_torch(model, points, cursor):
     show("lumen.torch, points that are located", median(lambda: lumen.torch.distance(model, points)), count)
 
 
-def time_jax(model, points, cursor):
-    try:
-        import jax
-        import lumen.jax
-    except ImportError:
-        print("jax is missing")
-        return
-    at, nodes = jax.dlpack.from_dlpack(points), jax.dlpack.from_dlpack(cursor).view(np.uint32)
-    for name, function in (("", lambda p, c: lumen.jax.distance(model, p, c)),
-                           (" and value_and_grad", jax.value_and_grad(lambda p, c: lumen.jax.distance(model, p, c).sum()))):
-        compiled, times = jax.jit(function), []
-        for _ in range(13):
-            begin = time.perf_counter()
-            jax.block_until_ready(compiled(at, nodes))
-            times.append(1e3 * (time.perf_counter() - begin))
-        show(f"lumen.jax, jit{name}", statistics.median(times[3:]), len(points))
-
-
 def compare(model, points, host):
     found = lumen.torch.distance(model, points[:LOOKED_AT]).cpu().numpy()
     wanted = model.query(host[:LOOKED_AT].astype(np.float64), None, blob.DISTANCE_EXACT).distance
@@ -97,7 +79,6 @@ def main():
     cursor = torch.full((count,), -1, dtype=torch.int32, device="cuda")
     lumen.torch.distance(model, points, cursor)
     time_torch(model, points, cursor)
-    time_jax(model, points, cursor)
     compare(model, points, host)
 
 

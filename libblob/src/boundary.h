@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame of every construction at the C boundary.
+// The C boundary: preconditions, which builds without NDEBUG check, and the frame of every
+// construction.
 #pragma once
 
 #include "blob.h"
 
 namespace lumen::blob {
+
+/// Calls the handler of misuse, or aborts if there is none.
+[[maybe_unused]] void reportMisuse(const char* condition, const char* file, int line) noexcept;
 
 /// Runs a step that may allocate and returns its status; only memory can fail with an exception.
 template <class Run>
@@ -29,3 +33,10 @@ blob_status construct(Object** made, Construct run) noexcept {
 }
 
 }  // namespace lumen::blob
+
+#ifdef NDEBUG
+#define BLOB_REQUIRE(condition) static_cast<void>(0)
+#else
+#define BLOB_REQUIRE(condition) \
+  ((condition) ? static_cast<void>(0) : ::lumen::blob::reportMisuse(#condition, __FILE__, __LINE__))
+#endif
