@@ -230,7 +230,6 @@ private:
           throw Error(ErrorKind::Usage,
                       output + ": this is an input; lumen check would overwrite it");
       requireWritable(output, kind);
-      around.willWrite(output);
     }
   }
 

@@ -139,7 +139,6 @@ private:
     if (kind == MeasureOutput::None) return std::nullopt;
     if (kind != MeasureOutput::Folder) {
       requireWritable(m_output, convert::ContentKind::Other);
-      around.willWrite(m_output);
       return std::nullopt;
     }
     std::error_code error;
@@ -152,7 +151,6 @@ private:
     auto folder =
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
-    around.willWrite(m_output);
     return std::move(*folder);
   }
 

@@ -117,7 +117,6 @@ private:
         if (earlier->first == output)
           throw Error(ErrorKind::Usage, output + ": this name is given to two outputs");
       requireWritable(output, kind);
-      around.willWrite(output);
     }
     return outputs;
   }
