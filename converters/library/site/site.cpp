@@ -12,10 +12,7 @@
 #include "converters/library/library_file.h"
 #include "converters/library/library_lock.h"
 #include "converters/library/record.h"
-#include "converters/library/site/case_page.h"
-#include "converters/library/site/case_texts.h"
-#include "converters/library/site/gallery_page.h"
-#include "converters/library/site/site_files.h"
+#include "converters/library/site/pages.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
 

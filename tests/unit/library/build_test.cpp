@@ -2,6 +2,7 @@
 // Making the rows of a list by several threads.
 #include "converters/library/build.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>

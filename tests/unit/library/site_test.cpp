@@ -14,10 +14,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
-#include "converters/library/site/case_texts.h"
-#include "converters/library/site/citation.h"
-#include "converters/library/site/gallery_page.h"
-#include "converters/library/site/pictures.h"
+#include "converters/library/site/pages.h"
 #include "tests/unit/library/made_library.h"
 
 namespace lumen::convert {
