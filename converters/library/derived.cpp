@@ -2,11 +2,8 @@
 #include "converters/library/derived.h"
 
 #include <algorithm>
-#include <set>
-#include <utility>
 #include <vector>
 
-#include "converters/base/sha256.h"
 #include "converters/library/crate.h"
 
 namespace lumen::convert {
@@ -41,78 +38,47 @@ std::string bagInfo(const LibraryFile& library, std::uint64_t bytes, std::uint64
 
 }  // namespace
 
-struct LibraryTexts::State {
-  /// Hands a text on, and keeps its digest and size.
-  class DigestedSink {
-  public:
-    explicit DigestedSink(TextSink sink) : m_sink(std::move(sink)) {}
-    void add(std::string_view text) {
-      m_sum.add(text);
-      m_bytes += text.size();
-      m_sink(text);
-    }
-    std::string digest() { return m_sum.text(); }
-    [[nodiscard]] std::uint64_t bytes() const { return m_bytes; }
-
-  private:
-    TextSink m_sink;
-    Sha256 m_sum;
-    std::uint64_t m_bytes = 0;
-  };
-
-  State(const LibraryFile& given, TextSink manifestSink, TextSink crateSink)
-      : library(given), manifest(std::move(manifestSink)), crate(std::move(crateSink)) {}
-  const LibraryFile& library;
-  DigestedSink manifest, crate;
-  std::set<std::string> licences;
-  std::size_t next = 0;
-  std::uint64_t bytes = 0, files = 0;
-};
+void LibraryTexts::DigestedSink::add(std::string_view text) {
+  sum.add(text);
+  bytes += text.size();
+  sink(text);
+}
 
 LibraryTexts::LibraryTexts(const LibraryFile& library, TextSink manifest, TextSink crate)
-    : m_state(std::make_unique<State>(library, std::move(manifest), std::move(crate))) {
+    : m_library(library), m_manifest(std::move(manifest)), m_crate(std::move(crate)) {
   CrateEntity root = libraryEntity(library);
   root["hasPart"] = CrateEntity::array();
   for (const LibraryEntry& entry : library.cases)
     root["hasPart"].push_back(reference(entry.id + "/"));
-  m_state->crate.add(crateHead() + crateLine(root));
+  m_crate.add(crateHead() + crateLine(root));
   if (!library.publisher.empty())
-    m_state->crate.add(
+    m_crate.add(
         crateLine({{"@id", "#publisher"}, {"@type", "Organization"}, {"name", library.publisher}}));
-  m_state->licences.insert(library.licence);
+  m_licences.insert(library.licence);
 }
-
-LibraryTexts::~LibraryTexts() = default;
 
 void LibraryTexts::add(const CaseRecord& record, std::string_view crate) {
-  State& state = *m_state;
-  const LibraryEntry& entry = state.library.cases.at(state.next++);
-  state.manifest.add(manifestLines(record, entry, crate));
+  const LibraryEntry& entry = m_library.cases.at(m_next++);
+  m_manifest.add(manifestLines(record, entry, crate));
   CrateEntity entity = caseEntity(record);
   entity.erase("about");  // its codes are in the crate of the case
-  state.crate.add(crateLine(entity));
-  state.licences.insert(record.about.licence);
-  state.files += entry.files + 2;
-  state.bytes += entry.bytes + entry.recordBytes + crate.size();
-}
-
-void LibraryTexts::skip() {
-  ++m_state->next;
+  m_crate.add(crateLine(entity));
+  m_licences.insert(record.about.licence);
+  m_files += entry.files + 2;
+  m_bytes += entry.bytes + entry.recordBytes + crate.size();
 }
 
 TagTexts LibraryTexts::finish() {
-  State& state = *m_state;
-  for (const std::string& licence : state.licences)
-    state.crate.add(crateLine(licenceEntity(licence)));
-  state.crate.add(crateEnd());
-  state.manifest.add(manifestLine(state.crate.digest(), std::string(kPayload) + "/" + kCrateFile));
+  for (const std::string& licence : m_licences) m_crate.add(crateLine(licenceEntity(licence)));
+  m_crate.add(crateEnd());
+  m_manifest.add(manifestLine(m_crate.sum.text(), std::string(kPayload) + "/" + kCrateFile));
   TagTexts texts;
   texts.bag = "BagIt-Version: 1.0\nTag-File-Character-Encoding: UTF-8\n";
-  texts.bagInfo = bagInfo(state.library, state.bytes + state.crate.bytes(), state.files + 1);
+  texts.bagInfo = bagInfo(m_library, m_bytes + m_crate.bytes, m_files + 1);
   texts.tagManifest = manifestLine(sha256(texts.bagInfo), kBagInfoFile) +
                       manifestLine(sha256(texts.bag), kBagFile) +
-                      manifestLine(sha256(libraryText(state.library)), kLibraryFile) +
-                      manifestLine(state.manifest.digest(), kManifestFile);
+                      manifestLine(sha256(libraryText(m_library)), kLibraryFile) +
+                      manifestLine(m_manifest.sum.text(), kManifestFile);
   return texts;
 }
 

@@ -77,10 +77,10 @@ std::string figureTerms(const CaseRecord& record) {
       {"Reachable for a tool", shown(figures.reachable, " mm")},
       {"Radius", shownFigure(figures.radiusMin) + " to " + shownFigure(figures.radiusMax) +
                      " mm, mean " + shownFigure(figures.radiusMean) + " mm"},
-      {"Error of fit, by nodes",
-       hasError ? "median " + shownFigure(*figures.errorMedian) + " mm, 90 % within " +
-                      shownFigure(*figures.errorP90) + " mm"
-                : ""},
+      {"Error of fit, by nodes", hasError ? "median " + shownFigure(*figures.errorMedian) +
+                                                " mm, 90 % within " +
+                                                shownFigure(*figures.errorP90) + " mm"
+                                          : ""},
       {"Greatest tortuosity of a path", shown(geometry.tortuosity, "")},
       {"Greatest turning of a path", shown(geometry.turning, "°/cm")},
       {"Greatest take-off angle", shown(geometry.takeOff, "°")},
@@ -258,9 +258,9 @@ std::string casePage(const LibraryFile& library, const CaseRecord& record,
        {"strip", strip(record, pictures.others)},
        {"figures", figureTerms(record)},
        {"actions", buttons(record)},
-       {"description", about.description.empty() ? ""
-                                                 : "<p class=\"description\">" +
-                                                       htmlName(about.description) + "</p>\n"},
+       {"description", about.description.empty()
+                           ? ""
+                           : "<p class=\"description\">" + htmlName(about.description) + "</p>\n"},
        {"statements", statementTerms(about)},
        {"insertions",
         placesPart("Where instruments enter",

@@ -36,11 +36,16 @@ std::string asOne(const std::string& text) {
 }  // namespace
 
 std::string bibTexText(std::string_view text) {
-  static const std::map<char, std::string_view> kCommands = {
-      {'\\', "\\textbackslash{}"},  {'{', "\\textbraceleft{}"},  {'}', "\\textbraceright{}"},
-      {'~', "\\textasciitilde{}"},   {'^', "\\textasciicircum{}"}, {'&', "\\&"},
-      {'%', "\\%"},                  {'$', "\\$"},                 {'#', "\\#"},
-      {'_', "\\_"}};
+  static const std::map<char, std::string_view> kCommands = {{'\\', "\\textbackslash{}"},
+                                                             {'{', "\\textbraceleft{}"},
+                                                             {'}', "\\textbraceright{}"},
+                                                             {'~', "\\textasciitilde{}"},
+                                                             {'^', "\\textasciicircum{}"},
+                                                             {'&', "\\&"},
+                                                             {'%', "\\%"},
+                                                             {'$', "\\$"},
+                                                             {'#', "\\#"},
+                                                             {'_', "\\_"}};
   std::string value;
   for (const char c : printable(text)) {
     const auto command = kCommands.find(c);
@@ -73,8 +78,8 @@ std::string citationBibTex(const LibraryFile& library, const CaseRecord& record)
       {"howpublished", "In: " + asOne(library.title) + ", " + revisionOf(library)},
       {"publisher", isCredited ? asOne(library.publisher) : ""},
       {"doi", urlAddress(about.doi)},
-      {"note", "Version " + version + ". Licence: " + bibTexText(about.licence) + ". urn:uuid:" +
-                   bibTexText(library.id)}};
+      {"note", "Version " + version + ". Licence: " + bibTexText(about.licence) +
+                   ". urn:uuid:" + bibTexText(library.id)}};
   std::string entry = "@misc{" + record.id + "-v" + version;
   for (const auto& [name, value] : fields)
     if (!value.empty()) entry += std::string(",\n  ") + name + " = {" + value + "}";

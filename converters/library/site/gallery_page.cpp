@@ -115,8 +115,7 @@ std::string galleryPath(std::size_t page) {
 std::string galleryPage(const LibraryFile& library, std::size_t page, const std::string& cards,
                         const std::string& signature) {
   const std::size_t cases = library.cases.size(),
-                    pages =
-                        std::max<std::size_t>(1, (cases + kCasesPerPage - 1) / kCasesPerPage);
+                    pages = std::max<std::size_t>(1, (cases + kCasesPerPage - 1) / kCasesPerPage);
   PageFrame frame;
   frame.root = page == 1 ? "" : "../../";
   frame.title = library.title;
@@ -127,9 +126,8 @@ std::string galleryPage(const LibraryFile& library, std::size_t page, const std:
   const std::string content = sitePart(
       "gallery.html",
       {{"title", htmlName(library.title)},
-       {"description", library.description.empty()
-                           ? ""
-                           : "<p>" + htmlName(library.description) + "</p>\n"},
+       {"description",
+        library.description.empty() ? "" : "<p>" + htmlName(library.description) + "</p>\n"},
        {"publisher", library.publisher.empty() ? "" : htmlName(library.publisher) + " · "},
        {"revision", std::to_string(library.revision)},
        {"date", htmlText(library.date)},

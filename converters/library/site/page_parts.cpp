@@ -109,7 +109,8 @@ std::string pageText(const PageFrame& frame, const std::string& content, const L
 }
 
 std::string copyable(const std::string& name, const std::string& text) {
-  std::string block = "<div class=\"copy\" data-name=\"" + htmlText(name) + "\"><pre tabindex=\"0\">";
+  std::string block =
+      "<div class=\"copy\" data-name=\"" + htmlText(name) + "\"><pre tabindex=\"0\">";
   for (std::size_t at = 0; at < text.size();) {  // lines stay lines; all else as htmlText() has it
     const std::size_t end = text.find('\n', at);
     block += htmlText(std::string_view(text).substr(at, end - at)) + "\n";

@@ -79,7 +79,7 @@ std::string bibTexText(std::string_view text);
 
 std::string kindOfCase(const CaseAbout& about);    ///< HTML: anatomy, side and source
 std::string tagsOfCase(const CaseRecord& record);  ///< HTML: aneurysm, synthetic, licence
-std::string doiLink(const std::string& doi);       ///< HTML: link to a DOI's page; empty without one
+std::string doiLink(const std::string& doi);  ///< HTML: link to a DOI's page; empty without one
 /// A block of text to copy, with a name for the button that a script adds.
 std::string copyable(const std::string& name, const std::string& text);
 std::string dataPath(const CaseRecord& record, const std::string& path);  ///< "data/ID/PATH"
