@@ -93,7 +93,7 @@ private:
     try {
       for (int k = 0; k < m_options.jobs; ++k) workers.emplace_back([this] { work(); });
     } catch (const std::system_error& error) {
-      throw failed("a thread for --jobs cannot be started: " + error.code().message());
+      throw failed("a thread for a row cannot be started: " + error.code().message());
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "converters/base/html.h"
 #include "converters/base/number_text.h"
@@ -18,31 +19,22 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The number that begins at `at`, without zeros before it; moves `at` behind it.
-std::string_view takeNumber(const std::string& text, std::size_t& at) {
-  while (at + 1 < text.size() && text[at] == '0' && isDigit(text[at + 1])) ++at;
-  const std::size_t begin = at;
-  while (at < text.size() && isDigit(text[at])) ++at;
-  return std::string_view(text).substr(begin, at - begin);
-}
-
-/// Less than, equal to or greater than zero, as a comes before, with or after b. Both in lower
-/// case.
-int compareNaturally(const std::string& a, const std::string& b) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (isDigit(a[i]) && isDigit(b[j])) {
-      const std::string_view left = takeNumber(a, i), right = takeNumber(b, j);
-      if (left.size() != right.size()) return left.size() < right.size() ? -1 : 1;
-      if (const int order = left.compare(right)) return order;
-    } else if (a[i] != b[j]) {
-      return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]) ? -1 : 1;
-    } else {
-      ++i;
-      ++j;
+/// A text that sorts by bytes as people sort the title: small letters as capitals, and numbers by
+/// their values, as each begins with the number of its digits.
+std::string sortKey(const std::string& title) {
+  const std::string text = lowerCase(title);
+  std::string key;
+  for (std::size_t at = 0; at < text.size();) {
+    if (!isDigit(text[at])) {
+      key += text[at++];
+      continue;
     }
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
+    at = std::min(text.find_first_not_of('0', at), end);
+    key += paddedNumber(end - at, 3) + text.substr(at, end - at);
+    at = end;
   }
-  return static_cast<int>(i < a.size()) - static_cast<int>(j < b.size());
+  return key;
 }
 
 std::string pageLink(const std::string& address, const std::string& text, const char* relation) {
@@ -76,14 +68,13 @@ std::string pageLinks(std::size_t page, std::size_t pages, const std::string& ro
 }  // namespace
 
 std::vector<std::size_t> galleryOrder(const LibraryFile& library) {
-  std::vector<std::string> titles;
-  titles.reserve(library.cases.size());
-  for (const LibraryEntry& entry : library.cases) titles.push_back(lowerCase(entry.title));
+  std::vector<std::string> keys;
+  keys.reserve(library.cases.size());
+  for (const LibraryEntry& entry : library.cases) keys.push_back(sortKey(entry.title));
   std::vector<std::size_t> order(library.cases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const int titled = compareNaturally(titles[a], titles[b]);
-    return titled != 0 ? titled < 0 : library.cases[a].id < library.cases[b].id;
+    return std::tie(keys[a], library.cases[a].id) < std::tie(keys[b], library.cases[b].id);
   });
   return order;
 }

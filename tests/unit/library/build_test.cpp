@@ -49,7 +49,7 @@ TEST(Build, AThreadThatCannotBeStartedIsAnErrorWithAMessage) {
   makeLibrary(files.path("lib"), madeLibrary());
   EXPECT_EXIT(buildWithTooFewThreads(files),
               testing::ExitedWithCode(static_cast<int>(ErrorKind::Failed)),
-              "a thread for --jobs cannot be started");
+              "a thread for a row cannot be started");
 }
 
 }  // namespace
