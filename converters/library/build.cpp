@@ -20,7 +20,7 @@
 #include "converters/library/change.h"
 #include "converters/library/collect_rows.h"
 #include "converters/library/library_file.h"
-#include "converters/library/row_lock.h"
+#include "converters/library/library_lock.h"
 #include "converters/library/row_note.h"
 #include "formats/container/printable.h"
 
