@@ -78,7 +78,6 @@ int atTerminal(const engine::Engine& commands, const CommonOptions& common, cons
   engine::Surroundings around{commands, progress};
   around.threads = common.threads;
   around.strict = common.strict;
-  around.willWrite = [&](const auto& file) { interrupts.watchOutput(file); };
   around.answerEarly = [&](const engine::Answer& answer) { print(answer, common); };
   return work(around);
 }

@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <ctime>
-#include <system_error>
 
 #include <signal.h>
 #include <unistd.h>
@@ -50,15 +49,6 @@ InterruptGuard::~InterruptGuard() {
   m_thread.join();
 }
 
-void InterruptGuard::watchOutput(const std::filesystem::path& file) {
-  // the temporary file lies where a symbolic link leads
-  const auto absolute = std::filesystem::absolute(file);
-  std::error_code error;
-  const auto target = std::filesystem::weakly_canonical(absolute, error);
-  const std::lock_guard lock(m_mutex);
-  m_folders.push_back((error ? absolute : target).parent_path());
-}
-
 void InterruptGuard::wait() {
   const sigset_t awaited = awaitedSignals();
   int received = 0;
@@ -71,11 +61,7 @@ void InterruptGuard::wait() {
 }
 
 void InterruptGuard::exitNow() {
-  {
-    const std::lock_guard lock(m_mutex);
-    for (const auto& folder : m_folders)
-      formats::removeTemporaries(folder, formats::Temporaries::AbandonedAndOwn);
-  }
+  formats::removeOwnTemporaries();
   std::fputs("\nlumen: interrupted\n", stderr);
   _exit(static_cast<int>(ErrorKind::Cancelled));
 }

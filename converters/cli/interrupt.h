@@ -2,10 +2,7 @@
 // Ctrl-C, SIGTERM, and the end of the terminal (SIGHUP).
 #pragma once
 
-#include <filesystem>
-#include <mutex>
 #include <thread>
-#include <vector>
 
 #include <pthread.h>
 
@@ -19,9 +16,9 @@ void reportFileSizeLimit();
 
 /// While the guard lives, the first SIGINT, SIGTERM or SIGHUP cancels `progress`. If the process is
 /// still there 0.8 s later (inside a library call that cannot be stopped), or at a second signal,
-/// it exits with code 130 at once. Before that exit the temporary files of the registered outputs
-/// are removed; the outputs themselves are whole, because they only ever appear by a rename. A
-/// process that was started with SIGHUP ignored (nohup) goes on at that signal.
+/// it exits with code 130 at once. Before that exit the process's temporary files are removed; its
+/// outputs are whole, because they only ever appear by a rename. A process that was started with
+/// SIGHUP ignored (nohup) goes on at that signal.
 ///
 /// Construct one before any other thread starts: threads inherit the blocked signals, and a thread
 /// of the guard waits for them, so no code runs inside a signal handler.
@@ -32,16 +29,11 @@ public:
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Registers an output that is written through a temporary file beside it.
-  void watchOutput(const std::filesystem::path& file);
-
 private:
   void wait();
   [[noreturn]] void exitNow();
 
   Progress& m_progress;
-  std::mutex m_mutex;
-  std::vector<std::filesystem::path> m_folders;
   std::thread m_thread;
 };
 

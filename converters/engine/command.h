@@ -40,8 +40,6 @@ struct Surroundings {
   bool mayFetch = true;
   int threads = 0;      ///< 0: all cores
   bool strict = false;  ///< a warning is an error: Progress::warn() throws
-  /// Called with each file or folder that is going to be written through a temporary one beside it.
-  std::function<void(const std::filesystem::path&)> willWrite = [](const auto&) {};
   /// Takes an answer that is due before the command ends.
   std::function<void(const Answer&)> answerEarly = [](const auto&) {};
 };

@@ -111,7 +111,6 @@ int runOperationFile(const fs::path& file, const Engine& engine, Surroundings& a
   Surroundings own{engine, counting};
   own.threads = around.threads;
   own.strict = around.strict;
-  own.willWrite = around.willWrite;
   own.mayFetch = false;  // a file states the operation, and no person
   const auto leaveEnd = [&](const std::string& error, const std::string& answer) {
     writeText(Json{{"error", error}, {"warnings", counting.warnings()}, {"answer", answer}}.dump(

@@ -81,7 +81,6 @@ Surroundings RemoteInputs::surroundings() {
   own.mayFetch = m_around.mayFetch;
   own.threads = m_around.threads;
   own.strict = m_around.strict;
-  own.willWrite = m_around.willWrite;
   own.answerEarly = m_around.answerEarly;
   return own;
 }

@@ -6,11 +6,8 @@
 #include <condition_variable>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -23,7 +20,7 @@
 #include "converters/library/change.h"
 #include "converters/library/collect_rows.h"
 #include "converters/library/library_file.h"
-#include "converters/library/row_lock.h"
+#include "converters/library/library_lock.h"
 #include "converters/library/row_note.h"
 #include "formats/container/printable.h"
 
@@ -75,24 +72,31 @@ public:
 
   std::vector<RowResult> run() {
     m_progress.begin("building", m_rows.size());
-    std::vector<std::thread> workers;
-    m_working = m_options.jobs;
-    for (int k = 0; k < m_options.jobs; ++k) workers.emplace_back([this] { work(); });
-    std::exception_ptr failure;
-    try {
-      putAll();
-    } catch (...) {
-      failure = std::current_exception();
-      m_next = m_rows.size();  // rows that run end, no other begins
+    {
+      std::vector<std::jthread> workers;  // joined here, however this ends
+      try {
+        start(workers);
+        putAll();
+      } catch (...) {
+        m_next = m_rows.size();  // rows that run end, no other begins
+        throw;
+      }
     }
-    for (std::thread& worker : workers) worker.join();
-    if (failure) std::rethrow_exception(failure);
     m_progress.check();
     m_progress.end();
     return std::move(m_results);
   }
 
 private:
+  void start(std::vector<std::jthread>& workers) {
+    m_working = m_options.jobs;
+    try {
+      for (int k = 0; k < m_options.jobs; ++k) workers.emplace_back([this] { work(); });
+    } catch (const std::system_error& error) {
+      throw failed("a thread for a row cannot be started: " + error.code().message());
+    }
+  }
+
   void work() {
     for (std::size_t i = m_next++; i < m_rows.size() && !m_progress.cancelled(); i = m_next++) {
       try {

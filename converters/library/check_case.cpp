@@ -9,7 +9,6 @@
 #include "converters/base/text.h"
 #include "converters/library/case_folder.h"
 #include "converters/library/derived.h"
-#include "converters/library/figure_faults.h"
 #include "converters/library/record_faults.h"
 #include "formats/case/case_file.h"
 

@@ -2,6 +2,7 @@
 #include "converters/library/check_library.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 #include <unordered_set>
@@ -58,52 +59,35 @@ void sortCases(LibraryFile& library, FaultList& faults) {
   library.cases = std::move(kept);
 }
 
-/// Files that nothing reads here: they must be files nevertheless.
-void checkKindsOfOthers(const PlainFolder& folder, FaultList& faults) {
-  std::set<std::string> wrong;
+/// The library's folder and data/, in which nothing else may be; and the kinds of files that
+/// nothing reads here: pages, signatures, remains of a writer.
+void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultList& faults) {
+  const std::set<std::string> unread = {kMinisignSignatureFile, kOpenSshSignatureFile,
+                                        "index.html"};
+  ExpectedFiles root;
+  root.files = unread;
+  root.files.insert({kLibraryFile, kBagFile, kBagInfoFile, kManifestFile, kTagManifestFile,
+                     kPayload, "site"});  // entries of the folders are looked at below
+  std::map<std::string, std::string> wrong;
   const auto look = [&](const PlainEntry& entry) {
-    const bool isFile = entry.name == "index.html" || entry.name == kMinisignSignatureFile ||
-                        entry.name == kOpenSshSignatureFile;
-    const bool isFolder = entry.name == "site";
-    if ((isFile && !S_ISREG(entry.status.st_mode)) || (isFolder && !S_ISDIR(entry.status.st_mode)))
-      wrong.insert(entry.name + "\n" + kindText(entry.status.st_mode));
+    const mode_t mode = entry.status.st_mode;
+    const bool isFile = S_ISREG(mode), isFolder = S_ISDIR(mode);
+    if ((unread.contains(entry.name) && !isFile) || (entry.name == "site" && !isFolder))
+      wrong.emplace(entry.name, kindText(mode));
+    if (formats::isTemporaryName(entry.name) && (isFile || isFolder)) root.files.insert(entry.name);
     return true;
   };
   const PlainRead read = folder.list("", look);
-  if (read.fault != PlainFault::None)
-    faults.add({FaultCode::FileUnreadable, "", ".", read.found, "a folder that can be read"});
-  for (const std::string& text : wrong) {
-    const std::string name = text.substr(0, text.find('\n'));
-    faults.add({FaultCode::FileKind, "", name, text.substr(name.size() + 1),
-                name == "site" ? "a folder" : "a file"});
-  }
-  checkKinds(folder, "site", faults);
-}
-
-bool isFileOrFolder(const PlainEntry& entry) {
-  return S_ISREG(entry.status.st_mode) || S_ISDIR(entry.status.st_mode);
-}
-
-/// The library's folder and data/, in which nothing else may be.
-void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultList& faults) {
-  ExpectedFiles root;
-  for (const char* const name :
-       {kLibraryFile, kMinisignSignatureFile, kOpenSshSignatureFile, kBagFile, kBagInfoFile,
-        kManifestFile, kTagManifestFile, "index.html"})
-    root.files.insert(name);
-  root.files.insert({kPayload, "site"});  // their entries are looked at below
-  // an entry that cannot be read is a fault of the walk below
-  (void)folder.list("", [&](const PlainEntry& entry) {
-    if (formats::isTemporaryName(entry.name) && isFileOrFolder(entry))
-      root.files.insert(entry.name);
-    return true;
-  });
   faults.append(walkFolder(folder, "", root, "", faults.maximum()).faults);
   ExpectedFiles payload;
   payload.files.insert(kCrateFile);
   for (const LibraryEntry& entry : library.cases) payload.files.insert(entry.id);
   faults.append(walkFolder(folder, kPayload, payload, "", faults.maximum()).faults);
-  checkKindsOfOthers(folder, faults);
+  if (read.fault != PlainFault::None)
+    faults.add({FaultCode::FileUnreadable, "", ".", read.found, "a folder that can be read"});
+  for (const auto& [name, kind] : wrong)
+    faults.add({FaultCode::FileKind, "", name, kind, name == "site" ? "a folder" : "a file"});
+  checkKinds(folder, "site", faults);
 }
 
 /// Result of a case, in its place.

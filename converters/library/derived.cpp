@@ -2,16 +2,163 @@
 #include "converters/library/derived.h"
 
 #include <algorithm>
-#include <set>
-#include <utility>
+#include <map>
 #include <vector>
 
-#include "converters/base/sha256.h"
-#include "converters/library/crate.h"
+#include "converters/library/spdx.h"
 
 namespace lumen::convert {
 
 namespace {
+
+// Entities of RO-Crate 1.2 (https://w3id.org/ro/crate/1.2).
+
+using CrateEntity = nlohmann::ordered_json;
+
+constexpr const char* kVersion = "https://w3id.org/ro/crate/1.2";
+// Profile of a crate that is referred to, in any version.
+constexpr const char* kAnyVersion = "https://w3id.org/ro/crate";
+
+std::string orElse(const std::string& text, const std::string& other) {
+  return text.empty() ? other : text;
+}
+
+/// A name within the document: letters, digits, . and - stay.
+std::string fragment(std::string_view kind, std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string id = "#" + std::string(kind) + "-";
+  for (const char c : text) {
+    const bool stays = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '.' || c == '-';
+    const auto byte = static_cast<unsigned char>(c);
+    if (stays)
+      id += c;
+    else
+      id.append({'%', kDigits[byte >> 4], kDigits[byte & 0xfU]});
+  }
+  return id;
+}
+
+std::string codeId(const AnatomyCode& code) {
+  return (code.system == "FMA" ? "http://purl.org/sig/ont/fma/fma" : "http://snomed.info/id/") +
+         code.code;
+}
+
+CrateEntity reference(std::string_view id) {
+  return {{"@id", id}};
+}
+
+/// The document up to its first entity, that of the metadata file itself: one entity on each line.
+std::string crateHead() {
+  const CrateEntity descriptor = {{"@id", kCrateFile},
+                                  {"@type", "CreativeWork"},
+                                  {"conformsTo", reference(kVersion)},
+                                  {"about", reference("./")}};
+  return "{\"@context\": \"" + std::string(kVersion) + "/context\", \"@graph\": [\n" +
+         descriptor.dump();
+}
+
+/// The next entity.
+std::string crateLine(const CrateEntity& entity) {
+  return ",\n" + entity.dump();
+}
+
+std::string crateEnd() {
+  return "\n]}\n";
+}
+
+/// Identifier that refers to a licence expression: its page at SPDX, or a name within the document.
+std::string licenceId(const std::string& expression) {
+  if (isListedLicence(expression)) return "https://spdx.org/licenses/" + expression;
+  return fragment("licence", expression);
+}
+
+CrateEntity licenceEntity(const std::string& expression) {
+  return {{"@id", licenceId(expression)},
+          {"@type", "CreativeWork"},
+          {"name", expression},
+          {"description", "Licence, as an SPDX expression: " + expression}};
+}
+
+/// The library's own entity, "./", but for its parts.
+CrateEntity libraryEntity(const LibraryFile& library) {
+  CrateEntity root = {{"@id", "./"},
+                      {"@type", "Dataset"},
+                      {"identifier", "urn:uuid:" + library.id},
+                      {"name", library.title},
+                      {"description", orElse(library.description, library.title)},
+                      {"datePublished", library.date},
+                      {"version", std::to_string(library.revision)},
+                      {"license", reference(licenceId(library.licence))}};
+  if (!library.publisher.empty()) root["publisher"] = reference("#publisher");
+  return root;
+}
+
+/// A case in the crate of its library: a folder with a crate of its own.
+CrateEntity caseEntity(const CaseRecord& record) {
+  const CaseAbout& about = record.about;
+  CrateEntity entity = {{"@id", record.id + "/"},
+                        {"@type", "Dataset"},
+                        {"conformsTo", reference(kAnyVersion)},
+                        {"name", about.title},
+                        {"description", orElse(about.description, about.title)},
+                        {"datePublished", record.date},
+                        {"version", std::to_string(record.version)},
+                        {"license", reference(licenceId(about.licence))}};
+  if (!about.attribution.empty()) entity["creditText"] = about.attribution;
+  if (!about.anatomy.empty()) entity["keywords"] = about.anatomy;
+  for (const AnatomyCode& code : about.codes) entity["about"].push_back(reference(codeId(code)));
+  return entity;
+}
+
+CrateEntity codeEntity(const AnatomyCode& code) {
+  return {{"@id", codeId(code)},
+          {"@type", "DefinedTerm"},
+          {"name", orElse(code.name, code.code)},
+          {"termCode", code.code},
+          {"inDefinedTermSet", code.system}};
+}
+
+std::string toolId(const std::string& tool) {
+  return fragment("tool", tool);
+}
+
+std::string doiAddress(const CaseAbout& about) {
+  return "https://doi.org/" + about.doi;
+}
+
+CrateEntity fileEntity(const RecordedFile& file) {
+  static const std::map<std::string, const char*> kNames = {
+      {"case", "The case: tree, wall points and models"},
+      {"surface", "The closed surface of the case"},
+      {"picture", "Picture of the case"},
+      {"report", "Report on the case"}};
+  const auto named = kNames.find(file.role);
+  const std::string name = named != kNames.end()   ? named->second
+                           : file.role == "export" ? file.path + ", for " + file.target
+                                                   : file.path;
+  return {{"@id", file.path},
+          {"@type", "File"},
+          {"name", name},
+          {"encodingFormat", file.media},
+          {"contentSize", std::to_string(file.bytes)},
+          {"sha256", file.sha256}};
+}
+
+/// The case's own entity, "./".
+CrateEntity rootOf(const CaseRecord& record) {
+  CrateEntity root = caseEntity(record);
+  root["@id"] = "./";
+  root.erase("conformsTo");
+  root["hasPart"] = CrateEntity::array({reference(kRecordFile)});
+  for (const RecordedFile& file : record.files) root["hasPart"].push_back(reference(file.path));
+  if (!record.about.doi.empty()) root["isBasedOn"] = reference(doiAddress(record.about));
+  for (std::size_t i = 0; i < record.provenance["steps"].size(); ++i)
+    root["mentions"].push_back(reference("#step-" + std::to_string(i + 1)));
+  for (const RecordedFile& file : record.files)
+    if (file.role == "picture") root["image"].push_back(reference(file.path));
+  return root;
+}
 
 std::string manifestLine(std::string_view digest, std::string_view path) {
   return std::string(digest) + "  " + std::string(path) + "\n";
@@ -41,78 +188,79 @@ std::string bagInfo(const LibraryFile& library, std::uint64_t bytes, std::uint64
 
 }  // namespace
 
-struct LibraryTexts::State {
-  /// Hands a text on, and keeps its digest and size.
-  class DigestedSink {
-  public:
-    explicit DigestedSink(TextSink sink) : m_sink(std::move(sink)) {}
-    void add(std::string_view text) {
-      m_sum.add(text);
-      m_bytes += text.size();
-      m_sink(text);
-    }
-    std::string digest() { return m_sum.text(); }
-    [[nodiscard]] std::uint64_t bytes() const { return m_bytes; }
+std::string caseCrate(const CaseRecord& record) {
+  const CaseAbout& about = record.about;
+  std::string text = crateHead() + crateLine(rootOf(record)) +
+                     crateLine(licenceEntity(about.licence)) +
+                     crateLine({{"@id", kRecordFile},
+                                {"@type", "File"},
+                                {"name", "All that is known of the case"},
+                                {"encodingFormat", "application/json"}});
+  for (const RecordedFile& file : record.files) text += crateLine(fileEntity(file));
+  std::map<std::string, CrateEntity> others;  // each once, whatever refers to it
+  for (const AnatomyCode& code : about.codes) others.emplace(codeId(code), codeEntity(code));
+  if (!about.doi.empty())
+    others.emplace(doiAddress(about), CrateEntity{{"@id", doiAddress(about)},
+                                                  {"@type", "CreativeWork"},
+                                                  {"name", orElse(about.origin, about.doi)}});
+  std::size_t number = 0;
+  for (const auto& step : record.provenance["steps"]) {
+    const std::string tool = step["tool"];
+    const std::string id = "#step-" + std::to_string(++number);
+    others.emplace(
+        toolId(tool),
+        CrateEntity{{"@id", toolId(tool)}, {"@type", "SoftwareApplication"}, {"name", tool}});
+    text += crateLine({{"@id", id},
+                       {"@type", "CreateAction"},
+                       {"name", step["name"]},
+                       {"instrument", reference(toolId(tool))},
+                       {"result", reference(kCaseFile)}});
+  }
+  for (const auto& [id, entity] : others) text += crateLine(entity);
+  return text + crateEnd();
+}
 
-  private:
-    TextSink m_sink;
-    Sha256 m_sum;
-    std::uint64_t m_bytes = 0;
-  };
-
-  State(const LibraryFile& given, TextSink manifestSink, TextSink crateSink)
-      : library(given), manifest(std::move(manifestSink)), crate(std::move(crateSink)) {}
-  const LibraryFile& library;
-  DigestedSink manifest, crate;
-  std::set<std::string> licences;
-  std::size_t next = 0;
-  std::uint64_t bytes = 0, files = 0;
-};
+void LibraryTexts::DigestedSink::add(std::string_view text) {
+  sum.add(text);
+  bytes += text.size();
+  sink(text);
+}
 
 LibraryTexts::LibraryTexts(const LibraryFile& library, TextSink manifest, TextSink crate)
-    : m_state(std::make_unique<State>(library, std::move(manifest), std::move(crate))) {
+    : m_library(library), m_manifest(std::move(manifest)), m_crate(std::move(crate)) {
   CrateEntity root = libraryEntity(library);
   root["hasPart"] = CrateEntity::array();
   for (const LibraryEntry& entry : library.cases)
     root["hasPart"].push_back(reference(entry.id + "/"));
-  m_state->crate.add(crateHead() + crateLine(root));
+  m_crate.add(crateHead() + crateLine(root));
   if (!library.publisher.empty())
-    m_state->crate.add(
+    m_crate.add(
         crateLine({{"@id", "#publisher"}, {"@type", "Organization"}, {"name", library.publisher}}));
-  m_state->licences.insert(library.licence);
+  m_licences.insert(library.licence);
 }
-
-LibraryTexts::~LibraryTexts() = default;
 
 void LibraryTexts::add(const CaseRecord& record, std::string_view crate) {
-  State& state = *m_state;
-  const LibraryEntry& entry = state.library.cases.at(state.next++);
-  state.manifest.add(manifestLines(record, entry, crate));
+  const LibraryEntry& entry = m_library.cases.at(m_next++);
+  m_manifest.add(manifestLines(record, entry, crate));
   CrateEntity entity = caseEntity(record);
   entity.erase("about");  // its codes are in the crate of the case
-  state.crate.add(crateLine(entity));
-  state.licences.insert(record.about.licence);
-  state.files += entry.files + 2;
-  state.bytes += entry.bytes + entry.recordBytes + crate.size();
-}
-
-void LibraryTexts::skip() {
-  ++m_state->next;
+  m_crate.add(crateLine(entity));
+  m_licences.insert(record.about.licence);
+  m_files += entry.files + 2;
+  m_bytes += entry.bytes + entry.recordBytes + crate.size();
 }
 
 TagTexts LibraryTexts::finish() {
-  State& state = *m_state;
-  for (const std::string& licence : state.licences)
-    state.crate.add(crateLine(licenceEntity(licence)));
-  state.crate.add(crateEnd());
-  state.manifest.add(manifestLine(state.crate.digest(), std::string(kPayload) + "/" + kCrateFile));
+  for (const std::string& licence : m_licences) m_crate.add(crateLine(licenceEntity(licence)));
+  m_crate.add(crateEnd());
+  m_manifest.add(manifestLine(m_crate.sum.text(), std::string(kPayload) + "/" + kCrateFile));
   TagTexts texts;
   texts.bag = "BagIt-Version: 1.0\nTag-File-Character-Encoding: UTF-8\n";
-  texts.bagInfo = bagInfo(state.library, state.bytes + state.crate.bytes(), state.files + 1);
+  texts.bagInfo = bagInfo(m_library, m_bytes + m_crate.bytes, m_files + 1);
   texts.tagManifest = manifestLine(sha256(texts.bagInfo), kBagInfoFile) +
                       manifestLine(sha256(texts.bag), kBagFile) +
-                      manifestLine(sha256(libraryText(state.library)), kLibraryFile) +
-                      manifestLine(state.manifest.digest(), kManifestFile);
+                      manifestLine(sha256(libraryText(m_library)), kLibraryFile) +
+                      manifestLine(m_manifest.sum.text(), kManifestFile);
   return texts;
 }
 

@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "converters/base/sha256.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
 
@@ -37,9 +39,6 @@ public:
   /// `library` must outlive this. `manifest` is given manifest-sha256.txt, `crate`
   /// data/ro-crate-metadata.json.
   LibraryTexts(const LibraryFile& library, TextSink manifest, TextSink crate);
-  ~LibraryTexts();
-  LibraryTexts(const LibraryTexts&) = delete;
-  LibraryTexts& operator=(const LibraryTexts&) = delete;
 
   /// The next case of library.cases. The digest of its record is the one that the library states.
   /// `crate` is caseCrate(record).
@@ -47,14 +46,26 @@ public:
 
   /// Passes over the next case, whose record is not there; files that are made of all cases are not
   /// to be had then.
-  void skip();
+  void skip() { ++m_next; }
 
   /// After the last case.
   TagTexts finish();
 
 private:
-  struct State;
-  std::unique_ptr<State> m_state;
+  /// Hands a text on, and keeps its digest and size.
+  struct DigestedSink {
+    explicit DigestedSink(TextSink receiver) : sink(std::move(receiver)) {}
+    void add(std::string_view text);
+    TextSink sink;
+    Sha256 sum;
+    std::uint64_t bytes = 0;
+  };
+
+  const LibraryFile& m_library;
+  DigestedSink m_manifest, m_crate;
+  std::set<std::string> m_licences;
+  std::size_t m_next = 0;
+  std::uint64_t m_bytes = 0, m_files = 0;
 };
 
 }  // namespace lumen::convert

@@ -9,23 +9,18 @@
 #include "converters/base/sha256.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/library/revision_files.h"
 
 namespace lumen::convert {
 
 namespace {
 
 namespace fs = std::filesystem;
-using formats::PendingFolder;
-
-PendingFolder workspaceBeside(const fs::path& library) {
-  auto folder = PendingFolder::beside(library, PendingFolder::Existing::Replace);
-  if (!folder) throw failed(formats::printable(folder.error().message));
-  return *std::move(folder);
-}
 
 }  // namespace
 
-IncomingCase::IncomingCase(const fs::path& library) : m_workspace(workspaceBeside(library)) {
+IncomingCase::IncomingCase(const fs::path& library)
+    : m_workspace(pendingFolder(library, formats::PendingFolder::Existing::Replace)) {
   fs::create_directory(folder());
 }
 

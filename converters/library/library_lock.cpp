@@ -25,9 +25,15 @@ bool isSamePlace(int descriptor, const std::filesystem::path& path) {
          open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-bool isLockedByOthers(int descriptor, LibraryLock::Use use) {
-  const int kind = use == LibraryLock::Use::Read ? LOCK_SH : LOCK_EX;
+/// `kind`: LOCK_SH or LOCK_EX.
+bool isLockedByOthers(int descriptor, int kind) {
   return ::flock(descriptor, kind | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
+}
+
+formats::FileDescriptor openRowLock(const std::string& file, int flags) {
+  constexpr int kPermissions = 0666;
+  return formats::FileDescriptor(formats::uninterrupted(
+      [&] { return ::open(file.c_str(), O_RDWR | O_CLOEXEC | flags, kPermissions); }));
 }
 
 }  // namespace
@@ -47,7 +53,7 @@ LibraryLock::LibraryLock(const std::filesystem::path& library, Progress& progres
   bool waits = false;
   do {
     m_folder = openLibraryFolder(library);
-    while (isLockedByOthers(m_folder.get(), use)) {
+    while (isLockedByOthers(m_folder.get(), use == Use::Read ? LOCK_SH : LOCK_EX)) {
       if (!std::exchange(waits, true))
         progress.detail(formats::printable(library.string()) + ": waiting for another " +
                         (use == Use::Read ? "change" : "use") + " of this library");
@@ -56,6 +62,22 @@ LibraryLock::LibraryLock(const std::filesystem::path& library, Progress& progres
     }
     // another writer may have exchanged the folder while this one waited
   } while (!isSamePlace(m_folder.get(), library));
+}
+
+RowLock::RowLock(const std::filesystem::path& folder, const Progress& progress) {
+  const std::string file = folder.string() + ".lock";
+  m_file = openRowLock(file, O_CREAT);
+  if (!m_file.isOpen())
+    throw failed(formats::printable(file) + ": " + formats::systemErrorText(errno));
+  while (isLockedByOthers(m_file.get(), LOCK_EX)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    progress.check();
+  }
+}
+
+bool RowLock::isHeld(const std::filesystem::path& folder) {
+  const formats::FileDescriptor open = openRowLock(folder.string() + ".lock", 0);
+  return open.isOpen() && isLockedByOthers(open.get(), LOCK_EX);
 }
 
 }  // namespace lumen::convert

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns of programs that read and programs that change a library.
+// Turns of programs that read and programs that change a library, and of those that make the same
+// row of a list.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +31,21 @@ public:
 
 private:
   formats::FileDescriptor m_folder;
+};
+
+/// A lock on a row's folder for as long as this object lives, in a file beside the folder that is
+/// open for writing, as file systems of clusters (NFS) demand. A file system without locks lets
+/// everybody in.
+class RowLock {
+public:
+  /// Waits for others. Throws Error(Failed) if the file cannot be made, Error(Cancelled).
+  RowLock(const std::filesystem::path& folder, const Progress& progress);
+
+  /// Whether a process makes the row of this folder now.
+  static bool isHeld(const std::filesystem::path& folder);
+
+private:
+  formats::FileDescriptor m_file;
 };
 
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that is wrong with a record by itself and beside its line of library.json.
+// All that is wrong with a record by itself, beside its line of library.json, and beside its case.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 #include "converters/library/library_fault.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
+#include "formats/case/case.h"
 
 namespace lumen::convert {
 
@@ -20,6 +21,12 @@ std::optional<CaseRecord> readRecordFaults(const std::string& text, const std::s
 /// or de-identification, and for texts that look like a person's.
 void checkRecord(const CaseRecord& record, const LibraryEntry& entry, const std::string& path,
                  FaultList& faults);
+
+/// Adds faults for bounds, figures, insertions and ends that are not those of the case, to a
+/// thousandth of a millimetre, which is finer than anything in a volume and coarser than rounding.
+/// `path` is the record's.
+void checkFigures(const formats::Case& value, const CaseRecord& record, const std::string& path,
+                  FaultList& faults);
 
 /// A licence that is missing or none.
 void checkLicence(const std::string& licence, const std::string& caseId, const std::string& path,

@@ -2,7 +2,7 @@
 #include "converters/library/row_state.h"
 
 #include "converters/library/build_row.h"
-#include "converters/library/row_lock.h"
+#include "converters/library/library_lock.h"
 
 namespace lumen::convert {
 

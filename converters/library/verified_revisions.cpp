@@ -7,7 +7,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
@@ -15,7 +14,6 @@
 #include "converters/library/json_values.h"
 #include "formats/case/atomic_file.h"
 #include "formats/case/case_file.h"
-#include "formats/case/file_descriptor.h"
 
 namespace lumen::convert {
 
@@ -76,21 +74,13 @@ VerifiedRevisions::VerifiedRevisions(const fs::path& file) : m_file(file) {
                  kOption.state.shown() + " FILE names another place");
   // beside the file, which is replaced
   const fs::path lock = file.string() + ".lock";
-  m_lock = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (m_lock < 0)
+  m_lock =
+      formats::FileDescriptor(open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
+  if (!m_lock.isOpen())
     throw failed(lock.string() + ": cannot be made: " + formats::systemErrorText(errno) + "; " +
                  kOption.state.shown() + " FILE names another place");
-  while (flock(m_lock, LOCK_EX) != 0 && errno == EINTR) continue;
-  try {
-    m_libraries = readState(file);
-  } catch (...) {
-    close(m_lock);
-    throw;
-  }
-}
-
-VerifiedRevisions::~VerifiedRevisions() {
-  close(m_lock);
+  while (flock(m_lock.get(), LOCK_EX) != 0 && errno == EINTR) continue;
+  m_libraries = readState(file);
 }
 
 std::optional<VerifiedRevision> VerifiedRevisions::of(const std::string& libraryId) const {

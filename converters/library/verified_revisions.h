@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/case/file_descriptor.h"
+
 namespace lumen::convert {
 
 /// $XDG_STATE_HOME/lumen/libraries.json, by default below ~/.local/state. Throws Error(Failed)
@@ -28,9 +30,6 @@ public:
   /// Makes the file's folder where there is none. Throws Error(InvalidInput) for a file that is
   /// damaged, which stays as it is, and Error(Failed).
   explicit VerifiedRevisions(const std::filesystem::path& file);
-  ~VerifiedRevisions();
-  VerifiedRevisions(const VerifiedRevisions&) = delete;
-  VerifiedRevisions& operator=(const VerifiedRevisions&) = delete;
 
   /// The highest revision that was seen of a library.
   [[nodiscard]] std::optional<VerifiedRevision> of(const std::string& libraryId) const;
@@ -39,7 +38,7 @@ public:
 
 private:
   std::filesystem::path m_file;
-  int m_lock = -1;
+  formats::FileDescriptor m_lock;
   nlohmann::ordered_json m_libraries;
 };
 

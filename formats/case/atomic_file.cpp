@@ -2,9 +2,11 @@
 #include "formats/case/atomic_file.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <mutex>
+#include <random>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -72,8 +74,19 @@ std::string endingOf(const fs::path& file) {
   return both.size() <= kMaxEnding ? both : last.size() <= kMaxEnding ? last : "";
 }
 
-std::string ownPrefix() {
-  return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-";
+std::string newHiddenName(const std::string& ending) {
+  return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-" +
+         std::to_string(std::random_device()()) + ending;
+}
+
+// Hidden files and folders of this process that are not in their place yet.
+struct OwnTemporaries {
+  std::mutex mutex;
+  std::set<fs::path> paths;
+};
+OwnTemporaries& ownTemporaries() {
+  static auto* const own = new OwnTemporaries;  // outlives every writer
+  return *own;
 }
 
 bool tryLock(int descriptor) {
@@ -97,11 +110,9 @@ bool stillExists(int descriptor) {
 template <class Make>
 Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string& ending,
                                       Make make) {
-  static std::atomic<unsigned> counter{0};
   int error = EEXIST;
   for (int trial = 0; trial < kMaxNameTrials; ++trial) {
-    const fs::path path =
-        target.parent_path() / (ownPrefix() + std::to_string(counter.fetch_add(1)) + ending);
+    const fs::path path = target.parent_path() / newHiddenName(ending);
     FileDescriptor open(uninterrupted([&] { return make(path); }));
     if (!open.isOpen()) {
       error = errno;
@@ -144,12 +155,20 @@ bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
          flushOpen(open.get(), calls);
 }
 
+// Removes leftovers of killed writers. Failures are ignored: the next write tries again.
+void removeAbandoned(const fs::path& folder) {
+  std::error_code error, ignored;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (isTemporaryName(it->path().filename().string()) && isAbandoned(it->path()))
+      fs::remove_all(it->path(), ignored);
+}
+
 // Makes a rename survive a power cut. A folder that cannot be opened or flushed (some network file
 // systems) leaves that to the system: the new file or folder is already in place.
 void finish(const fs::path& target, const FileCalls& calls) {
   const fs::path folder = folderOf(target);
   flushPath(folder, O_DIRECTORY, calls);
-  removeTemporaries(folder, Temporaries::Abandoned);
+  removeAbandoned(folder);
 }
 
 // Flushes everything in `folder`, then the folder.
@@ -193,12 +212,25 @@ const FileCalls& systemCalls() {
   return calls;
 }
 
+HiddenSibling::HiddenSibling(fs::path path, FileDescriptor descriptor)
+    : m_path(std::move(path)), m_descriptor(std::move(descriptor)) {
+  const std::lock_guard lock(ownTemporaries().mutex);
+  ownTemporaries().paths.insert(m_path);
+}
+
 HiddenSibling::HiddenSibling(HiddenSibling&& other) noexcept
     : m_path(std::exchange(other.m_path, {})), m_descriptor(std::move(other.m_descriptor)) {}
 
 HiddenSibling::~HiddenSibling() {
   std::error_code ignored;
   if (!m_path.empty()) fs::remove_all(m_path, ignored);
+  release();
+}
+
+void HiddenSibling::release() {
+  const std::lock_guard lock(ownTemporaries().mutex);
+  ownTemporaries().paths.erase(m_path);
+  m_path.clear();
 }
 
 Status writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
@@ -268,41 +300,36 @@ Status PendingFolder::replace() {
   // the sibling is the old folder from here on, and goes with this object
   if (calls.exchange(path().c_str(), m_target.c_str()) == 0) return {};
   if (!isUnsupported(errno)) return writeError(m_target, "cannot replace the folder", errno);
-  const fs::path old = m_target.string() + ".lumen-old";
-  if (calls.rename(m_target.c_str(), old.c_str()) != 0)
-    return writeError(m_target, "cannot be moved away", errno);
+  const std::string old = m_target.string() + ".lumen-old";
+  if (calls.rename(m_target.c_str(), old.c_str()) != 0) {
+    if (errno != ENOTEMPTY && errno != EEXIST)
+      return writeError(m_target, "cannot be moved away", errno);
+    return Issue{ErrorCode::IoWrite, std::nullopt,
+                 m_target.string() + ": cannot be replaced: found " + old +
+                     ", which an interrupted replacement left; expected nothing there: look " +
+                     "whether it holds something that you need, and move it away or remove it"};
+  }
   if (calls.rename(path().c_str(), m_target.c_str()) != 0) {
     const int error = errno;
     calls.rename(old.c_str(), m_target.c_str());
     return writeError(m_target, "cannot replace the folder", error);
   }
-  m_sibling.release();
-  std::error_code ignored;
-  fs::remove_all(old, ignored);
+  calls.rename(old.c_str(), path().c_str());  // hidden: if its removal is killed, the next goes on
   return {};
 }
 
 bool isTemporaryName(std::string_view name) {
-  // a prefix, digits and a hyphen, or a probe of a folder: a user's own file of a similar name is
-  // not temporary
-  constexpr std::string_view kProbe = ".lumen-probe-XXXXXX";
-  if (name.size() == kProbe.size() && name.starts_with(kProbe.substr(0, kProbe.size() - 6)))
-    return true;
+  // a prefix, digits and a hyphen: a user's own file of a similar name is not temporary
   if (!name.starts_with(kTemporaryPrefix)) return false;
   name.remove_prefix(kTemporaryPrefix.size());
   const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
   return digits > 0 && digits < name.size() && name[digits] == '-';
 }
 
-void removeTemporaries(const fs::path& folder, Temporaries which) {
-  const std::string own = ownPrefix();
-  std::error_code error, ignored;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (!isTemporaryName(name)) continue;
-    const bool isOwn = which == Temporaries::AbandonedAndOwn && name.starts_with(own);
-    if (isOwn || isAbandoned(it->path())) fs::remove_all(it->path(), ignored);
-  }
+void removeOwnTemporaries() {
+  const std::lock_guard lock(ownTemporaries().mutex);
+  std::error_code ignored;
+  for (const fs::path& path : ownTemporaries().paths) fs::remove_all(path, ignored);
 }
 
 }  // namespace lumen::formats

@@ -3,11 +3,11 @@
 // sibling, flushes it to disk, and renames it.
 //
 // A writer that ends or throws removes what it began. One that is killed cannot, so every hidden
-// name begins with kTemporaryPrefix and the writer's process id, and the writer holds a lock
-// (flock) on it for as long as it lives. The next write into that folder removes hidden siblings
-// without a lock; an interrupted process, which still holds its own locks, removes those that bear
-// its id. A lock, not the id, distinguishes dead writers from live ones, because a folder may be
-// shared by machines and containers that do not see each other's processes. Files without a name
+// name begins with kTemporaryPrefix, and the writer holds a lock (flock) on it for as long as it
+// lives. The next write into that folder removes hidden siblings without a lock; an interrupted
+// process, which still holds its own locks, removes those that it made. The process id in a name is
+// for people alone: a folder may be shared by machines and containers that do not see each other's
+// processes, and have the same ids. Files without a name
 // (O_TMPFILE) would leave nothing either, but neither libraries that write by name nor folders can
 // use them, and some file systems refuse to name them (linkat).
 //
@@ -32,7 +32,7 @@
 
 namespace lumen::formats {
 
-/// Prefix of hidden names. The process id, a hyphen, a number, and the ending of a target file
+/// Prefix of hidden names. The process id, a hyphen, random digits, and the ending of a target file
 /// follow.
 inline constexpr std::string_view kTemporaryPrefix = ".lumen-";
 
@@ -58,15 +58,14 @@ Status writeFileAtomically(std::span<const std::byte> bytes, const std::filesyst
 /// A hidden, empty file or folder that this process holds a lock on and removes at its end.
 class HiddenSibling {
 public:
-  HiddenSibling(std::filesystem::path path, FileDescriptor descriptor)
-      : m_path(std::move(path)), m_descriptor(std::move(descriptor)) {}
+  HiddenSibling(std::filesystem::path path, FileDescriptor descriptor);
   HiddenSibling(HiddenSibling&& other) noexcept;
   HiddenSibling& operator=(HiddenSibling&&) = delete;
   ~HiddenSibling();
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
   [[nodiscard]] int descriptor() const { return m_descriptor.get(); }
   /// Keeps the file or folder, which has another name now.
-  void release() { m_path.clear(); }
+  void release();
 
 private:
   std::filesystem::path m_path;
@@ -115,7 +114,8 @@ public:
   /// Flushes the complete folder and puts it in its place. Called once only. A folder that it
   /// replaces changes places with it in one step and is removed then; where the kernel or the
   /// file system cannot do that (RENAME_EXCHANGE), the old folder first becomes NAME.lumen-old, so
-  /// for an instant, or after a power cut in it, NAME does not exist.
+  /// for an instant, or after a power cut in it, NAME does not exist. A NAME.lumen-old that is
+  /// there already may be the only copy of something: it is refused.
   Status commit(Flush how = Flush::Each);
 
 private:
@@ -136,10 +136,7 @@ private:
 /// Whether this is the name of a file or folder that a writer has not put in its place.
 bool isTemporaryName(std::string_view name);
 
-enum class Temporaries : std::uint8_t { Abandoned, AbandonedAndOwn };
-
-/// Removes leftovers of killed writers from `folder`; with AbandonedAndOwn also the unfinished
-/// files and folders of this process. Failures are ignored: the next write tries again.
-void removeTemporaries(const std::filesystem::path& folder, Temporaries which);
+/// Removes the unfinished files and folders of this process, at its end. Thread-safe.
+void removeOwnTemporaries();
 
 }  // namespace lumen::formats

@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "formats/case/atomic_file.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
@@ -73,9 +74,7 @@ TEST_F(InterruptGuardTest, WorkThatDoesNotStopIsEndedAndItsTemporaryFileRemoved)
       {
         Progress progress;
         InterruptGuard guard(progress);
-        std::filesystem::current_path(path(""));
-        guard.watchOutput("volume.nrrd");
-        write(".lumen-" + std::to_string(getpid()) + "-0.nrrd", "half");
+        const auto pending = formats::PendingFile::beside(path("volume.nrrd"));
         write("volume.nrrd", "whole");
         kill(getpid(), SIGINT);
         std::this_thread::sleep_for(std::chrono::hours(1));

@@ -3,6 +3,7 @@ lumen_test(library_test
   LIBS lumen_library
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/build_list_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/build_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/change_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/derived_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/library_file_test.cpp

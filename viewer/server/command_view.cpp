@@ -268,7 +268,6 @@ private:
   }
 
   engine::Answer writeHtml(Session& session, engine::Surroundings& around) {
-    around.willWrite(m_html);
     const Document document = session.now().document;
     const auto refuse = [&](const char* option, const std::string& needed) {
       const OptionRow& row = *around.table->find(option);
@@ -294,8 +293,6 @@ private:
           "the page of the viewer was not built, so there is nothing to see; ./bootstrap.sh demo "
           "builds it, with npm");
     Server server(session, std::move(page), {m_port});
-    // dropped files lie there; an interrupt removes them, too
-    around.willWrite(fs::temp_directory_path() / "lumen-view");
     around.answerEarly({{{"address", server.address()}}, server.address() + "\n", 0, true});
     if (!m_noBrowser && !openBrowser(server.address()))
       around.progress.warn("no browser could be opened; open the address in one");

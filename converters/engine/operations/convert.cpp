@@ -86,7 +86,6 @@ public:
     if (from.kind == FormatKind::Volume && !m_track.seeds.empty()) m_seeds = loadSeeds(m_track);
     if (!m_corrected.empty()) requireInput(m_corrected, "corrected case");
     requireWritable(m_output, contentKind(to));
-    around.willWrite(m_output);
 
     formats::Case value = load(from, around);
     if (from.kind != FormatKind::Case) around.remote->record(value.metadata);

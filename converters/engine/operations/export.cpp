@@ -112,7 +112,6 @@ public:
     auto folder =
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
-    around.willWrite(m_output);
     convert::warnOfClosed(convert::measureReach(value, around.progress), around.progress);
     const ExportResult result = made(target, value, around);
     warnOfLosses(result, around.progress);

@@ -51,7 +51,6 @@ public:
     requireInput(m_input, "case file");
     requireInScope(*around.table, {}, around.progress);
     requireWritable(m_output, convert::ContentKind::Case);
-    around.willWrite(m_output);
 
     const FileFormat* from = m_image.empty() ? nullptr : &imageFormat();
     formats::Case value = readParentCase(m_input);

@@ -64,7 +64,6 @@ public:
     const std::string day = revisionDay(m_day);
     if (!m_wishes.id.empty() && !m_wishes.replace) convert::requireNewId(before, m_wishes.id);
     const std::filesystem::path library = std::filesystem::canonical(m_library);
-    around.willWrite(library);
     requireInScope(*around.table, {}, around.progress);
     const convert::CaseAbout known = completeWishes(library, *around.table);
     const convert::IncomingCase incoming =

@@ -38,7 +38,6 @@ public:
     library.id = m_id.empty() ? convert::newLibraryId() : m_id;
     if (!m_title.empty()) library.title = m_title;
     library.date = revisionDay(m_day);
-    around.willWrite(m_target);
     const convert::LibraryFile made =
         convert::extractCases(m_source, m_target, m_cases, library, around.progress);
     Json json = librarySummary(made);

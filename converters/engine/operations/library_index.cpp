@@ -29,7 +29,6 @@ public:
   }
   Answer run(Surroundings& around) override {
     const std::filesystem::path first = std::filesystem::path(m_library) / "index.html";
-    around.willWrite(first);
     const convert::SiteReport site = convert::writeSite(m_library, around.progress);
     return {Json{{"cases", site.cases}, {"pages", site.pages}, {"bytes", site.bytes}},
             formats::printable(first.string()) + ": " + counted(site.cases, "case", "cases") +

@@ -41,7 +41,6 @@ public:
   Answer run(Surroundings& around) override {
     if (m_library.id.empty()) m_library.id = convert::newLibraryId();
     m_library.date = revisionDay(m_library.date);
-    around.willWrite(m_folder);
     convert::makeLibrary(m_folder, m_library);
     Json json = librarySummary(convert::openLibrary(m_folder));
     json["gone"] = Json::array();

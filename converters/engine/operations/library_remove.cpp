@@ -28,7 +28,6 @@ public:
     const std::string day = revisionDay(m_day);
     convert::openLibrary(m_library);
     const std::filesystem::path library = std::filesystem::canonical(m_library);
-    around.willWrite(library);
     convert::LibraryChange change(library, around.progress);
     for (const std::string& id : m_ids) change.remove(id);
     change.commit(day);

@@ -81,7 +81,6 @@ private:
     const convert::LibraryLock lock(m_folder, around.progress);
     if (!unchanged())
       throw failed(m_folder + ": library.json was changed while it was signed; nothing is written");
-    around.willWrite(file);
     const auto done = formats::writeFileAtomically(std::as_bytes(std::span(signature.bytes)), file);
     if (!done) throw failed(done.error().message);
   }

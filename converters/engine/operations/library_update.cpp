@@ -47,7 +47,6 @@ public:
     convert::openLibrary(m_library);
     requireStatements(*around.table);
     const fs::path library = fs::canonical(m_library);
-    around.willWrite(library);
     convert::LibraryChange change(library, around.progress);
     std::vector<convert::IncomingCase> kept;  // until the change is committed
     kept.reserve(m_ids.size());

@@ -66,7 +66,6 @@ public:
       throw Error(ErrorKind::Usage, "--identity: " + m_key + " is " +
                                         convert::keyKindText(options.trusted.kind) +
                                         "; only a list of allowed signers has names");
-    if (!options.state.empty()) around.willWrite(options.state);
     const convert::LibraryVerdict verdict =
         convert::verifyLibrary(folder, options, around.progress);
     const bool isTrusted =

@@ -113,7 +113,7 @@ public:
     if (!m_before.empty() && m_cases.size() != 1)
       throw Error(ErrorKind::Usage, kAgainst.shown() + ": found " + std::to_string(m_cases.size()) +
                                         " cases beside it, expected one");
-    auto folder = checkOutput(around);
+    auto folder = checkOutput();
     std::vector<MeasuredCase> measured;
     std::string text;
     for (const std::string& file : m_cases) {
@@ -134,12 +134,11 @@ public:
 
 private:
   /// Refuses an output that could not be written in the end, or would be lost.
-  [[nodiscard]] std::optional<formats::PendingFolder> checkOutput(Surroundings& around) const {
+  [[nodiscard]] std::optional<formats::PendingFolder> checkOutput() const {
     const MeasureOutput kind = outputOf(m_output);
     if (kind == MeasureOutput::None) return std::nullopt;
     if (kind != MeasureOutput::Folder) {
       requireWritable(m_output, convert::ContentKind::Other);
-      around.willWrite(m_output);
       return std::nullopt;
     }
     std::error_code error;
@@ -152,7 +151,6 @@ private:
     auto folder =
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
-    around.willWrite(m_output);
     return std::move(*folder);
   }
 

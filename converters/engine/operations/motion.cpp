@@ -78,7 +78,6 @@ public:
                                         " of phases beside it, expected one that holds them all");
     const std::vector<double> times = phaseTimes();
     requireWritable(m_output, convert::ContentKind::Case);
-    around.willWrite(m_output);
 
     formats::Case value = readParentCase(m_rest);
     const convert::TrackedMotion tracked = track(value, times, around.progress);

@@ -117,7 +117,6 @@ public:
         atTime(readCase(m_input), m_time, m_input, *around.table, around.progress);
     std::optional<convert::Volume> volume;
     if (!m_volume.empty()) volume = volumeBehind(around);
-    around.willWrite(m_output);
     PendingPictures pictures;
     draw(value, volume ? &*volume : nullptr, pictures, around.progress);
     if (m_frames > 0) warnOfOlder(around.progress);

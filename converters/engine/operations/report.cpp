@@ -137,7 +137,6 @@ private:
                      around.progress);
     }
     requireWritable(m_output, convert::ContentKind::Other);
-    around.willWrite(m_output);
   }
 
   [[nodiscard]] ReportFacts factsOfCase(Surroundings& around) const {

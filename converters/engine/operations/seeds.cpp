@@ -87,7 +87,6 @@ public:
     requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, m_output},
                    around.progress);
     requireWritable(m_output, convert::ContentKind::Seeds);
-    around.willWrite(m_output);
     return from.kind == FormatKind::Case ? writeKept(from.readCase(m_input))
                                          : writeFound(from, around.progress);
   }

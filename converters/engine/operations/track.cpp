@@ -54,7 +54,6 @@ public:
     std::vector<convert::SeedBranch> seeds;
     if (!m_track.seeds.empty()) seeds = loadSeeds(m_track);
     requireWritable(m_output, convert::ContentKind::Case);
-    around.willWrite(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
     convert::TrackResult tracked = trackVessels(volume, m_input, seeds, m_track, around.progress);

@@ -67,7 +67,6 @@ public:
       throw Error(ErrorKind::Usage,
                   "nothing to trim by; expected --min-radius, --min-length or both");
     requireWritable(m_output, convert::ContentKind::Case);
-    around.willWrite(m_output);
 
     formats::Case value = readParentCase(m_input);
     const convert::TrimResult trimmed = made(value);

@@ -6,20 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "converters/base/embedded_text.h"
 #include "converters/export/shared/target.h"
 
 namespace lumen::convert {
-
-struct TextValue {
-  std::string_view name;
-  std::string value;
-};
-
-/// `text` with a value in the place of each {name}; names begin with a small letter and have
-/// letters only, so other braces stay. A placeholder alone on its line goes with its line break if
-/// the value is empty or ends with one. Throws std::logic_error, a fault of the program, for a
-/// placeholder without a value and a value without a placeholder.
-std::string filled(std::string_view text, std::initializer_list<TextValue> values);
 
 /// filled() of the file targets/NAME/texts/FILE; `name` is "NAME/FILE". Throws std::logic_error if
 /// there is none.

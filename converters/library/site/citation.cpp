@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/site/citation.h"
+// Citations of a case of a library.
+#include <map>
 
 #include "converters/base/html.h"
+#include "converters/library/site/pages.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -26,60 +28,29 @@ std::string revisionOf(const LibraryFile& library) {
   return "revision " + std::to_string(library.revision);
 }
 
-void addField(std::string& entry, const char* name, const std::string& value) {
-  if (value.empty()) return;
-  entry += ",\n  ";
-  entry += name;
-  entry += " = {";
-  entry += value;
-  entry += "}";
-}
-
 /// Once more in braces, so that neither capitals nor the words of a name are taken apart.
 std::string asOne(const std::string& text) {
-  if (text.empty()) return text;
-  std::string value = "{";
-  value += bibTexText(text);
-  value += "}";
-  return value;
-}
-
-const char* commandFor(char c) {
-  switch (c) {
-    case '\\':
-      return "\\textbackslash{}";
-    case '{':
-      return "\\textbraceleft{}";
-    case '}':
-      return "\\textbraceright{}";
-    case '~':
-      return "\\textasciitilde{}";
-    case '^':
-      return "\\textasciicircum{}";
-    case '&':
-      return "\\&";
-    case '%':
-      return "\\%";
-    case '$':
-      return "\\$";
-    case '#':
-      return "\\#";
-    case '_':
-      return "\\_";
-    default:
-      return nullptr;
-  }
+  return text.empty() ? text : "{" + bibTexText(text) + "}";
 }
 
 }  // namespace
 
 std::string bibTexText(std::string_view text) {
+  static const std::map<char, std::string_view> kCommands = {{'\\', "\\textbackslash{}"},
+                                                             {'{', "\\textbraceleft{}"},
+                                                             {'}', "\\textbraceright{}"},
+                                                             {'~', "\\textasciitilde{}"},
+                                                             {'^', "\\textasciicircum{}"},
+                                                             {'&', "\\&"},
+                                                             {'%', "\\%"},
+                                                             {'$', "\\$"},
+                                                             {'#', "\\#"},
+                                                             {'_', "\\_"}};
   std::string value;
-  for (const char c : printable(text))
-    if (const char* const command = commandFor(c))
-      value += command;
-    else
-      value += c;
+  for (const char c : printable(text)) {
+    const auto command = kCommands.find(c);
+    value += command == kCommands.end() ? std::string_view(&c, 1) : command->second;
+  }
   return value;
 }
 
@@ -93,35 +64,25 @@ std::string citationText(const LibraryFile& library, const CaseRecord& record) {
                                          : printable(library.publisher) + ", " + yearOf(record));
   text += sentence(printable(record.about.licence));
   if (!record.about.doi.empty()) return text + "https://doi.org/" + urlAddress(record.about.doi);
-  text += "urn:uuid:";
-  text += printable(library.id);
-  return text;
+  return text + "urn:uuid:" + printable(library.id);
 }
 
 std::string citationBibTex(const LibraryFile& library, const CaseRecord& record) {
   const CaseAbout& about = record.about;
-  std::string entry = "@misc{";
-  entry += record.id;
-  entry += "-v";
-  entry += std::to_string(record.version);
-  addField(entry, "author",
-           asOne(about.attribution.empty() ? library.publisher : about.attribution));
-  addField(entry, "title", asOne(about.title));
-  addField(entry, "year", yearOf(record));
-  std::string where = "In: ";
-  where += asOne(library.title);
-  where += ", ";
-  where += revisionOf(library);
-  addField(entry, "howpublished", where);
-  addField(entry, "publisher", about.attribution.empty() ? "" : asOne(library.publisher));
-  addField(entry, "doi", urlAddress(about.doi));
-  std::string note = "Version ";
-  note += std::to_string(record.version);
-  note += ". Licence: ";
-  note += bibTexText(about.licence);
-  note += ". urn:uuid:";
-  note += bibTexText(library.id);
-  addField(entry, "note", note);
+  const bool isCredited = !about.attribution.empty();
+  const std::string version = std::to_string(record.version);
+  const std::pair<const char*, std::string> fields[] = {
+      {"author", asOne(isCredited ? about.attribution : library.publisher)},
+      {"title", asOne(about.title)},
+      {"year", yearOf(record)},
+      {"howpublished", "In: " + asOne(library.title) + ", " + revisionOf(library)},
+      {"publisher", isCredited ? asOne(library.publisher) : ""},
+      {"doi", urlAddress(about.doi)},
+      {"note", "Version " + version + ". Licence: " + bibTexText(about.licence) +
+                   ". urn:uuid:" + bibTexText(library.id)}};
+  std::string entry = "@misc{" + record.id + "-v" + version;
+  for (const auto& [name, value] : fields)
+    if (!value.empty()) entry += std::string(",\n  ") + name + " = {" + value + "}";
   return entry + "\n}\n";
 }
 

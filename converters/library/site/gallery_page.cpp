@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/site/gallery_page.h"
-
+// The gallery of a library, complete without a script, and the list that its script searches.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
-#include <string_view>
+#include <tuple>
 
 #include "converters/base/html.h"
+#include "converters/base/number_text.h"
 #include "converters/base/text.h"
-#include "converters/library/site/case_texts.h"
-#include "converters/library/site/notes.h"
-#include "converters/library/site/page_frame.h"
-#include "converters/library/site/pictures.h"
+#include "converters/library/site/pages.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -21,112 +19,84 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The number that begins at `at`, without zeros before it; moves `at` behind it.
-std::string_view takeNumber(const std::string& text, std::size_t& at) {
-  while (at + 1 < text.size() && text[at] == '0' && isDigit(text[at + 1])) ++at;
-  const std::size_t begin = at;
-  while (at < text.size() && isDigit(text[at])) ++at;
-  return std::string_view(text).substr(begin, at - begin);
-}
-
-/// Less than, equal to or greater than zero, as a comes before, with or after b. Both in lower
-/// case.
-int compareNaturally(const std::string& a, const std::string& b) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (isDigit(a[i]) && isDigit(b[j])) {
-      const std::string_view left = takeNumber(a, i), right = takeNumber(b, j);
-      if (left.size() != right.size()) return left.size() < right.size() ? -1 : 1;
-      if (const int order = left.compare(right)) return order;
-    } else if (a[i] != b[j]) {
-      return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]) ? -1 : 1;
-    } else {
-      ++i;
-      ++j;
+/// A text that sorts by bytes as people sort the title: small letters as capitals, and numbers by
+/// their values, as each begins with the number of its digits.
+std::string sortKey(const std::string& title) {
+  const std::string text = lowerCase(title);
+  std::string key;
+  for (std::size_t at = 0; at < text.size();) {
+    if (!isDigit(text[at])) {
+      key += text[at++];
+      continue;
     }
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
+    at = std::min(text.find_first_not_of('0', at), end);
+    key += paddedNumber(end - at, 3) + text.substr(at, end - at);
+    at = end;
   }
-  return static_cast<int>(i < a.size()) - static_cast<int>(j < b.size());
+  return key;
 }
 
 std::string pageLink(const std::string& address, const std::string& text, const char* relation) {
-  std::string link = "<a href=\"";
-  link += address;
-  link += "\"";
-  link += relation;
-  link += ">";
-  link += text;
-  link += "</a>\n";
-  return link;
+  return "<a href=\"" + address + "\"" + relation + ">" + text + "</a>\n";
+}
+
+/// To 0.01.
+double rounded(double value) {
+  constexpr double kSteps = 100;  // steps in one mm
+  return std::isfinite(value) ? std::round(value * kSteps) / kSteps : 0;
 }
 
 /// Links to the pages before, after, at both ends, and around this one.
 std::string pageLinks(std::size_t page, std::size_t pages, const std::string& root) {
   constexpr std::size_t kAround = 2;
-  std::string links = "<nav id=\"pages\" class=\"pages\" aria-label=\"Pages of the gallery\">\n";
+  if (pages == 1) return {};
   const auto address = [&](std::size_t n) { return root + galleryPath(n); };
-  if (pages > 1) {
-    if (page > 1) links += pageLink(address(page - 1), "Previous", " rel=\"prev\"");
-    std::size_t last = 0;
-    for (std::size_t n = 1; n <= pages; ++n) {
-      if (n != 1 && n != pages && (n + kAround < page || n > page + kAround)) continue;
-      if (n > last + 1) links += "<span aria-hidden=\"true\">…</span>\n";
-      links += pageLink(address(n), std::to_string(n), n == page ? " aria-current=\"page\"" : "");
-      last = n;
-    }
-    if (page < pages) links += pageLink(address(page + 1), "Next", " rel=\"next\"");
+  std::string links;
+  if (page > 1) links += pageLink(address(page - 1), "Previous", " rel=\"prev\"");
+  std::size_t last = 0;
+  for (std::size_t n = 1; n <= pages; ++n) {
+    if (n != 1 && n != pages && (n + kAround < page || n > page + kAround)) continue;
+    if (n > last + 1) links += "<span aria-hidden=\"true\">…</span>\n";
+    links += pageLink(address(n), std::to_string(n), n == page ? " aria-current=\"page\"" : "");
+    last = n;
   }
-  links += "</nav>\n";
+  if (page < pages) links += pageLink(address(page + 1), "Next", " rel=\"next\"");
   return links;
-}
-
-std::string introduction(const LibraryFile& library) {
-  std::string text = "<header class=\"top\">\n<h1>";
-  text += htmlName(library.title);
-  text += "</h1>\n";
-  if (!library.description.empty()) text += "<p>" + htmlName(library.description) + "</p>\n";
-  text += "<p class=\"quiet\">";
-  if (!library.publisher.empty()) text += htmlName(library.publisher) + " · ";
-  text += "Revision " + std::to_string(library.revision) + " of " + htmlText(library.date) + " · " +
-          htmlText(library.licence) + "</p>\n</header>\n";
-  return text;
 }
 
 }  // namespace
 
 std::vector<std::size_t> galleryOrder(const LibraryFile& library) {
-  std::vector<std::string> titles;
-  titles.reserve(library.cases.size());
-  for (const LibraryEntry& entry : library.cases) titles.push_back(lowerCase(entry.title));
+  std::vector<std::string> keys;
+  keys.reserve(library.cases.size());
+  for (const LibraryEntry& entry : library.cases) keys.push_back(sortKey(entry.title));
   std::vector<std::size_t> order(library.cases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const int titled = compareNaturally(titles[a], titles[b]);
-    return titled != 0 ? titled < 0 : library.cases[a].id < library.cases[b].id;
+    return std::tie(keys[a], library.cases[a].id) < std::tie(keys[b], library.cases[b].id);
   });
   return order;
 }
 
 std::string galleryCard(const CaseRecord& record, const std::string& root) {
   const std::string picture = casePictures(record).thumbnail;
-  std::string card = "<li class=\"card\">\n<div class=\"shot\">";
-  card += picture.empty() ? "<span class=\"none\">no picture</span>"
-                          : "<img src=\"" + root + urlAddress(dataPath(record, picture)) +
-                                "\" alt=\"\" loading=\"lazy\" decoding=\"async\" width=\"500\" "
-                                "height=\"400\">";
-  card += "</div>\n<h2><a href=\"" + root + urlAddress(casePagePath(record.id)) + "\">" +
-          htmlName(record.about.title) + "</a></h2>\n<p class=\"what\">" +
-          (record.about.anatomy.empty() ? "" : htmlName(record.about.anatomy) + " · ") +
-          htmlText(sideText(record.about.laterality)) + " · " +
-          htmlText(modalityText(record.about.modality)) + "</p>\n<p class=\"figures\">" +
-          galleryFigures(record.figures) + "</p>\n<p class=\"tags\">";
-  if (record.figures.aneurysms > 0) card += "<span class=\"tag mark\">aneurysm</span> ";
-  card += std::string("<span class=\"tag\">") + (record.about.synthetic ? "synthetic" : "patient") +
-          "</span> <span class=\"tag\">" + htmlName(record.about.licence) + "</span></p>\n</li>\n";
-  return card;
-}
-
-std::size_t galleryPages(std::size_t cases) {
-  return std::max<std::size_t>(1, (cases + kCasesPerPage - 1) / kCasesPerPage);
+  const CaseFigures& figures = record.figures;
+  return sitePart(
+      "card.html",
+      {{"picture", picture.empty()
+                       ? "<span class=\"none\">no picture</span>"
+                       : "<img src=\"" + root + urlAddress(dataPath(record, picture)) +
+                             "\" alt=\"\" loading=\"lazy\" decoding=\"async\" width=\"500\" "
+                             "height=\"400\">"},
+       {"page", root + urlAddress(casePagePath(record.id))},
+       {"title", htmlName(record.about.title)},
+       {"what", kindOfCase(record.about)},
+       {"vessels", counted(figures.branches, "vessel", "vessels")},
+       {"length", shownFigure(figures.length)},
+       {"least", shownFigure(figures.radiusMin)},
+       {"most", shownFigure(figures.radiusMax)},
+       {"tags", tagsOfCase(record)}});
 }
 
 std::string galleryPath(std::size_t page) {
@@ -135,7 +105,8 @@ std::string galleryPath(std::size_t page) {
 
 std::string galleryPage(const LibraryFile& library, std::size_t page, const std::string& cards,
                         const std::string& signature) {
-  const std::size_t pages = galleryPages(library.cases.size());
+  const std::size_t cases = library.cases.size(),
+                    pages = std::max<std::size_t>(1, (cases + kCasesPerPage - 1) / kCasesPerPage);
   PageFrame frame;
   frame.root = page == 1 ? "" : "../../";
   frame.title = library.title;
@@ -143,20 +114,19 @@ std::string galleryPage(const LibraryFile& library, std::size_t page, const std:
   frame.scripts = {"cases.js", "facets.js", "gallery.js"};
   frame.data = " class=\"gallery\" data-page=\"" + std::to_string(page) + "\" data-size=\"" +
                std::to_string(kCasesPerPage) + "\"";
-  std::string content = "<a class=\"skip\" href=\"#cases\">Skip to the cases</a>\n";
-  content += introduction(library);
-  content +=
-      "<main>\n<div id=\"find\" role=\"search\" hidden></div>\n<section id=\"cases\" "
-      "tabindex=\"-1\" "
-      "aria-label=\"Cases\">\n<div class=\"bar\"><p id=\"count\" role=\"status\">" +
-      counted(library.cases.size(), "case", "cases") +
-      "</p></div>\n<noscript><p class=\"quiet\">Search and filters need a script, which this "
-      "browser does "
-      "not run. All cases are listed below, page by page.</p></noscript>\n<ul id=\"cards\" "
-      "class=\"cards\">\n" +
-      cards + "</ul>\n" + pageLinks(page, pages, frame.root) + "</section>\n</main>\n" +
-      footer(library, frame.root, signature);
-  return pageText(frame, content);
+  const std::string content = sitePart(
+      "gallery.html",
+      {{"title", htmlName(library.title)},
+       {"description",
+        library.description.empty() ? "" : "<p>" + htmlName(library.description) + "</p>\n"},
+       {"publisher", library.publisher.empty() ? "" : htmlName(library.publisher) + " · "},
+       {"revision", std::to_string(library.revision)},
+       {"date", htmlText(library.date)},
+       {"licence", htmlText(library.licence)},
+       {"count", counted(cases, "case", "cases")},
+       {"cards", cards},
+       {"pages", pageLinks(page, pages, frame.root)}});
+  return pageText(frame, content, library, signature);
 }
 
 std::string searchRow(const CaseRecord& record) {

@@ -8,14 +8,10 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/sha256.h"
-#include "converters/library/library_file.h"
+#include "converters/library/change.h"
 #include "converters/library/library_lock.h"
 #include "converters/library/record.h"
-#include "converters/library/site/case_page.h"
-#include "converters/library/site/case_texts.h"
-#include "converters/library/site/gallery_page.h"
-#include "converters/library/site/site_files.h"
+#include "converters/library/site/pages.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
 
@@ -27,21 +23,6 @@ namespace fs = std::filesystem;
 
 std::string shown(const fs::path& path) {
   return formats::printable(path.string());
-}
-
-/// A record that matches library.json.
-CaseRecord statedRecord(const fs::path& folder, const LibraryEntry& entry) {
-  const fs::path file = folder / kPayload / entry.id / kRecordFile;
-  const std::string text = readWholeFile(file, "record");
-  if (text.size() != entry.recordBytes || sha256(text) != entry.recordSha256)
-    throw invalidInput(shown(file) +
-                       ": found another file than the one that library.json states by its SHA-256; "
-                       "lumen library check reports all other faults");
-  CaseRecord record = readRecord(text, file);
-  if (record.id != entry.id)
-    throw invalidInput(shown(file) + ": id: found " + formats::printable(record.id) +
-                       ", expected " + entry.id + ", as library.json has it");
-  return record;
 }
 
 Error notOurs(const fs::path& place) {
@@ -139,7 +120,7 @@ std::string writePages(const fs::path& folder, const LibraryFile& library, SiteW
   progress.begin("pages", order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     progress.check();
-    const CaseRecord record = statedRecord(folder, library.cases[order[i]]);
+    const CaseRecord record = openRecord(folder, library.cases[order[i]]);
     writer.addPage(casePagePath(record.id), casePage(library, record, signature));
     writer.addCases(searchRow(record) + ",\n");
     cards += galleryCard(record, page == 1 ? "" : "../../");

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -208,18 +209,29 @@ TEST_F(AtomicOutput, OfALivingWriterIsNotTakenForALeftover) {
   auto file = PendingFile::beside(path("a"));
   auto folder = PendingFolder::beside(path("b"), PendingFolder::Existing::Refuse);
   ASSERT_TRUE(file && folder);
-  removeTemporaries(path(""), Temporaries::Abandoned);
+  ASSERT_EQ(codeOf(write("c", "x", systemCalls())), "OK");
   EXPECT_EQ(codeOf(file->commit()), "OK");
   EXPECT_EQ(codeOf(folder->commit()), "OK");
-  EXPECT_EQ(names(), (Names{"a", "b"}));
+  EXPECT_EQ(names(), (Names{"a", "b", "c"}));
 }
 
 TEST_F(AtomicOutput, OfThisProcessIsRemovedWhenItIsInterrupted) {
   const auto file = PendingFile::beside(path("a"));
   const auto folder = PendingFolder::beside(path("b"), PendingFolder::Existing::Refuse);
   ASSERT_TRUE(file && folder);
-  removeTemporaries(path(""), Temporaries::AbandonedAndOwn);
+  removeOwnTemporaries();
   EXPECT_TRUE(names().empty());
+}
+
+TEST_F(AtomicOutput, OfAnotherWriterWithTheSameProcessIdStaysWhenThisOneIsInterrupted) {
+  const std::string other = ".lumen-" + std::to_string(::getpid()) + "-1.nrrd";
+  put(path(other), "of another container");
+  const FileDescriptor open = openForReading(path(other), 0);
+  ASSERT_EQ(::flock(open.get(), LOCK_EX), 0);
+  const auto file = PendingFile::beside(path("a"));
+  ASSERT_TRUE(file);
+  removeOwnTemporaries();
+  EXPECT_EQ(names(), Names{other});
 }
 
 TEST_F(AtomicOutput, AbandonedFoldersAreRemovedToo) {
@@ -229,11 +241,10 @@ TEST_F(AtomicOutput, AbandonedFoldersAreRemovedToo) {
   EXPECT_EQ(names(), Names{"a"});
 }
 
-TEST_F(AtomicOutput, LeftoversOfEarlierVersionsAreRemovedAndFilesOfSimilarNamesStay) {
-  for (const char* name : {".lumen-probe-a1B2c3", ".lumen-probe-notes.txt", ".lumen-7", ".lumenrc"})
-    put(path(name), "x");
+TEST_F(AtomicOutput, FilesOfSimilarNamesStay) {
+  for (const char* name : {".lumen-7", ".lumen-notes.txt", ".lumenrc"}) put(path(name), "x");
   ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
-  EXPECT_EQ(names(), (Names{".lumen-7", ".lumen-probe-notes.txt", ".lumenrc", "a"}));
+  EXPECT_EQ(names(), (Names{".lumen-7", ".lumen-notes.txt", ".lumenrc", "a"}));
 }
 
 TEST_F(AtomicOutput, FlushesAllOfAFolderBeforeItsRename) {
@@ -272,6 +283,35 @@ TEST_F(AtomicOutput, ReplacesAFolderWhereTheKernelCannotExchangeNames) {
   EXPECT_EQ(codeOf(writeFolder("scene", "new", PendingFolder::Existing::Replace, calls)), "OK");
   EXPECT_EQ(get("scene/f"), "new");
   EXPECT_EQ(names(), Names{"scene"});
+}
+
+TEST_F(AtomicOutput, HidesTheReplacedFolderBeforeItIsRemoved) {
+  ASSERT_EQ(codeOf(writeFolder("scene", "old", PendingFolder::Existing::Refuse)), "OK");
+  Names targets;
+  FileCalls calls = systemCalls();
+  calls.exchange = [](const char*, const char*) { return refuse(EINVAL); };
+  calls.rename = [&targets](const char* from, const char* to) {
+    targets.push_back(fs::path(to).filename().string());
+    return systemCalls().rename(from, to);
+  };
+  ASSERT_EQ(codeOf(writeFolder("scene", "new", PendingFolder::Existing::Replace, calls)), "OK");
+  ASSERT_EQ(targets.size(), 4u);  // a name that is taken, the old away, the new in place, hidden
+  EXPECT_TRUE(isTemporaryName(targets.back())) << targets.back();
+}
+
+TEST_F(AtomicOutput, NamesTheOldFolderThatAnInterruptedReplacementLeft) {
+  ASSERT_EQ(codeOf(writeFolder("scene", "now", PendingFolder::Existing::Refuse)), "OK");
+  fs::create_directory(path("scene.lumen-old"));
+  put(path("scene.lumen-old/f"), "precious");
+  FileCalls calls = systemCalls();
+  calls.exchange = [](const char*, const char*) { return refuse(EINVAL); };
+  const Status done = writeFolder("scene", "new", PendingFolder::Existing::Replace, calls);
+  ASSERT_EQ(codeOf(done), "IO_WRITE");
+  EXPECT_NE(done.error().message.find("scene.lumen-old, which an interrupted replacement left"),
+            std::string::npos)
+      << done.error().message;
+  EXPECT_EQ(get("scene/f"), "now");
+  EXPECT_EQ(get("scene.lumen-old/f"), "precious");
 }
 
 TEST_F(AtomicOutput, FlushesAFolderByItsFileSystemAndOtherwiseEachFile) {

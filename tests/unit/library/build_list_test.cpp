@@ -2,7 +2,6 @@
 #include "converters/library/build_list.h"
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/library/record.h"
+#include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {
 
@@ -21,11 +21,9 @@ namespace {
 class BuildListTest : public testing::Test {
 protected:
   void SetUp() override {
-    fs::create_directories(m_folder);
-    for (const char* name : {"a.nrrd", "b.nrrd", "a.json"}) std::ofstream(m_folder / name) << name;
+    for (const char* name : {"a.nrrd", "b.nrrd", "a.json"}) m_files.write(name, name);
   }
-  void TearDown() override { fs::remove_all(m_folder); }
-  [[nodiscard]] fs::path list() const { return m_folder / "list.csv"; }
+  [[nodiscard]] fs::path list() const { return m_files.path("list.csv"); }
   [[nodiscard]] std::vector<BuildRow> read(const std::string& text) const {
     BuildList all = readBuildList(text, list());
     requireNoFaults(all.faults, list());
@@ -46,8 +44,7 @@ protected:
   }
 
 private:
-  fs::path m_folder =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  TemporaryFolder m_files;
 };
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 
 #include "converters/base/error.h"
+#include "converters/library/bag_check.h"
 #include "converters/library/case_folder.h"
-#include "converters/library/line_comparison.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

@@ -2,13 +2,13 @@
 #include "converters/library/recipe.h"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
+#include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {
 
@@ -18,19 +18,16 @@ namespace {
 
 class RecipeTest : public testing::Test {
 protected:
-  void SetUp() override { fs::create_directories(m_folder / "scan"); }
-  void TearDown() override { fs::remove_all(m_folder); }
   fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(m_folder / name, std::ios::binary) << text;
-    return m_folder / name;
+    m_files.write(name, text);
+    return m_files.path(name);
   }
   [[nodiscard]] std::string digest(const std::string& name) const {
-    return digestOfInput(m_folder / name, {});
+    return digestOfInput(m_files.path(name), {});
   }
 
 private:
-  fs::path m_folder =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  TemporaryFolder m_files;
 };
 
 }  // namespace

@@ -2,23 +2,17 @@
 // The pages of a library: what they hold, what they leave alone, what they refuse.
 #include "converters/library/site/site.h"
 
-#include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <filesystem>
 #include <map>
-#include <span>
-#include <sstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
-#include "converters/library/site/case_texts.h"
-#include "converters/library/site/citation.h"
-#include "converters/library/site/gallery_page.h"
-#include "converters/library/site/pictures.h"
+#include "converters/library/site/pages.h"
 #include "tests/unit/library/made_library.h"
+#include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {
 
@@ -26,26 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string fileText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-void put(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
-
 /// A folder with library.json and records, which goes with the test.
 class SiteTest : public testing::Test {
 protected:
-  SiteTest() {
-    std::string name = (fs::temp_directory_path() / "lumen-site-XXXXXX").string();
-    m_folder = ::mkdtemp(name.data());
-  }
-  ~SiteTest() override { fs::remove_all(m_folder); }
-
   void library(const std::vector<CaseRecord>& records) {
     LibraryFile file;
     file.id = "0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4";
@@ -55,11 +32,11 @@ protected:
     file.generator = "lumen 0.1.0";
     for (const CaseRecord& record : records) {
       const std::string text = recordText(record);
-      put(m_folder / "data" / record.id / "record.json", text);
+      m_files.write("data/" + record.id + "/record.json", text);
       file.cases.push_back({record.id, record.version, record.about.title, text.size(),
-                            sha256(std::as_bytes(std::span(text))), record.files.size(), 0});
+                            sha256(text), record.files.size(), 0});
     }
-    put(m_folder / "library.json", libraryText(file));
+    m_files.write("library.json", libraryText(file));
   }
   SiteReport write() {
     Progress silent;
@@ -79,18 +56,23 @@ protected:
   [[nodiscard]] std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(m_folder))
-      if (entry.is_regular_file())
-        all[fs::relative(entry.path(), m_folder).string()] = fileText(entry.path());
+      if (entry.is_regular_file()) all[name(entry.path())] = m_files.read(name(entry.path()));
     return all;
   }
-  fs::path m_folder;
+  TemporaryFolder m_files;
+  fs::path m_folder = m_files.path();
+
+private:
+  [[nodiscard]] std::string name(const fs::path& file) const {
+    return fs::relative(file, m_folder).string();
+  }
 };
 
 }  // namespace
 
 TEST_F(SiteTest, WritesAPageForEachCaseAndChangesNothingElse) {
   library({madeRecord("a"), madeRecord("b")});
-  put(m_folder / "library.json.minisig", "a signature");
+  m_files.write("library.json.minisig", "a signature");
   const auto before = files();
   const SiteReport report = write();
   EXPECT_EQ(report.cases, 2U);
@@ -126,9 +108,8 @@ TEST_F(SiteTest, AGalleryOfManyPagesListsEveryCaseOnce) {
     records.push_back(madeRecord(std::string("c").append(std::to_string(1000 + i))));
   library(records);
   EXPECT_EQ(write().pages, records.size() + 3);
-  const std::string all = fileText(m_folder / "index.html") +
-                          fileText(m_folder / "site/page/2.html") +
-                          fileText(m_folder / "site/page/3.html");
+  const std::string all = m_files.read("index.html") + m_files.read("site/page/2.html") +
+                          m_files.read("site/page/3.html");
   for (const CaseRecord& record : records) {
     const std::string link = casePagePath(record.id) + "\"";
     const std::size_t at = all.find(link);
@@ -140,35 +121,35 @@ TEST_F(SiteTest, AGalleryOfManyPagesListsEveryCaseOnce) {
 TEST_F(SiteTest, ALibraryWithoutCasesHasAnEmptyGallery) {
   library({});
   EXPECT_EQ(write().pages, 1U);
-  EXPECT_NE(fileText(m_folder / "index.html").find(">0 cases<"), std::string::npos);
+  EXPECT_NE(m_files.read("index.html").find(">0 cases<"), std::string::npos);
 }
 
 TEST_F(SiteTest, ARecordThatLibraryJsonDoesNotStateIsRefusedAndTheOldPagesStay) {
   library({madeRecord("a")});
   write();
-  const std::string before = fileText(m_folder / "site/case/a.html");
-  std::string text = fileText(m_folder / "data/a/record.json");
+  const std::string before = m_files.read("site/case/a.html");
+  std::string text = m_files.read("data/a/record.json");
   text[text.find("Left")] = 'l';
-  put(m_folder / "data/a/record.json", text);
+  m_files.write("data/a/record.json", text);
   EXPECT_NE(refusal(ErrorKind::InvalidInput).find("data/a/record.json"), std::string::npos);
-  EXPECT_EQ(fileText(m_folder / "site/case/a.html"), before);
+  EXPECT_EQ(m_files.read("site/case/a.html"), before);
   for (const auto& entry : fs::directory_iterator(m_folder))
     EXPECT_FALSE(entry.path().filename().string().starts_with(".lumen-")) << entry.path();
 }
 
 TEST_F(SiteTest, WhatSomebodyElseMadeIsNotReplacedAndLinksAreNotFollowed) {
   library({madeRecord("a")});
-  put(m_folder / "index.html", "<h1>My own page</h1>");
+  m_files.write("index.html", "<h1>My own page</h1>");
   EXPECT_NE(refusal(ErrorKind::Usage).find("index.html: found something"), std::string::npos);
   fs::remove(m_folder / "index.html");
-  put(m_folder / "elsewhere.txt", "<script src=\"site/gallery.js\"");
+  m_files.write("elsewhere.txt", "<script src=\"site/gallery.js\"");
   fs::create_symlink("elsewhere.txt", m_folder / "index.html");
   refusal(ErrorKind::Usage);
-  EXPECT_EQ(fileText(m_folder / "elsewhere.txt"), "<script src=\"site/gallery.js\"");
+  EXPECT_EQ(m_files.read("elsewhere.txt"), "<script src=\"site/gallery.js\"");
   fs::remove(m_folder / "index.html");
-  put(m_folder / "site/mine.html", "mine");
+  m_files.write("site/mine.html", "mine");
   refusal(ErrorKind::Usage);
-  EXPECT_EQ(fileText(m_folder / "site/mine.html"), "mine");
+  EXPECT_EQ(m_files.read("site/mine.html"), "mine");
   fs::remove_all(m_folder / "site");
   fs::create_directory_symlink("data", m_folder / "site");
   refusal(ErrorKind::Usage);
