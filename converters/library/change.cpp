@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -56,6 +57,19 @@ std::vector<std::string> missingFrom(const CaseRecord& next, const CaseRecord& b
                      [&](const RecordedFile& kept) { return kept.path == file.path; }))
       gone.push_back(std::string(kPayload) + "/" + before.id + "/" + file.path);
   return gone;
+}
+
+/// Copies rather than links: an edit of one library by hand must not reach the other.
+void copyFile(const fs::path& from, const fs::path& to, const RecordedFile& stated) {
+  fs::create_directories(to.parent_path());
+  std::error_code error;
+  if (fs::is_regular_file(fs::symlink_status(from, error))) fs::copy_file(from, to, error);
+  const bool isThere = !error && fs::exists(to, error);
+  const FileDigest digest = isThere ? digestOfFile(to) : FileDigest{};
+  if (!isThere || digest.bytes != stated.bytes || digest.sha256 != stated.sha256)
+    throw invalidInput(formats::printable(from.string()) + ": is missing, or is not what " +
+                       kRecordFile + " states; lumen library check reports more");
+  fs::permissions(to, fs::perms::owner_write | fs::perms::owner_read, fs::perm_options::add, error);
 }
 
 }  // namespace
@@ -209,6 +223,37 @@ CaseRecord openRecord(const fs::path& library, const LibraryEntry& entry) {
   if (record.id != entry.id)
     throw invalidInput(shownPath(file) + ": found the id " + record.id + ", expected " + entry.id);
   return record;
+}
+
+LibraryFile extractCases(const fs::path& from, const fs::path& to,
+                         const std::vector<std::string>& ids, LibraryFile library,
+                         Progress& progress) {
+  const LibraryLock lock(from, progress, LibraryLock::Use::Read);
+  const LibraryFile source = openLibrary(from);
+  library.origin =
+      LibraryOrigin{source.id, source.revision, digestOfFile(from / kLibraryFile).sha256};
+  library.cases.clear();
+  for (const std::string& id : std::set(ids.begin(), ids.end()))
+    library.cases.push_back(requireCase(source, id));
+  formats::PendingFolder pending = newLibraryFolder(to, library);
+  RevisionWriter writer(pending.path(), library);
+  for (const LibraryEntry& entry : library.cases) {
+    const CaseRecord record = openRecord(from, entry);
+    const fs::path folder = from / kPayload / entry.id;
+    const fs::path target = pending.path() / kPayload / entry.id;
+    fs::create_directory(target);
+    for (const RecordedFile& file : record.files) {
+      progress.check();
+      copyFile(folder / file.path, target / file.path, file);
+    }
+    const std::string crate = caseCrate(record);
+    writeNewFile(readWholeFile(folder / kRecordFile, "record"), target / kRecordFile);
+    writeNewFile(crate, target / kCrateFile);
+    writer.add(record, crate);
+  }
+  writer.finish();
+  putInPlace(pending);
+  return library;
 }
 
 }  // namespace lumen::convert

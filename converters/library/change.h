@@ -77,6 +77,15 @@ formats::PendingFolder newLibraryFolder(const std::filesystem::path& folder, Lib
 /// something already.
 void makeLibrary(const std::filesystem::path& folder, LibraryFile library);
 
+/// Makes the library `to` at revision 1 from the cases `ids` of `from`: their records and files
+/// byte for byte. `library` gives its id, texts, licence and date; its origin becomes the revision
+/// of `from`. Throws Error(Usage) for an id that `from` lacks, Error(InvalidInput) for a file that
+/// is not the one that its record states, Error(Failed) where something exists already,
+/// Error(Cancelled). Returns the new library.
+LibraryFile extractCases(const std::filesystem::path& from, const std::filesystem::path& to,
+                         const std::vector<std::string>& ids, LibraryFile library,
+                         Progress& progress);
+
 /// The record of a case. Throws Error(InvalidInput) if it is not what the entry states, with the
 /// advice to check.
 CaseRecord openRecord(const std::filesystem::path& library, const LibraryEntry& entry);

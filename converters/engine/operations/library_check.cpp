@@ -2,7 +2,7 @@
 // lumen library check: all that is wrong with a library.
 #include "converters/base/option_name.h"
 #include "converters/engine/about_options.h"
-#include "converters/engine/library_check_answer.h"
+#include "converters/engine/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/library_lock.h"
 

@@ -3,7 +3,7 @@
 #include "converters/engine/about_options.h"
 #include "converters/engine/library_answer.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/library/extract.h"
+#include "converters/library/change.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "converters/base/option_name.h"
-#include "converters/engine/library_check_answer.h"
+#include "converters/engine/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/change.h"
 #include "converters/library/signature.h"

@@ -11,7 +11,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
-#include "converters/library/extract.h"
 #include "converters/library/incoming_case.h"
 #include "tests/unit/library/made_library.h"
 #include "tests/unit/library/temporary_folder.h"
