@@ -10,7 +10,7 @@ endif()
 if(NOT TARGET lumen_python OR NOT HAS_NUMPY)
   return()
 endif()
-foreach(part case operations blob cuda jax jax_rules opencl torch warp stubs notebook)
+foreach(part case operations library blob cuda jax jax_rules opencl torch warp stubs notebook)
   python_test(PythonPackage.${part} foreign -W error::ResourceWarning -m unittest test_${part})
   set_tests_properties(PythonPackage.${part} PROPERTIES
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/packages/python/tests
