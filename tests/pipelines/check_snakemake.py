@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The workflow of Snakemake on synthetic volumes: on this machine, and by a Slurm of one machine.
+"""The workflow of Snakemake on synthetic volumes: on this machine, and with --slurm also by a Slurm of one machine.
 
-check_snakemake.py LUMEN
+check_snakemake.py LUMEN [--slurm]
 
 Two whole volumes and a damaged one: the library has the two, and fault.txt names the third. Nothing is run again for
 other times of files, all steps of one row for another option of it. Exit status: 0 all holds, 1 not, 77 skipped."""
@@ -71,9 +71,6 @@ def runs_again_only_what_changed(flow):
 
 
 def on_slurm(flow):
-    if reason := slurm.cannot_start():
-        print(f"skipped: the workflow by Slurm: {reason}")
-        return
     with slurm.Slurm() as cluster:
         flow.run("cluster", "slurm", environment=cluster.environment)
     must(flow.ids("cluster") == ["one", "two"], f"cases of the library by Slurm: {flow.ids('cluster')}")
@@ -86,9 +83,13 @@ def main():
     if shutil.which("snakemake") is None:
         print("skipped: no snakemake (apt install snakemake)")
         return 77
+    by_slurm = "--slurm" in sys.argv
+    if by_slurm and (reason := slurm.cannot_start()):
+        print(f"skipped: {reason}")
+        return 77
     with tempfile.TemporaryDirectory(prefix="lumen-snakemake-") as folder:
         flow = Workflow(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(folder))
-        for step in (on_one_machine, runs_again_only_what_changed, on_slurm): step(flow)
+        for step in (on_one_machine, on_slurm) if by_slurm else (on_one_machine, runs_again_only_what_changed): step(flow)
     return 0
 
 

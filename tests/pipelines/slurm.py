@@ -1,6 +1,11 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A Slurm of one machine, started and stopped by a test in a folder of its own."""
-import os, pathlib, shutil, signal, socket, subprocess, tempfile, time
+"""A Slurm of one machine, started and stopped in a folder of its own; needs root, slurm-wlm and munge.
+
+slurm.py COMMAND ARGUMENT...
+
+Runs the command while Slurm runs, and ends with its exit status."""
+import os, pathlib, shutil, signal, socket, subprocess, sys, tempfile, time
 
 HERE = pathlib.Path(__file__).resolve().parent
 SECONDS = 60
@@ -103,10 +108,11 @@ class Slurm:
 
     def node_state(self): return self.try_run("sinfo", "--noheader", "--format=%T").stdout.strip()
 
-    def tasks(self, job):
-        """Tasks of a job that Slurm still has, as {"12_3": "RUNNING"}."""
-        done = self.try_run("squeue", "--noheader", "--array", f"--jobs={job}", "--format=%i %T")
-        return dict(line.split() for line in done.stdout.splitlines())
 
-    def wait_for_job(self, job, seconds=600):
-        wait_until(lambda: not self.tasks(job), f"job {job} ends", seconds)
+def main():
+    if reason := cannot_start(): sys.exit(f"slurm.py: {reason}")
+    with Slurm() as cluster:
+        return subprocess.run(sys.argv[1:], env=cluster.environment).returncode
+
+
+if __name__ == "__main__": sys.exit(main())

@@ -17,8 +17,8 @@ participant  writes derivatives of each volume into OUT: case, mesh, centerline,
              version of lumen is another
 group        makes OUT/library of all cases, the table OUT/measures.tsv, and OUT/quality.html,
              the volumes first that are unlike the others
-list         writes OUT/volumes.csv, the list from which lumen library build makes a library, on
-             this machine or by Slurm"""
+list         writes OUT/volumes.csv, the list from which lumen library build makes a library on
+             this machine, and the workflow of Snakemake on a cluster"""
 
 EXIT_CODES = "Exit codes: 0 done, 1 failed, 2 usage, 3 invalid input, as those of lumen."
 

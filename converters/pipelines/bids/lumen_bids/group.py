@@ -45,7 +45,7 @@ def list_text(rows, statements, targets):
 
 
 def write_volume_list(volumes, out, options):
-    """The list that makes a library of the volumes themselves: for Slurm and Snakemake."""
+    """The list that makes a library of the volumes themselves: for library build and Snakemake."""
     rows = []
     for volume in volumes:
         own = {}

@@ -1,17 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Processor time of a library made as tasks of Slurm make it, beside a plain loop of `lumen convert` and `lumen library add`.
+"""Processor time of a library made as tasks of a scheduler make it, beside a plain loop of `lumen convert` and `lumen library add`.
 
 measure_overhead.py LUMEN [--patients 4] [--size 128]
 
 Both make the same cases on one thread. The tasks (`library build --make-only --rows LINE`, one for each row) and the collection run here,
-one after the other, so that neither waits for the other nor for a scheduler: their sum is all that lumen itself adds. With root
-and Slurm the array is submitted, too, and the processor time of Slurm's daemons is printed beside it."""
-import argparse, os, pathlib, resource, subprocess, sys, tempfile
-
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "pipelines"))
-import slurm
+one after the other, so that neither waits for the other nor for a scheduler: their sum is all that lumen itself adds."""
+import argparse, pathlib, resource, subprocess, tempfile
 
 
 def cost(*calls):
@@ -21,16 +16,6 @@ def cost(*calls):
         subprocess.run([str(w) for w in call], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
-def daemons(cluster):
-    """Processor seconds of slurmctld and slurmd until now."""
-    total = 0
-    for name in ("ctld.pid", "d.pid"):
-        process = int((cluster.folder / name).read_text())
-        fields = pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()
-        total += sum(int(fields[i]) for i in (11, 12, 13, 14)) / os.sysconf("SC_CLK_TCK")
-    return total
 
 
 def main():
@@ -57,13 +42,6 @@ def main():
         again = cost(build("tasks"))
         print(f"{options.patients} patients of {options.size}^3: plain loop {plain:.1f} s, tasks {tasks:.1f} s and collection {collect:.1f} s: "
               f"{100 * ((tasks + collect) / plain - 1):+.1f} %; a run that finds nothing to do {again:.2f} s (processor time)")
-        if reason := slurm.cannot_start(): return print(f"skipped: Slurm's own time: {reason}")
-        with slurm.Slurm() as cluster:
-            before = daemons(cluster)
-            subprocess.run([str(w) for w in init(folder / "array")], check=True, stdout=subprocess.DEVNULL)
-            subprocess.run([str(w) for w in build("array", "--slurm")], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=cluster.environment)
-            slurm.wait_until(lambda: not cluster.try_run("squeue", "--noheader").stdout.strip(), "the jobs end", 1800)
-            print(f"Slurm's daemons: {daemons(cluster) - before:.2f} s for {options.patients} tasks and a collection")
 
 
 if __name__ == "__main__": main()

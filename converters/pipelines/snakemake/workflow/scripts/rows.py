@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 # Memory and time by voxels, measured: docs/cohorts.md, "Memory and time of a row". One step of a row
-# needs less than the whole row, for which `lumen library build --slurm` asks.
+# needs less than the whole row.
 BASE_MEGABYTES, BYTES_PER_VOXEL = 500, 16
 BASE_MINUTES, MICROSECONDS_PER_VOXEL = 10, 6
 OWN = ("input", "volume", "seeds", "id", "targets")
