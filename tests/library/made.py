@@ -26,13 +26,13 @@ def ssh_key(folder, name):
 
 
 class Maker:
-    def __init__(self, program, folder):
-        self.program, self.folder = program, folder
+    """`batch`: the Batch that runs lumen."""
+    def __init__(self, batch, folder):
+        self.batch, self.folder = batch, folder
 
     def lumen(self, *arguments):
-        words = [str(a) for a in (self.program, *arguments)]
-        result = subprocess.run(words, capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
-        if result.returncode: raise RuntimeError(f"{' '.join(words)}: {result.returncode}: {result.stdout}{result.stderr}")
+        result = self.batch.run(arguments, self.folder)
+        if result.returncode: raise RuntimeError(f"{' '.join(map(str, arguments))}: {result.returncode}: {result.stdout}{result.stderr}")
         return result.stdout
 
     def case(self, name):
@@ -51,6 +51,7 @@ class Maker:
         self.lumen("library", "init", library, "--title", title, "--licence", "CC0-1.0", "--publisher", "Nobody")
 
     def add(self, library, name, case, *options):
+        if "--picture" not in options: options += ("--picture", "left")  # the best view costs seven pictures
         self.lumen("library", "add", library, case, "--id", name, "--synthetic", "--modality", "synthetic",
                    "--title", f"Tube {name}", "--description", "made by a program", "--anatomy", "none", *options)
 

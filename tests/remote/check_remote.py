@@ -8,7 +8,8 @@ Exit status: 0 all held, 1 not, 77 without curl."""
 import json, os, pathlib, shutil, signal, subprocess, sys, tempfile, time, urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "tests/library"))
+sys.path += [str(ROOT / "tests/cli"), str(ROOT / "tests/library")]
+from batch import Program
 from fault_server import FaultServer
 from made import Maker, digest
 
@@ -179,7 +180,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         place = Place(str(pathlib.Path(sys.argv[1]).resolve()), folder)
-        maker = Maker(place.lumen, folder)
+        maker = Maker(Program(place.lumen), folder)
         maker.case("a")
         for name in ("tube.nii", "tube.nrrd", "tube.nii.gz", "tube.mha"): maker.lumen("phantom", "tube", folder / name, "--size", "64")
         maker.init(folder / "lib", "Tubes")
