@@ -6,5 +6,6 @@ lumen_test(mujoco_export_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wire_reach_test.cpp)
 
 # Exports for MuJoCo and CathSim, in the official engine: `npm ci` in tests/mujoco; skipped, saying so, without it.
-python_test(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls foreign
-  ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen> --blob $<TARGET_FILE:blob>)
+set(mujoco ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen> --blob $<TARGET_FILE:blob>)
+python_test(MuJoCoExport.AGuidewireStaysInTheLumen foreign ${mujoco} --quick)
+python_test(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls nightly ${mujoco})
