@@ -181,7 +181,7 @@ def many_faults(maker, library):
 
 
 def strictness(maker, library):
-    maker.add(library, "d", maker.case("d"), "--consent", "given 1999-12-31")
+    maker.add(library, "d", maker.case("d"), "--picture", "none", "--consent", "given 1999-12-31")
     code, told = answer(maker, "check", library)
     expect("a date", (code, [f["number"] for f in told["faults"]]), (0, [741]))
     expect("a date with --strict", answer(maker, "check", library, "--strict")[0], 3)

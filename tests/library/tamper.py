@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Changes a signed library in every way that somebody might, and holds lumen to what it must say.
 
-tamper.py BATCH_LUMEN [--markdown]
+tamper.py BATCH_LUMEN [--markdown | --every N]
 
 Makes a library of synthetic cases, signs it, and for each row below changes a copy of it; then `lumen library check`
 and `lumen library verify` must find exactly the faults of the row (spec/library.md, Faults), and exit with 3 if there
-is an error. With --markdown it prints the table. Needs minisign and ssh-keygen (Debian: minisign, openssh-client).
+is an error. With --markdown it prints the table; with --every N one row of N is tried. Needs minisign and ssh-keygen (Debian: minisign, openssh-client).
 Exit status: 0 all held, 1 something did not."""
 import json, os, pathlib, shutil, subprocess, sys, tempfile
 
@@ -552,12 +552,13 @@ def main():
     with tempfile.TemporaryDirectory(prefix="lumen-tamper-") as folder:
         maker = Maker(Batch(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(folder))
         maker.make_signed()
-        lines = [run_row(maker, *r) for r in ROWS]
+        every = int(sys.argv[sys.argv.index("--every") + 1]) if "--every" in sys.argv else 1
+        lines = [run_row(maker, *r) for r in ROWS[::every]]
         maker.batch.end()
     if "--markdown" in sys.argv:
         print("| changed | check finds | exit | verify finds | exit |\n|---|---|---|---|---|")
         print("\n".join(lines))
-    print(f"{len(ROWS)} rows, {len(failures)} failures")
+    print(f"{len(lines)} rows, {len(failures)} failures")
     sys.exit(1 if failures else 0)
 
 

@@ -64,8 +64,8 @@ if(TEST Export.OneCaseIsLocatedAgainInEveryFolder)
     ENVIRONMENT LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>)
 endif()
 set(bad_inputs ${CMAKE_CURRENT_SOURCE_DIR}/export/bad_inputs.py $<TARGET_FILE:batch_lumen>)
-python_test(Export.CasesWithoutModelsOrEndsAreWrittenWholeOrRefused slow
-  ${bad_inputs} --cases "without models" "aneurysm only" "one node" "short ends")
+python_test(Export.CasesWithoutModelsOrVesselsAreWrittenWholeOrRefused slow
+  ${bad_inputs} --cases "without models" "aneurysm only")
 python_test(Export.HardCasesAreWrittenWholeOrRefused nightly ${bad_inputs})
 
 # Arrays by NumPy, the stage by three's USD loader.
