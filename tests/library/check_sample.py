@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""`lumen library sample`: synthetic patients (10) with two exports each, by one command.
+"""`lumen library sample`: ten synthetic patients with two exports each, by one command.
 
-check_sample.py LUMEN [--patients N] [--size N] [--keep FOLDER]
+check_sample.py LUMEN [--keep FOLDER]
 
 Exit status: 0 all holds, 1 not."""
 import argparse, json, pathlib, subprocess, sys, tempfile
@@ -37,19 +37,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("lumen")
     parser.add_argument("--keep")
-    parser.add_argument("--patients", type=int, default=10)
-    parser.add_argument("--size", help="voxels along an edge of each volume")
     options = parser.parse_args()
     lumen = pathlib.Path(options.lumen).resolve()
     with tempfile.TemporaryDirectory() as folder:
         library = pathlib.Path(options.keep or folder) / "patients"
-        answer = json.loads(run(lumen, "sample", library, "--jobs", 2, "--patients", options.patients, *(["--size", options.size] if options.size else []), "--json"))
-        must(answer["made"] == options.patients and answer["failed"] == 0, f"made: {answer}")
+        answer = json.loads(run(lumen, "sample", library, "--jobs", 2, "--json"))
+        must(answer["made"] == 10 and answer["failed"] == 0, f"made: {answer}")
         run(lumen, "check", library)
         cases = json.loads((library / "library.json").read_text())["cases"]
-        must(len(cases) == options.patients, f"{len(cases)} cases")
+        must(len(cases) == 10, f"{len(cases)} cases")
         for case in cases: look_at(case, library / "data" / case["id"])
-        must(len({(library / "data" / c["id"] / "case.lumen").read_bytes() for c in cases}) == options.patients, "two patients are alike")
+        must(len({(library / "data" / c["id"] / "case.lumen").read_bytes() for c in cases}) == 10, "two patients are alike")
         run(lumen, "index", library)
         must((library / "index.html").is_file(), "no page")
         run(lumen, "check", library)

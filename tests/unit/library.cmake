@@ -39,7 +39,6 @@ python_test(Library.ACaseThatNeedsAPersonOpensAtItsWorstPlace slow ${library}/ch
 python_test(Library.CasesThatNeedAPersonWait nightly ${library}/check_quality.py $<TARGET_FILE:lumen>)
 python_test(Library.IsBuiltFromAList slow ${library}/check_build.py $<TARGET_FILE:lumen> --kills 0)
 python_test(Library.IsBuiltFromAListWhateverHappens nightly ${library}/check_build.py $<TARGET_FILE:lumen>)
-python_test(Library.OfASyntheticPatientIsMadeByOneCommand slow ${library}/check_sample.py $<TARGET_FILE:lumen> --patients 1 --size 128)
 python_test(Library.OfTenSyntheticPatientsIsMadeByOneCommand nightly ${library}/check_sample.py $<TARGET_FILE:lumen>)
 python_test(Library.ThatWasTamperedWithIsRefused foreign ${library}/tamper.py $<TARGET_FILE:batch_lumen> --every 7)
 python_test(Library.ThatWasTamperedWithInAnyWayIsRefused nightly ${library}/tamper.py $<TARGET_FILE:batch_lumen>)
