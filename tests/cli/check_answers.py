@@ -2,18 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Holds every JSON answer of lumen to its schema in spec/answers.
 
-check_answers.py LUMEN BUILD
+check_answers.py BATCH_LUMEN BUILD
 
 BUILD is the build folder, which has the schemas and the conformance set.
 Runs each command with --json on good and bad input, and validates what it prints. Then it breaks each answer in
 every place (a key more, a key less, a value of another type), which the schema must refuse, and tells which key of
 a schema no answer had. Exit status: 0 all held, 1 something did not."""
-import copy, json, pathlib, shutil, subprocess, sys, tempfile, warnings
+import functools, json, pathlib, shutil, sys, tempfile, warnings
 
 import jsonschema
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "tests/library"))
+sys.path += [str(ROOT / "tests/cli"), str(ROOT / "tests/library")]
+from batch import Batch
 from made import Maker, ssh_key
 if len(sys.argv) != 3: sys.exit(__doc__)
 BUILD = pathlib.Path(sys.argv[2]).resolve()
@@ -32,6 +33,7 @@ def complain(what):
     print(what)
 
 
+@functools.cache
 def validator(name):
     with warnings.catch_warnings():  # newer versions have a registry besides, the oldest that we support does not
         warnings.simplefilter("ignore", DeprecationWarning)
@@ -81,13 +83,13 @@ def check_schemas():
 
 
 def run(lumen, folder, *arguments):
-    return subprocess.run([lumen, *arguments, "--json", "--quiet"], cwd=folder, capture_output=True, timeout=300)
+    return lumen.run([*arguments, "--json", "--quiet"], folder)
 
 
 def hold(name, result, what, codes=(0,)):
     """One JSON object that the schema takes, and an exit code of those expected."""
     if result.returncode not in codes:
-        return complain(f"{what}: exit code {result.returncode}, expected one of {codes}: {result.stderr.decode()}")
+        return complain(f"{what}: exit code {result.returncode}, expected one of {codes}: {result.stderr}")
     try:
         answer = json.loads(result.stdout)
     except ValueError as error:
@@ -188,7 +190,7 @@ def make_cases(lumen, folder):
     go("library.schema.json", "library", "update", "lib", "two", "--title", "Another title")
     go("library.schema.json", "library", "remove", "lib", "two")
     go("completion.schema.json", "completion", "bash")
-    hold("version.schema.json", subprocess.run([lumen, "--version", "--json"], capture_output=True, timeout=60), "--version")
+    hold("version.schema.json", lumen.run(["--version", "--json"], folder), "--version")
     (folder / "library").mkdir()
     (folder / "library/library.json").write_text(json.dumps(dict(
         format="lumen-library", formatVersion=1, id="0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4", revision=1, previous=None, title="Cases", description="",
@@ -326,7 +328,7 @@ def check_that_all_is_used():
 
 
 def main():
-    lumen = str(pathlib.Path(sys.argv[1]).resolve())
+    lumen = Batch(pathlib.Path(sys.argv[1]).resolve())
     check_schemas()
     with tempfile.TemporaryDirectory(prefix="lumen-answers-") as name:
         folder = pathlib.Path(name)
@@ -335,6 +337,7 @@ def main():
         bad_input(lumen, folder)
         conformance_set(lumen, folder)
         hostile_files(lumen, folder)
+        lumen.end()
     check_that_faults_are_noticed()
     check_that_all_is_used()
     print(f"{len(SCHEMAS)} schemas, {sum(map(len, kept.values()))} answers, {len(failures)} failures")

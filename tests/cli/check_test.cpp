@@ -14,9 +14,9 @@ class CheckTest : public TubeTest {
 protected:
   void SetUp() override {
     TubeTest::SetUp();
-    const Outcome made =
-        lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json", "--seeds-only"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    fillOnce("checked tube", [this] {
+      make({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json", "--seeds-only"});
+    });
   }
 };
 

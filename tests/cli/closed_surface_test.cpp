@@ -244,15 +244,20 @@ TEST_P(PhantomSurfaceTest, IsClosedWhereSeedsAreHints) {
   convert("case.lumen");
 }
 
+std::string withoutHyphens(const ::testing::TestParamInfo<const char*>& kind) {
+  std::string name = kind.param;
+  std::erase(name, '-');
+  return name;
+}
+
+/// One with a fork, one with vessels that touch, one with a sac; all others by night.
 INSTANTIATE_TEST_SUITE_P(Each, PhantomSurfaceTest,
-                         ::testing::Values("tube", "helix", "bifurcation", "kissing", "aneurysm",
-                                           "stenosis", "dropout", "sac-lobes", "companion",
-                                           "hairpin", "right-angle", "fading", "thick-slices"),
-                         [](const auto& kind) {
-                           std::string name = kind.param;
-                           std::erase(name, '-');
-                           return name;
-                         });
+                         ::testing::Values("bifurcation", "kissing", "sac-lobes"), withoutHyphens);
+INSTANTIATE_TEST_SUITE_P(Others, PhantomSurfaceTest,
+                         ::testing::Values("tube", "helix", "aneurysm", "stenosis", "dropout",
+                                           "companion", "hairpin", "right-angle", "fading",
+                                           "thick-slices"),
+                         withoutHyphens);
 
 class TetgenTest : public ClosedSurfaceTest {
 protected:

@@ -24,9 +24,7 @@ const Names kQuantiles = {"median", "p90", "max"};
 
 }  // namespace
 
-TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
-  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"}).code, 0);
-
+TEST_F(FittedTubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   const Outcome compared = lumen({"compare", "tube.lumen", "truth.lumen", "--json"});
   ASSERT_EQ(compared.code, 0) << compared.err;
   const Json score = Json::parse(compared.out);
@@ -124,10 +122,10 @@ TEST_F(TubeTest, ACaseWithoutSeedsHasNoneToWrite) {
 class ForkTest : public CliTest {
 protected:
   void SetUp() override {
-    ASSERT_EQ(lumen({"phantom", "bifurcation", "fork.nrrd", "--truth", "truth.lumen", "--seeds",
-                     "seeds.json"})
-                  .code,
-              0);
+    fillOnce("fork", [this] {
+      make({"phantom", "bifurcation", "fork.nrrd", "--size", "64", "--truth", "truth.lumen",
+            "--seeds", "seeds.json"});
+    });
     Json seeds = Json::parse(read("seeds.json"));
     seeds["branches"].erase(seeds["branches"].begin() + 1, seeds["branches"].end());
     seeds["branches"][0]["label"] = "trunk";
@@ -265,8 +263,7 @@ TEST_F(TubeTest, TrackThenFitGivesConvertsCaseAndNamesItsParentForAnyNumberOfThr
   EXPECT_TRUE(formats::encodeBinary(*one) == formats::encodeBinary(*two));
 }
 
-TEST_F(TubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
-  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"}).code, 0);
+TEST_F(FittedTubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
   for (const auto& format : engine::fileFormats()) {
     if (!engine::canWrite(format)) continue;
     const std::string name = std::string("a").append(format.endings.front());

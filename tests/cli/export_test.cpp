@@ -19,13 +19,10 @@ using Json = nlohmann::ordered_json;
 class ExportTest : public CliTest {
 protected:
   void SetUp() override {
-    ASSERT_EQ(lumen({"phantom", "bifurcation", "fork.nrrd", "--size", "64", "--seeds", "seeds.json",
-                     "--quiet"})
-                  .code,
-              0);
-    const Outcome made =
-        lumen({"convert", "fork.nrrd", "fork.lumen", "--seeds", "seeds.json", "--quiet"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    fillOnce("fitted fork", [this] {
+      make({"phantom", "bifurcation", "fork.nrrd", "--size", "64", "--seeds", "seeds.json"});
+      make({"convert", "fork.nrrd", "fork.lumen", "--seeds", "seeds.json"});
+    });
   }
 };
 

@@ -63,7 +63,8 @@ TEST_F(FileContentTest, NoOutputReplacesAFileOfAnotherKind) {
 
 TEST_F(FileContentTest, TheSameCommandMayBeRepeated) {
   for (int i = 0; i < 2; ++i) {
-    SetUp();
+    make({"phantom", "tube", "tube.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds",
+          "seeds.json"});
     EXPECT_EQ(lumen({"track", "tube.nrrd", "a.lumen", "--seeds", "seeds.json"}).code, 0);
     EXPECT_EQ(lumen({"fit", "a.lumen", "a.lumen"}).code, 0);
     EXPECT_EQ(lumen({"convert", "a.lumen", "a.glb"}).code, 0);

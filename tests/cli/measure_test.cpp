@@ -14,14 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class MeasureTest : public TubeTest {
-protected:
-  void SetUp() override {
-    TubeTest::SetUp();
-    const Outcome made = lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"});
-    ASSERT_EQ(made.code, 0) << made.err;
-  }
-};
+using MeasureTest = FittedTubeTest;
 
 TEST_F(MeasureTest, AnswersWithNumbersThatHoldTheTruth) {
   const Outcome made = lumen({"measure", "tube.lumen", "--json"});

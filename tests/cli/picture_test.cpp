@@ -20,14 +20,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-class PictureTest : public TubeTest {
-protected:
-  void SetUp() override {
-    TubeTest::SetUp();
-    const Outcome made = lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"});
-    ASSERT_EQ(made.code, 0) << made.err;
-  }
-};
+using PictureTest = FittedTubeTest;
 
 struct Decoded {
   std::uint32_t width = 0, height = 0;

@@ -1,133 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 // Options of all commands that would do nothing beside the files or the other options of a run: each
 // is refused with the name of what it needs.
+#include <sstream>
+
 #include "tests/cli/scope_inputs.h"
 
 namespace lumen::test {
 
 namespace {
 
-/// A run, and the sentence in its error.
-struct Refusal {
-  std::string command;
-  std::vector<std::string> arguments;
-  Given options;
-  std::string sentence;
-};
-
-const std::vector<Refusal> kRefusals = {
-    {"track",
-     {"tube.nrrd", "out/t.lumen"},
-     {{"label-table", "table.csv"}},
-     "--label-table does nothing without --label-map"},
-    {"track",
-     {"tube.nrrd", "out/t.lumen"},
-     {{"only-connected", "true"}},
-     "--only-connected does nothing without --seeds or --root"},
-    {"seeds", {"tube.nrrd", "out/s.json"}, {{"step", "0.4"}}, "--step: there is no such option"},
-    {"info", {"truth.swc"}, {{"frame", "ras"}}, "--frame: there is no such option"},
-    {"info",
-     {"case.lumen"},
-     {{"chunks", "true"}, {"from", "lumen"}},
-     "--from does nothing with --chunks"},
-    {"info",
-     {"tracked.lumen"},
-     {{"surface", "true"}},
-     "--surface is for cases with models, and tracked.lumen has none"},
-    {"report",
-     {"tracked.lumen", "out/r.html"},
-     {{"volume", "tube.nrrd"}, {"point-spread", "1"}},
-     "--point-spread is for cases with models, and tracked.lumen has none"},
-    {"report",
-     {"case.lumen", "out/r.html"},
-     {{"point-spread", "1"}},
-     "--point-spread does nothing without --volume"},
-    {"report",
-     {"case.lumen", "out/r.html"},
-     {{"from", "nrrd"}},
-     "--from does nothing without --volume"},
-    {"phantom",
-     {"out/p.nrrd"},
-     {{"tree", "truth.swc"}, {"size", "40"}},
-     "--size does nothing with --tree"},
-    {"phantom",
-     {"tube", "out/p.nrrd"},
-     {{"size", "32"}, {"clicks", "careless"}},
-     "--clicks does nothing without --seeds"},
-    {"phantom",
-     {"tube", "out/p.nrrd"},
-     {{"size", "32"}, {"phases", "3"}},
-     "--phases does nothing without --motion"},
-    {"phantom",
-     {"tube", "out/p.nrrd"},
-     {{"size", "32"}, {"click-drawing", "2"}},
-     "--click-drawing does nothing without --seeds"},
-    {"fit",
-     {"tracked.lumen", "out/f.lumen"},
-     {{"kernel", "quartic"}, {"kernel-parameter", "0.3"}},
-     "--kernel-parameter does nothing with --kernel quartic, which has no parameter"},
-    {"fit",
-     {"tracked.lumen", "out/f.lumen"},
-     {{"cohesion-weight", "0"}, {"cohesion-scale", "3"}},
-     "--cohesion-scale does nothing with --cohesion-weight 0"},
-    {"fit",
-     {"tracked.lumen", "out/f.lumen"},
-     {{"spacing", "0.2"}},
-     "--spacing does nothing without --image"},
-    {"fit",
-     {"tracked.lumen", "out/f.lumen"},
-     {{"seam-sweeps", "0"}, {"seam-weight", "3"}},
-     "--seam-weight does nothing with --seam-sweeps 0"},
-    {"convert",
-     {"truth.swc", "out/f.lumen"},
-     {{"cohesion-scale", "3"}},
-     "--cohesion-scale does nothing without --cohesion-weight"},
-    {"convert",
-     {"labels.nrrd", "out/f.lumen"},
-     {{"inlier-rate", "0.6"}},
-     "--inlier-rate is for volumes of grey values, and labels.nrrd is none of these"},
-    {"convert",
-     {"case.lumen", "out/o.glb"},
-     {{"edge", "0.3"}, {"edge-max", "0.4"}},
-     "--edge-max does nothing with --edge in mm"},
-    {"convert",
-     {"case.lumen", "out/o.glb"},
-     {{"edge-min", "0.1"}, {"edge", "0.3"}},
-     "--edge-min does nothing with --edge in mm"},
-    {"convert",
-     {"case.lumen", "out/o.glb"},
-     {{"patches", "false"}, {"cell", "0.4"}},
-     "--cell does nothing without --patches"},
-    {"convert",
-     {"tree.lumen", "out/o.lumen"},
-     {{"point-bits", "8"}},
-     "--point-bits is for cases with wall points, and tree.lumen has none"},
-    {"convert",
-     {"tube.nrrd", "out/o.swc"},
-     {{"iso-level", "0.2"}},
-     "--iso-level is for writing meshes, .lumen or .lumen.json, and out/o.swc is none of these"},
-    {"library add",
-     {"out/lib", "case.lumen"},
-     {{"synthetic", "true"}, {"only", "true"}},
-     "--only does nothing without --replace"},
-    {"library add",
-     {"out/lib", "tree.lumen"},
-     {{"synthetic", "true"}, {"picture", "left"}},
-     "this case has no models, so there is nothing for --picture"},
-    {"view",
-     {"case.lumen"},
-     {{"html-volume", "true"}},
-     "--html-volume does nothing without --html"},
-    {"view",
-     {"case.lumen"},
-     {{"html", "out/v.html"}, {"html-volume", "true"}},
-     "--html-volume is for a volume beside the case, and case.lumen has none"},
-    {"view",
-     {"tree.lumen"},
-     {{"html", "out/v.html"}, {"html-points", "true"}},
-     "--html-points is for cases with wall points, and tree.lumen has none"},
-    {"view", {"case.lumen"}, {{"html", "out/v.html"}, {"port", "1234"}}, "exclude one another"},
-};
+/// Runs, and below each a sentence of its error.
+constexpr const char* kRefusals = R"(track tube.nrrd out/t.lumen --label-table table.csv
+  --label-table does nothing without --label-map
+track tube.nrrd out/t.lumen --only-connected true
+  --only-connected does nothing without --seeds or --root
+seeds tube.nrrd out/s.json --step 0.4
+  --step: there is no such option
+info truth.swc --frame ras
+  --frame: there is no such option
+info case.lumen --chunks true --from lumen
+  --from does nothing with --chunks
+info tracked.lumen --surface true
+  --surface is for cases with models, and tracked.lumen has none
+report tracked.lumen out/r.html --volume tube.nrrd --point-spread 1
+  --point-spread is for cases with models, and tracked.lumen has none
+report case.lumen out/r.html --point-spread 1
+  --point-spread does nothing without --volume
+report case.lumen out/r.html --from nrrd
+  --from does nothing without --volume
+phantom out/p.nrrd --tree truth.swc --size 40
+  --size does nothing with --tree
+phantom tube out/p.nrrd --size 32 --clicks careless
+  --clicks does nothing without --seeds
+phantom tube out/p.nrrd --size 32 --phases 3
+  --phases does nothing without --motion
+phantom tube out/p.nrrd --size 32 --click-drawing 2
+  --click-drawing does nothing without --seeds
+fit tracked.lumen out/f.lumen --kernel quartic --kernel-parameter 0.3
+  --kernel-parameter does nothing with --kernel quartic, which has no parameter
+fit tracked.lumen out/f.lumen --cohesion-weight 0 --cohesion-scale 3
+  --cohesion-scale does nothing with --cohesion-weight 0
+fit tracked.lumen out/f.lumen --spacing 0.2
+  --spacing does nothing without --image
+fit tracked.lumen out/f.lumen --seam-sweeps 0 --seam-weight 3
+  --seam-weight does nothing with --seam-sweeps 0
+convert truth.swc out/f.lumen --cohesion-scale 3
+  --cohesion-scale does nothing without --cohesion-weight
+convert labels.nrrd out/f.lumen --inlier-rate 0.6
+  --inlier-rate is for volumes of grey values, and labels.nrrd is none of these
+convert case.lumen out/o.glb --edge 0.3 --edge-max 0.4
+  --edge-max does nothing with --edge in mm
+convert case.lumen out/o.glb --edge-min 0.1 --edge 0.3
+  --edge-min does nothing with --edge in mm
+convert case.lumen out/o.glb --patches false --cell 0.4
+  --cell does nothing without --patches
+convert tree.lumen out/o.lumen --point-bits 8
+  --point-bits is for cases with wall points, and tree.lumen has none
+convert tube.nrrd out/o.swc --iso-level 0.2
+  --iso-level is for writing meshes, .lumen or .lumen.json, and out/o.swc is none of these
+library add out/lib case.lumen --synthetic true --only true
+  --only does nothing without --replace
+library add out/lib tree.lumen --synthetic true --picture left
+  this case has no models, so there is nothing for --picture
+view case.lumen --html-volume true
+  --html-volume does nothing without --html
+view case.lumen --html out/v.html --html-volume true
+  --html-volume is for a volume beside the case, and case.lumen has none
+view tree.lumen --html out/v.html --html-points true
+  --html-points is for cases with wall points, and tree.lumen has none
+view case.lumen --html out/v.html --port 1234
+  exclude one another
+)";
 
 }  // namespace
 
@@ -179,13 +122,17 @@ TEST_F(RefusalScopeTest, AnOptionForOtherFilesIsRefusedByEveryCommand) {
 }
 
 TEST_F(RefusalScopeTest, AnOptionThatWouldDoNothingIsRefusedWithWhatItNeeds) {
-  make({"library", "init", "lib", "--title", "Tubes", "--licence", "CC0-1.0"});
-  for (const Refusal& refusal : kRefusals) {
-    if (!m_engine.find(refusal.command).command) continue;  // built without libraries or viewer
-    const Effect effect =
-        effectOf(operationOf(refusal.command, refusal.arguments, refusal.options), {"lib"});
-    EXPECT_NE(effect.error.find(refusal.sentence), std::string::npos)
-        << refusal.command << ": " << effect.error << "\nexpected: " << refusal.sentence;
+  if (m_engine.find("library init").command)
+    make({"library", "init", "lib", "--title", "Tubes", "--licence", "CC0-1.0"});
+  std::istringstream lines(kRefusals);
+  for (std::string line, sentence; std::getline(lines, line) && std::getline(lines, sentence);) {
+    const Operation operation = trialsOf(line).front().operation;
+    if (!m_engine.find(operation.name).command) continue;  // built without libraries or viewer
+    const bool isLibrary = operation.name.starts_with("library");
+    const Effect effect = effectOf(
+        operation, isLibrary ? std::vector<std::string>{"lib"} : std::vector<std::string>{});
+    EXPECT_NE(effect.error.find(sentence.substr(2)), std::string::npos)
+        << line << ": " << effect.error << "\nexpected: " << sentence;
   }
 }
 

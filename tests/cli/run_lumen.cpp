@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <sstream>
+#include <map>
 #include <thread>
 
 #include <fcntl.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,19 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using namespace std::chrono_literals;
-
-fs::path makeFolder() {
-  std::string pattern = (fs::temp_directory_path() / "lumen-cli-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  return pattern;
-}
-
-std::string readFile(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 [[noreturn]] void becomeLumen(const std::vector<std::string>& arguments, const fs::path& folder,
                               const fs::path& streams) {
@@ -74,33 +60,29 @@ void waitForOutput(const fs::path& file) {
 
 }  // namespace
 
-CliTest::CliTest() : m_folder(makeFolder()), m_streams(makeFolder()) {}
-
-CliTest::~CliTest() {
-  fs::remove_all(m_folder);
-  fs::remove_all(m_streams);
+Outcome CliTest::lumen(const std::vector<std::string>& arguments) const {
+  return runHere(arguments, m_folder.path);
 }
 
-Outcome CliTest::lumen(const std::vector<std::string>& arguments) const {
+Outcome CliTest::lumenProgram(const std::vector<std::string>& arguments) const {
   const pid_t child = fork();
-  if (child == 0) becomeLumen(arguments, m_folder, m_streams);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return {exitCode(status), readFile(m_streams / "out"), readFile(m_streams / "err")};
+  if (child == 0) becomeLumen(arguments, m_folder.path, m_streams.path);
+  const int code = waitFor(child);
+  return {code, readFile(m_streams.path / "out"), readFile(m_streams.path / "err")};
 }
 
 Outcome CliTest::lumenWithSignal(const std::vector<std::string>& arguments, int signalNumber,
                                  int times) const {
-  fs::remove(m_streams / "err");
+  fs::remove(m_streams.path / "err");
   const pid_t child = fork();
-  if (child == 0) becomeLumen(arguments, m_folder, m_streams);
-  waitForOutput(m_streams / "err");
+  if (child == 0) becomeLumen(arguments, m_folder.path, m_streams.path);
+  waitForOutput(m_streams.path / "err");
   for (int i = 0; i < times; ++i) {
     kill(child, signalNumber);
     std::this_thread::sleep_for(20ms);
   }
   const int code = waitFor(child);
-  return {code, readFile(m_streams / "out"), readFile(m_streams / "err")};
+  return {code, readFile(m_streams.path / "out"), readFile(m_streams.path / "err")};
 }
 
 std::string CliTest::read(const std::string& name) const {
@@ -113,16 +95,38 @@ void CliTest::write(const std::string& name, const std::string& text) const {
 
 std::vector<std::string> CliTest::entries() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(m_folder))
+  for (const auto& entry : fs::directory_iterator(m_folder.path))
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
-void TubeTest::SetUp() {
-  const Outcome made = lumen({"phantom", "tube", "tube.nrrd", "--size", "64", "--truth",
-                              "truth.lumen", "--seeds", "seeds.json"});
+void CliTest::make(const std::vector<std::string>& arguments) const {
+  const Outcome made = lumen(arguments);
   ASSERT_EQ(made.code, 0) << made.err;
+}
+
+void CliTest::fillOnce(const std::string& name, const std::function<void()>& fill) const {
+  static std::map<std::string, TemporaryFolder> kept;
+  const auto copy = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
+  if (const auto found = kept.find(name); found != kept.end())
+    return fs::copy(found->second.path, m_folder.path, copy);
+  fill();
+  if (!HasFatalFailure()) fs::copy(m_folder.path, kept[name].path, copy);
+}
+
+void TubeTest::SetUp() {
+  fillOnce("tube", [this] {
+    make({"phantom", "tube", "tube.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds",
+          "seeds.json"});
+  });
+}
+
+void FittedTubeTest::SetUp() {
+  TubeTest::SetUp();
+  fillOnce("fitted tube", [this] {
+    make({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"});
+  });
 }
 
 }  // namespace lumen::test

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the built executable as a user would, and looks at what it leaves.
+// Runs lumen as a user would, and looks at what it leaves.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace lumen::test {
+#include "tests/cli/run_here.h"
 
-struct Outcome {
-  int code = -1;  ///< exit code; 1000 + n if signal n ended the process
-  std::string out;
-  std::string err;
-};
+namespace lumen::test {
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -23,17 +20,22 @@ inline bool contains(const std::string& text, const std::string& part) {
 /// A folder of its own for each test, gone afterwards, and `lumen` run inside of it.
 class CliTest : public ::testing::Test {
 protected:
-  CliTest();
-  ~CliTest() override;
-
+  /// A run in this process.
   Outcome lumen(const std::vector<std::string>& arguments) const;
-  /// Sends `signalNumber` `times` times as soon as the program has printed to standard error, for
+  /// A run of the built executable.
+  Outcome lumenProgram(const std::vector<std::string>& arguments) const;
+  /// Sends `signalNumber` `times` times as soon as the executable has printed to standard error, for
   /// which the run must be --verbose. After 60 s the program is killed.
   Outcome lumenWithSignal(const std::vector<std::string>& arguments, int signalNumber,
                           int times = 1) const;
+  /// Runs lumen; a failure of it is one of the test.
+  void make(const std::vector<std::string>& arguments) const;
+  /// Fills the folder by `fill`, which is called once in this process for each name; the folders of
+  /// other tests get copies of the files.
+  void fillOnce(const std::string& name, const std::function<void()>& fill) const;
 
   [[nodiscard]] std::filesystem::path path(const std::string& name) const {
-    return m_folder / name;
+    return m_folder.path / name;
   }
   [[nodiscard]] std::string read(const std::string& name) const;
   void write(const std::string& name, const std::string& text) const;
@@ -44,12 +46,18 @@ protected:
   [[nodiscard]] std::vector<std::string> entries() const;
 
 private:
-  std::filesystem::path m_folder;
-  std::filesystem::path m_streams;  ///< the runs' standard output and error, beside the folder
+  TemporaryFolder m_folder;
+  TemporaryFolder m_streams;  ///< standard output and error of processes
 };
 
 /// A CliTest with a 64^3 tube phantom: tube.nrrd, truth.lumen, seeds.json.
 class TubeTest : public CliTest {
+protected:
+  void SetUp() override;
+};
+
+/// A TubeTest with its case, tube.lumen.
+class FittedTubeTest : public TubeTest {
 protected:
   void SetUp() override;
 };

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <map>
+#include <iterator>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
-#include <stdlib.h>
 
 #include "tests/unit/volume/dicom_fixture.h"
 
@@ -115,100 +115,24 @@ std::string withMotion(const std::string& text) {
   return value.dump();
 }
 
-const std::map<std::string, std::string> kSamples = {{"series", "1"},
-                                                     {"volume-index", "1"},
-                                                     {"crop", "2,29,2,29,2,29"},
-                                                     {"spacing", "0.21"},
-                                                     {"unit", "cm"},
-                                                     {"allow-detached", "."},
-                                                     {"frame", "ras"},
-                                                     {"seeds", "seeds.json"},
-                                                     {"seeds-frame", "ras"},
-                                                     {"seeds-unit", "cm"},
-                                                     {"root", "3.1,3.1,5.8"},
-                                                     {"only-connected", "true"},
-                                                     {"seeds-only", "true"},
-                                                     {"dark", "true"},
-                                                     {"inlier-rate", "0.6"},
-                                                     {"inlier-band", "0.12"},
-                                                     {"rays", "42"},
-                                                     {"axes", "21"},
-                                                     {"samples", "64"},
-                                                     {"min-trials", "100"},
-                                                     {"max-trials", "400"},
-                                                     {"step", "0.4"},
-                                                     {"noise-margin", "1.5"},
-                                                     {"look-ahead", "2"},
-                                                     {"branch-offset", "1.5"},
-                                                     {"aneurysm-gradient", "0.4"},
-                                                     {"point-spread", "0.1"},
-                                                     {"smoothing", "0.17"},
-                                                     {"even-blur", "false"},
-                                                     {"max-nodes", "1000"},
-                                                     {"random-seed", "2"},
-                                                     {"repeat", "1"},
-                                                     {"corrections", "corrected.lumen.json"},
-                                                     {"centerline", "truth.swc"},
-                                                     {"centerline-frame", "ras"},
-                                                     {"centerline-unit", "cm"},
-                                                     {"mesh", "Arteries"},
-                                                     {"mask", "true"},
-                                                     {"label", "1"},
-                                                     {"labels", "1=artery"},
-                                                     {"label-map", "halves.nii"},
-                                                     {"label-table", "table.csv"},
-                                                     {"kernel", "gaussian"},
-                                                     {"kernel-parameter", "0.3"},
-                                                     {"cohesion-weight", "1e-4"},
-                                                     {"curvature-weight", "1e-2"},
-                                                     {"cohesion-scale", "3"},
-                                                     {"max-subdivisions", "2"},
-                                                     {"neighbourhood", "1"},
-                                                     {"seam-sweeps", "1"},
-                                                     {"seam-weight", "32"},
-                                                     {"iso-level", "0.15"},
-                                                     {"accuracy", "0.5"},
-                                                     {"max-distance", "30"},
-                                                     {"min-width", "0.03"},
-                                                     {"edge", "0.4r"},
-                                                     {"extend", "2r"},
-                                                     {"thickness", "0.2r"},
-                                                     {"touching", "apart"},
-                                                     {"max-error", "0.02"},
-                                                     {"edge-min", "0.6"},
-                                                     {"edge-max", "0.08"},
-                                                     {"gap", "0.3"},
-                                                     {"open", "true"},
-                                                     {"patches", "true"},
-                                                     {"cell", "0.3"},
-                                                     {"lod", "2"},
-                                                     {"mesh-per", "branch"},
-                                                     {"colour", "radius"},
-                                                     {"meshopt", "true"},
-                                                     {"draco", "true"},
-                                                     {"draco-position-bits", "12"},
-                                                     {"draco-normal-bits", "8"},
-                                                     {"stl-solids", "true"},
-                                                     {"compress", "true"},
-                                                     {"point-bits", "12"},
-                                                     {"time", "0.5"},
-                                                     {"skin", "false"}};
-
-/// A temporary folder that is gone when the program ends.
-struct KeptFolder {
-  KeptFolder() {
-    std::string pattern = (fs::temp_directory_path() / "lumen-scope-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~KeptFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  KeptFolder(const KeptFolder&) = delete;
-  KeptFolder& operator=(const KeptFolder&) = delete;
-
-  fs::path path;
-};
+constexpr const char* kSamples = R"(convert
+  --series 1 --volume-index 1 --crop 2,29,2,29,2,29 --spacing 0.21 --unit cm --allow-detached .
+  --frame ras --seeds seeds.json --seeds-frame ras --seeds-unit cm --root 3.1,3.1,5.8
+  --only-connected true --seeds-only true --dark true --inlier-rate 0.6 --inlier-band 0.12
+  --rays 42 --axes 21 --samples 64 --min-trials 100 --max-trials 400 --step 0.4
+  --noise-margin 1.5 --look-ahead 2 --branch-offset 1.5 --aneurysm-gradient 0.4
+  --point-spread 0.1 --smoothing 0.17 --even-blur false --max-nodes 1000 --random-seed 2
+  --repeat 1 --corrections corrected.lumen.json --centerline truth.swc --centerline-frame ras
+  --centerline-unit cm --mesh Arteries --mask true --label 1 --labels 1=artery
+  --label-map halves.nii --label-table table.csv --kernel gaussian --kernel-parameter 0.3
+  --cohesion-weight 1e-4 --curvature-weight 1e-2 --cohesion-scale 3 --max-subdivisions 2
+  --neighbourhood 1 --seam-sweeps 1 --seam-weight 32 --iso-level 0.15 --accuracy 0.5
+  --max-distance 30 --min-width 0.03 --edge 0.4r --extend 2r --thickness 0.2r --touching apart
+  --max-error 0.02 --edge-min 0.6 --edge-max 0.08 --gap 0.3 --open true --patches true --cell 0.3
+  --lod 2 --mesh-per branch --colour radius --meshopt true --draco true
+  --draco-position-bits 12 --draco-normal-bits 8 --stl-solids true --compress true
+  --point-bits 12 --time 0.5 --skin false
+)";
 
 }  // namespace
 
@@ -218,27 +142,47 @@ bool isRefusal(const std::string& message) {
   return false;
 }
 
-const std::string& sampleOf(const std::string& option) {
-  static const std::string none;
-  const auto found = kSamples.find(option);
-  return found == kSamples.end() ? none : found->second;
+std::vector<Trial> trialsOf(const std::string& lines) {
+  std::vector<Trial> trials;
+  std::istringstream text(lines);
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream stream(line);
+    const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+    if (words.empty()) continue;
+    const bool isFurther = line.front() == ' ';
+    std::size_t next = 0;
+    if (!isFurther) {
+      trials.push_back({{words[next++], {}, {}}, {}});
+      if (words[0] == "library") trials.back().operation.name += " " + words.at(next++);
+    }
+    Trial& trial = trials.back();
+    while (next < words.size()) {
+      const std::string& word = words[next++];
+      if (!word.starts_with("--"))
+        trial.operation.arguments.push_back(word);
+      else if (isFurther)
+        trial.tried.emplace_back(word.substr(2), words.at(next++));
+      else
+        trial.operation.with(word.substr(2), words.at(next++));
+    }
+  }
+  return trials;
 }
 
-void ScopeTest::make(const std::vector<std::string>& arguments) const {
-  const Outcome made = lumen(arguments);
-  ASSERT_EQ(made.code, 0) << made.err;
+const std::string& sampleOf(const std::string& option) {
+  static const Given samples = trialsOf(kSamples).front().tried;
+  static const std::string none;
+  for (const auto& [name, value] : samples)
+    if (name == option) return value;
+  return none;
 }
 
 void ScopeTest::SetUp() {
-  // made for the first test, and kept for the others of this process
-  static const KeptFolder kept;
-  if (fs::is_empty(kept.path)) {
+  fillOnce("scope", [this] {
     makeVolumes();
+    makeDicom();
     makeSurfaces();
-    fs::copy(path(""), kept.path, fs::copy_options::recursive);
-  } else {
-    fs::copy(kept.path, path(""), fs::copy_options::recursive);
-  }
+  });
   m_hasDicom = lumen({"info", "series", "--series", "1"}).code == 0;
   m_before = fs::current_path();
   fs::current_path(path(""));
@@ -272,6 +216,9 @@ void ScopeTest::makeVolumes() const {
   make({"convert", "apart.nrrd", "apart.lumen"});
   make({"check", "apart.nrrd", "apart.lumen", "--mask", "apart-labels.nrrd"});
   write("halves.nii", withTwoHalves(read("whole.nii")));
+}
+
+void ScopeTest::makeDicom() const {
   make({"phantom", "tube", "tube.nii", "--size", "32"});
   make({"phantom", "kissing", "two.nii", "--size", "32"});
   const std::string tube = read("tube.nii"), two = read("two.nii");
@@ -307,6 +254,12 @@ Operation ScopeTest::operationOf(const std::string& command, std::vector<std::st
   Operation operation{command, std::move(arguments), {}};
   for (const auto& [name, value] : options) operation.with(name, value);
   return operation;
+}
+
+Operation ScopeTest::withOption(Operation operation,
+                                const std::pair<std::string, std::string>& option) {
+  std::erase_if(operation.options, [&](const auto& one) { return one.first == option.first; });
+  return operation.with(option.first, option.second);
 }
 
 Effect ScopeTest::effectOf(const Operation& operation,

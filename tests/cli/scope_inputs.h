@@ -67,8 +67,9 @@ protected:
   [[nodiscard]] static Operation operationOf(const std::string& command,
                                              std::vector<std::string> arguments,
                                              const Given& options);
-  /// Runs lumen; a failure of it is one of the test.
-  void make(const std::vector<std::string>& arguments) const;
+  /// The operation with this option, whose other values are dropped.
+  [[nodiscard]] static Operation withOption(Operation operation,
+                                            const std::pair<std::string, std::string>& option);
 
   engine::Engine m_engine = cli::allCommands();
   bool m_hasDicom = false;  ///< lumen reads DICOM
@@ -76,8 +77,19 @@ protected:
 private:
   void makeVolumes() const;
   void makeSurfaces() const;
+  void makeDicom() const;
   std::filesystem::path m_before;
 };
+
+/// An operation, and options that are given in further runs of it.
+struct Trial {
+  Operation operation;
+  Given tried;
+};
+
+/// Trials as lines: `command argument... --option value...`, and below it, indented, tried options.
+/// A flag has the value true or false.
+std::vector<Trial> trialsOf(const std::string& lines);
 
 /// Whether it is the refusal of an option that would do nothing, or excludes another.
 bool isRefusal(const std::string& message);

@@ -83,15 +83,15 @@ TEST_F(ToolTest, OfOnePointFindsTheSameWaysClosedAsInfo) {
 }
 
 TEST_F(ToolTest, OfTwoHundredPointsArrivesAtEveryTipOfABifurcation) {
-  pushThroughPhantom({"bifurcation"});
+  pushThroughPhantom({"bifurcation", "--size", "64"});
 }
 
 TEST_F(ToolTest, OfTwoHundredPointsArrivesAtTheEndsOfVesselsThatTouch) {
-  pushThroughPhantom({"kissing"});
+  pushThroughPhantom({"kissing", "--size", "64"});
 }
 
 TEST_F(ToolTest, OfTwoHundredPointsArrivesBeyondAHairpin) {
-  pushThroughPhantom({"hairpin"});
+  pushThroughPhantom({"hairpin", "--size", "64"});
 }
 
 TEST_F(ToolTest, OfTwoHundredPointsArrivesAtEveryTipOfAPatient) {

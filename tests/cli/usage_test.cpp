@@ -51,6 +51,24 @@ TEST_F(UsageTest, TheHelpShowsTheDefaultsOfTheMethod) {
     EXPECT_TRUE(contains(help, text)) << text << "\n" << help;
 }
 
+TEST_F(UsageTest, TheExecutableAnswersAsTheCommandLineInThisProcess) {
+  write("a.lumen", "this is not a case");
+  const std::vector<std::pair<int, std::vector<std::string>>> runs = {
+      {0, {"info", "--help"}},
+      {0, {"--version", "--json"}},
+      {1, {"convert", "a.lumen", "gone/b.lumen"}},
+      {2, {"polish"}},
+      {3, {"info", "a.lumen"}},
+      {4, {"convert", "a.lumen", "b.docx"}}};
+  for (const auto& [code, arguments] : runs) {
+    const Outcome program = lumenProgram(arguments), here = lumen(arguments);
+    EXPECT_EQ(program.code, code) << arguments[0];
+    EXPECT_EQ(program.code, here.code) << arguments[0];
+    EXPECT_EQ(program.out, here.out) << arguments[0];
+    EXPECT_EQ(program.err, here.err) << arguments[0];
+  }
+}
+
 TEST_F(UsageTest, TheVersionIsOneLine) {
   for (const char* word : {"--version", "-V", "version"}) {
     const Outcome version = lumen({word});

@@ -2,19 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cases that are hard to export, through every target: each is written whole, or refused in one sentence.
 
-bad_inputs.py LUMEN [--only TARGET...] [--jobs N]
+bad_inputs.py BATCH_LUMEN [--only TARGET...] [--cases NAME...]
 
 Without models; of one node; with a loop; with ends too short for a flat cut; an aneurysm alone; a forest of ten trees
 (all synthetic). A folder that is written has the files that its lumen-export.json lists, to the byte; a refusal has
 exit code 3, one line that names the case, and leaves nothing. Exit status: 0 all, 1 some not."""
-import argparse, concurrent.futures, hashlib, json, math, pathlib, subprocess, sys, tempfile
+import argparse, hashlib, json, math, pathlib, sys, tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from batch import Batch
 
 # what must be refused whatever the target: the rest may be, with a reason
 MUST_HOLD = {"forest of ten", "with a loop"}
 
 
-def run(*words):
-    return subprocess.run([str(w) for w in words], capture_output=True, text=True)
+def run(lumen, *words):
+    return lumen.run(words, "/")
 
 
 def made(lumen, *words):
@@ -118,23 +121,25 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("lumen", type=pathlib.Path)
     parser.add_argument("--only", nargs="*", default=[])
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--cases", nargs="*", help="default: all")
     arguments = parser.parse_args()
-    lumen = arguments.lumen.resolve()
+    lumen = Batch(arguments.lumen.resolve())
     listed = json.loads(run(lumen, "export", "--list", "--json").stdout)["targets"]
     targets = arguments.only or [t["name"] for t in listed]
-    failed = 0
-    with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+    failed = passed = 0
+    with tempfile.TemporaryDirectory() as work:
         folder = pathlib.Path(work)
-        waiting = [(name, target, pool.submit(try_one, lumen, target, name, case, folder / f"{target}-{case.stem}"))
-                   for name, case in cases(lumen, folder) for target in targets]
-        for name, target, result in waiting:
-            said, faults = result.result()
-            said = said.replace(str(folder) + "/", "")
-            print(f"{name:15} {target:10} {said[:150]}" + "".join(f"\n    FAULT: {f}" for f in faults))
-            failed += bool(faults)
-    print(f"{len(waiting) - failed} passed, {failed} failed")
-    return 1 if failed else 0
+        for name, case in cases(lumen, folder):
+            if arguments.cases and name not in arguments.cases: continue
+            for target in targets:
+                said, faults = try_one(lumen, target, name, case, folder / f"{target}-{case.stem}")
+                said = said.replace(str(folder) + "/", "")
+                print(f"{name:15} {target:10} {said[:150]}" + "".join(f"\n    FAULT: {f}" for f in faults))
+                failed += bool(faults)
+                passed += not faults
+    lumen.end()
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed or not passed else 0
 
 
 if __name__ == "__main__":

@@ -2,28 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """One case through every target of lumen export, and located again by the target's own loader.
 
-landmarks.py LUMEN [--only TARGET...]
+landmarks.py BATCH_LUMEN [--only TARGET...]
 
 The case is a synthetic fork (landmark.swc), asymmetric, so that no two axes and no two ends can be mistaken for one
 another. Each folder is checked: lumen-export.json agrees with its schema and with the files; its ends, brought back by its
 transform, are those of the surface; the places that the target's loader finds (loaders.py) are those of the case, by the
 frame and unit that the target is known to have, to 1e-4 mm. Exit status: 0 all, 1 some not, 77 nothing could be read."""
-import argparse, hashlib, json, pathlib, subprocess, sys, tempfile
+import argparse, hashlib, json, pathlib, sys, tempfile
 try:
     import numpy as np
     import vtkmodules.vtkIOXML
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / "cli"))
 import loaders
+from batch import Batch
 from loaders import farthest
 
-HERE = pathlib.Path(__file__).resolve().parent
 TOLERANCE = 1e-4  # mm
 
 
-def run(*words):
-    done = subprocess.run([str(w) for w in words], capture_output=True, text=True)
+def run(lumen, *words):
+    done = lumen.run(words, "/")
     if done.returncode != 0: sys.exit(f"landmarks.py: {' '.join(map(str, words))}: {done.stderr}")
     return done.stdout
 
@@ -128,7 +130,7 @@ def main():
     parser.add_argument("lumen", type=pathlib.Path)
     parser.add_argument("--only", nargs="*", default=[])
     arguments = parser.parse_args()
-    lumen = arguments.lumen.resolve()
+    lumen = Batch(arguments.lumen.resolve())
     targets = [t["name"] for t in json.loads(run(lumen, "export", "--list", "--json"))["targets"]]
     lacking = sorted(set(targets) - set(loaders.LOADERS))
     if lacking: sys.exit(f"landmarks.py: no loader for {', '.join(lacking)}; expected one for each target")

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs what `lumen export svzerod` writes in svZeroDSolver itself.
 
+check_svzerod.py LUMEN --solve [CASE...]
 check_svzerod.py LUMEN SOLVER_SOURCE BUILD_FOLDER [CASE...]
 
-Builds the solver from its source (a folder with a CMakeLists.txt that makes `svzerodsolver`) into BUILD_FOLDER. Checks
-that flow is conserved at every junction, that pressures there agree, that a tube has Poiseuille's resistance to 1 %, and
-that outlets get their share. CASEs are run too. Exit status: 0 all held, 1 something did not, 77 there is no solver."""
+Checks that flow is conserved at every junction, that pressures there agree, that a tube has Poiseuille's resistance to
+1 %, and that outlets get their share. With --solve the steady flow of the model is solved here; else the solver is built
+from its source (a folder with a CMakeLists.txt that makes `svzerodsolver`) into BUILD_FOLDER. CASEs are run too. Exit
+status: 0 all held, 1 something did not, 77 there is no solver."""
 import csv, json, math, pathlib, subprocess, sys, tempfile
 from flow_cases import *
 
@@ -21,10 +23,58 @@ def build(source, folder):
     return folder / "svzerodsolver"
 
 
+def solved(rows):
+    """The solution of linear equations, each a list of coefficients and the right side, by elimination."""
+    count = len(rows)
+    for k in range(count):
+        best = max(range(k, count), key=lambda r: abs(rows[r][k]))
+        rows[k], rows[best] = rows[best], rows[k]
+        for r in range(count):
+            if r == k or rows[r][k] == 0: continue
+            factor = rows[r][k] / rows[k][k]
+            rows[r] = [a - factor * b for a, b in zip(rows[r], rows[k])]
+    return [rows[k][count] / rows[k][k] for k in range(count)]
+
+
+def steady(model):
+    """Of each vessel its flow and pressures, as the solver has them when the walls have taken up what they can: unknown are
+    pressures at its two ends and its flow."""
+    vessels, conditions = model["vessels"], {b["bc_name"]: b for b in model["boundary_conditions"]}
+    column = lambda vessel, what: 3 * vessel + ("pressure_in", "pressure_out", "flow").index(what)
+    def equation(right, *terms):
+        row = [0.0] * (3 * len(vessels)) + [right]
+        for at, factor in terms: row[at] += factor
+        return row
+    rows = []
+    for vessel in vessels:
+        at = lambda what: column(vessel["vessel_id"], what)
+        values, ends = vessel["zero_d_element_values"], vessel.get("boundary_conditions", {})
+        expect(all(v > 0 for k, v in values.items() if k != "stenosis_coefficient"), f"{vessel['vessel_name']}: {values}")
+        rows.append(equation(0, (at("pressure_in"), 1), (at("pressure_out"), -1), (at("flow"), -values["R_poiseuille"])))
+        if "inlet" in ends: rows.append(equation(conditions[ends["inlet"]]["bc_values"]["Q"][-1], (at("flow"), 1)))
+        if "outlet" in ends:
+            outlet = conditions[ends["outlet"]]["bc_values"]
+            rows.append(equation(outlet["Pd"], (at("pressure_out"), 1), (at("flow"), -outlet["R"])))
+    for junction in model["junctions"]:
+        ends = [(v, "pressure_out", 1) for v in junction["inlet_vessels"]]
+        ends += [(v, "pressure_in", -1) for v in junction["outlet_vessels"]]
+        rows.append(equation(0, *((column(v, "flow"), sign) for v, _, sign in ends)))
+        first = column(ends[0][0], ends[0][1])
+        rows += [equation(0, (column(v, end), 1), (first, -1)) for v, end, _ in ends[1:]]
+    if len(rows) != 3 * len(vessels): sys.exit(f"the model has {len(rows)} conditions, expected {3 * len(vessels)}")
+    found = solved(rows)
+    answer = {}
+    for vessel in vessels:
+        pressure_in, pressure_out, flow = found[3 * vessel["vessel_id"]:3 * vessel["vessel_id"] + 3]
+        answer[vessel["vessel_name"]] = dict(pressure_in=pressure_in, pressure_out=pressure_out, flow_in=flow, flow_out=flow)
+    return answer
+
+
 def run(solver, program, folder, case, name):
-    """The exported model, and of each of its vessels the last row of the solver's answer."""
+    """The exported model, and of each of its vessels flows and pressures at the end. `solver`: None for steady()."""
     lumen(program, folder, "export", "svzerod", str(case), name, "--quiet")
     model = json.loads((folder / name / "model.json").read_text())
+    if solver is None: return model, steady(model)
     done = subprocess.run([solver, folder / name / "model.json", folder / name / "out.csv"], capture_output=True, text=True)
     if done.returncode != 0: sys.exit(f"{name}: svZeroDSolver gives up: {done.stdout[-500:]}{done.stderr[-500:]}")
     last = {}
@@ -88,8 +138,7 @@ def check_fork(solver, program, folder):
     near(flows["wide"] / flows["thin"], 8, 0.01, "fork: outlets take r^3")
 
 
-def check(program, source, build_folder, cases):
-    solver = build(source, build_folder)
+def check(program, solver, cases):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         check_tube(solver, program, folder)
@@ -108,4 +157,6 @@ def check(program, source, build_folder, cases):
 
 
 if __name__ == "__main__":
-    sys.exit(check(str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]), sys.argv[4:]))
+    program, *words = sys.argv[1:]
+    solver, cases = (None, words[1:]) if words[0] == "--solve" else (build(*map(pathlib.Path, words[:2])), words[2:])
+    sys.exit(check(str(pathlib.Path(program).resolve()), solver, cases))

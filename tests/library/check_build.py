@@ -164,7 +164,9 @@ def main():
     parser.add_argument("--kills", type=int, default=12)
     options = parser.parse_args()
     lumen = pathlib.Path(options.lumen).resolve()
-    for steps in ((one_bad_row, what_changed_is_made_again, a_folder_of_somebody_stays), (refused,), (goes_on_beside_rows_with_faults,), (lambda l, f: killed_again_and_again(l, f, options.kills),)):
+    whole = [(one_bad_row, what_changed_is_made_again, a_folder_of_somebody_stays), (refused,), (goes_on_beside_rows_with_faults,)]
+    if options.kills: whole.append((lambda lumen, folder: killed_again_and_again(lumen, folder, options.kills),))
+    for steps in whole:
         with tempfile.TemporaryDirectory() as folder:
             for step in steps: step(lumen, pathlib.Path(folder))
 

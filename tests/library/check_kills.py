@@ -34,7 +34,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         work = pathlib.Path(name)
         run = lambda *words: subprocess.run([lumen, *words, "--quiet"], cwd=work, env=environment, check=True)
-        run("phantom", "stenosis", "tube.nrrd", "--seeds", "tube.json")
+        run("phantom", "stenosis", "tube.nrrd", "--size", "64", "--seeds", "tube.json")
         run("convert", "tube.nrrd", "tube.lumen", "--seeds", "tube.json")
         os.mkdir(work / "place")
         library = work / "place/library"

@@ -3,14 +3,16 @@
 """Makes and changes libraries with lumen, and reads them with others: `sha256sum`, a reader of bags and of spec/library.md
 in Python (bag.py), the schemas, npm's ro-crate.
 
-check_library.py LUMEN
+check_library.py LUMEN BATCH_LUMEN
 
 Without node_modules beside this file (npm ci) the crates are read by bag.py alone, and it is said. Exit status: 0 all held,
 1 not."""
 import fcntl, json, os, pathlib, re, shutil, subprocess, sys, tempfile, time
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import bag
+from batch import Batch
 
 HERE = pathlib.Path(__file__).resolve().parent
 failures = []
@@ -25,12 +27,13 @@ def expect(held, what):
 class Place:
     """A folder in which lumen runs."""
 
-    def __init__(self, lumen, folder):
+    def __init__(self, lumen, batch, folder):
         self.lumen, self.folder = str(lumen.resolve()), folder
         self.environment = {**os.environ, "SOURCE_DATE_EPOCH": "1795305600"}
+        self.batch = Batch(batch.resolve(), env=self.environment)
 
     def run(self, *words, code=0):
-        done = subprocess.run([self.lumen, *words], cwd=self.folder, env=self.environment, capture_output=True, text=True)
+        done = self.batch.run(words, self.folder)
         expect(done.returncode == code, f"lumen {' '.join(words)}: ended with {done.returncode}, not {code}: {done.stderr}")
         return done
 
@@ -135,14 +138,14 @@ def changing(place):
     expect([case["id"] for case in place.library()["cases"]] == [other, "later"], "removed cases")
     place.valid("after a removal")
     listed = json.loads(place.run("library", "list", "lib", "--json").stdout)
-    expect([case["id"] for case in listed["cases"]] == [other, "later"] and listed["cases"][0]["length_mm"] > 20, "the list")
+    expect([case["id"] for case in listed["cases"]] == [other, "later"] and listed["cases"][0]["length_mm"] > 10, "the list")
     expect(sorted(p.name for p in place.folder.iterdir() if p.name.startswith(".")) == [], "hidden files are left")
 
 
 def replacing(place):
     """Parts that are not named again stay: statements, exports, pages, pictures, files; all that goes is listed."""
     place.run("library", "add", "lib", "tube.lumen", "--id", "rich", "--consent", "Given", "--deidentification", "Done", "--no-surface",
-              "--picture", "left", "--picture", "best", "--turntable", "2", "--export", "svzerod", "--report", "--viewer", "--file", "note.txt",
+              "--picture", "left", "--turntable", "2", "--export", "svzerod", "--viewer", "--file", "note.txt",
               "--code", "FMA:3947:Internal carotid artery")
     record = lambda: json.loads((place.folder / "lib/data/rich/record.json").read_text())
     before = record()
@@ -152,7 +155,7 @@ def replacing(place):
     expect(answer["gone"] == [], f"gone: {answer['gone']}")
     expect((after["version"], after["title"], after["consent"], after["anatomy"]) == (2, "Better", "Given", before["anatomy"]), "statements")
     answer = json.loads(place.run("library", "add", "lib", "tube.lumen", "--id", "rich", "--replace", "--picture", "none", "--json").stdout)
-    expect(answer["gone"] == [f"data/rich/{name}.png" for name in ("picture-best", "picture-left")] + ["data/rich/thumbnail.png"] * ("thumbnail.png" in
+    expect(answer["gone"] == ["data/rich/picture-left.png"] + ["data/rich/thumbnail.png"] * ("thumbnail.png" in
            [f["path"] for f in before["files"]]), f"gone without pictures: {answer['gone']}")
     expect(record()["title"] == "Better", "the title of the version before")
     (place.folder / "old.json").write_bytes((place.folder / "lib/data/rich/record.json").read_bytes())
@@ -217,7 +220,7 @@ def leaving(place):
 def checking_meanwhile(place):
     """A check during changes finds a whole library."""
     words = [place.lumen, "library", "add", "lib", "tube.lumen", "--synthetic", "--no-surface", "--picture", "none", "--quiet", "--id"]
-    for i in range(6):
+    for i in range(3):
         adding = subprocess.Popen([*words, f"meanwhile-{i}"], cwd=place.folder, env=place.environment)
         while adding.poll() is None: place.run("library", "check", "lib", "--quiet")
         expect(adding.wait() == 0, "an add during checks failed")
@@ -315,14 +318,15 @@ def crates(place):
 
 
 def main():
-    lumen = pathlib.Path(sys.argv[1])
+    lumen, batch = map(pathlib.Path, sys.argv[1:3])
     with tempfile.TemporaryDirectory() as name:
-        place = Place(lumen, pathlib.Path(name))
-        place.run("phantom", "stenosis", "tube.nrrd", "--seeds", "tube.json", "--quiet")
+        place = Place(lumen, batch, pathlib.Path(name))
+        place.run("phantom", "stenosis", "tube.nrrd", "--size", "64", "--seeds", "tube.json", "--quiet")
         place.run("convert", "tube.nrrd", "tube.lumen", "--seeds", "tube.json", "--quiet")
         place.run("track", "tube.nrrd", "tree.lumen", "--seeds", "tube.json", "--quiet")
         for step in (making, adding, changing, replacing, updating, extracting, leaving, refusing, at_once, checking_meanwhile, sharing_the_lock, crates):
             step(place)
+        place.batch.end()
     print(f"{len(failures)} failures")
     return 1 if failures else 0
 

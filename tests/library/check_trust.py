@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks check, sign and verify beyond the faults that they find: passwords, missing programs, remembered results.
 
-check_trust.py LUMEN
+check_trust.py LUMEN BATCH_LUMEN [--passwords]
+
+With --passwords only those are checked, typed at a terminal: minisign takes seconds for each.
 
 Exit status: 0 all held, 1 something did not, 77 minisign or ssh-keygen is missing."""
 import json, os, pathlib, pty, shutil, subprocess, sys, tempfile, termios, time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from batch import Batch
 from made import Maker, read_json
 
 failures = []
@@ -19,8 +23,11 @@ def expect(what, found, expected):
 
 
 def run(maker, *words, **options):
-    result = subprocess.run([maker.program, "library", *map(str, words)], capture_output=True, text=True, timeout=120,
-                            stdin=subprocess.DEVNULL, **options)
+    if not options:
+        result = maker.batch.run(["library", *words], maker.folder)
+    else:
+        result = subprocess.run([maker.program, "library", *map(str, words)], capture_output=True, text=True, timeout=120,
+                                stdin=subprocess.DEVNULL, **options)
     return result.returncode, result.stdout, result.stderr
 
 
@@ -174,23 +181,25 @@ def many_faults(maker, library):
 
 
 def strictness(maker, library):
-    maker.add(library, "d", maker.case("d"), "--consent", "given 1999-12-31")
+    maker.add(library, "d", maker.case("d"), "--picture", "none", "--consent", "given 1999-12-31")
     code, told = answer(maker, "check", library)
     expect("a date", (code, [f["number"] for f in told["faults"]]), (0, [741]))
     expect("a date with --strict", answer(maker, "check", library, "--strict")[0], 3)
 
 
 def main():
-    if len(sys.argv) != 2: sys.exit(__doc__)
+    if len(sys.argv) not in (3, 4): sys.exit(__doc__)
     if missing := [p for p in ("minisign", "ssh-keygen") if not shutil.which(p)]:
         print(f"skipped: {', '.join(missing)} not found (Debian: minisign, openssh-client)")
         sys.exit(77)
     with tempfile.TemporaryDirectory(prefix="lumen-trust-") as folder:
-        maker = Maker(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(folder))
+        maker = Maker(Batch(pathlib.Path(sys.argv[2]).resolve()), pathlib.Path(folder))
+        maker.program = pathlib.Path(sys.argv[1]).resolve()
         maker.make_signed()
-        for check in (passwords, wrong_keys, only_the_signature_is_written, faulty_is_not_signed, remembered, resumed, many_faults,
-                      strictness):
+        usual = (wrong_keys, only_the_signature_is_written, faulty_is_not_signed, remembered, resumed, many_faults, strictness)
+        for check in (passwords,) if "--passwords" in sys.argv else usual:
             check(maker, maker.signed)
+        maker.batch.end()
     print(f"{len(failures)} failures")
     sys.exit(1 if failures else 0)
 

@@ -26,13 +26,13 @@ def ssh_key(folder, name):
 
 
 class Maker:
-    def __init__(self, program, folder):
-        self.program, self.folder = program, folder
+    """`batch`: the Batch that runs lumen."""
+    def __init__(self, batch, folder):
+        self.batch, self.folder = batch, folder
 
     def lumen(self, *arguments):
-        words = [str(a) for a in (self.program, *arguments)]
-        result = subprocess.run(words, capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
-        if result.returncode: raise RuntimeError(f"{' '.join(words)}: {result.returncode}: {result.stdout}{result.stderr}")
+        result = self.batch.run(arguments, self.folder)
+        if result.returncode: raise RuntimeError(f"{' '.join(map(str, arguments))}: {result.returncode}: {result.stdout}{result.stderr}")
         return result.stdout
 
     def case(self, name):
@@ -69,10 +69,10 @@ class Maker:
         self.init(self.signed, "Three tubes")
         self.add(self.signed, "a", self.case("a"), "--export", "steve")
         self.add(self.signed, "b", self.case("b"))
-        self.add(self.signed, "c", self.case("c"))
+        self.add(self.signed, "c", self.case("c"), "--picture", "none")
         self.lumen("library", "sign", self.signed, "--key", self.key)
         shutil.copytree(self.signed, self.older)
-        self.add(self.signed, "c", self.case("e"), "--replace")
+        self.add(self.signed, "c", self.case("e"), "--replace", "--picture", "none")
         for key in (self.key, self.ssh): self.lumen("library", "sign", self.signed, "--key", key)
         self.init(self.another, "Another")
         self.lumen("library", "sign", self.another, "--key", self.key)

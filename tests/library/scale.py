@@ -9,6 +9,8 @@ for temporary files, gone afterwards), and prints wall time, processor time and 
 on from a whole one, and of a verification. A measurement, not a test."""
 import os, pathlib, shutil, sys, tempfile, time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from batch import Program
 from made import Maker
 
 
@@ -28,7 +30,7 @@ def main():
     counts = [int(n) for n in sys.argv[3:]] or [10, 1000, 10000]
     print("| cases | check, s | processor, s | MB at most | --resume, s | verify, s | bytes a case |\n|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory(prefix="lumen-scale-") as name:
-        maker = Maker(lumen, pathlib.Path(name))
+        maker = Maker(Program(lumen), pathlib.Path(name))
         one = maker.folder / "one"
         maker.make_keys()
         maker.init(one, "One")

@@ -3,7 +3,7 @@
 """Runs what `lumen export mujoco` and `lumen export cathsim` write in the official engine (npm: @mujoco/mujoco), and
 asks libblob whether the guidewire stays in the lumen. Exits with 77, saying so, without node, the engine or the Python package lumen.
 
-    check_mujoco.py --lumen LUMEN [--case CASE.lumen --speed M/S]
+    check_mujoco.py --lumen LUMEN [--quick] [--case CASE.lumen --speed M/S]
 
 Without --case: synthetic phantoms, and it fails if
 - the engine refuses a folder, or its sites are not at the ends that lumen-export.json names,
@@ -11,7 +11,7 @@ Without --case: synthetic phantoms, and it fails if
 - a coordinate is not finite, a speed is above 5 (m/s, rad/s), or a link has more than 4 contacts,
 - it stays although the walls are convex hulls: so nothing above would be said by walls that are not there,
 - the guidewire leaves a tube that bends and straightens by keyframes, or is not touched by it.
-With --case: prints the figures of that case.
+--quick runs the first phantom alone, for 3 s. With --case: prints the figures of that case.
 """
 import argparse
 import importlib.util
@@ -26,7 +26,7 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 RADIUS = 0.18  # mm, of the guidewire
-SECONDS = 5
+SECONDS = 5  # with --quick 3
 SUNK = 0.05  # mm: contacts are soft, so that the engine finds them; a wire's axis may be so far out of the lumen
 
 
@@ -237,6 +237,7 @@ def main():
     parser.add_argument("--lumen", required=True)
     parser.add_argument("--case")
     parser.add_argument("--speed", type=float, default=0.004)
+    parser.add_argument("--quick", action="store_true")
     parser.add_argument("--keep", help="a folder for what is written")
     arguments = parser.parse_args()
     if shutil.which("node") is None:
@@ -247,7 +248,11 @@ def main():
         skip("the Python package lumen is not here; PYTHONPATH has its folder, BUILD/packages/python")
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(arguments, arguments.keep or scratch)
-        if arguments.case:
+        if arguments.quick:
+            global SECONDS
+            SECONDS = 3
+            check_phantom(bench, "bifurcation", arguments.speed)
+        elif arguments.case:
             folder, manifest = bench.export("mujoco", arguments.case, "case-mujoco")
             figures(bench, os.path.basename(arguments.case), arguments.case, os.path.join(folder, "scene-joints.xml"),
                     manifest["ends"][0], arguments.speed)

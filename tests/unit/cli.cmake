@@ -1,11 +1,20 @@
-# The executable, from outside.
+# The command line in one process, for tests in C++ and in Python.
+add_library(run_here STATIC ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_here.cpp)
+target_link_libraries(run_here PUBLIC lumen_command_line)
+lumen_compile(run_here)
+add_executable(batch_lumen ${CMAKE_CURRENT_SOURCE_DIR}/cli/batch_lumen.cpp)
+target_link_libraries(batch_lumen PRIVATE run_here nlohmann_json::nlohmann_json)
+lumen_compile(batch_lumen)
+
+# The commands, from outside.
 find_package(PNG REQUIRED)
 lumen_test(cli_test
   LABELS slow
-  SLOW OptionScopeTest.AnOptionThatIsTakenChangesEveryOutputThatItIsFor
-    ExportScopeTest.AnOptionThatATargetTakesChangesItsFolder ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfARealAngiogram
-    CommandScopeTest.AnOptionOfACommandThatReadsVolumesChangesItsAnswer
-  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_base lumen_csv lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
+  NIGHTLY OptionScopeTest.AnOptionThatIsTakenChangesEveryOutputThatItIsFor
+    OptionScopeTest.AnOptionIsRefusedWithEveryInputAndOutputThatItIsNotFor
+    ExportScopeTest.AnOptionThatATargetTakesChangesItsFolder CommandScopeTest.EveryOptionChangesEveryPhantom
+    ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfAPatient ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfARealAngiogram
+  LIBS run_here lumen_options lumen_terminal lumen_case lumen_base lumen_csv lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
@@ -26,7 +35,6 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/motion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/option_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/cli/phantom_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/pushed_tool.cpp
@@ -42,13 +50,14 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/validate_test.cpp)
 target_compile_definitions(cli_test PRIVATE LUMEN_EXECUTABLE="$<TARGET_FILE:lumen>")
 add_dependencies(cli_test lumen)
-# the longest by far: begun first, it does not run alone at the end
+# begun first, the longest does not run alone at the end
 set_tests_properties(cli_test PROPERTIES COST 1000)
 
 # The closed surfaces that it writes, measured with CGAL and filled by TetGen.
 lumen_test(closed_surface_test
   LABELS foreign
-  LIBS lumen_surface_facts lumen_case nlohmann_json::nlohmann_json
+  NIGHTLY Others/PhantomSurfaceTest.* TetgenTest.MeshesTheInsideOfRealVessels
+  LIBS run_here lumen_surface_facts lumen_case nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/closed_surface_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp)
@@ -64,5 +73,11 @@ if(HAS_VTK)
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_vtk_centerline.py $<TARGET_FILE:lumen>)
 endif()
 if(HAS_JSONSCHEMA)
-  python_test(Answers.AreWhatTheirSchemasSay slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_answers.py $<TARGET_FILE:lumen> ${PROJECT_BINARY_DIR})
+  python_test(Answers.AreWhatTheirSchemasSay slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_answers.py $<TARGET_FILE:batch_lumen> ${PROJECT_BINARY_DIR})
 endif()
+
+# Answers to mistakes, as docs/mistakes has them.
+set(mistakes ${CMAKE_CURRENT_SOURCE_DIR}/cli/mistakes/run.py --lumen $<TARGET_FILE:lumen> --batch $<TARGET_FILE:batch_lumen>)
+python_test(Mistakes.AreAnsweredAsDocumented slow ${mistakes} --at-least 100)
+# ninja write_mistakes: builds lumen, and writes what it answers now into docs/mistakes
+add_custom_target(write_mistakes COMMAND ${PYTHON} -B ${mistakes} --fix DEPENDS lumen batch_lumen USES_TERMINAL)

@@ -58,13 +58,15 @@ lumen_test(export_test
 
 # One case through every target, located again by the target's own loader; and cases that are hard to export.
 python_test(Export.OneCaseIsLocatedAgainInEveryFolder foreign
-  ${CMAKE_CURRENT_SOURCE_DIR}/export/landmarks.py $<TARGET_FILE:lumen>)
+  ${CMAKE_CURRENT_SOURCE_DIR}/export/landmarks.py $<TARGET_FILE:batch_lumen>)
 if(TEST Export.OneCaseIsLocatedAgainInEveryFolder)
   set_tests_properties(Export.OneCaseIsLocatedAgainInEveryFolder PROPERTIES
     ENVIRONMENT "PYTHONPATH=${LUMEN_PYTHON_PATH}")
 endif()
-python_test(Export.HardCasesAreWrittenWholeOrRefused slow
-  ${CMAKE_CURRENT_SOURCE_DIR}/export/bad_inputs.py $<TARGET_FILE:lumen>)
+set(bad_inputs ${CMAKE_CURRENT_SOURCE_DIR}/export/bad_inputs.py $<TARGET_FILE:batch_lumen>)
+python_test(Export.CasesWithoutModelsOrVesselsAreWrittenWholeOrRefused slow
+  ${bad_inputs} --cases "without models" "aneurysm only")
+python_test(Export.HardCasesAreWrittenWholeOrRefused nightly ${bad_inputs})
 
 # Arrays by NumPy, the stage by three's USD loader.
 if(HAS_NUMPY)

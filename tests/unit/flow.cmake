@@ -10,7 +10,8 @@ lumen_test(flow_test
 
 # Folders for flow solvers, from outside: by the solvers where they are, else by readers of our own.
 set(flow ${CMAKE_CURRENT_SOURCE_DIR}/flow)
-python_test(Flow.SvZeroDSolverConservesFlow foreign
+python_test(Flow.SvZeroDModelsConserveFlow slow ${flow}/check_svzerod.py $<TARGET_FILE:lumen> --solve)
+python_test(Flow.SvZeroDSolverConservesFlow nightly
   ${flow}/check_svzerod.py $<TARGET_FILE:lumen> ${PROJECT_SOURCE_DIR}/../shared/solvers ${CMAKE_CURRENT_BINARY_DIR}/svzerod)
 python_test(Flow.OpenFoamMeshesAndRuns foreign ${flow}/check_openfoam.py $<TARGET_FILE:lumen>)
 python_test(Flow.OneDimensionalInputsAreBalanced slow ${flow}/check_oned.py $<TARGET_FILE:lumen>)

@@ -6,8 +6,11 @@ lumen_test(mujoco_export_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wire_reach_test.cpp)
 
 # Exports for MuJoCo and CathSim, in the official engine: `npm ci` in tests/mujoco; skipped, saying so, without it.
-python_test(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls foreign
-  ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen>)
-if(TEST MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls)
-  set_tests_properties(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls PROPERTIES ENVIRONMENT "PYTHONPATH=${LUMEN_PYTHON_PATH}")
-endif()
+set(mujoco ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen>)
+python_test(MuJoCoExport.AGuidewireStaysInTheLumen foreign ${mujoco} --quick)
+python_test(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls nightly ${mujoco})
+foreach(name AGuidewireStaysInTheLumen GuidewiresStayInTheLumenAndNotInConvexHulls)
+  if(TEST MuJoCoExport.${name})
+    set_tests_properties(MuJoCoExport.${name} PROPERTIES ENVIRONMENT "PYTHONPATH=${LUMEN_PYTHON_PATH}")
+  endif()
+endforeach()

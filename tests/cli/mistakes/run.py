@@ -2,23 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the commands of docs/mistakes and compares what lumen says with what the pages say.
 
-run.py [--lumen PROGRAM] [--fix] [--at-least N] [PAGE.md ...]
+run.py --lumen PROGRAM --batch BATCH_LUMEN [--fix] [--at-least N] [PAGE.md ...]
 
-Every fenced block "console" holds commands ("$ lumen ..."), each followed by all that it prints and by "exit CODE".
-Each block has a folder of its own, with the files (see fixtures.py) whose names its commands mention; the commands
-are run there by bash, without the rights of a privileged user. Lines of progress ("reading: done in 0.1 s") are left
-out. A command that fails must leave every file as it was and no temporary file behind. --fix writes what the program
-says into the pages, to be read with git diff. Exit status: 0 all as written, 1 not."""
-import argparse, concurrent.futures, ctypes, difflib, hashlib, os, pathlib, re, shutil, subprocess, sys, tempfile
+Every fenced block "console" has entries with blank lines between them: a comment, and commands ("$ lumen ..."), each
+followed by all that it prints and by "exit CODE". Each entry has a folder of its own, with the files (see fixtures.py)
+whose names its commands mention; the commands are run there without the rights of a privileged user, those that need a
+shell by bash. Lines of progress ("reading: done in 0.1 s") are left out. A command that fails must leave every file as it
+was and no temporary file behind. --fix writes what the program says into the pages, to be read with git diff. Exit
+status: 0 all as written, 1 not."""
+import argparse, ctypes, difflib, hashlib, os, pathlib, re, shlex, shutil, subprocess, sys, tempfile
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import fixtures
+from batch import Batch, Run
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-PAGES = ROOT / "docs" / "mistakes"
-LUMEN = ROOT / "build" / "release" / "converters" / "cli" / "lumen"
+PAGES = pathlib.Path(__file__).resolve().parents[3] / "docs" / "mistakes"
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.M | re.S)
 PROGRESS = re.compile(r"^.*: done in [^\n]*\n", re.M)
+OF_A_SHELL = re.compile(r"[|&;<>$`]")
 EXIT_CODES = (0, 1, 2, 3, 4, 130)
 SECONDS = 20
 PR_CAPBSET_DROP, OVERRIDE, READ_SEARCH = 24, 1, 2
@@ -39,99 +41,92 @@ def state(folder):
     return digests
 
 
-def run(command, folder, lumen):
-    """Output of the command, with its exit code as the last line, and the faults of that or of its traces."""
-    before = state(folder)
-    environment = {"PATH": f"{lumen.parent}:/usr/bin:/bin", "HOME": str(folder), "LC_ALL": "C.UTF-8"}
-    try:
-        done = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS, preexec_fn=as_a_user)
-    except subprocess.TimeoutExpired:
-        return "", [f"runs longer than {SECONDS} s"]
-    text = PROGRESS.sub("", done.stdout.decode("utf-8", "backslashreplace"))
-    if text and not text.endswith("\n"):
-        text += "\n"
-    after, faults = state(folder), []
-    if done.returncode not in EXIT_CODES:
-        faults.append(f"ends with {done.returncode}, which is not one of lumen's exit codes")
-    if done.returncode != 0 and after != before:
-        faults.append("fails, but changes " + ", ".join(n for n in after.keys() | before.keys() if after.get(n) != before.get(n)))
-    if any(pathlib.Path(name).name.startswith(".") for name in after):
-        faults.append("leaves a temporary file behind")
-    if re.search(r"0x[0-9a-f]{9,}", text):
-        faults.append("prints an address")
-    if str(folder.parent) in text:
-        faults.append("prints the path of a file that was named without one")
-    return text + f"exit {done.returncode}\n", faults
+class Player:
+    """Commands run in folders below `scratch`."""
+    def __init__(self, lumen, batch, scratch):
+        self.scratch = scratch
+        self.environment = {"PATH": f"{lumen.parent}:/usr/bin:/bin", "HOME": str(scratch), "LC_ALL": "C.UTF-8"}
+        self.batch = Batch(batch, seconds=SECONDS, env=self.environment, preexec_fn=as_a_user)
+        self.store = fixtures.Store(scratch / "fixtures", lambda words, folder: self.batch.run(words, folder, merged=True))
+
+    def ran(self, command, folder):
+        if command.startswith("lumen ") and not OF_A_SHELL.search(command):
+            return self.batch.run(shlex.split(command)[1:], folder, merged=True)
+        words = ["timeout", "-s", "KILL", str(SECONDS), "bash", "-o", "pipefail", "-c", command]
+        done = subprocess.run(words, cwd=folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, preexec_fn=as_a_user)
+        return Run(done.returncode, done.stdout.decode("utf-8", "backslashreplace"), "")
+
+    def run(self, command, folder):
+        """Output of the command, with its exit code as the last line, and the faults of that or of its traces."""
+        before = state(folder)
+        done = self.ran(command, folder)
+        text = PROGRESS.sub("", done.stdout)
+        if text and not text.endswith("\n"): text += "\n"
+        after, faults = state(folder), []
+        if done.returncode not in EXIT_CODES:
+            faults.append(f"ends with {done.returncode} (minus 9: after {SECONDS} s), which is not one of lumen's exit codes")
+        if done.returncode != 0 and after != before:
+            changed = [name for name in after.keys() | before.keys() if after.get(name) != before.get(name)]
+            faults.append("fails, but changes " + ", ".join(changed))
+        if any(pathlib.Path(name).name.startswith(".") for name in after): faults.append("leaves a temporary file behind")
+        if re.search(r"0x[0-9a-f]{9,}", text): faults.append("prints an address")
+        if str(self.scratch) in text: faults.append("prints the path of a file that was named without one")
+        return text + f"exit {done.returncode}\n", [f"$ {command}: {fault}" for fault in faults]
+
+    def play(self, entry):
+        """The entry as the program has it, and the faults that no page can excuse."""
+        lines = entry.splitlines()
+        commands = [line[2:] for line in lines if line.startswith("$ ")]
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.scratch))
+        self.store.copy(" ".join(commands), folder)
+        text, faults = lines[0] + "\n", []
+        for command in commands:
+            said, wrong = self.run(command, folder)
+            text += f"$ {command}\n{said}"
+            faults += wrong
+        return text, faults
 
 
-def commands_of(block):
-    """The lines of a block that are commands."""
-    return [line[2:] for line in block.splitlines() if line.startswith("$ ")]
-
-
-def play(block, folder, lumen, store):
-    """The block as the program has it, and the faults that no page can excuse."""
-    commands = commands_of(block)
-    store.copy(" ".join(commands), folder)
-    text, faults = "", []
-    for command in commands:
-        said, wrong = run(command, folder, lumen)
-        text += f"$ {command}\n{said}"
-        faults += [f"$ {command}: {fault}" for fault in wrong]
-    return text, faults
-
-
-def heading(page, position):
-    """The last heading above a position of a page."""
-    return re.findall(r"^#+ (.*)$", page[:position], re.M)[-1]
-
-
-def check(page, lumen, store, scratch, pool, fix):
-    """Runs one page; gives the number of its entries and prints what is wrong. Returns (entries, faults)."""
-    text = page.read_text()
-    blocks = list(BLOCK.finditer(text))
-    folders = [scratch / f"{page.stem}-{i}" for i in range(len(blocks))]
-    for folder in folders:
-        folder.mkdir()
-    played = list(pool.map(lambda b, f: play(b.group(1), f, lumen, store), blocks, folders))
-    faults, new = 0, text
-    for block, (said, wrong) in reversed(list(zip(blocks, played))):
-        title = f"{page.name}: {heading(text, block.start())}"
-        for fault in wrong:
-            print(f"{title}\n  {fault}")
-        differs = said != block.group(1)
-        if differs and not fix:
-            print(title)
-            lines = difflib.unified_diff(block.group(1).splitlines(), said.splitlines(), "page", "program", lineterm="")
-            print("".join(f"  {line}\n" for line in lines), end="")
-        faults += len(wrong) + (differs and not fix)
-        new = new[:block.start(1)] + said + new[block.end(1):]
-    if fix and new != text:
-        page.write_text(new)
-    return len(blocks), faults
+def check(page, player, fix):
+    """Runs one page and prints what is wrong. Returns (entries, faults)."""
+    old = page.read_text()
+    new, count, faults = old, 0, 0
+    for block in BLOCK.finditer(old):
+        entries = [entry.rstrip("\n") + "\n" for entry in block[1].split("\n\n")]
+        played = [player.play(entry) for entry in entries]
+        for entry, (said, wrong) in zip(entries, played):
+            differs = said != entry and not fix
+            if wrong or differs: print(f"{page.name}: {entry.splitlines()[0]}")
+            print("".join(f"  {fault}\n" for fault in wrong), end="")
+            if differs:
+                lines = difflib.unified_diff(entry.splitlines(), said.splitlines(), "page", "program", lineterm="")
+                print("".join(f"  {line}\n" for line in lines), end="")
+            faults += len(wrong) + differs
+        count += len(entries)
+        new = new.replace(block[1], "\n".join(said for said, _ in played))
+    if fix and new != old: page.write_text(new)
+    return count, faults
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lumen", default=LUMEN, type=pathlib.Path, help="default: that of build/release")
+    parser.add_argument("--lumen", required=True, type=pathlib.Path)
+    parser.add_argument("--batch", required=True, type=pathlib.Path)
     parser.add_argument("--fix", action="store_true")
-    parser.add_argument("--at-least", type=int, default=0, help="fail if the pages have fewer blocks")
+    parser.add_argument("--at-least", type=int, default=0, help="fail if the pages have fewer entries")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
-    pages = options.pages or sorted(PAGES.glob("*.md"))
-    lumen = options.lumen.resolve()
     scratch = pathlib.Path(tempfile.mkdtemp(prefix="lumen-mistakes-"))
-    store = fixtures.Store(scratch / "fixtures", lumen)
     try:
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            results = [check(page, lumen, store, scratch, pool, options.fix) for page in pages]
+        player = Player(options.lumen.resolve(), options.batch.resolve(), scratch)
+        results = [check(page, player, options.fix) for page in options.pages or sorted(PAGES.glob("*.md"))]
+        player.batch.end()
     finally:
         shutil.rmtree(scratch)
     count, faults = (sum(column) for column in zip(*results))
     print(f"{count} mistakes, {faults} of them not as written")
-    if count < options.at_least:
-        print(f"there should be at least {options.at_least}")
+    if count < options.at_least: print(f"there should be at least {options.at_least}")
     return 1 if faults or count < options.at_least else 0
 
 
