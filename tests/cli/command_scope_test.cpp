@@ -86,11 +86,6 @@ const std::vector<Trial> kVolumeTrials = {
       {"point-spread", "0.4"},
       {"smoothing", "0.3"},
       {"repeat", "1"}}},
-    // cylinders are drawn at random only where noise leaves gaps between the others
-    {"seeds",
-     {"noisy.nrrd", "out/s.json"},
-     {},
-     {{"axes", "21"}, {"min-trials", "3"}, {"random-seed", "2"}}},
     {"seeds", {"times.nii", "out/s.json"}, {}, {{"volume-index", "1"}}},
     {"seeds", {"header/tube.nhdr", "out/s.json"}, {}, {{"allow-detached", "."}}},
     {"seeds", {"volume", "out/s.json"}, {}, {{"from", "nrrd"}}},
@@ -354,7 +349,6 @@ protected:
     ScopeTest::SetUp();
     namespace fs = std::filesystem;
     fs::copy_file("tube.nrrd", "volume");
-    make({"phantom", "bifurcation", "noisy.nrrd", "--size", "64", "--noise", "0.25"});
     write("header/vessels-only.scn",
           "<Node name=\"root\"><MeshSTLLoader filename=\"../plain.stl\"/></Node>\n");
     write("about.json", "{\"title\": \"About\", \"description\": \"A tube to try\"}");
