@@ -4,10 +4,8 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,24 +42,6 @@ private:
 /// Bullet could not load (2^31 bytes), Error(Cancelled).
 std::string encodeCdf(const GridSource& source, const Lattice& lattice, double unit,
                       Progress& progress);
-
-// Grids as the bare numbers that lie beside a header of MetaImage (.mhd).
-
-/// The header of a file `raw` beside it, of numbers of `type` ("MET_FLOAT"), x fastest: mm, LPS.
-std::string metaImageHeader(const Lattice& lattice, const std::string& type,
-                            const std::string& raw);
-
-/// The distances times `factor`, little-endian.
-template <class T>
-std::string distanceBytes(const DistanceGrid& grid, double factor) {
-  static_assert(std::endian::native == std::endian::little, "the file has the machine's numbers");
-  std::string bytes(grid.values.size() * sizeof(T), '\0');
-  for (std::size_t i = 0; i < grid.values.size(); ++i) {
-    const T value = static_cast<T>(factor * static_cast<double>(grid.values[i].distance));
-    std::memcpy(bytes.data() + i * sizeof(T), &value, sizeof(T));
-  }
-  return bytes;
-}
 
 // OpenVDB level sets, where the library was there when lumen was built.
 

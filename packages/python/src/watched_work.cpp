@@ -13,7 +13,6 @@
 #include <tbb/global_control.h>
 
 #include "converters/base/message_text.h"
-#include "converters/io/volume/itk_image.h"
 #include "packages/python/src/python_error.h"
 
 namespace py = pybind11;
@@ -137,11 +136,9 @@ std::exception_ptr watchUntilEnd(Worker& worker, WatchedProgress& progress,
 
 Messages runWatched(const Watch& watch, const std::function<void(Progress&)>& work) {
   std::optional<tbb::global_control> control;
-  if (watch.threads > 0) {
+  if (watch.threads > 0)
     control.emplace(tbb::global_control::max_allowed_parallelism,
                     static_cast<std::size_t>(watch.threads));
-    convert::limitItkThreads(watch.threads);
-  }
   WatchedProgress progress(watch.strict);
   Worker worker(progress, work);
   const std::exception_ptr raised = watchUntilEnd(worker, progress, watch.report);
