@@ -31,7 +31,7 @@ endif()
 if(NODE)
   add_executable(ask_blob ${PROJECT_SOURCE_DIR}/viewer/page/people/ask_blob.c)
   target_link_libraries(ask_blob PRIVATE blob)
-  foreach(story axe correct deviation dicom draw_and_save firefox firefox_safety found from_disk gallery geometry hostile_library kept keys missing mistakes motion presets second seeds_kept slabs speed touching two_patients walls work_list)
+  foreach(story axe correct deviation dicom draw_and_save firefox firefox_safety found from_disk gallery geometry hostile_library kept keys missing mistakes motion presets second seeds_kept slabs speed two_patients walls work_list)
     add_test(NAME ViewerPage.People.${story} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/viewer/page/people/run.mjs ${story})
     set_tests_properties(ViewerPage.People.${story} PROPERTIES
       LABELS foreign SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800

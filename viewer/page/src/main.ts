@@ -41,7 +41,6 @@ import { Tools } from "./tools";
 import { TreePanel } from "./tree_panel";
 import { h } from "./ui";
 import { applyLayout, Watcher } from "./watcher";
-import { WireTool } from "./wire_tool";
 import { WorkList } from "./work_list";
 import { workPanel } from "./work_panel";
 
@@ -87,14 +86,13 @@ async function start(root: HTMLElement): Promise<void> {
   shell.scene.append(motionBar(app));
   const hand = new Hand(app);
   const flight = new Flight(app, scene);
-  const wire = new WireTool(app);
   const actions = new Actions(app, scene, slices, flight),
     work = new WorkList(app, actions);
   offerUnsaved(app);
   offerSeries(app);
   if (frame === null) keepView(app);
   else frame.applyView(app.store);
-  const tools = new Tools(app, hand, flight, wire);
+  const tools = new Tools(app, hand, flight);
   for (const slice of slices) listenToSlice(slice, app, tools);
   listenToScene(scene, app, tools);
   makeBar(shell.bar, app, actions);
@@ -107,7 +105,7 @@ async function start(root: HTMLElement): Promise<void> {
     ...workPanel(app, actions, hand, work),
     ...displayPanel(app, actions),
     new MeshLayer(app, scene).panel,
-    ...measurePanel(app, actions, hand, wire),
+    ...measurePanel(app, actions, hand),
     ...caseMeasuresPanel(app),
   );
   new Strip(shell.strip, app, actions, flight);
