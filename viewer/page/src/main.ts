@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page begins here. */
 import { Actions } from "./actions";
-import { assumptionsPanel } from "./assumptions_panel";
 import { makeBar } from "./bar";
 import { caseMeasuresPanel } from "./case_measures_panel";
 import { displayPanel } from "./display_panel";
@@ -25,7 +24,7 @@ import { mayChange, Posing } from "./posing";
 import { offerUnsaved } from "./recover";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
-import { oneSourcePanel } from "./one_source";
+import { assumptionsPanel, oneSourcePanel } from "./one_source";
 import { SceneView } from "./scene_view";
 import { offerSeries } from "./series_dialog";
 import { makeShell, toast, type Shell } from "./shell";
@@ -53,7 +52,7 @@ function makeApp(source: Source, shell: Shell): App {
     stage: new Stage(shell.canvas),
     inform: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
-      if (!mayChange(app, operation.op)) return false;
+      if (!mayChange(app, operation)) return false;
       try {
         await performer.perform(operation);
         return true;

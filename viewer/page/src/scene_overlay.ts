@@ -3,8 +3,7 @@
 import type { OrbitCamera } from "./camera";
 import { toCss } from "./colour";
 import { colourOf, isShown, shownTree, type View } from "./model";
-import { drawProposalsInScene } from "./proposal_lines";
-import { strokeAxis } from "./scene_lines";
+import { drawProposalsInScene, strokeAxis } from "./proposal_lines";
 import { drawMeasurements, drawScaleBar, label } from "./slice_overlay";
 import type { Vec3 } from "./types";
 import { dot } from "./vec";

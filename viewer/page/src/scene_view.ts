@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
-import { clearedContext } from "./overlay_canvas";
+import { clearedContext } from "./slice_overlay";
 import {
   DoubleSide,
   FrontSide,

@@ -114,10 +114,9 @@ export class Tools {
 
   // ---- pointer without a button: the probe
 
-  hover(p: Vec3, slice: SliceView | null, cursor?: number): void {
-    void slice;
+  hover(p: Vec3): void {
     this.schedule(() => {
-      const answer = probe(this.app.store.get(), p, cursor);
+      const answer = probe(this.app.store.get(), p);
       for (const listener of this.listeners) listener(answer);
     });
   }
