@@ -62,7 +62,7 @@ def survive_kill(where):
     expect("valid after a kill", run("validate", kept.name, cwd=where).returncode, 0)
     again = Viewer("tube.lumen", cwd=where)
     expect("offered", [file["name"] for file in again.state()["unsavedBefore"]], ["tube.unsaved.2.lumen", "tube.unsaved.lumen"])
-    again.do(op="recover", index=0)
+    again.do(op="recover", name=kept.name)
     again.wait()
     again.do(op="save")
     code, err, _ = again.end()
@@ -95,7 +95,7 @@ def keep_without_a_file(where):
     expect("nothing in the current folder", os.listdir(empty), [])
     again = Viewer(cwd=where, XDG_STATE_HOME=str(state))
     expect("offered without a file", [file["name"] for file in again.state()["unsavedBefore"]], ["lumen.unsaved.lumen"])
-    again.do(op="forget", index=0)
+    again.do(op="forget", name=kept.name)
     again.end()
     expect("forgotten", kept.exists(), False)
 

@@ -26,15 +26,20 @@ if(NPM AND EXISTS ${PROJECT_SOURCE_DIR}/viewer/page/node_modules/.package-lock.j
   set_tests_properties(ViewerPage.Units ViewerPage.TypesAndStyle PROPERTIES LABELS slow)
 endif()
 
-# As a person would use it: the program, the page and Chromium, by pointer and keys. Each keeps pictures of what it saw. They
-# run alone, as drawing in software takes all cores.
+# As a person would use it: the program, the page and Chromium, by pointer and keys. Each has a server, a port and a profile of its
+# own, and keeps pictures of what it saw. Those of the night are long, or repeat in another browser what the others find.
 if(NODE)
   add_executable(ask_blob ${PROJECT_SOURCE_DIR}/viewer/page/people/ask_blob.c)
   target_link_libraries(ask_blob PRIVATE blob)
-  foreach(story axe correct deviation dicom draw_and_save firefox firefox_safety found from_disk gallery geometry hostile_library kept keys missing mistakes motion presets second seeds_kept slabs speed touching two_patients walls work_list)
+  set(LUMEN_STORIES checked found_and_corrected from_disk keys_and_axe recovered slices)
+  set(LUMEN_NIGHT_STORIES corrections dicom firefox gallery)
+  foreach(story ${LUMEN_STORIES} ${LUMEN_NIGHT_STORIES})
     add_test(NAME ViewerPage.People.${story} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/viewer/page/people/run.mjs ${story})
     set_tests_properties(ViewerPage.People.${story} PROPERTIES
-      LABELS foreign SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800
+      LABELS foreign SKIP_RETURN_CODE 77 PROCESSORS 1 TIMEOUT 900
       ENVIRONMENT "LUMEN=$<TARGET_FILE:lumen>;LUMEN_ASK_BLOB=$<TARGET_FILE:ask_blob>;LUMEN_PICTURES=${CMAKE_BINARY_DIR}/people")
+  endforeach()
+  foreach(story ${LUMEN_NIGHT_STORIES})
+    set_tests_properties(ViewerPage.People.${story} PROPERTIES LABELS "foreign;nightly")
   endforeach()
 endif()

@@ -57,14 +57,20 @@ void FileOperations::open(const Opening& opening, Progress& progress) {
   const Moment before = m_workspace.history.now();
   Document document = withFile(before.document, opening, m_workspace.nextFile(),
                                m_workspace.options.volume, progress);
-  if (document.value != before.document.value)
-    m_workspace.saving.holdCase(document);
-  else if (document.seeds != before.document.seeds)
-    m_workspace.saving.holdSeeds(document.seeds);
+  const auto hold = [this, &before](const Document& opened) {
+    if (opened.value != before.document.value)
+      m_workspace.saving.holdCase(opened);
+    else if (opened.seeds != before.document.seeds)
+      m_workspace.saving.holdSeeds(opened.seeds);
+  };
   if (opening.dropped)
-    return m_workspace.commit("open " + opening.label, before, std::move(document));
-  // the files that the user began with cannot be undone
-  m_workspace.history.begin(std::move(document));
+    return m_workspace.commit("open " + opening.label, before, std::move(document), hold);
+  {
+    const std::lock_guard swap(m_workspace.swapping);
+    hold(document);
+    // the files that the user began with cannot be undone
+    m_workspace.history.begin(std::move(document));
+  }
   m_workspace.announce();
 }
 
@@ -152,6 +158,7 @@ std::string FileOperations::openListed(std::size_t index, Progress& progress) {
       withFile({}, {file, name}, m_workspace.nextFile(), m_workspace.options.volume, progress);
   progress.check();
   const auto kept = m_workspace.keepUnsaved();  // nothing can be undone afterwards
+  const std::lock_guard swap(m_workspace.swapping);
   m_workspace.saving.holdCase(document);
   m_workspace.saving.holdSeeds(nullptr);
   m_workspace.findings.clear();
@@ -192,10 +199,12 @@ void FileOperations::reloadFile(const OpenFile& file, const Moment& from, Progre
   const Document before =
       file.role == FileRole::Mesh ? withoutFile(from.document, file.id) : from.document;
   Document document = withFile(before, opening, id, m_workspace.options.volume, progress);
-  if (file.role == FileRole::Case) m_workspace.saving.holdCase(document);
-  if (file.role == FileRole::Seeds) m_workspace.saving.holdSeeds(document.seeds);
-  m_workspace.saving.acceptTarget(file.path);
-  m_workspace.commit("read " + file.label + " again", from, std::move(document));
+  m_workspace.commit("read " + file.label + " again", from, std::move(document),
+                     [this, &file](const Document& read) {
+                       if (file.role == FileRole::Case) m_workspace.saving.holdCase(read);
+                       if (file.role == FileRole::Seeds) m_workspace.saving.holdSeeds(read.seeds);
+                       m_workspace.saving.acceptTarget(file.path);
+                     });
   if (m_workspace.changedFiles.look(m_workspace.history.now().document))
     m_workspace.announceState();
 }
@@ -208,8 +217,14 @@ Json FileOperations::close(const Arguments& request, const Moment& from) {
 
 Json FileOperations::save(const Arguments& request, const Moment& from) {
   Document document = from.document;
-  const fs::path file = m_workspace.saving.save(document, request.flag("force"));
-  m_workspace.history.restamp(document.files);
+  fs::path file;
+  {
+    // a job may have put another document with another file in its place meanwhile
+    const std::lock_guard swap(m_workspace.swapping);
+    m_workspace.requireNow(from);
+    file = m_workspace.saving.save(document, request.flag("force"));
+    m_workspace.history.restamp(document.files);
+  }
   m_workspace.keepUnsaved();
   const std::size_t waiting = waitingSeeds(document).size();
   m_workspace.sendMessage(
@@ -221,8 +236,10 @@ Json FileOperations::save(const Arguments& request, const Moment& from) {
 }
 
 fs::path FileOperations::foundCopy(const Arguments& request) const {
-  const auto found = m_workspace.unsavedWork.found();
-  return found[request.index("index", found.size())];
+  const std::string name = request.text("name");
+  for (const fs::path& file : m_workspace.unsavedWork.found())
+    if (nameOf(file) == name) return file;
+  throw Conflict(formats::printable(name) + " is not among the unsaved work any more");
 }
 
 Json FileOperations::recover(const Arguments& request, const Moment& from) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "viewer/session/conflict.h"
 #include "viewer/session/events.h"
 
 namespace lumen::viewer {
@@ -12,6 +13,7 @@ void Findings::setCheck(Json answer, std::vector<WorkItem> work,
                         std::shared_ptr<const formats::Case> of) {
   const std::lock_guard lock(m_mutex);
   m_check = std::move(answer);
+  m_firstWork += m_work.size();
   m_work = std::move(work);
   m_worked = nullptr;
   m_checked = std::move(of);
@@ -37,6 +39,7 @@ void Findings::setMeasures(std::string name, std::vector<convert::MeasureTable> 
 void Findings::clear() {
   const std::lock_guard lock(m_mutex);
   m_check = m_figures = nullptr;
+  m_firstWork += m_work.size();
   m_work.clear();
   m_measures = {};
   m_tables = {};
@@ -52,7 +55,7 @@ Json Findings::work(const Document& document) const {
   const std::lock_guard lock(m_mutex);
   if (!m_check.is_object() || !document.value) return nullptr;
   if (m_worked != document.value) {
-    m_workJson = workJson(m_work, *document.value);
+    m_workJson = workJson(m_work, m_firstWork, *document.value);
     m_worked = document.value;
   }
   return m_workJson;
@@ -60,8 +63,9 @@ Json Findings::work(const Document& document) const {
 
 WorkItem Findings::workItem(std::size_t number) const {
   const std::lock_guard lock(m_mutex);
-  if (number >= m_work.size()) refuse("the check has no place with that number");
-  return m_work[number];
+  if (number < m_firstWork) throw Conflict("the case was checked again meanwhile; look, and try again");
+  if (number - m_firstWork >= m_work.size()) refuse("the check has no place with that number");
+  return m_work[number - m_firstWork];
 }
 
 bool Findings::isCheckOld(const Document& document) const {

@@ -32,7 +32,8 @@ public:
   /// The places that the last check leaves to a person in the case of `document` (workJson()). Null
   /// without a check or a case.
   [[nodiscard]] Json work(const Document& document) const;
-  /// The item of the last check with that number. Throws Error(Usage) if there is none.
+  /// The item of the last check with that number, which no item of another check has. Throws Error(Usage)
+  /// if there is none, and Conflict for one of an earlier check.
   [[nodiscard]] WorkItem workItem(std::size_t number) const;
   /// Whether the check was about another case than that of `document`.
   [[nodiscard]] bool isCheckOld(const Document& document) const;
@@ -51,6 +52,7 @@ private:
   mutable std::mutex m_mutex;  ///< guards all that follow
   Json m_check, m_figures;
   std::vector<WorkItem> m_work;
+  std::size_t m_firstWork = 0;  ///< number of the first item
   Tagged m_measures;
   convert::MeasuredCase m_tables;
   std::uint64_t m_measurings = 0;

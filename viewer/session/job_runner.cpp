@@ -90,14 +90,14 @@ int JobRunner::start(const std::string& name, bool changes, Work work) {
     const std::lock_guard lock(m_mutex);
     if (m_running) throw busyWith(*m_running);
     job = ++m_last;
-    m_running = RunningJob{job, name, changes};
     m_progress = std::make_unique<JobProgress>(m_events, job, m_text);
+    m_running = RunningJob{job, name, changes};
     ended = std::move(m_thread);
   }
   // without the lock, which the last words of the ended job may need
   if (ended.joinable()) ended.join();
-  m_changed();
   try {
+    m_changed();
     const std::lock_guard lock(m_mutex);
     m_thread = std::thread(
         [this, job, work = std::move(work), &progress = *m_progress] { run(job, work, progress); });
@@ -136,8 +136,12 @@ void JobRunner::run(int job, const Work& work, Progress& progress) {
     done["text"] = m_text(std::string("unexpected: ") + error.what());
   }
   end();
-  m_events.send("done", done);
-  m_changed();
+  try {
+    m_events.send("done", done);
+    m_changed();
+  } catch (const std::exception&) {
+    // without the memory for a message there is none; pages ask for the state again
+  }
 }
 
 bool JobRunner::cancel(int job) {

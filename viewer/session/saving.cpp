@@ -74,7 +74,6 @@ UnsavedParts Saving::unsaved(const Document& document) const {
 }
 
 fs::path Saving::checkedTarget(const Document& document, bool force) const {
-  const std::lock_guard lock(m_mutex);
   const fs::path file = lockedTarget(document);
   if (!file.empty() && readFileStamp(file) != m_stamp && !force)
     throw Conflict(file.filename().string() +
@@ -86,7 +85,6 @@ fs::path Saving::checkedTarget(const Document& document, bool force) const {
 
 void Saving::saveSeeds(const Document& document) {
   const OpenFile* file = document.fileOf(FileRole::Seeds);
-  const std::lock_guard lock(m_mutex);
   if (file == nullptr || file->path.empty() || document.seeds == m_seeds) return;
   Seeds seeds = *document.seeds;
   convert::dropOtherParents(seeds);
@@ -96,6 +94,7 @@ void Saving::saveSeeds(const Document& document) {
 }
 
 fs::path Saving::save(Document& document, bool force) {
+  const std::lock_guard lock(m_mutex);
   const fs::path file = checkedTarget(document, force);
   Progress silent;
   engine::caseOutputFormat(file, "", "the saved case")
@@ -104,7 +103,6 @@ fs::path Saving::save(Document& document, bool force) {
   for (OpenFile& open : document.files)
     if ((open.role == FileRole::Case || open.role == FileRole::Seeds) && !open.path.empty())
       open.stamp = readFileStamp(open.path);
-  const std::lock_guard lock(m_mutex);
   m_case = document.value;
   m_caseSeeds = document.seeds;
   m_stamp = readFileStamp(file);

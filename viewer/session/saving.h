@@ -45,14 +45,13 @@ public:
   [[nodiscard]] std::filesystem::path place(const Document& document) const;
   [[nodiscard]] UnsavedParts unsaved(const Document& document) const;
   /// Writes the case, with all seeds, into the target, and changed seeds into their own file if they
-  /// have one; returns the target and
-  /// gives these files of `document` their new stamps. Throws Conflict if another program has
-  /// changed the target, unless `force`; Error(Usage) if there is no case or no target. One call at
-  /// a time.
+  /// have one; returns the target and gives these files of `document` their new stamps. Other calls
+  /// wait for its end. Throws Conflict if another program has changed the target, unless `force`;
+  /// Error(Usage) if there is no case or no target.
   std::filesystem::path save(Document& document, bool force);
 
 private:
-  /// Call it with the mutex held.
+  // Call these with the mutex held.
   [[nodiscard]] std::filesystem::path lockedTarget(const Document& document) const;
   /// Writes changed seeds into their file, if they have one.
   void saveSeeds(const Document& document);

@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "formats/container/printable.h"
+#include "viewer/session/conflict.h"
 #include "viewer/session/pack.h"
 
 namespace lumen::viewer {
@@ -85,6 +86,8 @@ void SeriesChoice::clear() {
 
 Opening SeriesChoice::opening(const Arguments& request, const char* name) const {
   const std::lock_guard lock(m_mutex);
+  if (request.whole("of") != static_cast<std::int64_t>(m_revision))
+    throw Conflict("another folder is listed meanwhile; look, and choose again");
   const std::uint32_t index = request.index(name, m_listing.series.size());
   const convert::DicomSeries& series = m_listing.series[index];
   Opening opening{m_folder.path, seriesLabel(series, index)};

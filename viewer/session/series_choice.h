@@ -43,7 +43,8 @@ public:
   /// Pages choose among these from now on.
   void offer(SeriesFolder folder, convert::DicomListing listing);
   void clear();
-  /// How to open a series of the listing. Throws Error(Usage) if there is none.
+  /// How to open a series of the listing whose revision is `of` in the request. Throws Error(Usage) if
+  /// there is none, and Conflict if the listing is another one.
   [[nodiscard]] Opening opening(const Arguments& request, const char* name) const;
 
   /// The listing as the state has it (viewer/README.md); null if there is none.

@@ -204,14 +204,14 @@ std::vector<WorkItem> listWork(const formats::Case& value, const convert::CheckR
   return list.take();
 }
 
-Json workJson(const std::vector<WorkItem>& items, const formats::Case& value) {
+Json workJson(const std::vector<WorkItem>& items, std::size_t firstId, const formats::Case& value) {
   const std::vector<IgnoredPlace> ignored = listIgnored(value.metadata);
   Json left = Json::array(), set = Json::array();
   for (std::size_t i = 0; i < items.size(); ++i) {
     const WorkItem& item = items[i];
     const std::uint32_t node = nearestNode(value.tree, item.position);
     if (!isLeft(item, value.tree, node) || isIgnored(item, ignored)) continue;
-    left.push_back({{"id", i},
+    left.push_back({{"id", firstId + i},
                     {"kind", kindName(item.kind)},
                     {"position", positionJson(item.position)},
                     {"node", node},

@@ -48,8 +48,9 @@ std::vector<WorkItem> listWork(const formats::Case& value, const convert::CheckR
 /// {"items": [{"id", "kind", "position", "node", "branch", "about", "missing"}], "found": their number at the
 /// check, "ignored": [{"kind", "position", "reason"}]}. Items are those that the case has not answered since:
 /// nothing runs through a missing vessel, and of the others a node is still there (and is an end, or a root, as
-/// it was). Those that the case ignores are left out. `node` and `branch` are of the case as it is now.
-Json workJson(const std::vector<WorkItem>& items, const formats::Case& value);
+/// it was). Those that the case ignores are left out. `node` and `branch` are of the case as it is now. The
+/// items' numbers begin with `firstId`.
+Json workJson(const std::vector<WorkItem>& items, std::size_t firstId, const formats::Case& value);
 
 /// The document whose case records that an item is ignored, and why. Throws Error(Usage) without a reason.
 Document withIgnored(const Document& document, const WorkItem& item, const std::string& reason);

@@ -75,8 +75,18 @@ Moment Workspace::momentFor(const Arguments& request) const {
   return now;
 }
 
-void Workspace::commit(const std::string& name, const Moment& from, Document document) {
-  if (!history.commit(name, from.revision, std::move(document))) throw hasChanged();
+void Workspace::requireNow(const Moment& from) const {
+  if (history.now().revision != from.revision) throw hasChanged();
+}
+
+void Workspace::commit(const std::string& name, const Moment& from, Document document,
+                       const std::function<void(const Document&)>& hold) {
+  {
+    const std::lock_guard swap(swapping);
+    const Document now = document;
+    if (!history.commit(name, from.revision, std::move(document))) throw hasChanged();
+    if (hold) hold(now);
+  }
   announce();
 }
 

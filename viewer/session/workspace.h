@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -53,7 +54,11 @@ struct Workspace {
   /// The document as the page saw it. Throws Conflict if it has changed since.
   [[nodiscard]] Moment momentFor(const Arguments& request) const;
   /// Throws Conflict if the document has changed since `from`.
-  void commit(const std::string& name, const Moment& from, Document document);
+  void requireNow(const Moment& from) const;
+  /// The same; `hold` is handed the document once it is the present one, and notes what files hold
+  /// of it.
+  void commit(const std::string& name, const Moment& from, Document document,
+              const std::function<void(const Document&)>& hold = {});
   Json startJob(const std::string& name, bool changes, JobRunner::Work work);
   [[nodiscard]] Json revision() const { return {{"revision", history.now().revision}}; }
 
@@ -66,6 +71,9 @@ struct Workspace {
   std::vector<std::string> findUnsaved();
 
   const SessionOptions options;
+  /// Held while the document and what `saving` knows of it change together, and while it is saved;
+  /// the parts' own mutexes are taken within it.
+  std::mutex swapping;
   EventHub events;
   History history;
   DroppedFiles dropped;

@@ -196,6 +196,23 @@ TEST(Jobs, OneOfManyThreadsStartsItsJobWithItsOwnKind) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST(Jobs, AnExceptionBeforeOrAfterTheWorkLeavesTheRunnerFree) {
+  viewer::EventHub events;
+  std::atomic<int> calls{0};
+  viewer::JobRunner jobs(
+      events, [](std::string_view text) { return std::string(text); },
+      [&calls] {
+        if (++calls <= 1 || calls == 3) throw std::bad_alloc();
+      });
+  const auto nothing = [](Progress&) { return std::string(); };
+  EXPECT_THROW(jobs.start("first", true, nothing), std::bad_alloc);
+  EXPECT_FALSE(jobs.running());
+  jobs.start("second", true, nothing);  // whose end cannot be announced
+  jobs.wait();
+  EXPECT_NO_THROW(jobs.start("third", true, nothing));
+  jobs.wait();
+}
+
 TEST(Jobs, AConflictEndsAJobWithItsOwnSentence) {
   viewer::EventHub events;
   const auto listener = events.listen();

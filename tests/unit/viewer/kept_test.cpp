@@ -3,6 +3,8 @@
 #include "converters/base/error.h"
 #include "converters/library/library_file.h"
 #include "served.h"
+#include "viewer/session/conflict.h"
+#include "viewer/session/file_operations.h"
 
 namespace lumen::test {
 
@@ -176,6 +178,70 @@ TEST_F(ReloadTest, WhatHasBecomeAnotherKindOfFileIsNotTakenForTheOldOne) {
   EXPECT_EQ(perform({{"op", "reload"}, {"id", 77}}).status, 400);
 }
 
+/// A workspace with an open case, without a server.
+class SavingTest : public ServedTest {
+protected:
+  void SetUp() override {
+    writeCase("two.lumen", twoVessels());
+    open("two.lumen");
+    workspace.saving.saveTo(path("two.lumen"));
+  }
+  void open(const std::string& name) {
+    Progress silent;
+    files.open({path(name), name}, silent);
+  }
+  /// What `reload` of the first open file does for a page that saw `seen`.
+  void reload(const viewer::Moment& seen) {
+    const Json request = {{"op", "reload"}, {"id", seen.document.files[0].id}};
+    const formats::JsonDocument parsed = viewer::parseRequest(request.dump(), 1000);
+    files.reload(viewer::Arguments(parsed.root()), seen);
+    workspace.jobs.wait();
+  }
+  fs::path save(const viewer::Moment& seen) {
+    viewer::Document document = seen.document;
+    return workspace.saving.save(document, false);
+  }
+
+  viewer::Workspace workspace{viewer::SessionOptions{}};
+  viewer::FileOperations files{workspace};
+};
+
+TEST_F(SavingTest, AReloadThatComesTooLateChangesNothingOfWhatIsSaved) {
+  const viewer::Moment seen = workspace.history.now();
+  write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  open("wall.obj");
+  writeCase("two.lumen", named("from elsewhere"));
+  reload(seen);
+  EXPECT_FALSE(workspace.hasUnsaved()) << "the case is that of its file as it was read";
+  EXPECT_THROW(save(workspace.history.now()), viewer::Conflict) << "which has changed since";
+}
+
+TEST_F(SavingTest, ADocumentThatAnotherHasReplacedIsNotSavedIntoTheFileOfThat) {
+  writeCase("other.lumen", named("other"));
+  const viewer::Moment seen = workspace.history.now();
+  open("other.lumen");
+  workspace.saving.saveTo(path("other.lumen"));
+  const Json request = {{"op", "save"}};
+  const formats::JsonDocument parsed = viewer::parseRequest(request.dump(), 1000);
+  EXPECT_THROW(files.save(viewer::Arguments(parsed.root()), seen), viewer::Conflict);
+  EXPECT_EQ(formats::readCaseFile(path("other.lumen"))->tree.branches[0].label, "other");
+}
+
+TEST_F(SavingTest, ATargetThatComesWhileAnotherIsWrittenKeepsItsOwnStamp) {
+  writeCase("other.lumen", twoVessels());
+  const viewer::Moment now = workspace.history.now();
+  for (int k = 0; k < 100; ++k) {
+    workspace.saving.saveTo(path("two.lumen"));
+    std::thread other([this, k] {
+      std::this_thread::sleep_for(std::chrono::microseconds(20 * k));
+      workspace.saving.saveTo(path("other.lumen"));
+    });
+    save(now);
+    other.join();
+    ASSERT_NO_THROW(save(now)) << "after " << 20 * k << " us";
+  }
+}
+
 TEST_F(UnsavedTest, IsWrittenBesideTheFileAndRemovedWhenItIsSaved) {
   writeCase("two.lumen", twoVessels());
   serve({"two.lumen"});
@@ -213,15 +279,28 @@ TEST_F(UnsavedTest, OfAnEarlierProgramIsOfferedAndNeverOverwritten) {
   EXPECT_NEAR(static_cast<double>(now - before[0]["written"].get<std::int64_t>()), 0, 60000);
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
   EXPECT_EQ(session->keepUnsaved(), std::vector{path("two.unsaved.2.lumen").string()});
-  performAll({{"op", "recover"}, {"index", 0}});
+  performAll({{"op", "recover"}, {"name", "two.unsaved.lumen"}});
   EXPECT_EQ(ReadPack(get("case").body).json["branches"][0]["label"], "before the end");
   EXPECT_EQ(state()["saveAs"], "two.lumen");
   EXPECT_EQ(state()["unsaved"], true);
   ASSERT_EQ(perform({{"op", "save"}}).status, 200);
   EXPECT_EQ(formats::readCaseFile(path("two.lumen"))->tree.branches[0].label, "before the end");
-  ASSERT_EQ(perform({{"op", "forget"}, {"index", 0}}).status, 200);
+  ASSERT_EQ(perform({{"op", "forget"}, {"name", "two.unsaved.lumen"}}).status, 200);
   EXPECT_FALSE(fs::exists(path("two.unsaved.lumen")));
-  EXPECT_EQ(perform({{"op", "forget"}, {"index", 0}}).status, 400);
+}
+
+TEST_F(UnsavedTest, NoOtherCopyIsTakenForOneThatAnotherPageHasDeleted) {
+  writeCase("two.lumen", twoVessels());
+  writeCase("two.unsaved.lumen", named("first"));
+  writeCase("two.unsaved.2.lumen", named("second"));
+  serve({"two.lumen"});
+  session->findUnsaved();
+  ASSERT_EQ(perform({{"op", "forget"}, {"name", "two.unsaved.2.lumen"}}).status, 200);
+  EXPECT_EQ(perform({{"op", "forget"}, {"name", "two.unsaved.2.lumen"}}).status, 409);
+  EXPECT_EQ(perform({{"op", "recover"}, {"name", "two.unsaved.2.lumen"}}).status, 409);
+  EXPECT_EQ(perform({{"op", "forget"}, {"name", "two.lumen"}}).status, 409);
+  EXPECT_TRUE(fs::exists(path("two.unsaved.lumen")));
+  EXPECT_TRUE(fs::exists(path("two.lumen")));
 }
 
 TEST_F(UnsavedTest, OfADocumentWithoutAFileIsKeptAtThePlaceForIt) {
@@ -243,7 +322,7 @@ TEST_F(UnsavedTest, OfADocumentWithoutAFileIsKeptAtThePlaceForIt) {
   session = std::make_unique<viewer::Session>(options);
   serveSession();
   ASSERT_EQ(session->findUnsaved(), std::vector{kept.string()});
-  performAll({{"op", "recover"}, {"index", 0}});
+  performAll({{"op", "recover"}, {"name", "lumen.unsaved.lumen"}});
   EXPECT_EQ(ReadPack(get("case").body).json["branches"][1]["label"], "mine");
 }
 
@@ -277,7 +356,7 @@ TEST_F(UnsavedTest, SeedsAreKeptBesideTheirVolume) {
   ASSERT_EQ(session->keepUnsaved(), std::vector{path("tube.unsaved.seeds.json").string()});
   serve({"tube.nrrd"});
   ASSERT_EQ(session->findUnsaved().size(), 1U);
-  performAll({{"op", "recover"}, {"index", 0}});
+  performAll({{"op", "recover"}, {"name", "tube.unsaved.seeds.json"}});
   EXPECT_EQ(state()["seeds"][0]["label"], "a");
 }
 
@@ -322,7 +401,7 @@ TEST_F(WaitingSeedTest, IsKeptWithUnsavedWorkAndRecovered) {
   serve({"tube.nrrd", "two.lumen"});
   EXPECT_EQ(state()["seeds"].size(), 0U);
   ASSERT_EQ(session->findUnsaved(), m_kept);
-  performAll({{"op", "recover"}, {"index", 0}});
+  performAll({{"op", "recover"}, {"name", "two.unsaved.lumen"}});
   expectItWaits();
   EXPECT_EQ(state()["unsaved"], true);
 }

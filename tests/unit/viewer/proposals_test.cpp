@@ -242,8 +242,8 @@ TEST_F(ProposalsTest, OnesThatWaitAreKeptBesideTheFileAndTakenAgain) {
                                                  path("tree.unsaved.proposals.lumen").string()}));
   serve({"tree.nrrd"});
   ASSERT_EQ(session->findUnsaved().size(), 2U);
-  performAll({{"op", "recover"}, {"index", 0}});
-  performAll({{"op", "recover"}, {"index", 1}});
+  performAll({{"op", "recover"}, {"name", "tree.unsaved.lumen"}});
+  performAll({{"op", "recover"}, {"name", "tree.unsaved.proposals.lumen"}});
   EXPECT_EQ(branches().size(), 1U);
   EXPECT_EQ(proposals(), waiting);
   performAll({{"op", "accept"}});
@@ -251,7 +251,7 @@ TEST_F(ProposalsTest, OnesThatWaitAreKeptBesideTheFileAndTakenAgain) {
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
   ASSERT_EQ(perform({{"op", "reject"}}).status, 200);
   session->keepUnsaved();
-  EXPECT_EQ(perform({{"op", "forget"}, {"index", 1}}).status, 200);
+  EXPECT_EQ(perform({{"op", "forget"}, {"name", "tree.unsaved.proposals.lumen"}}).status, 200);
   EXPECT_FALSE(fs::exists(path("tree.unsaved.proposals.lumen")));
 }
 

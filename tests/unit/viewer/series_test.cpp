@@ -25,6 +25,10 @@ protected:
   [[nodiscard]] int send(int batch, const std::string& name, const std::string& bytes) const {
     return post("seriesFile?batch=" + std::to_string(batch) + "&name=" + name, bytes).status;
   }
+  /// Opens a series of the list that the state has.
+  [[nodiscard]] Json request(int series) const {
+    return {{"op", "openSeries"}, {"series", series}, {"of", state()["revisions"]["series"]}};
+  }
   void sendAll(int batch, const std::vector<std::string>& files) const {
     for (std::size_t n = 0; n < files.size(); ++n)
       ASSERT_EQ(send(batch, "IM" + std::to_string(n), files[n]), 200);
@@ -57,18 +61,32 @@ TEST_F(SeriesTest, DroppedFilesAreListedAndOneSeriesIsOpened) {
   EXPECT_EQ(picture.array<std::uint8_t>("pixel").back(), 255);
   EXPECT_EQ(get("seriesPicture?series=2").status, 404);
 
-  EXPECT_EQ(perform({{"op", "openSeries"}, {"series", 2}}).status, 400);
-  performAll({{"op", "openSeries"}, {"series", 1}});
+  EXPECT_EQ(perform(request(2)).status, 400);
+  performAll(request(1));
   EXPECT_EQ(state()["title"], "Mask");
   EXPECT_EQ(ReadPack(get("volume").body).json["size"], (Json{4, 3, 4}));
   EXPECT_EQ(state()["assumptions"].dump().find("broken"), std::string::npos);
-  performAll({{"op", "openSeries"}, {"series", 0}});  // the files are still there
+  performAll(request(0));  // the files are still there
   EXPECT_EQ(state()["title"], "Angio");
   EXPECT_NE(state()["assumptions"].dump().find("broken"), std::string::npos);  // of this series
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
   EXPECT_EQ(state()["title"], "Mask");
   ASSERT_EQ(perform({{"op", "closeSeries"}}).status, 200);
   EXPECT_TRUE(state()["series"].is_null());
+}
+
+TEST_F(SeriesTest, ANumberInAListIsNoSeriesOfTheListThatHasReplacedIt) {
+  serve({});
+  sendAll(7, slices("1.2.1", "Angio"));
+  sendAll(7, slices("1.2.2", "Mask"));
+  performAll({{"op", "listSeries"}, {"batch", 7}});
+  const Json seen = request(0);
+  sendAll(9, slices("1.2.3", "Other"));
+  sendAll(9, slices("1.2.4", "Fourth"));
+  performAll({{"op", "listSeries"}, {"batch", 9}});
+  EXPECT_EQ(perform(seen).status, 409);
+  performAll(request(0));
+  EXPECT_EQ(state()["title"], "Other");
 }
 
 TEST_F(SeriesTest, TheOnlySeriesIsOpenedAtOnce) {
@@ -114,7 +132,7 @@ TEST_F(SeriesTest, AFolderOfSeveralSeriesIsOffered) {
   ASSERT_TRUE(session->offerSeries(path("head"), silent));
   serveSession();
   EXPECT_EQ(state()["series"]["folder"], "head");
-  performAll({{"op", "openSeries"}, {"series", 1}});
+  performAll(request(1));
   EXPECT_EQ(state()["title"], "1.2.2");
   EXPECT_TRUE(state()["files"][0]["named"]);
   const int id = state()["files"][0]["id"];

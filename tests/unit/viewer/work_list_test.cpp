@@ -101,6 +101,13 @@ TEST_F(WorkListTest, AnEndIsTrackedOnFromItsPlaceAsOneChange) {
   EXPECT_EQ(state()["seeds"].size(), 0U);
 }
 
+TEST_F(WorkListTest, ANumberOfAnEarlierCheckNamesNoPlaceOfALaterOne) {
+  const Json seen = work()["items"][0]["id"];
+  performAll({{"op", "check"}});
+  EXPECT_EQ(perform({{"op", "ignore"}, {"item", seen}, {"reason", "a vein"}}).status, 409);
+  EXPECT_EQ(work()["ignored"], Json::array());
+}
+
 TEST_F(WorkListTest, AnIgnoredPlaceIsInTheCaseWithItsReason) {
   const Json before = work();
   const Json loose = firstOf(before, "loose");

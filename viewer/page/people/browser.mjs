@@ -45,7 +45,7 @@ export async function startBrowser(t) {
 /** A page whose mistakes fail the test at its end: what it throws, what its policy refuses, what it warns of. */
 export async function openPage(t, browser, address, { prepare = () => undefined, ...options } = {}) {
   const context = await browser.newContext({
-    viewport: { width: 1280, height: 800 },
+    viewport: { width: 1100, height: 720 }, // the less, the less is drawn by the processor
     colorScheme: "dark",
     acceptDownloads: true,
     ...options,
@@ -102,24 +102,18 @@ export async function picture(page, name) {
 export async function pixels(page, selector) {
   await frames(page, 3);
   const png = await page.locator(selector).screenshot({ timeout: kPatience });
-  const blank = await page.context().browser().newPage();
-  try {
-    const { width, height, data } = await blank.evaluate(async text => {
-      const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0)),
-        bitmap = await createImageBitmap(new Blob([bytes]));
-      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height),
-        context = canvas.getContext("2d");
-      context.drawImage(bitmap, 0, 0);
-      const rgba = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
-      let binary = "";
-      for (let i = 0; i < rgba.length; i += 8192)
-        binary += String.fromCharCode(...rgba.subarray(i, i + 8192));
-      return { width: bitmap.width, height: bitmap.height, data: btoa(binary) };
-    }, png.toString("base64"));
-    return { width, height, data: Buffer.from(data, "base64") };
-  } finally {
-    await blank.close();
-  }
+  const { width, height, data } = await page.evaluate(async text => {
+    const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0)),
+      bitmap = await createImageBitmap(new Blob([bytes]));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height),
+      context = canvas.getContext("2d");
+    context.drawImage(bitmap, 0, 0);
+    const rgba = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+    let binary = "";
+    for (let i = 0; i < rgba.length; i += 8192) binary += String.fromCharCode(...rgba.subarray(i, i + 8192));
+    return { width: bitmap.width, height: bitmap.height, data: btoa(binary) };
+  }, png.toString("base64"));
+  return { width, height, data: Buffer.from(data, "base64") };
 }
 
 /** Pixels for which `is(r, g, b)` holds: how many, and the one nearest their middle. */

@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page in Firefox: opening, probing, a cut with views that follow, dropped DICOM, folding panels.
+// The page in Firefox: opening, probing, a cut with views that follow, dropped DICOM, folding panels, a wall put right by hand.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { chord, count, dropFiles, keep, openInFirefox, settle, text, untilText } from "./firefox.mjs";
-import { firstVessel } from "./hand.mjs";
+import {
+  chord,
+  count,
+  dropFiles,
+  keep,
+  openInFirefox,
+  placeIn,
+  settle,
+  text,
+  untilText,
+} from "./firefox.mjs";
+import { phantom } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 import { dicomSlices, readNrrd } from "./make_dicom.mjs";
 
@@ -11,7 +21,7 @@ const rows = "#tree-list [role=treeitem]";
 
 test("a case is opened, probed and cut where the views show it, and its panels fold", async t => {
   const file = makeFolder();
-  firstVessel(file, "bifurcation");
+  phantom(file, "bifurcation", { "vessels.lumen": 1 });
   const { address } = await view(t, file("volume.nrrd"), file("vessels.lumen")),
     page = await openInFirefox(t, address);
   await page.waitForSelector(rows);
@@ -77,4 +87,40 @@ test("DICOM is dropped and one of two series chosen", async t => {
   await settle(page);
   assert.equal(await text(page, "#title"), "Angiogram");
   await keep(page, "firefox-dicom");
+});
+
+test("the wall is pulled by the brush, and put back", async t => {
+  const file = makeFolder();
+  phantom(file, "bifurcation", { "vessels.lumen": 1 });
+  const { address } = await view(t, file("volume.nrrd"), file("vessels.lumen")),
+    page = await openInFirefox(t, address);
+  await page.waitForSelector(rows);
+  await page.click(`${rows} .name`, { count: 2 });
+  await untilText(page, "#edit-name", /cursor at node/);
+  await settle(page);
+  await page.mouse.move(2, 300);
+  await settle(page);
+  const radius = async () =>
+    Number((await text(page, "#strip .striphead .note")).match(/radius ([\d.]+) mm/)[1]);
+  const node = (await page.$eval("#probe-position", e => e.dataset.mm)).split(" ").map(Number),
+    before = await radius(),
+    at = mm => placeIn(page, "axial", [node[0], node[1] + mm, node[2]]);
+  await page.keyboard.press("e");
+  const from = await at(before),
+    to = await at(1.5 * before);
+  await page.mouse.move(from.x, from.y);
+  await settle(page);
+  await page.mouse.down();
+  await page.mouse.move(to.x, to.y, { steps: 5 });
+  await page.mouse.up();
+  await page.waitForSelector("#undo:enabled");
+  await settle(page);
+  await keep(page, "firefox-brush");
+  await page.click(`${rows} .name`);
+  await settle(page);
+  assert.ok((await radius()) > 1.03 * before, `${before} became ${await radius()}`);
+  await chord(page, "Control", "z");
+  await page.waitForSelector("#undo:disabled");
+  await settle(page);
+  assert.equal(await radius(), before);
 });

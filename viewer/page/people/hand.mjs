@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hand on mouse and keys. Where it points it reads off the line below the views, as a person would.
 import { readFileSync, writeFileSync } from "node:fs";
-import { frames, openPage, settled } from "./browser.mjs";
-import { lumen, view } from "./lumen.mjs";
+import { frames, settled } from "./browser.mjs";
+import { lumen } from "./lumen.mjs";
 
 const subtract = (a, b) => a.map((x, i) => x - b[i]);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -48,6 +48,67 @@ export async function placeSeed(page, position) {
   await lookAt(page, position);
   await page.keyboard.press("s");
   await clickIn(page, "axial", position);
+}
+
+/** The place that the line below the views shows, mm: that of the pointer, or of the crosshair while it is elsewhere. */
+export const position = async page =>
+  (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);
+
+/** The place of the crosshair, mm. */
+export async function crosshair(page) {
+  await page.mouse.move(2, 300);
+  await frames(page, 3);
+  return position(page);
+}
+
+/** mm between two places. */
+export const away = (a, b) => Math.hypot(...subtract(a, b));
+
+/** Performs one step, and waits until the page shows that it is done. */
+export async function step(page, act) {
+  const title = await page.locator("#undo").getAttribute("title");
+  await act();
+  await page.locator(`#undo:enabled:not([title=${JSON.stringify(title)}])`).waitFor();
+  await settled(page);
+}
+
+export async function undo(page) {
+  const title = await page.locator("#undo").getAttribute("title");
+  await page.locator("#undo").click();
+  await page.locator(`#undo:not([title=${JSON.stringify(title)}])`).waitFor({ state: "attached" });
+  await settled(page);
+}
+
+/** Brings the cursor and the crosshair to the middle node of a vessel. */
+export async function toMiddle(page, label) {
+  await vessel(page, label).locator(".name").dblclick();
+  await page
+    .locator("#edit-name")
+    .filter({ hasText: `${label}, cursor at node` })
+    .waitFor();
+  await frames(page);
+}
+
+/** Radius at the cursor, mm, as the strip shows it. */
+export const radius = async page =>
+  Number((await page.locator("#strip .striphead .note").textContent()).match(/radius ([\d.]+) mm/)[1]);
+
+/** Drags the pointer between two places of a slice, mm. */
+export async function dragIn(page, view, from, to) {
+  const begin = await placeIn(page, view, from),
+    end = await placeIn(page, view, to);
+  await page.mouse.move(begin.x, begin.y);
+  await frames(page, 3);
+  await page.mouse.down();
+  await page.mouse.move(end.x, end.y, { steps: 5 });
+  await page.mouse.up();
+}
+
+/** Answers a question for a text. */
+export async function type(page, text) {
+  await page.locator("#ask-text").fill(text);
+  await page.keyboard.press("Enter");
+  await page.locator("#ask-text").waitFor({ state: "detached" });
 }
 
 /** The labels of the list of vessels, from top to bottom. */
@@ -96,29 +157,15 @@ export async function document(page) {
   return readFileSync(await download.path());
 }
 
-/** Two vessels of a phantom: volume.nrrd, seeds.json and vessels.lumen. */
-export function bothVessels(file, phantom) {
-  lumen("phantom", phantom, file("volume.nrrd"), "--seeds", file("seeds.json"));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"), "--seeds-only");
-}
-
-/** Two vessels that touch. */
-export const kissing = file => bothVessels(file, "kissing");
-
-/** The same phantom, with a case of its first vessel alone. */
-export function firstVessel(file, phantom, target = "vessels.lumen") {
-  lumen("phantom", phantom, file("volume.nrrd"), "--seeds", file("seeds.json"));
+/** A phantom: volume.nrrd and seeds.json, and for each name a case of its first vessels, { "one.lumen": 1 }. */
+export function phantom(file, name, cases, ...options) {
+  lumen("phantom", name, file("volume.nrrd"), "--seeds", file("seeds.json"), ...options);
   const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
-  writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
-  lumen("convert", file("volume.nrrd"), file(target), "--seeds", file("one.json"), "--seeds-only");
-}
-
-/** A page of the phantom's volume and case. */
-export async function openVessels(t, browser, file) {
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
-    page = await openPage(t, browser, server.address);
-  await settled(page);
-  return page;
+  for (const [target, count] of Object.entries(cases)) {
+    writeFileSync(file("some.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, count) }));
+    lumen("convert", file("volume.nrrd"), file(target), "--seeds", file("some.json"), "--seeds-only");
+  }
+  return seeds.branches.map(branch => branch.points[0].position);
 }
 
 /** Checks the case against its volume by a key, until the page has the answer. */

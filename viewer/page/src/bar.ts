@@ -15,7 +15,6 @@ export const kTools: { tool: Tool; label: string; key: string; live?: boolean }[
   { tool: "angle", label: "Angle of three points", key: "A" },
   { tool: "section", label: "Cross-section: diameter and area", key: "X" },
   { tool: "touch", label: "Gap to the vessel that is nearest", key: "G" },
-  { tool: "wire", label: "Guidewire", key: "W" },
 ];
 
 const kLayouts: [Layout, string][] = [

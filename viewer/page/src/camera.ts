@@ -2,7 +2,7 @@
 /** The camera of the 3D view: turns about a point with the head upwards, moves and comes nearer. */
 import { OrthographicCamera, PerspectiveCamera, Raycaster, Vector2, Vector3, type Ray } from "three";
 import type { Vec3 } from "./types";
-import { add, along, cross, dot, scale, sub, unit } from "./vec";
+import { add, along, cross, dot, scale, sub } from "./vec";
 
 const kAngle = 30; // degrees of the vertical field of view: little perspective, so sizes can be compared
 const kMargin = 1.08; // of what is shown as a whole
@@ -118,9 +118,5 @@ export class OrbitCamera {
     const v = new Vector3(...p).project(this.camera);
     if (v.z > 1 || v.z < -1) return null;
     return { x: ((v.x + 1) * this.width) / 2, y: ((1 - v.y) * this.height) / 2, depth: 0 };
-  }
-  /** The direction in space of a step of pixels. */
-  inSpace(dx: number, dy: number): Vec3 {
-    return unit(along(scale(this.right, dx), this.up, -dy));
   }
 }

@@ -11,9 +11,8 @@ import {
   type MeasureTables,
 } from "./case_measures";
 import type { App } from "./model";
-import { replaceRows } from "./rows";
 import { goTo, select } from "./selection";
-import { button, h, saveBlob, section, select as selectBox } from "./ui";
+import { button, h, replaceRows, saveBlob, section, select as selectBox } from "./ui";
 
 const kMostRows = 500;
 

@@ -2,10 +2,9 @@
 /** Find vessels: what the volume shows and the case lacks, as a list to accept or to reject. */
 import type { Actions } from "./actions";
 import type { App } from "./model";
-import { replaceRows } from "./rows";
 import { goTo } from "./selection";
 import type { Proposal, State } from "./types";
-import { brief, button, h, mm, section } from "./ui";
+import { brief, button, h, mm, replaceRows, section } from "./ui";
 
 const kConfidence =
   "Confidence, 0 to 1: the share of the measured wall points that lie on the vessel's cylinders, as a mean of its nodes";

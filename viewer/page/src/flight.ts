@@ -69,9 +69,6 @@ export class Flight {
   get running(): boolean {
     return this.path !== null;
   }
-  get paused(): boolean {
-    return !this.playing;
-  }
   get share(): number {
     return this.path === null ? 0 : this.s / (this.path.at.at(-1)! || 1);
   }

@@ -34,7 +34,6 @@ const kGroups: Group[] = [
       ["A", "Angle"],
       ["X", "Cross-section"],
       ["G", "Gap to the nearest vessel"],
-      ["W", "Guidewire"],
     ],
   ],
   [
@@ -103,16 +102,6 @@ const kGroups: Group[] = [
       ["Ctrl+Enter", "Fit all models anew"],
     ],
     "live",
-  ],
-  [
-    "Guidewire",
-    [
-      ["Enter", "Place it, in the 3D view"],
-      ["↑ ↓, wheel", "Push, pull"],
-      ["← →", "Turn"],
-      ["Drag the wire", "Along it pushes, across it turns"],
-      ["Delete", "Remove"],
-    ],
   ],
 ];
 

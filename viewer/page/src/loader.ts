@@ -143,7 +143,7 @@ export class Loader {
     } catch (error) {
       store.set({ blob: null });
       inform(
-        `The probe and the wire are not available: ${error instanceof Error ? error.message : String(error)}`,
+        `The probe is not available: ${error instanceof Error ? error.message : String(error)}`,
         "warning",
       );
     }

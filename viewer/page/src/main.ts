@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page begins here. */
 import { Actions } from "./actions";
-import { assumptionsPanel } from "./assumptions_panel";
 import { makeBar } from "./bar";
 import { caseMeasuresPanel } from "./case_measures_panel";
 import { displayPanel } from "./display_panel";
@@ -25,7 +24,7 @@ import { mayChange, Posing } from "./posing";
 import { offerUnsaved } from "./recover";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
-import { oneSourcePanel } from "./one_source";
+import { assumptionsPanel, oneSourcePanel } from "./one_source";
 import { SceneView } from "./scene_view";
 import { offerSeries } from "./series_dialog";
 import { makeShell, toast, type Shell } from "./shell";
@@ -41,7 +40,6 @@ import { Tools } from "./tools";
 import { TreePanel } from "./tree_panel";
 import { h } from "./ui";
 import { applyLayout, Watcher } from "./watcher";
-import { WireTool } from "./wire_tool";
 import { WorkList } from "./work_list";
 import { workPanel } from "./work_panel";
 
@@ -54,7 +52,7 @@ function makeApp(source: Source, shell: Shell): App {
     stage: new Stage(shell.canvas),
     inform: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
-      if (!mayChange(app, operation.op)) return false;
+      if (!mayChange(app, operation)) return false;
       try {
         await performer.perform(operation);
         return true;
@@ -87,14 +85,13 @@ async function start(root: HTMLElement): Promise<void> {
   shell.scene.append(motionBar(app));
   const hand = new Hand(app);
   const flight = new Flight(app, scene);
-  const wire = new WireTool(app);
   const actions = new Actions(app, scene, slices, flight),
     work = new WorkList(app, actions);
   offerUnsaved(app);
   offerSeries(app);
   if (frame === null) keepView(app);
   else frame.applyView(app.store);
-  const tools = new Tools(app, hand, flight, wire);
+  const tools = new Tools(app, hand, flight);
   for (const slice of slices) listenToSlice(slice, app, tools);
   listenToScene(scene, app, tools);
   makeBar(shell.bar, app, actions);
@@ -107,7 +104,7 @@ async function start(root: HTMLElement): Promise<void> {
     ...workPanel(app, actions, hand, work),
     ...displayPanel(app, actions),
     new MeshLayer(app, scene).panel,
-    ...measurePanel(app, actions, hand, wire),
+    ...measurePanel(app, actions, hand),
     ...caseMeasuresPanel(app),
   );
   new Strip(shell.strip, app, actions, flight);

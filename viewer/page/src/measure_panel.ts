@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Measurements, gaps between vessels, the wire, and the figures of a comparison. */
+/** Measurements, gaps between vessels, and the figures of a comparison. */
 import type { Actions } from "./actions";
 import type { Hand } from "./hand";
 import { measurementsCsv } from "./kept_view";
 import { gaps } from "./measure";
 import type { App } from "./model";
 import { goTo } from "./selection";
-import { brief, button, h, saveText, section, slider } from "./ui";
-import type { WireTool } from "./wire_tool";
+import { brief, button, h, saveText, section } from "./ui";
 
 const kMostGaps = 40;
 
-export function measurePanel(app: App, actions: Actions, hand: Hand, wire: WireTool): HTMLElement[] {
-  return [
-    measureSection(app, hand),
-    gapSection(app, hand),
-    wireSection(app, wire),
-    compareSection(app, actions),
-  ];
+export function measurePanel(app: App, actions: Actions, hand: Hand): HTMLElement[] {
+  return [measureSection(app, hand), gapSection(app, hand), compareSection(app, actions)];
 }
 
 function measureSection(app: App, hand: Hand): HTMLElement {
@@ -148,93 +142,6 @@ function gapSection(app: App, hand: Hand): HTMLElement {
       ),
     ),
     list,
-  );
-}
-
-function wireSection(app: App, wire: WireTool): HTMLElement {
-  const about = h("p", { class: "hint", id: "wire-about" });
-  const place = button(
-    {
-      icon: "wire",
-      text: "Place",
-      label: "Place the wire at the root of the selected vessel",
-      id: "wire-place",
-      class: "button primary",
-    },
-    () => {
-      app.store.set({ tool: "wire" });
-      wire.place();
-    },
-  );
-  const remove = button(
-    { text: "Remove", label: "Remove the wire", id: "wire-remove", class: "button text" },
-    () => wire.remove(),
-  );
-  const hold = (id: string, text: string, label: string, act: () => void): HTMLButtonElement => {
-    const b = button({ text, label, id, class: "button text" }, act);
-    let timer = 0;
-    b.addEventListener("pointerdown", () => {
-      timer = window.setInterval(act, 50);
-    });
-    for (const end of ["pointerup", "pointerleave", "blur"])
-      b.addEventListener(end, () => window.clearInterval(timer));
-    return b;
-  };
-  const controls = h(
-    "div",
-    { class: "row" },
-    hold("wire-push", "Push", "Push the wire (arrow up)", () => wire.push(0.5)),
-    hold("wire-pull", "Pull", "Pull the wire (arrow down)", () => wire.push(-0.5)),
-    hold("wire-left", "↺", "Turn the wire to the left (arrow left)", () => wire.twist(-0.1)),
-    hold("wire-right", "↻", "Turn the wire to the right (arrow right)", () => wire.twist(0.1)),
-    remove,
-  );
-  const stiff = slider(
-    "wire-stiffness",
-    "Stiffness of the wire",
-    [3.5, 6, 0.1],
-    Math.log10(wire.options.young),
-    value => {
-      wire.options.young = 10 ** value;
-      if (wire.now !== null) wire.now.options.young = wire.options.young;
-    },
-  );
-  const tip = slider("wire-tip", "Bend of the tip, degrees", [0, 120, 5], 45, value => {
-    wire.options.tipAngle = (value * Math.PI) / 180;
-    if (wire.now !== null) wire.now.options.tipAngle = wire.options.tipAngle;
-  });
-  const report = (): void => {
-    const w = wire.now,
-      { tree } = app.store.get();
-    controls.hidden = w === null;
-    delete about.dataset.nodes;
-    delete about.dataset.vessels;
-    if (w === null || tree === null) {
-      about.textContent =
-        "A guidewire that is pushed through the lumen and turned: drag it in the 3D view, or use the arrow keys there.";
-      return;
-    }
-    about.textContent = `${brief(w.inserted)} mm in, tip in ${tree.branches[tree.branch[w.cursorOf(0)]]?.label ?? "–"}, ${w.contacts} points touch; ${w.options.count} points, ${wire.cost.toFixed(1)} ms a step.`;
-    // for programs: the node of every point from the tip to the entry, and the vessels in that order
-    const nodes = Array.from({ length: w.free }, (_, i) => w.cursorOf(i)),
-      vessels = new Set(nodes.map(n => tree.branches[tree.branch[n]]?.label ?? "–"));
-    about.dataset.nodes = nodes.join(" ");
-    about.dataset.vessels = JSON.stringify([...vessels]);
-  };
-  wire.onChange = report;
-  app.store.watch(["tree", "blob"], view => {
-    place.disabled = view.blob === null;
-    report();
-  });
-  return section(
-    "section-wire",
-    "Guidewire",
-    false,
-    about,
-    h("div", { class: "row" }, place),
-    controls,
-    h("label", { class: "line" }, "Stiffness", stiff),
-    h("label", { class: "line" }, "Tip", tip),
   );
 }
 

@@ -23,7 +23,6 @@ export type Tool =
   | "angle"
   | "section"
   | "touch"
-  | "wire"
   | "move"
   | "brush";
 export type ColourBy = "branch" | "radius" | "confidence" | "error" | "root" | "compare";

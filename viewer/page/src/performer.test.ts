@@ -4,6 +4,7 @@ import { kInitial, type View } from "./model";
 import { Performer } from "./performer";
 import type { Source } from "./source";
 import { Store } from "./store";
+import type { Operation } from "./types";
 
 beforeAll(() => {
   globalThis.window ??= globalThis as never;
@@ -36,13 +37,24 @@ test("two undos at once are two undos, each of the state that the one before it 
   ]);
 });
 
-test("an index is meant for the tree that was shown when it was named", async () => {
+const kNamed: Operation[] = [
+  { op: "delete", branch: 1 },
+  { op: "join", branch: 1, node: 4 },
+  { op: "move", node: 4, position: [0, 0, 0], radius: 1 },
+  { op: "widen", node: 4, radius: 1, reach: 2 },
+  { op: "push", node: 4, at: [0, 0, 0], by: [1, 0, 0], radius: 1 },
+  { op: "nodeAdd", node: 4 },
+  { op: "nodeDelete", node: 4 },
+  { op: "heed", ignored: 1 },
+];
+
+test.each(kNamed)("an index of $op is meant for what was shown when it was named", async operation => {
   const store = storeAt(7),
     { source, asked } = slowDocument(store),
     performer = new Performer(store, source);
-  await Promise.all([performer.perform({ op: "undo" }), performer.perform({ op: "delete", branch: 1 })]);
+  await Promise.all([performer.perform({ op: "undo" }), performer.perform(operation)]);
   expect(asked).toEqual([
     ["undo", 7],
-    ["delete", 7],
+    [operation.op, 7],
   ]);
 });

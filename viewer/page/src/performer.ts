@@ -7,8 +7,14 @@ import type { Operation } from "./types";
 
 const kLongest = 5000; // ms to wait for the state that an answer announced; without it the next request may be refused
 
-/** Nodes and branches are named by index: these are meant for the tree that was shown when they were asked for. */
-const kOfTheTree = new Set(["delete", "cut", "join", "merge", "reverse", "root", "kind", "rename", "move"]);
+/** Whether an operation names a node or a branch, by its index in the tree that was shown when it was asked for. */
+export const namesTree = (operation: Operation): boolean => "branch" in operation || "node" in operation;
+
+/** The revision whose indices an operation has; null: it has none, and is meant for the document as it will be. */
+function seenRevision(operation: Operation, { state, treeRevision }: View): number | null {
+  if (namesTree(operation)) return treeRevision;
+  return "ignored" in operation ? state.revision : null;
+}
 
 export class Performer {
   private last: Promise<unknown> = Promise.resolve();
@@ -20,14 +26,11 @@ export class Performer {
 
   /** Done when the page has the state that followed; throws what the server refuses. */
   perform(operation: Operation): Promise<void> {
-    const seen = this.store.get().treeRevision,
+    const seen = seenRevision(operation, this.store.get()),
       before = this.last;
     const turn = (async (): Promise<void> => {
       await before.catch(() => undefined); // its caller gets the error
-      const { revision } = await this.source.perform(
-        operation,
-        kOfTheTree.has(operation.op) ? seen : this.store.get().state.revision,
-      );
+      const { revision } = await this.source.perform(operation, seen ?? this.store.get().state.revision);
       if (revision !== undefined) await this.reached(revision);
     })();
     this.last = turn;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The time of a moving case: what the views show then, and the way back to the case at rest. */
 import type { App, View } from "./model";
+import { namesTree } from "./performer";
 import type { Tree } from "./tree";
+import type { Operation } from "./types";
 import { distance } from "./vec";
 
 const kSame = 1e-4; // mm: a crosshair on a node
 
-/** Operations that change the tree or its walls, which are those of the case at rest. */
-const kAtRest = new Set([
-  ...["delete", "cut", "join", "merge", "reverse", "root", "kind", "move", "widen", "push", "nodeAdd"],
-  ...["nodeDelete", "fit", "seedAdd", "seedMove", "seedDelete", "track", "trackFrom", "find", "accept"],
-]);
+/** Operations that add to the tree or its walls, and name no part of them; those of the case at rest are meant. */
+const kAtRest = new Set(["fit", "seedAdd", "seedMove", "seedDelete", "track", "trackFrom", "find", "accept"]);
 
 /** Shows the case at a time of its motion, s. Tools act at rest: navigation takes the place of another. */
 export function goToTime(app: App, time: number): void {
@@ -38,10 +37,11 @@ export function goToRest(app: App): void {
   });
 }
 
-/** Whether an operation may be done now. At a time of the motion, one that changes vessels is not: the views go back to
- * the case at rest, which it acts on, and it waits to be asked for again. */
-export function mayChange(app: App, op: string): boolean {
-  if (app.store.get().time === null || !kAtRest.has(op)) return true;
+/** Whether an operation may be done now. At a time of the motion, one that changes vessels, more than their names, is not:
+ * the views go back to the case at rest, which it acts on, and it waits to be asked for again. */
+export function mayChange(app: App, operation: Operation): boolean {
+  const isAtRest = kAtRest.has(operation.op) || (namesTree(operation) && operation.op !== "rename");
+  if (app.store.get().time === null || !isAtRest) return true;
   goToRest(app);
   app.inform("Corrections act on the case at rest, which is shown now: once more does it.", "warning");
   return false;

@@ -2,7 +2,6 @@
 /** Proposed vessels over slices and over the 3D view: dashed lines in a colour that no vessel has. */
 import type { OrbitCamera } from "./camera";
 import type { View } from "./model";
-import { strokeAxis } from "./scene_lines";
 import type { SliceProjection } from "./slice_frame";
 import { label } from "./slice_overlay";
 import type { Branch, Tree } from "./tree";
@@ -10,6 +9,25 @@ import type { Branch, Tree } from "./tree";
 const kColour = "#ff3dff", // of twice the chroma of branchColour()
   kChosen = "#ffffff",
   kDash = [5, 4];
+
+/** Strokes the axis of a vessel, also through walls, in the colour and width that are set. */
+export function strokeAxis(
+  c: CanvasRenderingContext2D,
+  camera: OrbitCamera,
+  tree: Tree,
+  branch: Branch,
+): void {
+  c.lineJoin = "round";
+  c.beginPath();
+  let open = false;
+  for (const node of tree.nodesOf(branch)) {
+    const p = camera.project(tree.position(node));
+    if (p !== null && open) c.lineTo(p.x, p.y);
+    else if (p !== null) c.moveTo(p.x, p.y);
+    open = p !== null;
+  }
+  c.stroke();
+}
 
 /** Calls for each proposed vessel that is shown; the chosen one last, so that it lies on top. */
 function eachShown(view: View, draw: (tree: Tree, branch: Branch, isChosen: boolean) => void): void {

@@ -27,16 +27,12 @@ export function offerUnsaved(app: App): void {
   const asked = new Set<string>();
   let asking = false;
   const ask = async ({ unsavedBefore, saveAs }: State): Promise<void> => {
-    const index = unsavedBefore.findIndex(file => !asked.has(file.name));
-    if (asking || index < 0) return;
+    const file = unsavedBefore.find(each => !asked.has(each.name));
+    if (asking || file === undefined) return;
     asking = true;
-    asked.add(unsavedBefore[index].name);
-    const answer = await choose(
-      "Take up unsaved work?",
-      aboutUnsaved(unsavedBefore[index], saveAs),
-      kChoices,
-    );
-    if (answer !== null) await app.perform({ op: answer, index });
+    asked.add(file.name);
+    const answer = await choose("Take up unsaved work?", aboutUnsaved(file, saveAs), kChoices);
+    if (answer !== null) await app.perform({ op: answer, name: file.name });
     asking = false;
     await ask(app.store.get().state);
   };

@@ -12,7 +12,7 @@ const kZoomStep = 1.0012;
 
 export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
   const { element, camera } = scene;
-  let drag: { kind: "turn" | "pan" | "window" | "tool"; x: number; y: number; far: number } | null = null;
+  let drag: { kind: "turn" | "pan" | "window"; x: number; y: number; far: number } | null = null;
   let pointers = 0;
   const place = (e: MouseEvent): { x: number; y: number } => {
     const box = element.getBoundingClientRect();
@@ -25,11 +25,9 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
     ++pointers;
     scene.hold(true);
     const { x, y } = place(e);
-    const grabbed = e.button === 0 && !e.shiftKey && tools.grabInScene(scene, x, y);
     drag = {
-      kind: grabbed
-        ? "tool"
-        : e.button === 1 || (e.button === 0 && e.shiftKey) || pointers > 1
+      kind:
+        e.button === 1 || (e.button === 0 && e.shiftKey) || pointers > 1
           ? "pan"
           : e.button === 2
             ? "window"
@@ -48,8 +46,7 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
     }
     const dx = x - drag.x,
       dy = y - drag.y;
-    if (drag.kind === "tool") tools.dragInScene(scene, x, y);
-    else if (drag.far + Math.hypot(dx, dy) > kClick) {
+    if (drag.far + Math.hypot(dx, dy) > kClick) {
       if (drag.kind === "turn") camera.turn(dx * kTurn, dy * kTurn);
       else if (drag.kind === "pan") camera.pan(dx, dy);
       else shiftWindow(app, dx, dy);
@@ -60,8 +57,7 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
   const end = (e: PointerEvent): void => {
     pointers = Math.max(0, pointers - 1);
     scene.hold(pointers > 0);
-    if (drag?.kind === "tool") tools.releaseInScene();
-    else if (drag !== null && drag.kind !== "window" && drag.far <= kClick && e.type === "pointerup")
+    if (drag !== null && drag.kind !== "window" && drag.far <= kClick && e.type === "pointerup")
       tools.clickInScene(scene, drag.x, drag.y, 1);
     drag = null;
   };

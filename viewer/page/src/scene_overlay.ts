@@ -3,9 +3,8 @@
 import type { OrbitCamera } from "./camera";
 import { toCss } from "./colour";
 import { colourOf, isShown, shownTree, type View } from "./model";
-import { drawProposalsInScene } from "./proposal_lines";
-import { strokeAxis } from "./scene_lines";
-import { drawMeasurements, drawScaleBar, drawWire, label, wirePoints } from "./slice_overlay";
+import { drawProposalsInScene, strokeAxis } from "./proposal_lines";
+import { drawMeasurements, drawScaleBar, label } from "./slice_overlay";
 import type { Vec3 } from "./types";
 import { dot } from "./vec";
 import { drawNamesInScene } from "./vessel_names";
@@ -94,11 +93,7 @@ export function drawSceneOverlay(
   drawProposalsInScene(c, camera, view);
   drawNamesInScene(c, camera, view);
   drawPoints(c, camera, view);
-  if (view.time === null) {
-    // both are of the case at rest
-    drawMeasurements(c, view, project, Infinity);
-    drawWire(c, wirePoints.points, project, Infinity);
-  }
+  if (view.time === null) drawMeasurements(c, view, project, Infinity); // of the case at rest
   drawCompass(c, camera, height);
   drawScaleBar(c, camera.mmPerPixel, width, height);
   const branch = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
-import { clearedContext } from "./overlay_canvas";
+import { clearedContext } from "./slice_overlay";
 import {
   DoubleSide,
   FrontSide,
@@ -45,7 +45,7 @@ export class SceneView implements StageView {
   private readonly lines = new Group();
   private readonly points = new Group();
   private readonly marks = new Group();
-  /** The model of one node alone, a wire: what other modules show. */
+  /** The model of one node alone: shown by another module. */
   readonly extra = new Group();
   private moving = 0;
   private isHeld = false;

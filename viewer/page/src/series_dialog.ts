@@ -63,10 +63,10 @@ export async function askPart(app: App, name: string): Promise<OpenAs | null> {
   )) as OpenAs | null;
 }
 
-/** Opens a series as the part that was chosen when its files were dropped; otherwise asks. */
-async function openSeries(app: App, series: DicomSeries, index: number): Promise<void> {
+/** Opens a series of the list `of` as the part that was chosen when its files were dropped; otherwise asks. */
+async function openSeries(app: App, series: DicomSeries, index: number, of: number): Promise<void> {
   const part = app.store.get().seriesAs ?? (await askPart(app, series.description || `Series ${index + 1}`));
-  if (part !== null) await app.perform({ op: "openSeries", series: index, second: part === "second" });
+  if (part !== null) await app.perform({ op: "openSeries", series: index, of, second: part === "second" });
 }
 
 function row(app: App, series: DicomSeries, index: number, choose: () => void): HTMLElement {
@@ -89,7 +89,8 @@ function row(app: App, series: DicomSeries, index: number, choose: () => void): 
 }
 
 export function openSeriesDialog(app: App): void {
-  const { series } = app.store.get().state;
+  const { series, revisions } = app.store.get().state,
+    of = revisions.series ?? 0;
   document.getElementById("series-dialog")?.remove();
   if (series === null) return;
   const others = aboutOthers(series);
@@ -103,7 +104,7 @@ export function openSeriesDialog(app: App): void {
       ...series.list.map((each, index) =>
         row(app, each, index, () => {
           dialog.close();
-          void openSeries(app, each, index);
+          void openSeries(app, each, index, of);
         }),
       ),
     ),

@@ -7,7 +7,7 @@ import { slabKey } from "./slab";
 import type { SliceView } from "./slice_view";
 import type { Tools } from "./tools";
 import type { Vec3 } from "./types";
-import { along, dot, rotate, sub, type Frame } from "./vec";
+import { rotate, type Frame } from "./vec";
 
 export function turnFrame(frame: Frame, axis: Vec3, angle: number): Frame {
   return {
@@ -73,7 +73,7 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
   });
   element.addEventListener("pointermove", e => {
     const { x, y } = place(e);
-    tools.hover(slice.picked(slice.toPosition(x, y)), slice);
+    tools.hover(slice.picked(slice.toPosition(x, y)));
     if (drag === null) {
       tools.hoverInSlice(slice, slice.toPosition(x, y));
       return;
@@ -173,7 +173,3 @@ function sliceKey(slice: SliceView, app: App, tools: Tools, e: KeyboardEvent): b
       return slabKey(app, slice.name, e.key);
   }
 }
-
-/** The part of a position that lies in a slice's plane, at the depth of the crosshair. */
-export const ontoSlice = (slice: SliceView, p: Vec3, depthOf: Vec3): Vec3 =>
-  along(p, slice.frame.normal, dot(sub(depthOf, p), slice.frame.normal));

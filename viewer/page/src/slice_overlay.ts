@@ -204,27 +204,6 @@ function drawBrush(c: Context, slice: SliceProjection, view: View): void {
   }
 }
 
-export function drawWire(
-  c: Context,
-  points: Float64Array | null,
-  project: (p: Vec3) => Pixel | null,
-  reach: number,
-): void {
-  if (points === null) return;
-  c.strokeStyle = "#f5f7ff";
-  c.lineWidth = 2;
-  c.beginPath();
-  let open = false;
-  for (let i = 0; i < points.length; i += 3) {
-    const p = project([points[i], points[i + 1], points[i + 2]]);
-    const drawn = p !== null && Math.abs(p.depth) <= reach;
-    if (drawn && open) c.lineTo(p.x, p.y);
-    else if (drawn) c.moveTo(p.x, p.y);
-    open = drawn;
-  }
-  c.stroke();
-}
-
 function drawCrosshair(c: Context, slice: SliceProjection, view: View, width: number, height: number): void {
   const p = slice.toPixel(view.crosshair),
     gap = 9;
@@ -302,8 +281,6 @@ function title(slice: SliceProjection, view: View): string {
   return `${name}  ${orientation([0, 1, 2].map(a => (a === axis ? Math.sign(x) || 1 : 0)) as Vec3)} ${Math.abs(x).toFixed(1)}`;
 }
 
-export const wirePoints: { points: Float64Array | null; radius: number } = { points: null, radius: 0.2 };
-
 export function drawSliceOverlay(
   c: Context,
   slice: SliceProjection,
@@ -317,9 +294,25 @@ export function drawSliceOverlay(
   drawSeeds(c, slice, view);
   drawMeasurements(c, view, project, Math.max(1.5, 4 * slice.mmPerPixel));
   drawBrush(c, slice, view);
-  drawWire(c, wirePoints.points, project, 1.5);
   drawCrosshair(c, slice, view, width, height);
   drawMarks(c, slice, width, height);
   drawScaleBar(c, slice.mmPerPixel, width, height);
   label(c, title(slice, view), 8, 12, "#e8edf4");
+}
+
+/** The canvas, as large as its view and cleared, to be drawn on in CSS pixels. */
+export function clearedContext(
+  canvas: HTMLCanvasElement,
+  width: number,
+  height: number,
+): CanvasRenderingContext2D {
+  const ratio = window.devicePixelRatio;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const c = canvas.getContext("2d")!;
+  c.setTransform(ratio, 0, 0, ratio, 0, 0);
+  c.clearRect(0, 0, width, height);
+  return c;
 }

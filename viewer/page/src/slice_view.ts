@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One of three linked slices: the plane through the crosshair, seen along an axis of the shared frame. */
 import { drawingOf, showsSecond, splitLine } from "./beside";
-import { clearedContext } from "./overlay_canvas";
 import type { WebGLRenderer } from "three";
 import type { App, View } from "./model";
 import { drawProposalsInSlice } from "./proposal_lines";
 import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
-import { drawSliceOverlay } from "./slice_overlay";
+import { clearedContext, drawSliceOverlay } from "./slice_overlay";
 import { drawNamesInSlice } from "./vessel_names";
 import { kMostSamples, pickInSlab, samplesOf, slabControl } from "./slab";
 import { ScenePicture } from "./scene_picture";

@@ -12,7 +12,6 @@ import type { Hit } from "./surface";
 import type { Vec3 } from "./types";
 import { kPlaceRing, placeReach } from "./slice_overlay";
 import { along, dot, length, sub, cross } from "./vec";
-import type { WireTool } from "./wire_tool";
 import { missingPlaces } from "./work_items";
 
 const kVisible = 0.04; // of the window: a grey that the eye tells from black
@@ -35,7 +34,6 @@ export class Tools {
     private readonly app: App,
     private readonly hand: Hand,
     private readonly flight: Flight,
-    private readonly wire: WireTool,
   ) {}
 
   /** Whether clicks of a vessel wait for its end. */
@@ -62,7 +60,7 @@ export class Tools {
       this.hand.takePlace(place);
       return;
     }
-    if (this.tool === "navigate" || this.tool === "probe" || this.tool === "wire") {
+    if (this.tool === "navigate" || this.tool === "probe") {
       goTo(this.app, p);
       return;
     }
@@ -116,10 +114,9 @@ export class Tools {
 
   // ---- pointer without a button: the probe
 
-  hover(p: Vec3, slice: SliceView | null, cursor?: number): void {
-    void slice;
+  hover(p: Vec3): void {
     this.schedule(() => {
-      const answer = probe(this.app.store.get(), p, cursor);
+      const answer = probe(this.app.store.get(), p);
       for (const listener of this.listeners) listener(answer);
     });
   }
@@ -223,7 +220,7 @@ export class Tools {
       this.hand.takePlace(hit.place);
       return;
     }
-    if (this.tool !== "navigate" && this.tool !== "probe" && this.tool !== "wire") {
+    if (this.tool !== "navigate" && this.tool !== "probe") {
       const p = hit?.point ?? this.brightest(scene, x, y);
       if (p !== null && this.hand.press(p, null, hit)) {
         this.hand.release();
@@ -291,7 +288,6 @@ export class Tools {
           : probe(this.app.store.get(), hit.point, hit.node >= 0 ? hit.node : undefined);
       for (const listener of this.listeners) listener(answer);
       scene.element.classList.toggle("over-vessel", hit !== null);
-      scene.element.classList.toggle("over-wire", this.tool === "wire" && this.wire.isNear(scene, x, y));
     });
   }
 
@@ -305,31 +301,12 @@ export class Tools {
     scene.moved();
   }
 
-  grabInScene(scene: SceneView, x: number, y: number): boolean {
-    return this.tool === "wire" && this.wire.grab(scene, x, y);
-  }
-  dragInScene(scene: SceneView, x: number, y: number): void {
-    this.wire.dragTo(scene, x, y);
-  }
-  releaseInScene(): void {
-    this.wire.letGo();
-  }
   wheelInScene(direction: number): boolean {
-    if (this.flight.running) {
-      this.flight.step(-direction);
-      return true;
-    }
-    if (this.tool === "wire" && this.wire.active) {
-      this.wire.push(-direction);
-      return true;
-    }
-    return false;
+    if (!this.flight.running) return false;
+    this.flight.step(-direction);
+    return true;
   }
   keyInScene(key: string): boolean {
-    return (
-      this.flight.key(key) ||
-      (this.tool === "wire" && this.wire.key(key)) ||
-      (key === " " && playOrPause(this.app))
-    );
+    return this.flight.key(key) || (key === " " && playOrPause(this.app));
   }
 }

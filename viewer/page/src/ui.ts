@@ -35,7 +35,6 @@ const kIcons: Record<string, string> = {
   angle: "M13 13H3L11 3M7 13a5 5 0 0 0-1-3.800",
   section: "M8 3c4 0 6 2 6 5s-2 5-6 5-6-2-6-5 2-5 6-5M2 8h12",
   touch: "M5.5 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8M10.5 4a4 4 0 1 1 0 8 4 4 0 0 1 0-8",
-  wire: "M2 13c3 0 3-4 6-5s3-4 6-4M12 2.5L14 4l-1.5 2",
   brush: "M13.5 2.5L8 8M8 8c-2.5-.5-4 1-4 3 0 1-.8 1.800-2 2 3 1.500 7 .5 7-2.500 0-1-.4-1.900-1-2.500",
   move: "M8 2v12M2 8h12M8 2L6.5 3.5M8 2l1.5 1.5M8 14l-1.5-1.5M8 14l1.5-1.5M2 8l1.5-1.5M2 8l1.5 1.5M14 8l-1.5-1.5M14 8l-1.5 1.5",
   eye: "M1.5 8S4 3.5 8 3.5 14.5 8 14.5 8 12 12.5 8 12.5 1.5 8 1.5 8zM8 6a2 2 0 1 0 0 4 2 2 0 0 0 0-4",
@@ -273,4 +272,16 @@ export function saveBlob(name: string, blob: Blob): void {
   link.click();
   link.remove();
   window.setTimeout(() => URL.revokeObjectURL(address), kKept);
+}
+
+/** Makes the rows of a list anew. The button that has the keys keeps them: in the row that comes to its place. */
+export function replaceRows(list: HTMLElement, rows: HTMLElement[]): void {
+  const row = document.activeElement?.closest("li"),
+    at = row?.parentElement === list ? [...list.children].indexOf(row) : -1,
+    button =
+      at < 0 ? -1 : [...row!.querySelectorAll("button")].indexOf(document.activeElement as HTMLButtonElement);
+  const top = list.scrollTop;
+  list.replaceChildren(...rows);
+  list.scrollTop = top;
+  if (button >= 0) rows[Math.min(at, rows.length - 1)]?.querySelectorAll("button")[button]?.focus();
 }

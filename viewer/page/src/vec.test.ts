@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { across, cross, dot, length, orientation, rotate, segmentsNearest } from "./vec";
+import { across, cross, dot, length, orientation, rotate } from "./vec";
 
 describe("orientation", () => {
   it("namesPatientSides", () => {
@@ -35,15 +35,6 @@ describe("across", () => {
       expect(length(across(d))).toBeCloseTo(1, 12);
       expect(dot(across(d), d)).toBeCloseTo(0, 12);
     }
-  });
-});
-describe("segmentsNearest", () => {
-  it("findsCrossingSegmentsOneApart", () => {
-    const r = segmentsNearest([-1, 0, 0], [1, 0, 0], [0, -1, 1], [0, 1, 1]);
-    expect(r).toEqual({ s: 0.5, t: 0.5, distance: 1 });
-  });
-  it("endsAtEnds", () => {
-    expect(segmentsNearest([0, 0, 0], [1, 0, 0], [3, 0, 0], [4, 0, 0]).distance).toBe(2);
   });
 });
 describe("cross", () => {

@@ -69,29 +69,6 @@ export function orientation(d: Vec3): string {
     .join("");
 }
 
-/** The nearest points of two segments a0 a1 and b0 b1 as shares of them, and their distance. */
-export function segmentsNearest(
-  a0: Vec3,
-  a1: Vec3,
-  b0: Vec3,
-  b1: Vec3,
-): { s: number; t: number; distance: number } {
-  const u = sub(a1, a0),
-    v = sub(b1, b0),
-    w = sub(a0, b0);
-  const a = dot(u, u),
-    b = dot(u, v),
-    c = dot(v, v),
-    d = dot(u, w),
-    e = dot(v, w),
-    det = a * c - b * b;
-  const clamp = (x: number): number => Math.min(1, Math.max(0, x));
-  let s = det > 1e-12 * a * c ? clamp((b * e - c * d) / det) : 0;
-  const t = c > 0 ? clamp((b * s + e) / c) : 0;
-  s = a > 0 ? clamp((b * t - d) / a) : 0;
-  return { s, t, distance: distance(along(a0, u, s), along(b0, v, t)) };
-}
-
 /** A closed line around a centre, in the plane of two unit vectors at right angles. */
 export function circle(centre: Vec3, radius: number, right: Vec3, up: Vec3): Vec3[] {
   const kPoints = 48;

@@ -2,10 +2,9 @@
 /** The check as a list of work: every place with what to do, walked through by keys, until nothing is left. */
 import type { Actions } from "./actions";
 import type { App } from "./model";
-import { replaceRows } from "./rows";
 import { goTo, goToNode } from "./selection";
 import type { IgnoredPlace, State, WorkItem } from "./types";
-import { askText, button, h, mm, section } from "./ui";
+import { askText, button, h, mm, replaceRows, section } from "./ui";
 import { countKinds, kWorkTitles, remediesOf, requestOf, type Remedy } from "./work_items";
 
 const kRemedyWords: Record<Remedy, { text: string; icon: string; label: string; changes: boolean }> = {

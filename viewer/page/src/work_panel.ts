@@ -197,7 +197,7 @@ function fileSection(app: App): HTMLElement {
       ),
     );
     list.append(
-      ...state.unsavedBefore.map(({ name }, index) =>
+      ...state.unsavedBefore.map(({ name }) =>
         h(
           "li",
           { class: "row item" },
@@ -205,12 +205,9 @@ function fileSection(app: App): HTMLElement {
           h("span", { class: "note changed" }, "was not saved"),
           button(
             { text: "Take", label: `Take what ${name} holds`, class: "button text" },
-            () => void app.perform({ op: "recover", index }),
+            () => void app.perform({ op: "recover", name }),
           ),
-          button(
-            { icon: "trash", label: `Delete ${name}`, class: "button" },
-            () => void forget(app, name, index),
-          ),
+          button({ icon: "trash", label: `Delete ${name}`, class: "button" }, () => void forget(app, name)),
         ),
       ),
     );
@@ -246,7 +243,7 @@ function fileSection(app: App): HTMLElement {
   return box;
 }
 
-async function forget(app: App, name: string, index: number): Promise<void> {
+async function forget(app: App, name: string): Promise<void> {
   if (await askYes("Delete the file?", `${name} holds the only copy of work that was not saved.`, "Delete"))
-    await app.perform({ op: "forget", index });
+    await app.perform({ op: "forget", name });
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// axe-core has nothing to say of the page: names, roles, contrast, order, in the dark and in the light, wide and narrow.
+// Without a pointer: from an empty list to a vessel. And axe-core finds no fault in names, roles, contrast and order of the page,
+// in the dark and in the light, wide and narrow.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { settled, startBrowser, story } from "./browser.mjs";
-import { drop, firstVessel, openVessels } from "./hand.mjs";
-import { lumen, makeFolder } from "./lumen.mjs";
+import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
+import { drop, phantom, position, step } from "./hand.mjs";
+import { makeFolder, view } from "./lumen.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const kMostTabs = 60;
 
 async function findings(page) {
-  await page.evaluate(axe); // not as a script of the page, which its policy would refuse
   const { violations } = await page.evaluate(() => globalThis.axe.run(document));
   return violations.map(
     v =>
@@ -18,21 +19,55 @@ async function findings(page) {
   );
 }
 
-story("axe-core finds no fault in the page, whatever it shows", async t => {
+/** Goes on to an element by the tabulator alone. */
+async function tabTo(page, selector, key = "Tab") {
+  for (let k = 0; k < kMostTabs && (await page.locator(`${selector}:focus`).count()) === 0; ++k)
+    await page.keyboard.press(key);
+  assert.equal(await page.locator(`${selector}:focus`).count(), 1, `${selector} is reached by ${key}`);
+}
+
+/** Steps of voxels to a place, along one axis after the other. */
+async function stepTo(page, wanted) {
+  for (const [axis, more, less] of [
+    [0, "ArrowRight", "ArrowLeft"],
+    [1, "ArrowDown", "ArrowUp"],
+    [2, "PageUp", "PageDown"],
+  ])
+    for (let at = await position(page); Math.abs(at[axis] - wanted[axis]) > 0.15; at = await position(page)) {
+      await page.keyboard.press(at[axis] < wanted[axis] ? more : less);
+      await page.waitForFunction(
+        ([a, x]) => Number(document.getElementById("probe-position").dataset.mm.split(" ")[a]) !== x,
+        [axis, at[axis]],
+      );
+    }
+}
+
+story("a vessel is tracked by keys alone, and axe-core finds no fault whatever the page shows", async t => {
   const file = makeFolder(),
-    browser = await startBrowser(t);
-  firstVessel(file, "bifurcation");
-  const page = await openVessels(t, browser, file);
-  await page.emulateMedia({ reducedMotion: "reduce" }); // a colour half way between two themes is neither's
-  await page.locator("#tree-list [role=treeitem]").first().click();
+    browser = await startBrowser(t),
+    [place] = phantom(file, "bifurcation", {}, "--size", "48"),
+    server = await view(t, file("volume.nrrd")),
+    page = await openPage(t, browser, server.address, { reducedMotion: "reduce" }); // half-way between two themes is neither
+  await settled(page);
+  await tabTo(page, "#view-axial");
+  await page.keyboard.press("s");
+  await stepTo(page, place);
+  await page.keyboard.press("Enter");
+  await page.locator("#seed-list .item").first().waitFor();
+  await step(page, () => page.keyboard.press("t"));
+  await tabTo(page, "#tree-list", "Shift+Tab");
+  await page.keyboard.press("ArrowDown");
+  await page.locator("#branch-name").waitFor();
+  await picture(page, "keys-tracked");
+
   await page.keyboard.press("k");
   await page.locator("#work-list .item").first().waitFor();
   await page.keyboard.press("Shift+F");
   await page.locator("#proposal-list .item").first().waitFor();
   await page.locator("#measure-probe").click();
-  lumen("phantom", "tube", file("second.nrrd"), "--size", "40");
-  await drop(page, "second.nrrd", readFileSync(file("second.nrrd")));
+  await drop(page, "second.nrrd", readFileSync(file("volume.nrrd")));
   await page.locator("#ask-second").waitFor();
+  await page.evaluate(axe); // not as a script of the page, which its policy would refuse
   assert.deepEqual(await findings(page), [], "a question");
   await page.locator("#ask-second").click();
   await page.locator("#section-second").waitFor();
