@@ -11,12 +11,24 @@
 
 namespace lumen::convert {
 
-/// spdx_licences.txt.
+/// spdx_licences.txt and spdx_exceptions.txt.
 std::span<const EmbeddedText> spdxTexts();
 
 namespace {
 
 constexpr std::size_t kMostBytes = 255;
+
+std::vector<std::string_view> splitLines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos;
+       text.remove_prefix(end + 1))
+    lines.push_back(text.substr(0, end));
+  return lines;
+}
+
+bool isIn(const std::vector<std::string_view>& sorted, std::string_view word) {
+  return std::binary_search(sorted.begin(), sorted.end(), word);
+}
 
 bool isIdCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
@@ -65,13 +77,13 @@ std::string_view newestVersion(const std::string& word) {
 }
 
 std::string unknown(const std::string& word) {
-  std::string text = quotedText(word) + " is no identifier of SPDX's list that lumen knows";
+  std::string text = quotedText(word) + " is no identifier of SPDX's list of licences";
   for (const std::string_view known : spdxLicences())
     if (lowerCase(std::string(known)) == lowerCase(word))
       return text + "; did you mean " + std::string(known) + "?";
   if (const std::string_view versioned = newestVersion(word); !versioned.empty())
     return text + "; did you mean " + std::string(versioned) + "?";
-  return text + "; any other licence is written LicenseRef- and a name";
+  return text + "; a licence of your own is written LicenseRef- and a name";
 }
 
 /// expression = term {("AND" | "OR") term}; term = "(" expression ")" | licence ["WITH" exception]
@@ -105,14 +117,14 @@ private:
     std::string_view id = word;
     if (!isOwnLicence(id)) {
       if (id.ends_with('+')) id.remove_suffix(1);
-      if (!isListedLicence(id)) return unknown(word);
+      if (!isIn(spdxLicences(), id) && !isIn(spdxLicences(), word)) return unknown(word);
     }
     if (!take("WITH")) return {};
-    if (m_next == m_tokens.size() || isListedLicence(m_tokens[m_next]) ||
-        !std::all_of(m_tokens[m_next].begin(), m_tokens[m_next].end(), isIdCharacter))
-      return "WITH is followed by an exception of SPDX's list, such as Classpath-exception-2.0";
-    ++m_next;
-    return {};
+    if (m_next < m_tokens.size() && isIn(spdxExceptions(), m_tokens[m_next])) {
+      ++m_next;
+      return {};
+    }
+    return "WITH is followed by an exception of SPDX's list, such as Classpath-exception-2.0";
   }
 
   std::vector<std::string> m_tokens;
@@ -122,14 +134,12 @@ private:
 }  // namespace
 
 const std::vector<std::string_view>& spdxLicences() {
-  static const std::vector<std::string_view> lines = [] {
-    std::vector<std::string_view> all;
-    std::string_view text = spdxTexts()[0].bytes;
-    for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos;
-         text.remove_prefix(end + 1))
-      all.push_back(text.substr(0, end));
-    return all;
-  }();
+  static const std::vector<std::string_view> lines = splitLines(spdxTexts()[0].bytes);
+  return lines;
+}
+
+const std::vector<std::string_view>& spdxExceptions() {
+  static const std::vector<std::string_view> lines = splitLines(spdxTexts()[1].bytes);
   return lines;
 }
 
@@ -141,7 +151,7 @@ std::string licenceFault(const std::string& expression) {
 }
 
 bool isListedLicence(std::string_view identifier) {
-  return std::binary_search(spdxLicences().begin(), spdxLicences().end(), identifier);
+  return isIn(spdxLicences(), identifier);
 }
 
 }  // namespace lumen::convert

@@ -8,16 +8,17 @@
 
 namespace lumen::convert {
 
-/// The identifiers of SPDX's list of licences (https://spdx.org/licenses, CC0-1.0) that data and
-/// common software have, deprecated ones included; sorted by bytes.
+/// The identifiers of SPDX's list of licences and of exceptions (https://spdx.org/licenses,
+/// CC0-1.0), deprecated ones included, as the npm packages spdx-license-ids and spdx-exceptions
+/// have them; sorted by bytes.
 const std::vector<std::string_view>& spdxLicences();
+const std::vector<std::string_view>& spdxExceptions();
 
 /// Reason why `expression` is not an SPDX licence expression, in one sentence; empty if it is one.
-/// Licences must be among spdxLicences(), in this spelling, or begin with LicenseRef-. An exception
-/// may have any name but that of a licence.
+/// Identifiers must be on SPDX's list, in its spelling, or begin with LicenseRef-.
 std::string licenceFault(const std::string& expression);
 
-/// Whether it is one of spdxLicences(), which have pages of their own below
+/// Whether it is one identifier on SPDX's list, which has a page of its own below
 /// https://spdx.org/licenses/.
 bool isListedLicence(std::string_view identifier);
 

@@ -46,8 +46,9 @@ TEST(Spdx, WhatIsNoExpressionIsRefusedWithAReason) {
   EXPECT_NE(licenceFault(std::string(256, '(')), "");
 }
 
-TEST(Spdx, TheListIsSorted) {
+TEST(Spdx, ListsAreSorted) {
   EXPECT_TRUE(std::is_sorted(spdxLicences().begin(), spdxLicences().end()));
+  EXPECT_TRUE(std::is_sorted(spdxExceptions().begin(), spdxExceptions().end()));
 }
 
 }  // namespace
