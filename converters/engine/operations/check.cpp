@@ -167,7 +167,7 @@ public:
     const FileFormat* mask = m_mask.empty() ? nullptr : &volumeOutputFormat(m_mask, "the mask");
     requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
                    around.progress);
-    checkOutputs(around);
+    checkOutputs();
     const formats::Case value =
         atTime(readCase(m_case), m_time, m_case, *around.table, around.progress);
     if (!value.models || value.tree.nodeCount() == 0)
@@ -216,7 +216,7 @@ private:
   }
 
   /// Refuses outputs that could not be written in the end, or would be lost.
-  void checkOutputs(Surroundings& around) const {
+  void checkOutputs() const {
     if (!m_mask.empty() && m_mask == m_overlay)
       throw Error(ErrorKind::Usage, m_mask + ": this name is given to two outputs");
     const std::pair<const std::string&, convert::ContentKind> outputs[] = {

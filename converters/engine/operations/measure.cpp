@@ -110,7 +110,7 @@ public:
     if (!m_before.empty() && m_cases.size() != 1)
       throw Error(ErrorKind::Usage, kAgainst.shown() + ": found " + std::to_string(m_cases.size()) +
                                         " cases beside it, expected one");
-    auto folder = checkOutput(around);
+    auto folder = checkOutput();
     std::vector<MeasuredCase> measured;
     std::string text;
     for (const std::string& file : m_cases) {
@@ -131,7 +131,7 @@ public:
 
 private:
   /// Refuses an output that could not be written in the end, or would be lost.
-  [[nodiscard]] std::optional<formats::PendingFolder> checkOutput(Surroundings& around) const {
+  [[nodiscard]] std::optional<formats::PendingFolder> checkOutput() const {
     const MeasureOutput kind = outputOf(m_output);
     if (kind == MeasureOutput::None) return std::nullopt;
     if (kind != MeasureOutput::Folder) {

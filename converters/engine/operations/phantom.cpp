@@ -52,7 +52,7 @@ public:
   Answer run(const Surroundings& around) override {
     sortArguments();
     requireInScope(*around.table, {}, around.progress);
-    const Outputs outputs = checkOutputs(around);
+    const Outputs outputs = checkOutputs();
     const convert::Phantom phantom = convert::makePhantom(
         m_options,
         [&](int phase, const convert::Volume& volume) {
@@ -101,7 +101,7 @@ private:
   }
 
   /// Refuses outputs that could not be written in the end.
-  Outputs checkOutputs(Surroundings& around) const {
+  [[nodiscard]] Outputs checkOutputs() const {
     const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
                           m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
     std::vector<std::pair<std::string, convert::ContentKind>> files = {
