@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// @lumen/blob in Node, in its threads, in a page, in a worker of the page, and as TypeScript sees it.
+// @lumen/blob in Node, in its threads, and as TypeScript sees it.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { copyFileSync, readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { startBrowser } from "../../../viewer/page/people/browser.mjs";
-import { expectedDistances, installed, kCase, kRoot, served } from "./made.mjs";
+import { expectedDistances, installed, kAsk, kCase, kRoot, near } from "./made.mjs";
 
-const kMostBytes = 180_000, // bound on the archive
-  kNear = 1e-6; // mm
-
-// asks the package for distances, wherever it runs
-const kAsk = `
-export async function ask({ loadBlob }, bytes, places) {
-  const model = (await loadBlob()).open(bytes), batch = model.batch(places.length / 3);
-  batch.points.set(places);
-  batch.query();
-  const distances = [...batch.distances()];
-  batch.free();
-  model.close();
-  return distances;
-}
-`;
-
-function near(found, expected, where) {
-  assert.equal(found.length, expected.length, where);
-  for (const [i, x] of found.entries()) assert.ok(Math.abs(x - expected[i]) < kNear, `${where}: ${x} for ${expected[i]}`);
-}
+const kMostBytes = 180_000; // bound on the archive
 
 test("the archive is small, and answers as the native library in Node and its threads", t => {
   const { folder, size } = installed(t),
@@ -84,41 +64,4 @@ element.src = text + String(distance);\n`,
   );
   right();
   assert.throws(check("bad.ts", `${head}const text: string = (await loadBlob()).open(new Uint8Array(3)).batch(2).distances();\nvoid [LumenCase, gpuVessels, shader];\n`));
-});
-
-test("a page and its worker have the same answers", async t => {
-  const { folder } = installed(t),
-    { places, distances } = expectedDistances(process.env.LUMEN, folder);
-  copyFileSync(kCase, join(folder, "fork.lumen"));
-  writeFileSync(join(folder, "ask.mjs"), kAsk);
-  const get = 'new Uint8Array(await (await fetch("/fork.lumen")).arrayBuffer())';
-  writeFileSync(
-    join(folder, "worker.mjs"),
-    `import * as blob from "/node_modules/@lumen/blob/index.mjs";
-import { ask } from "/ask.mjs";
-onmessage = async ({ data }) => postMessage(await ask(blob, ${get}, data));\n`,
-  );
-  writeFileSync(
-    join(folder, "page.html"),
-    `<!doctype html><title>blob</title><link rel="icon" href="data:,">
-<script type="importmap">{"imports": {"@lumen/blob": "/node_modules/@lumen/blob/index.mjs"}}</script>
-<script type="module">
-import * as blob from "@lumen/blob";
-import { ask } from "/ask.mjs";
-window.asked = async places => {
-  const worker = new Worker("/worker.mjs", { type: "module" });
-  worker.postMessage(places);
-  const ofWorker = new Promise((resolve, reject) => { worker.onmessage = e => resolve(e.data); worker.onerror = e => reject(new Error(e.message)); });
-  return [await ask(blob, ${get}, places), await ofWorker];
-};
-</script>\n`,
-  );
-  const address = await served(t, folder),
-    browser = await startBrowser(t),
-    page = await browser.newPage();
-  await page.goto(`${address}page.html`);
-  await page.waitForFunction(() => window.asked !== undefined);
-  const [own, ofWorker] = await page.evaluate(p => window.asked(p), places);
-  near(own, distances, "a page");
-  near(ofWorker, distances, "a worker");
 });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A folder in which the packages are installed from their archives, and a server of such a folder.
+import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
@@ -65,4 +66,25 @@ export function expectedDistances(lumen, folder) {
       for (const way of ways) places.push(...centre[node].map((c, a) => c + share * radius[node] * way[a]));
   const answers = JSON.parse(readFileSync(join(dirname(kCase), "answers.json"), "utf8"));
   return { places, distances: answers["fork.lumen"].distances };
+}
+
+const kNear = 1e-6; // mm
+
+/** A module that asks the package for distances, wherever it runs. */
+export const kAsk = `
+export async function ask({ loadBlob }, bytes, places) {
+  const model = (await loadBlob()).open(bytes), batch = model.batch(places.length / 3);
+  batch.points.set(places);
+  batch.query();
+  const distances = [...batch.distances()];
+  batch.free();
+  model.close();
+  return distances;
+}
+`;
+
+/** Asserts that distances are those expected. */
+export function near(found, expected, where) {
+  assert.equal(found.length, expected.length, where);
+  for (const [i, x] of found.entries()) assert.ok(Math.abs(x - expected[i]) < kNear, `${where}: ${x} for ${expected[i]}`);
 }

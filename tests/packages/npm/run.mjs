@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the npm packages and uses them as their users would: run.mjs blob|viewer. Exit code 77 where that cannot be done.
+// Builds the npm packages and uses them as their users would: run.mjs blob|browser|viewer. Exit code 77 where that cannot be done.
 // LUMEN: the program; LUMEN_BUILD: the build folder; CHROMIUM: the browser; LUMEN_PICTURES: the folder for screenshots.
 import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
