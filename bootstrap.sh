@@ -176,8 +176,8 @@ install_test_packages() {
   have_node || packages+=(nodejs npm)
   # the JSON answers against their schemas, what judges the manual page, and what reads VTP
   packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
-  # signatures of libraries
-  packages+=(curl minisign openssh-client rclone)
+  # signatures of libraries, and what the commands on their pages run
+  packages+=(curl minisign openssh-client)
   # cohorts: a Slurm of one machine
   packages+=(slurm-wlm munge)
   # the query on a flat buffer, on the processor by pocl, and its translations

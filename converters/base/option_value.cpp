@@ -2,7 +2,9 @@
 #include "converters/base/option_value.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "converters/base/number_text.h"
@@ -40,9 +42,18 @@ ValueCheck checkAmong(std::vector<std::string> words) {
   };
 }
 
+bool isAddress(std::string_view text) {
+  const std::size_t scheme = text.find("://");
+  return scheme != std::string_view::npos && scheme > 0 &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(scheme), [](char c) {
+           return std::isalnum(static_cast<unsigned char>(c)) != 0;
+         });
+}
+
 ValueCheck fileName() {
   return [](const std::string& text) -> std::string {
     if (text.empty()) return "the name of a file is empty; is a variable of the shell not set?";
+    if (isAddress(text)) return kAddressFault;
     if (text != "-") return {};
     return "found -, expected the name of a file; lumen neither reads standard input nor writes "
            "files to standard output (./- is a file of that name)";

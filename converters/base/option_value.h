@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lumen {
@@ -43,7 +44,14 @@ using ValueCheck = std::function<std::string(const std::string&)>;
 std::string foundText(const std::string& text, const std::string& expected);
 /// One of the given words. A misspelt word gets a "did you mean".
 ValueCheck checkAmong(std::vector<std::string> words);
-/// A name of a file or folder: not empty, and not "-", which other programs take for a stream.
+/// Whether a text is an address instead of a file's name, such as "https://example.org/head.nrrd".
+bool isAddress(std::string_view text);
+/// The fault of an address. It does not repeat it, as an address may hold a password.
+inline constexpr const char* kAddressFault =
+    "found an address, expected the name of a file; lumen reads files: fetch it first, such as by "
+    "curl -O or rclone copy";
+/// A name of a file or folder: not empty, no address, and not "-", which other programs take for a
+/// stream.
 ValueCheck fileName();
 
 }  // namespace lumen

@@ -84,7 +84,7 @@ public:
     table.argument("SHELL", &m_shell, "bash", checkAmong({"bash"}));
   }
 
-  engine::Answer run(engine::Surroundings& around) override {
+  engine::Answer run(const engine::Surroundings& around) override {
     std::string script = bashScript(around.engine);
     return {{{"script", script}}, std::move(script), 0, true};
   }

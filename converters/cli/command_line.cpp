@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <span>
@@ -60,6 +61,15 @@ void print(const engine::Answer& answer, const CommonOptions& common) {
   }
 }
 
+/// The program that runs, or the script that starts it: a folder that brings its own C library
+/// starts lib/ld-linux*, the loader, by bin/lumen.
+std::filesystem::path thisProgram() {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe");
+  if (program.filename().string().starts_with("ld-linux"))
+    return (program.parent_path() / "../bin/lumen").lexically_normal();
+  return program;
+}
+
 /// A terminal around work: progress, Ctrl-C, threads.
 template <class Work>
 int atTerminal(const engine::Engine& commands, const CommonOptions& common, const Work& work) {
@@ -75,7 +85,8 @@ int atTerminal(const engine::Engine& commands, const CommonOptions& common, cons
   const int available = tbb::this_task_arena::max_concurrency();
   progress.detail(
       std::string("lumen " LUMEN_VERSION ", threads: ").append(std::to_string(available)));
-  engine::Surroundings around{commands, progress};
+  engine::Surroundings around(commands, progress);
+  around.program = thisProgram();
   around.threads = common.threads;
   around.strict = common.strict;
   around.willWrite = [&](const auto& file) { interrupts.watchOutput(file); };
@@ -104,12 +115,12 @@ int runCommand(const engine::Engine& commands, const engine::BoundCommand& bound
 
 /// The side of `lumen library build` that does one operation.
 int runOperation(const engine::Engine& commands, const char* file) {
-  const engine::ProcessOptions options = engine::operationOptions(file);
+  const engine::RunSettings settings = engine::operationSettings(file);
   CommonOptions common;
-  common.threads = options.threads;
-  common.strict = options.strict;
-  return atTerminal(commands, common, [&](engine::Surroundings& around) {
-    return engine::runOperationFile(file, commands, around);
+  common.threads = settings.threads;
+  common.strict = settings.strict;
+  return atTerminal(commands, common, [&](const engine::Surroundings& around) {
+    return engine::runOperationFile(file, around);
   });
 }
 

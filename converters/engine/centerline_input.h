@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/stage_options.h"
 #include "converters/io/centerline/case_of_centerline.h"

@@ -2,7 +2,6 @@
 #include "converters/engine/command.h"
 
 #include "converters/base/error.h"
-#include "converters/engine/remote_inputs.h"
 
 namespace lumen::engine {
 
@@ -69,17 +68,9 @@ BoundCommand Engine::find(const std::string& name) const {
 }
 
 Answer Engine::run(const BoundCommand& bound, const Surroundings& around) const {
-  RemoteInputs remote(bound, around);
-  try {
-    remote.fetchAll();
-    Surroundings own = remote.surroundings();
-    Answer answer = bound.command->run(own);
-    remote.complete(answer);
-    return answer;
-  } catch (const Error& error) {
-    if (remote.files().empty()) throw;
-    throw Error(error.kind(), remote.shown(error.what()));
-  }
+  Surroundings own = around;
+  own.table = bound.table.get();
+  return bound.command->run(own);
 }
 
 Answer Engine::run(const Operation& operation, const Surroundings& around) const {

@@ -7,12 +7,13 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "converters/base/operation.h"
 #include "converters/base/option_table.h"
 #include "converters/base/progress.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 
 namespace lumen::engine {
 
@@ -28,22 +29,30 @@ struct Answer {
 };
 
 class Engine;
-class RemoteInputs;
 
-/// Environment of a command that runs.
-struct Surroundings {
-  const Engine& engine;
-  Progress& progress;
-  const OptionTable* table = nullptr;  ///< rows of the command that runs
-  RemoteInputs* remote = nullptr;      ///< files elsewhere that the command reads
-  /// Whether addresses may be fetched: only those that a user wrote on a command line.
-  bool mayFetch = true;
+/// Settings of a command, which hold for all operations within it.
+struct RunSettings {
   int threads = 0;      ///< 0: all cores
   bool strict = false;  ///< a warning is an error: Progress::warn() throws
   /// Called with each file or folder that is going to be written through a temporary one beside it.
   std::function<void(const std::filesystem::path&)> willWrite = [](const auto&) {};
   /// Takes an answer that is due before the command ends.
   std::function<void(const Answer&)> answerEarly = [](const auto&) {};
+  /// The program that runs an operation in a process of its own (operation_process.h). Empty: there
+  /// is none, and such operations run in this process.
+  std::filesystem::path program;
+};
+
+/// Environment of a command that runs.
+struct Surroundings : RunSettings {
+  Surroundings(const Engine& ownEngine, Progress& ownProgress, RunSettings settings = {})
+      : RunSettings(std::move(settings)), engine(ownEngine), progress(ownProgress) {}
+  /// Those of an operation within this command, whose progress is another.
+  [[nodiscard]] Surroundings within(Progress& other) const { return {engine, other, *this}; }
+
+  const Engine& engine;
+  Progress& progress;
+  const OptionTable* table = nullptr;  ///< rows of the command that runs
 };
 
 class Command {
@@ -57,15 +66,10 @@ public:
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual std::string summary() const = 0;  ///< one line
   [[nodiscard]] virtual std::string example() const = 0;  ///< shell lines for the end of the help
-  /// Names of the rows whose values may be addresses elsewhere (https://...): the engine fetches
-  /// these files, and sets the rows to their names, before the command runs.
-  [[nodiscard]] virtual std::vector<std::string> addressRows() const { return {}; }
-  /// Whether files are fetched, by the engine or by the command itself: the answer lists them.
-  [[nodiscard]] virtual bool fetches() const { return !addressRows().empty(); }
   /// Adds the rows of the command's own options, whose values are stored in this object.
   virtual void addRows(OptionTable& table) = 0;
   /// Does the work after the rows are set. Throws lumen::Error.
-  virtual Answer run(Surroundings& around) = 0;
+  virtual Answer run(const Surroundings& around) = 0;
 };
 
 /// A command with its rows, which are stored in it.

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
+#include "converters/base/option_value.h"
 #include "converters/base/sha256.h"
 #include "formats/case/atomic_file.h"
 #include "formats/case/file_descriptor.h"
@@ -75,6 +76,7 @@ void writeText(std::string_view text, const fs::path& file) {
 }
 
 void requireInput(const fs::path& path, std::string_view what) {
+  if (isAddress(path.string())) throw invalidInput(std::string(what) + ": " + kAddressFault);
   std::error_code error;
   if (!fs::exists(path, error))
     throw invalidInput(path.string() + ": there is no such " + std::string(what));

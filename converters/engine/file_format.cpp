@@ -8,7 +8,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/suggestion.h"
 #include "converters/base/text.h"
-#include "converters/engine/case_losses.h"
+#include "converters/engine/answers/case_losses.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/mesh_of_case.h"
 #include "converters/io/centerline/read_curves.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -16,10 +15,10 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/suggestion.h"
 #include "converters/engine/about_options.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/gate_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
-#include "converters/engine/gate_answer.h"
 #include "converters/engine/operation_process.h"
 #include "converters/export/export_case.h"
 #include "converters/library/library_file.h"
@@ -61,23 +60,11 @@ void requireAbout(const BuildRow& row, const convert::LibraryFile& library) {
     throw invalidInput(missing);
 }
 
-/// Machine and process, and the task of Slurm if it is one: "process 12 on a, task 34_5 of Slurm".
+/// Machine and process: "process 12 on a".
 std::string placeOfProcess() {
   std::array<char, 256> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
-  std::string place = "process " + std::to_string(::getpid()) + " on " + host.data();
-  const auto variable = [](const char* name) -> std::string {
-    const char* value = std::getenv(name);
-    return value == nullptr ? "" : value;
-  };
-  const std::string job = variable("SLURM_ARRAY_JOB_ID");
-  if (!job.empty()) place += ", task " + job + "_" + variable("SLURM_ARRAY_TASK_ID") + " of Slurm";
-  return place;
-}
-
-bool hasSlurmOutputs(const fs::path& work) {
-  std::error_code ignored;
-  return fs::exists(work / kSlurmFolder, ignored);
+  return "process " + std::to_string(::getpid()) + " on " + host.data();
 }
 
 /// Moves rows that would only fail after work to the faults of the list.
@@ -222,6 +209,14 @@ void setGate(const BuildArguments& arguments, const Engine& engine,
     if (!row.isArgument) options.checkOptions.insert(row.name);
 }
 
+/// Moves rows that would only fail after work (targets, options, statements) to the faults of the
+/// list. Throws Error(InvalidInput) that names all faults, unless the arguments keep it going.
+void judgeRows(convert::BuildList& rows, const std::string& list, const std::string& library,
+               const BuildArguments& arguments, const Engine& engine) {
+  findFaults(rows, convert::openLibrary(library), engine);
+  if (!arguments.keepGoing) convert::requireNoFaults(rows.faults, list);
+}
+
 }  // namespace
 
 void addBuildRows(OptionTable& table, BuildArguments& arguments) {
@@ -238,23 +233,15 @@ convert::BuildList loadBuildList(const std::string& file, const std::set<std::si
   return convert::readBuildList(readWholeFile(file, "list"), file, lines);
 }
 
-void judgeRows(convert::BuildList& rows, const std::string& list, const std::string& library,
-               const BuildArguments& arguments, const Engine& engine) {
-  findFaults(rows, convert::openLibrary(library), engine);
-  if (!arguments.keepGoing) convert::requireNoFaults(rows.faults, list);
-}
-
 convert::BuildOptions buildOptions(const std::string& library, const BuildArguments& arguments,
                                    const Surroundings& around) {
   const auto cores = std::max(1U, std::thread::hardware_concurrency());
   const int all = around.threads > 0 ? around.threads : static_cast<int>(cores);
-  ProcessOptions process;
-  process.threads = std::max(1, all / arguments.jobs);
-  process.strict = around.strict;
+  Surroundings ofRow = around;
+  ofRow.threads = std::max(1, all / arguments.jobs);
   convert::BuildOptions options;
-  options.run = [process](const Operation& operation, const fs::path& log,
-                          const Progress& progress) {
-    return runInProcess(operation, process, log, progress);
+  options.run = [ofRow](const Operation& operation, const fs::path& log) {
+    return runApart(operation, ofRow, log);
   };
   options.version = LUMEN_VERSION;
   const std::string folder = (fs::absolute(library) / "").parent_path().string();
@@ -282,10 +269,7 @@ Answer buildLibrary(convert::BuildList rows, const std::string& list, const std:
     results.push_back(std::move(result));
   std::sort(results.begin(), results.end(),
             [](const RowResult& a, const RowResult& b) { return a.line < b.line; });
-  // the output of a job that collects lies in the folder for work, and people look at it there
-  const bool isJob =
-      arguments.phase == convert::BuildPhase::Collect && hasSlurmOutputs(options.work);
-  const bool keepsWork = arguments.phase == convert::BuildPhase::Make || isJob;
+  const bool keepsWork = arguments.phase == convert::BuildPhase::Make;
   if (!keepsWork && std::all_of(results.begin(), results.end(), isIn))
     convert::removeWorkFolder(options.work);
   return makeAnswer(results, library);

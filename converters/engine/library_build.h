@@ -13,9 +13,6 @@
 
 namespace lumen::engine {
 
-/// Folder of scripts and outputs of Slurm's jobs, in the folder for work.
-inline constexpr const char* kSlurmFolder = "slurm";
-
 struct BuildArguments {
   int jobs = 1;
   std::string work;                   ///< empty: LIBRARY.build
@@ -30,11 +27,6 @@ void addBuildRows(OptionTable& table, BuildArguments& arguments);
 
 /// Throws Error(InvalidInput) as convert::readBuildList(), and for a file that cannot be read.
 convert::BuildList loadBuildList(const std::string& file, const std::set<std::size_t>& lines = {});
-
-/// Moves rows that would only fail after work (targets, options, statements) to the faults of the
-/// list. Throws Error(InvalidInput) that names all faults, unless the arguments keep it going.
-void judgeRows(convert::BuildList& rows, const std::string& list, const std::string& library,
-               const BuildArguments& arguments, const Engine& engine);
 
 convert::BuildOptions buildOptions(const std::string& library, const BuildArguments& arguments,
                                    const Surroundings& around);

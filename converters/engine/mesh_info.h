@@ -5,7 +5,7 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/io/mesh/mesh_file.h"
 #include "converters/stages/repair/mesh_report.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_format.h"
 #include "converters/io/mesh/mesh_file.h"
 #include "converters/stages/repair/unit_guess.h"

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "converters/engine/case_losses.h"
-#include "converters/engine/surface_answer.h"
+#include "converters/engine/answers/case_losses.h"
+#include "converters/engine/answers/surface_answer.h"
 #include "converters/stages/surface/patches/polygonise.h"
 
 namespace lumen::engine {

@@ -10,29 +10,22 @@
 
 namespace lumen::engine {
 
-struct ProcessOptions {
-  int threads = 0;      ///< 0: all cores
-  bool strict = false;  ///< a warning is an error
-};
-
 /// The word after which the program is given the file of an operation.
 inline constexpr const char* kOperationWord = "--operation";
 
-/// The program that runs, or the script that starts it: a folder that brings its own C library
-/// starts lib/ld-linux*, the loader, by bin/lumen.
-std::filesystem::path thisProgram();
+/// Runs the operation in a new process of `around.program`, or in this process where no program is
+/// named, with the settings of `around`. Messages are appended to `log`. Throws Error(Failed) if no
+/// process can be started or the log cannot be written, and Error(Cancelled).
+OperationEnd runApart(const Operation& operation, const Surroundings& around,
+                      const std::filesystem::path& log);
 
-/// Runs the operation in a new process of this program, which appends its messages to `log`. Throws
-/// Error(Failed) if no process can be started, and Error(Cancelled).
-OperationEnd runInProcess(const Operation& operation, const ProcessOptions& options,
-                          const std::filesystem::path& log, const Progress& progress);
+/// Threads and strictness of a file that runApart() wrote. Throws Error(InvalidInput) for another
+/// file.
+RunSettings operationSettings(const std::filesystem::path& file);
 
-/// Threads and strictness of a file that runInProcess() wrote. Throws Error(InvalidInput) for
-/// another file.
-ProcessOptions operationOptions(const std::filesystem::path& file);
-
-/// Runs the operation of a file that runInProcess() wrote, and leaves the operation's end in a file
-/// beside it. Returns the exit code. Throws Error(InvalidInput) for another file.
-int runOperationFile(const std::filesystem::path& file, const Engine& engine, Surroundings& around);
+/// Runs the operation of a file that runApart() wrote, and leaves the operation's end in a file
+/// beside it. Returns the exit code. Throws Error(InvalidInput) for another file, and as the
+/// operation.
+int runOperationFile(const std::filesystem::path& file, const Surroundings& around);
 
 }  // namespace lumen::engine

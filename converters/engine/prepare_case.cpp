@@ -20,10 +20,10 @@
 #include "converters/base/sha256.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/draw/raster/picture.h"
+#include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/export_options.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/replaced_case.h"
-#include "converters/engine/surface_answer.h"
 #include "converters/export/export_case.h"
 #include "converters/io/mesh/write_gltf.h"
 #include "converters/judge/facts/reachable.h"
@@ -179,8 +179,7 @@ void addPage(const std::string& name, const std::string& role, std::string_view 
   const fs::path page = folder.path() / name;
   writeText(caseBytes, file);
   QuietProgress quiet(around.progress);
-  const Surroundings within{around.engine, quiet};
-  (void)around.engine.run(made(file.string(), page.string()), within);
+  (void)around.engine.run(made(file.string(), page.string()), around.within(quiet));
   incoming.addFile(name, role, page);
 }
 

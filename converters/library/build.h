@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Making the cases of a list, each by commands of lumen in processes of their own, so that one that
-// crashes or runs out of memory costs its own row only.
+// Making the cases of a list, each by commands of lumen.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +23,8 @@ enum class BuildPhase : std::uint8_t {
 };
 
 struct BuildOptions {
-  /// Does an operation in a process of its own, which appends its messages to a file.
-  std::function<OperationEnd(const Operation&, const std::filesystem::path& log, const Progress&)>
-      run;
+  /// Does an operation, and appends its messages to a file. Throws Error(Cancelled).
+  std::function<OperationEnd(const Operation&, const std::filesystem::path& log)> run;
   std::string version;         ///< version of lumen: another one makes every case again
   std::filesystem::path work;  ///< where rows are made; a run continues another's files
   int jobs = 1;                ///< rows at once
@@ -40,7 +38,7 @@ struct BuildOptions {
   std::string day;                                ///< YYYY-MM-DD: of the revisions that come of it
   BuildPhase phase = BuildPhase::All;
   bool isResumed = false;  ///< cases that the library has by their ids stay, whatever their inputs
-  std::string place;       ///< machine, process and task, for notes on rows
+  std::string place;       ///< machine and process, for notes on rows
 };
 
 enum class RowEnd : std::uint8_t { Made, Kept, Failed, NeedsPerson };

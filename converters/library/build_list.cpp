@@ -12,6 +12,7 @@
 #include "converters/base/csv_rows.h"
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/option_value.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/library/record.h"
@@ -91,6 +92,8 @@ void addAbout(nlohmann::ordered_json& about, const std::string& column, const st
 void addCell(BuildRow& row, nlohmann::ordered_json& about, const fs::path& folder,
              const std::string& column, const std::string& cell) {
   if (cell.empty()) return;
+  if ((column == "input" || column == "seeds") && isAddress(cell))
+    throw invalidInput(column + ": " + kAddressFault);
   if (column == "input")
     row.input = folder / cell;
   else if (column == "seeds")

@@ -150,7 +150,7 @@ private:
 
   OperationEnd runTimed(const Operation& operation) {
     const auto begin = std::chrono::steady_clock::now();
-    const OperationEnd end = m_options.run(operation, m_result.log, m_progress);
+    const OperationEnd end = m_options.run(operation, m_result.log);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     m_result.seconds += took.count();
     m_result.warnings += end.warnings;

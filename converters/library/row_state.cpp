@@ -41,21 +41,6 @@ RowState stateOfRow(const BuildRow& row, const fs::path& folder, const LibraryFi
   return state;
 }
 
-/// Whether the row may be made already, so that only its inputs' digests decide.
-bool mayBeMade(const RowState& state, const LibraryFile& library) {
-  if (state.kind == Kind::Made || state.kind == Kind::InLibrary) return true;
-  const std::string& id = state.row->id;
-  return id.empty() ? !library.cases.empty() : findCase(library, id) != nullptr;
-}
-
-void noteKept(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options) {
-  RowNote note;
-  note.state = RowNote::State::Kept;
-  note.result.id = plan.id;
-  note.recipe = plan.recipe.all;
-  writeNote(options.work, noteName(*plan.row, options.version, library.licence), note);
-}
-
 }  // namespace
 
 const char* stateWord(Kind kind) {
@@ -85,33 +70,6 @@ std::vector<RowState> rowStates(const std::vector<BuildRow>& rows, const fs::pat
   states.reserve(rows.size());
   for (const BuildRow& row : rows) states.push_back(stateOfRow(row, library, file, options));
   return states;
-}
-
-RowsToMake findRowsToMake(const std::vector<BuildRow>& rows, const fs::path& library,
-                          const BuildOptions& options, const Progress& progress) {
-  const LibraryFile file = openLibrary(library);
-  RowsToMake found;
-  for (const BuildRow& row : rows) {
-    progress.check();
-    if (isResumedRow(row, file, options)) {
-      ++found.kept;
-      continue;
-    }
-    if (mayBeMade(stateOfRow(row, library, file, options), file)) {
-      const PlannedRow plan = planRow(row, file, options, progress);
-      if (isMadeFrom(library, file, plan.id, plan.recipe.all)) {
-        noteKept(plan, file, options);
-        ++found.kept;
-        continue;
-      }
-      if (isStaged(plan.staged, plan.id)) {
-        ++found.staged;
-        continue;
-      }
-    }
-    found.lines.push_back(row.line);
-  }
-  return found;
 }
 
 }  // namespace lumen::convert

@@ -37,16 +37,4 @@ const char* stateWord(RowState::Kind kind);
 std::vector<RowState> rowStates(const std::vector<BuildRow>& rows,
                                 const std::filesystem::path& library, const BuildOptions& options);
 
-/// The rows that a run has to make, and the others.
-struct RowsToMake {
-  std::vector<std::size_t> lines;  ///< first lines of the rows to be made
-  std::size_t staged = 0;          ///< rows whose cases lie in the folder for work
-  std::size_t kept = 0;            ///< rows that the library has as they stand
-};
-
-/// Reads only inputs of rows that may be made already; notes which of them the library has. Throws
-/// Error(Failed) if an input cannot be read or a note not written, Error(Cancelled).
-RowsToMake findRowsToMake(const std::vector<BuildRow>& rows, const std::filesystem::path& library,
-                          const BuildOptions& options, const Progress& progress);
-
 }  // namespace lumen::convert

@@ -219,18 +219,13 @@ def make_cases(lumen, folder):
 
 
 def builds(folder, go):
-    """A list of which one row is made, and one fails; then nothing is left for Slurm."""
+    """A list of which one row is made, and one fails."""
     go_init = lambda name: go("init", name, "--title", "Rows", "--licence", "CC0-1.0", schema="library.schema.json")
     (folder / "rows.csv").write_text("input,id,title,synthetic\na.lumen,one,One,yes\nempty.swc,two,Two,yes\n")
     (folder / "empty.swc").write_text("no numbers\n")
     go_init("rows")
     go("build", "rows.csv", "rows", codes=(3,))
-    (folder / "rows.build/slurm").mkdir()
-    (folder / "rows.build/slurm/jobs.json").write_text('{"array": "1", "collect": "2"}')
     go("build", "rows.csv", "rows", "--status", schema="library-build-status.schema.json")
-    (folder / "rows.build/slurm/jobs.json").unlink()
-    (folder / "rows.csv").write_text("input,id,title,synthetic\na.lumen,one,One,yes\n")
-    go("build", "rows.csv", "rows", "--slurm", schema="library-build-slurm.schema.json")
 
 
 def libraries(lumen, folder):

@@ -333,8 +333,6 @@ const std::map<std::string, std::string> kElsewhere = {
     {"library build make-only", "tests/pipelines/check_rows.py"},
     {"library build collect", "tests/pipelines/check_rows.py"},
     {"library build status", "tests/pipelines/check_rows.py"},
-    {"library build slurm", "needs Slurm; tests/pipelines/check_slurm.py"},
-    {"library build array", "needs Slurm; tests/pipelines/check_slurm.py"},
     {"library sample jobs", "changes the time alone"},
     {"library sample work", "tests/library/check_sample.py"},
     {"library sample patients", "tests/library/check_sample.py"},

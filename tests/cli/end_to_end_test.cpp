@@ -37,7 +37,7 @@ TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
                         "radius_rms_mm",     "missed_mm",
                         "false_mm",          "wall_distance_mm"};
   Names whole = scores, branch = {"label"};
-  whole.insert(whole.end(), {"branches", "fetched"});
+  whole.emplace_back("branches");
   branch.insert(branch.end(), scores.begin(), scores.end());
   EXPECT_EQ(keys(score), whole);
   EXPECT_EQ(keys(score["wall_distance_mm"]), kQuantiles);
@@ -50,7 +50,7 @@ TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   EXPECT_EQ(keys(info),
             (Names{"branches", "nodes", "links", "points", "blobs", "blobs_per_node", "length_mm",
                    "reachable", "radius_mm", "error_of_fit_mm", "provenance", "note", "node_arrays",
-                   "motion", "seeds", "branch_table", "surface", "surface_warnings", "fetched"}));
+                   "motion", "seeds", "branch_table", "surface", "surface_warnings"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);
   EXPECT_EQ(keys(info["provenance"]),
@@ -216,7 +216,7 @@ TEST_F(TubeTest, InfoOfAVolumeGivesItsHeader) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
   EXPECT_EQ(keys(info),
             (Names{"size", "spacing_mm", "origin_mm", "direction", "placed_by", "stored_type",
-                   "encoding", "voxel_bytes", "stored_bytes", "fetched"}));
+                   "encoding", "voxel_bytes", "stored_bytes"}));
   EXPECT_TRUE(info["placed_by"].is_null());
   EXPECT_EQ(info["stored_type"], "int16");
   EXPECT_EQ(info["encoding"], "gzip");
@@ -236,7 +236,7 @@ TEST_F(TubeTest, InfoOfAVolumeGivesItsGeometryAndDigest) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json", "--voxels"}).out);
   EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256",
                                "pixel_type", "min", "max", "placed_by", "stored_type", "encoding",
-                               "voxel_bytes", "stored_bytes", "fetched"}));
+                               "voxel_bytes", "stored_bytes"}));
   EXPECT_EQ(info["size"], Json::array({64, 64, 64}));
   EXPECT_EQ(info["pixel_type"], "int16");
   EXPECT_EQ(info["sha256"].get<std::string>().size(), 64U);

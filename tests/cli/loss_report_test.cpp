@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "converters/engine/case_losses.h"
+#include "converters/engine/answers/case_losses.h"
 
 namespace lumen::engine {
 namespace {

@@ -58,7 +58,6 @@ add_dependencies(closed_surface_test lumen)
 # The program as it is installed, and its answers.
 python_test(Install.GivesAProgramThatRunsWhereverItIs slow
   ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_install.py ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR})
-python_test(Remote.FaultsOfAServerCostTimeAndNoByte slow ${CMAKE_CURRENT_SOURCE_DIR}/remote/check_remote.py $<TARGET_FILE:lumen>)
 python_test(View.StartsServesSavesAndEnds slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_view.py $<TARGET_FILE:lumen>)
 if(HAS_VTK)
   python_test(Centerline.OpensInVtkWithTheArraysOfVmtk foreign

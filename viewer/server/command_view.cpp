@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
-#include <set>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -15,10 +14,10 @@
 #include "converters/base/error.h"
 #include "converters/base/state_folder.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/remote_library.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/time_option.h"
+#include "converters/library/change.h"
 #include "formats/container/printable.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"
@@ -49,15 +48,13 @@ public:
            "  lumen view ct.nrrd head.lumen mr.nii.gz\n"
            "  lumen view cases/\n"
            "  lumen view heart.lumen --time 0.3\n"
-           "  lumen view https://example.org/siphons/ --case siphon-01   # fetches this case "
-           "alone\n"
+           "  lumen view siphons --case siphon-01\n"
            "  lumen view head.lumen --html head.html\n"
            "It ends with Ctrl-C, or when the last page has been gone for a minute; both are a "
            "normal "
            "end, with exit code 0.";
   }
 
-  [[nodiscard]] bool fetches() const override { return true; }
   void addRows(OptionTable& table) override {
     OptionRow& files = table.argument(
         "FILE", &m_files,
@@ -72,8 +69,8 @@ public:
     files.many();
     table.add(
         "case", &m_case, "ID",
-        "The first FILE is a library that lumen library made, or its address: open this case of "
-        "it, which the page saves elsewhere");
+        "The first FILE is a library that lumen library made: open this case of it, which the page "
+        "saves elsewhere");
     table
         .add(
             "at", &m_at, "X,Y,Z",
@@ -101,8 +98,8 @@ public:
     engine::addVolumeRows(table, m_options.volume);
   }
 
-  engine::Answer run(engine::Surroundings& around) override {
-    bringHere(around);
+  engine::Answer run(const engine::Surroundings& around) override {
+    findCaseOfLibrary();
     engine::requireInScope(*around.table, {contentOfFiles(), kAnyContent, filesText(), {}},
                            around.progress);
     if (!m_html.empty()) engine::requireWritable(m_html, convert::ContentKind::Other);
@@ -117,29 +114,26 @@ public:
   }
 
 private:
-  /// Fetches files whose addresses are given, and puts the case of a library in its place.
-  void bringHere(const engine::Surroundings& around) {
-    const OptionRow& row = around.table->rows().front();
-    for (std::string& file : m_files) {
-      const bool isLibrary = !m_case.empty() && &file == &m_files.front();
-      std::optional<convert::RemoteAddress> address;
-      if (convert::isRemote(file)) address = around.remote->addressIn(row, file);
-      if (isLibrary)
-        file = engine::caseOfLibrary(file, address, m_case, *around.remote).string();
-      else if (address)
-        file = around.remote->fetch(*address).path.string();
-      else
-        continue;
-      m_readOnly.insert(file);
-    }
-    if (!m_case.empty() && m_files.empty())
-      throw Error(ErrorKind::Usage, "--case needs a library as the first FILE");
+  /// Puts the case of a library in its place. Throws Error(InvalidInput) for a folder that is no
+  /// library, Error(Usage) for a case that it lacks.
+  void findCaseOfLibrary() {
+    if (m_case.empty()) return;
+    if (m_files.empty()) throw Error(ErrorKind::Usage, "--case needs a library as the first FILE");
+    std::string& file = m_files.front();
+    const convert::LibraryFile library = convert::openLibrary(file);
+    file = (fs::path(file) / convert::kPayload / convert::requireCase(library, m_case).id /
+            convert::kCaseFile)
+               .string();
+  }
+
+  /// Whether the file is the case of a library, which the page saves elsewhere.
+  [[nodiscard]] bool isOfLibrary(const std::string& file) const {
+    return !m_case.empty() && file == m_files.front();
   }
 
   /// A file's name for people.
   [[nodiscard]] std::string labelOf(const std::string& file) const {
-    const bool isOfLibrary = !m_case.empty() && file == m_files.front();
-    return isOfLibrary ? m_case + ".lumen" : fs::path(file).filename().string();
+    return isOfLibrary(file) ? m_case + ".lumen" : fs::path(file).filename().string();
   }
 
   /// Contents of the given files, as far as options depend on them.
@@ -174,7 +168,7 @@ private:
   }
 
   /// Refuses a time for a case that does not move.
-  void requireMotion(const Session& session, engine::Surroundings& around) const {
+  void requireMotion(const Session& session, const engine::Surroundings& around) const {
     if (!m_options.time) return;
     const auto value = session.now().document.value;
     if (value && value->motion) return;
@@ -194,7 +188,7 @@ private:
   }
 
   /// Warns of unsaved work of an earlier program.
-  void warnOfUnsaved(Session& session, engine::Surroundings& around) const {
+  void warnOfUnsaved(Session& session, const engine::Surroundings& around) const {
     if (!m_html.empty()) return;
     for (const std::string& file : session.findUnsaved())
       around.progress.warn(formats::printable(file) +
@@ -202,7 +196,7 @@ private:
   }
 
   /// Volumes first, which seeds in voxels need, then cases.
-  void openFiles(Session& session, engine::Surroundings& around) {
+  void openFiles(Session& session, const engine::Surroundings& around) {
     const std::optional<std::string> output = newCase();
     for (const FileRole wanted :
          {FileRole::Volume, FileRole::Case, FileRole::Mesh, FileRole::Seeds})
@@ -216,20 +210,20 @@ private:
 
   /// A folder of several series of DICOM, among which the page chooses.
   bool offerSeries(Session& session, const std::string& file, FileRole role,
-                   engine::Surroundings& around) const {
+                   const engine::Surroundings& around) const {
     std::error_code ignored;
     return role == FileRole::Volume && m_html.empty() && m_options.volume.series.empty() &&
            fs::is_directory(file, ignored) && session.offerSeries(file, around.progress);
   }
 
   void openOne(Session& session, const std::string& file, FileRole role,
-               engine::Surroundings& around) const {
+               const engine::Surroundings& around) const {
     const OpenAs as = roleOfFurther(session.now().document, file, role);
     session.open({file, labelOf(file), false, as}, around.progress);
     const engine::FileFormat* format =
         role == FileRole::Case ? &engine::inputFormat(file, "") : nullptr;
     if (format != nullptr && engine::canWriteCase(*format) && as == OpenAs::Auto &&
-        !m_readOnly.contains(file))
+        !isOfLibrary(file))
       session.saveTo(file);
   }
 
@@ -267,7 +261,7 @@ private:
     return output;
   }
 
-  engine::Answer writeHtml(Session& session, engine::Surroundings& around) {
+  engine::Answer writeHtml(Session& session, const engine::Surroundings& around) {
     around.willWrite(m_html);
     const Document document = session.now().document;
     const auto refuse = [&](const char* option, const std::string& needed) {
@@ -287,7 +281,7 @@ private:
             m_html + ": " + std::to_string(page.size()) + " bytes\n"};
   }
 
-  engine::Answer serve(Session& session, engine::Surroundings& around) {
+  engine::Answer serve(Session& session, const engine::Surroundings& around) {
     PageFiles page = findPageFiles();
     if (page.empty())
       around.progress.warn(
@@ -342,7 +336,6 @@ private:
 
   std::vector<std::string> m_files;
   std::string m_html, m_case, m_at;
-  std::set<std::string> m_readOnly;  ///< files of others: the page saves elsewhere
   bool m_noBrowser = false, m_keep = false, m_htmlVolume = false, m_htmlPoints = false;
   int m_port = 0;
   SessionOptions m_options;

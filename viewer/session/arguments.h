@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/case/json_place.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 
 namespace lumen::viewer {
 

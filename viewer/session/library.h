@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "viewer/session/tagged.h"
 
 namespace lumen::viewer {

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "formats/case/case.h"
 
 namespace lumen::viewer {

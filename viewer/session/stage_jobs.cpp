@@ -7,9 +7,9 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/engine/answers/check_answer.h"
+#include "converters/engine/answers/comparison_answer.h"
 #include "converters/engine/centerline_input.h"
-#include "converters/engine/check_answer.h"
-#include "converters/engine/comparison_answer.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/judge/compare/compare.h"
 #include "converters/judge/measure/measure_text.h"

@@ -9,10 +9,10 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/overlay/overlay.h"
-#include "converters/engine/answer_text.h"
-#include "converters/engine/check_answer.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/check_answer.h"
+#include "converters/engine/answers/gate_answer.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/gate_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/time_option.h"
@@ -136,7 +136,6 @@ public:
            "  lumen check head.nrrd head.lumen --profile simulator   # exit code 3: needs a person";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"VOLUME", "CASE"}; }
   void addRows(OptionTable& table) override {
     table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
     table.argument("CASE", &m_case, "The case that was made from it");
@@ -157,7 +156,7 @@ public:
     addFormatRow(table, "from", m_from, "VOLUME");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     if (!m_profile.empty()) m_gate = convert::gateProfile(m_profile);
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
@@ -217,7 +216,7 @@ private:
   }
 
   /// Refuses outputs that could not be written in the end, or would be lost.
-  void checkOutputs(Surroundings& around) const {
+  void checkOutputs(const Surroundings& around) const {
     if (!m_mask.empty() && m_mask == m_overlay)
       throw Error(ErrorKind::Usage, m_mask + ": this name is given to two outputs");
     const std::pair<const std::string&, convert::ContentKind> outputs[] = {
@@ -235,7 +234,8 @@ private:
   }
 
   convert::CheckResult checked(const convert::Volume& volume, const formats::Case& value,
-                               const convert::EdgeOptions& options, Surroundings& around) const {
+                               const convert::EdgeOptions& options,
+                               const Surroundings& around) const {
     try {
       return convert::checkCase(volume, value, options, around.progress);
     } catch (const Error& error) {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "converters/engine/answer_text.h"
-#include "converters/engine/comparison_answer.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/comparison_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 
@@ -54,13 +54,12 @@ public:
     return "  lumen compare fork.lumen fork-truth.lumen --json";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE", "TRUTH"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_case, "The case to judge");
     table.argument("TRUTH", &m_truth, "The true case");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     const formats::Case found = readCase(m_case);
     const formats::Case truth = readCase(m_truth);
     const auto comparison = convert::compareCases(found, truth, around.progress);

@@ -3,7 +3,10 @@
 // or a centerline.
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/reachable_answer.h"
+#include "converters/engine/answers/surface_answer.h"
+#include "converters/engine/answers/track_answer.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/hinted_tracking.h"
@@ -11,12 +14,8 @@
 #include "converters/engine/mesh_input.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/engine/reachable_answer.h"
-#include "converters/engine/remote_inputs.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/surface_answer.h"
 #include "converters/engine/time_option.h"
-#include "converters/engine/track_answer.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/editing/edit_request.h"
 #include "converters/stages/fitting/fit.h"
@@ -42,15 +41,11 @@ public:
            "  lumen convert heart.lumen systole.lumen --time 0.3";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override {
-    return {"INPUT", "seeds", "centerline", "corrections"};
-  }
   void addRows(OptionTable& table) override {
     table.argument("INPUT", &m_input,
                    "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
                        formatTitles(canReadMesh) + "), centerline (" +
-                       formatTitles(canReadCenterline) +
-                       "; also a folder of curves) or case; or the address of such a file");
+                       formatTitles(canReadCenterline) + "; also a folder of curves) or case");
     table.argument("OUTPUT", &m_output,
                    "Case, " + formatEndings(canWriteCase) +
                        "; or mesh, which holds the surface of the " + "vessels and no more, " +
@@ -76,7 +71,7 @@ public:
     addTimeRow(table, m_time).forInputs(kCases).inGroup("");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = outputFormat(m_output, m_to);
     requireInput(m_input, "input");
@@ -89,7 +84,6 @@ public:
     around.willWrite(m_output);
 
     formats::Case value = load(from, around);
-    if (from.kind != FormatKind::Case) around.remote->record(value.metadata);
     requirePoints(value, around);
     if (from.kind == FormatKind::Case) requireMotion(value, around);
     complete(value, from, to, around);
@@ -101,7 +95,7 @@ public:
   }
 
 private:
-  formats::Case load(const FileFormat& from, Surroundings& around) {
+  formats::Case load(const FileFormat& from, const Surroundings& around) {
     Progress& progress = around.progress;
     if (from.kind == FormatKind::Mesh) {
       CaseOfMeshFile made = caseOfMeshFile(m_input, from, meshArguments(), progress);
@@ -171,7 +165,7 @@ private:
   }
 
   /// Refuses to round wall points that a case does not have.
-  void requirePoints(const formats::Case& value, Surroundings& around) const {
+  void requirePoints(const formats::Case& value, const Surroundings& around) const {
     const OptionRow& row = *around.table->find("point-bits");
     if (row.isGiven && (!value.points || value.points->position.empty()))
       refuseIdle(row,
@@ -180,7 +174,7 @@ private:
   }
 
   /// Refuses to leave out a motion that a case does not have.
-  void requireMotion(const formats::Case& value, Surroundings& around) const {
+  void requireMotion(const formats::Case& value, const Surroundings& around) const {
     const OptionRow& row = *around.table->find("skin");
     if (row.isGiven && !value.motion)
       refuseIdle(row,
@@ -198,7 +192,7 @@ private:
   /// A tracked volume gets its models, and so does a mesh; so does a case that has none when they
   /// are needed for a mesh.
   void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
-                Surroundings& around) {
+                const Surroundings& around) {
     const bool meshNeedsModels = to.kind == FormatKind::Mesh && !value.models;
     if (meshNeedsModels && !value.points)
       throw invalidInput(m_input +
@@ -212,7 +206,7 @@ private:
     if (isNew || meshNeedsModels) fit(value, around);
   }
 
-  void fit(formats::Case& value, Surroundings& around) const {
+  void fit(formats::Case& value, const Surroundings& around) const {
     convert::FitOptions options = fitOptionsFor(value, m_fit);
     if (around.table->find(kOption.cohesionWeight.name)->isGiven)
       options.cohesionWeight = m_fit.cohesionWeight;

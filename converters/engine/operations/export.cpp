@@ -10,12 +10,12 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/option_name.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/export_options.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/surface_answer.h"
 #include "converters/engine/time_option.h"
 #include "converters/export/export_case.h"
 #include "converters/judge/facts/reachable.h"
@@ -77,7 +77,6 @@ public:
            "  lumen export --list";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE"}; }
   void addRows(OptionTable& table) override {
     table.flag("list", m_list, "List the targets, their files, units and frames, and exit");
     for (OptionRow* row :
@@ -94,7 +93,7 @@ public:
       if (!row.isArgument && row.name != "list") row.notBeside("list");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     if (m_list) {
       requireInScope(*around.table, {}, around.progress);
       return list();
@@ -124,7 +123,7 @@ public:
 private:
   /// Adds the file's name to the error of a target about a case.
   [[nodiscard]] ExportResult made(const ExportTarget& target, const formats::Case& value,
-                                  Surroundings& around) const {
+                                  const Surroundings& around) const {
     try {
       return convert::exportCase(target, value, m_options, exportOptionTexts(*around.table, target),
                                  around.progress);

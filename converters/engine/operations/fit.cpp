@@ -3,10 +3,10 @@
 #include "converters/stages/fitting/fit.h"
 
 #include "converters/base/shown_text.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/reachable_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/engine/reachable_answer.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
@@ -29,7 +29,6 @@ public:
            "  lumen fit head.lumen head-image.lumen --image head.nrrd   # thin or noisy vessels";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"IN", "image"}; }
   void addRows(OptionTable& table) override {
     table.argument("IN", &m_input, "Case with wall points");
     table.argument("OUT", &m_output,
@@ -45,7 +44,7 @@ public:
     addVolumeRows(table, m_volume, "image");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the fitted tree");
     requireInput(m_input, "case file");

@@ -3,18 +3,17 @@
 #include <string>
 #include <utility>
 
-#include "converters/engine/answer_text.h"
-#include "converters/engine/case_info_answer.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/case_info_answer.h"
+#include "converters/engine/answers/chunk_info.h"
+#include "converters/engine/answers/surface_answer.h"
+#include "converters/engine/answers/volume_info.h"
 #include "converters/engine/centerline_input.h"
-#include "converters/engine/chunk_info.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/mesh_info.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/engine/remote_info.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/surface_answer.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/engine/volume_info.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -28,11 +27,9 @@ public:
     return "Print the content of a case, a volume, a mesh or a centerline";
   }
   [[nodiscard]] std::string example() const override {
-    return "  lumen info head.lumen --json | jq .radius_mm\n"
-           "  lumen info https://example.org/head.lumen        # reads the header alone";
+    return "  lumen info head.lumen --json | jq .radius_mm";
   }
 
-  [[nodiscard]] bool fetches() const override { return true; }
   void addRows(OptionTable& table) override {
     table.argument("FILE", &m_input, "Case, volume, mesh or centerline");
     addFormatRow(table, "from", m_from, "FILE");
@@ -52,9 +49,7 @@ public:
       if (!row.isArgument && row.name != "chunks") row.notBeside("chunks");
   }
 
-  Answer run(Surroundings& around) override {
-    if (convert::isRemote(m_input))
-      if (auto answer = bringHere(around)) return *std::move(answer);
+  Answer run(const Surroundings& around) override {
     requireInput(m_input, "case, volume, mesh or centerline");
     if (m_chunks) {
       requireInScope(*around.table, {kFittedCase, kAnyContent, m_input, {}}, around.progress);
@@ -80,25 +75,6 @@ public:
   }
 
 private:
-  /// Fetches what is needed of a file elsewhere: of a volume its header, which m_input names then;
-  /// of a case its header, which is the answer; or all of it.
-  std::optional<Answer> bringHere(Surroundings& around) {
-    const convert::RemoteAddress address =
-        around.remote->addressIn(around.table->rows().front(), m_input);
-    const FileFormat& format = inputFormat(address.fileName(), m_from);
-    if (isBinaryCase(format) && !m_surface) {
-      requireInScope(*around.table, {kFittedCase, kAnyContent, address.shown(), {}},
-                     around.progress);
-      const FileInfo info = fetchChunkTable(address, *around.remote);
-      return Answer{chunkInfoJson(info), chunkInfoText(info), 0, true};
-    }
-    const bool isHeadEnough = format.kind == FormatKind::Volume && !m_voxels;
-    m_input = (isHeadEnough ? fetchVolumeHead(address, format, m_volume, *around.remote)
-                            : around.remote->fetch(address).path)
-                  .string();
-    return {};
-  }
-
   [[nodiscard]] convert::MeshFile readMesh(const FileFormat& from) const {
     return from.readScene != nullptr ? from.readScene(m_input, {{}, m_volume.allowDetached})
                                      : from.readMesh(m_input);
@@ -111,7 +87,8 @@ private:
                           progress);
   }
 
-  [[nodiscard]] Answer describeWithSurface(const formats::Case& value, Surroundings& around) const {
+  [[nodiscard]] Answer describeWithSurface(const formats::Case& value,
+                                           const Surroundings& around) const {
     if (m_surface && !value.models)
       refuseIdle(*around.table->find("surface"),
                  "is for cases with models, and " + formats::printable(m_input) + " has none",

@@ -9,7 +9,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/suggestion.h"
 #include "converters/engine/about_options.h"
-#include "converters/engine/library_answer.h"
+#include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/prepare_case.h"
 #include "converters/engine/replaced_case.h"
@@ -59,7 +59,7 @@ public:
     addFileRows(table);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     const convert::LibraryFile before = convert::openLibrary(m_library);
     const std::string day = revisionDay(m_day);
     if (!m_wishes.id.empty() && !m_wishes.replace) convert::requireNewId(before, m_wishes.id);

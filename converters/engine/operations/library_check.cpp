@@ -2,7 +2,7 @@
 // lumen library check: all that is wrong with a library.
 #include "converters/base/option_name.h"
 #include "converters/engine/about_options.h"
-#include "converters/engine/library_check_answer.h"
+#include "converters/engine/answers/library_check_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/library_lock.h"
 
@@ -32,7 +32,7 @@ public:
     addFaultsRow(table, m_options.mostFaults);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     using convert::LibraryLock;
     const LibraryLock lock(m_folder, around.progress, LibraryLock::Use::Read);
     const convert::PlainFolder folder(m_folder);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library extract: cases of a library as a library of their own.
 #include "converters/engine/about_options.h"
-#include "converters/engine/library_answer.h"
+#include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/extract.h"
 #include "formats/container/printable.h"
@@ -33,7 +33,7 @@ public:
     addDayRow(table, m_day);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     convert::LibraryFile library = convert::openLibrary(m_source);
     library.id = m_id.empty() ? convert::newLibraryId() : m_id;
     if (!m_title.empty()) library.title = m_title;

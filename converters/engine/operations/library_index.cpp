@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/site/site.h"
 #include "formats/container/printable.h"
@@ -27,7 +27,7 @@ public:
     table.argument("LIBRARY", &m_library,
                    "Folder of the library, in which index.html and site/ are made anew");
   }
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     const std::filesystem::path first = std::filesystem::path(m_library) / "index.html";
     around.willWrite(first);
     const convert::SiteReport site = convert::writeSite(m_library, around.progress);

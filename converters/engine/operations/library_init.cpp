@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library init: a library without cases.
 #include "converters/engine/about_options.h"
-#include "converters/engine/library_answer.h"
+#include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/change.h"
 #include "formats/container/printable.h"
@@ -38,7 +38,7 @@ public:
     addDayRow(table, m_library.date);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     if (m_library.id.empty()) m_library.id = convert::newLibraryId();
     m_library.date = revisionDay(m_library.date);
     around.willWrite(m_folder);

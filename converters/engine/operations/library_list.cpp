@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library list: the cases of a library.
-#include <optional>
-
-#include "converters/engine/library_answer.h"
+#include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/engine/remote_library.h"
 #include "converters/library/change.h"
 #include "formats/container/printable.h"
 
@@ -18,28 +15,19 @@ public:
   [[nodiscard]] std::string summary() const override { return "List the cases of a library"; }
   [[nodiscard]] std::string example() const override {
     return "  lumen library list siphons\n"
-           "  lumen library list siphons --json | jq '.cases[].id'\n"
-           "  lumen library list https://example.org/siphons/";
+           "  lumen library list siphons --json | jq '.cases[].id'";
   }
 
-  [[nodiscard]] bool fetches() const override { return true; }
-  void addRows(OptionTable& table) override {
-    table.argument("LIBRARY", &m_folder, "Library, or its address on a web server");
-  }
+  void addRows(OptionTable& table) override { table.argument("LIBRARY", &m_folder, "Library"); }
 
-  Answer run(Surroundings& around) override {
-    std::optional<convert::RemoteAddress> address;
-    if (convert::isRemote(m_folder))
-      address = libraryAddress(around.remote->addressIn(around.table->rows().front(), m_folder));
-    const convert::LibraryFile library =
-        address ? fetchLibrary(*address, *around.remote) : convert::openLibrary(m_folder);
+  Answer run(const Surroundings& around) override {
+    const convert::LibraryFile library = convert::openLibrary(m_folder);
     std::vector<std::vector<std::string>> rows = {
         {"id", "version", "vessels", "mm", "bytes", "licence", "title"}};
     Json cases = Json::array();
     for (const convert::LibraryEntry& entry : library.cases) {
       around.progress.check();
-      const convert::CaseRecord record = address ? fetchRecord(*address, entry, *around.remote)
-                                                 : convert::openRecord(m_folder, entry);
+      const convert::CaseRecord record = convert::openRecord(m_folder, entry);
       cases.push_back(caseLineJson(record, entry.bytes));
       rows.push_back({record.id, std::to_string(record.version),
                       std::to_string(record.figures.branches - record.figures.aneurysms),

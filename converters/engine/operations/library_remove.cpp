@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library remove: cases out of a library.
 #include "converters/engine/about_options.h"
-#include "converters/engine/library_answer.h"
+#include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/change.h"
 #include "formats/container/printable.h"
@@ -24,7 +24,7 @@ public:
     addDayRow(table, m_day);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     const std::string day = revisionDay(m_day);
     convert::openLibrary(m_library);
     const std::filesystem::path library = std::filesystem::canonical(m_library);

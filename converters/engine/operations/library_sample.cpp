@@ -42,7 +42,7 @@ public:
     addBuildRows(table, m_options);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     if (m_options.work.empty())
       m_options.work = (fs::path(m_library) / "").parent_path().string() + ".build";
     makeLibrary(around);

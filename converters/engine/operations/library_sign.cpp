@@ -5,7 +5,7 @@
 #include <string>
 
 #include "converters/base/option_name.h"
-#include "converters/engine/library_check_answer.h"
+#include "converters/engine/answers/library_check_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/change.h"
 #include "converters/library/signature.h"
@@ -40,7 +40,7 @@ public:
                    " FILE found whole");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     const convert::KeyFile key = convert::readKeyFile(m_key);
     convert::requireSigningKey(key);
     convert::LibraryCheckOptions options;
@@ -71,7 +71,7 @@ private:
   }
 
   void write(const convert::Signature& signature, const std::string& text,
-             Surroundings& around) const {
+             const Surroundings& around) const {
     const std::filesystem::path file = std::filesystem::path(m_folder) / signature.file;
     const auto unchanged = [&] {
       convert::FaultList ignored(0);

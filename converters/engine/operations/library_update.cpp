@@ -7,7 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/engine/about_options.h"
-#include "converters/engine/library_answer.h"
+#include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/prepare_case.h"
 #include "converters/library/change.h"
@@ -42,7 +42,7 @@ public:
     addAboutRows(table, m_about);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     const std::string day = revisionDay(m_day);
     convert::openLibrary(m_library);
     requireStatements(*around.table);

@@ -10,7 +10,7 @@
 
 #include "converters/base/files.h"
 #include "converters/base/option_name.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
@@ -89,9 +89,6 @@ public:
            "  lumen measure after.lumen --against before.lumen --json";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override {
-    return {"CASE", "against"};
-  }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_cases, "Cases; tables of several name the case in each row").many();
     table.file(
@@ -108,7 +105,7 @@ public:
                "vessels that lie at the same place");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     requireInScope(*around.table, {}, around.progress);
     if (!m_before.empty() && m_cases.size() != 1)
       throw Error(ErrorKind::Usage, kAgainst.shown() + ": found " + std::to_string(m_cases.size()) +
@@ -134,7 +131,8 @@ public:
 
 private:
   /// Refuses an output that could not be written in the end, or would be lost.
-  [[nodiscard]] std::optional<formats::PendingFolder> checkOutput(Surroundings& around) const {
+  [[nodiscard]] std::optional<formats::PendingFolder> checkOutput(
+      const Surroundings& around) const {
     const MeasureOutput kind = outputOf(m_output);
     if (kind == MeasureOutput::None) return std::nullopt;
     if (kind != MeasureOutput::Folder) {

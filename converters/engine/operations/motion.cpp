@@ -8,7 +8,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
@@ -32,7 +32,6 @@ public:
            "  lumen motion rest.lumen in.nrrd out.nrrd --out breath.lumen --times 0,1.5";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"REST", "PHASE"}; }
   void addRows(OptionTable& table) override {
     table.argument("REST", &m_rest, "Case of the vessels at rest");
     table
@@ -67,7 +66,7 @@ public:
     addVolumeRows(table, m_volume);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     requireInScope(*around.table, {}, around.progress);
     const FileFormat& to = caseOutputFormat(m_output, "", "the motion");
     requireInput(m_rest, "case file");

@@ -8,11 +8,10 @@
 
 #include "converters/base/option_name.h"
 #include "converters/base/suggestion.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/stage_options.h"
 #include "converters/io/seeds/seeds.h"
 
 namespace lumen::engine {
@@ -50,7 +49,7 @@ public:
     m_options.addRows(table);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     sortArguments();
     requireInScope(*around.table, {}, around.progress);
     const Outputs outputs = checkOutputs(around);
@@ -102,7 +101,7 @@ private:
   }
 
   /// Refuses outputs that could not be written in the end.
-  Outputs checkOutputs(Surroundings& around) const {
+  Outputs checkOutputs(const Surroundings& around) const {
     const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
                           m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
     std::vector<std::pair<std::string, convert::ContentKind>> files = {

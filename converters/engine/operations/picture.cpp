@@ -13,7 +13,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/draw/picture/draw_case.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
@@ -79,7 +79,6 @@ public:
            "  lumen picture head.lumen turn.png --turntable 36";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE", "volume"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_input, "Case, with models");
     table.argument("PNG", &m_output, "Picture to write");
@@ -105,7 +104,7 @@ public:
     addVolumeRows(table, m_volumeOptions, kOption.volume.name);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     if (!m_output.ends_with(".png"))
       throw Error(ErrorKind::Usage,
                   formats::printable(m_output) +
@@ -127,7 +126,7 @@ public:
   }
 
 private:
-  [[nodiscard]] convert::Volume volumeBehind(Surroundings& around) const {
+  [[nodiscard]] convert::Volume volumeBehind(const Surroundings& around) const {
     requireInput(m_volume, "volume");
     const FileFormat& format = inputFormat(m_volume, "");
     if (format.kind != FormatKind::Volume)

@@ -15,11 +15,11 @@
 #include "converters/draw/overlay/overlay.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/draw/report/report_page.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/surface_answer.h"
 #include "converters/engine/time_option.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
@@ -79,7 +79,6 @@ public:
     return "  lumen report head.lumen head.html --volume head.nrrd";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE", "volume"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_case, "Case");
     table.argument("HTML", &m_output, "Page to write: one file, which needs no network");
@@ -100,7 +99,7 @@ public:
     addVolumeRows(table, m_volume, kOption.volume.name);
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     checkNames(around);
     ReportFacts facts = factsOfCase(around);
     const OptionRow& spread = *around.table->find("point-spread");
@@ -119,7 +118,7 @@ public:
 
 private:
   /// Refuses outputs that could not be written in the end, or would be lost.
-  void checkNames(Surroundings& around) const {
+  void checkNames(const Surroundings& around) const {
     if (!m_output.ends_with(".html") && !m_output.ends_with(".htm"))
       throw Error(ErrorKind::Usage,
                   formats::printable(m_output) +
@@ -140,7 +139,7 @@ private:
     around.willWrite(m_output);
   }
 
-  [[nodiscard]] ReportFacts factsOfCase(Surroundings& around) const {
+  [[nodiscard]] ReportFacts factsOfCase(const Surroundings& around) const {
     Progress& progress = around.progress;
     ReportFacts facts;
     auto [bytes, value] = readCaseAndBytes(m_case);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/base/vectors.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
@@ -59,7 +59,6 @@ public:
            "  lumen seeds head.lumen kept.mrk.json        # the seeds that the case holds";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"INPUT", "seeds"}; }
   void addRows(OptionTable& table) override {
     table.argument("INPUT", &m_input, "Volume or case");
     table.argument(
@@ -74,7 +73,7 @@ public:
     addFormatRow(table, "from", m_from, "INPUT");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     requireOrder(m_input, m_output);
     requireInput(m_input, "volume or case");
     const FileFormat& from = inputFormat(m_input, m_from);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen track: a volume and seeds to a tree with wall points.
 #include "converters/base/option_name.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/reachable_answer.h"
+#include "converters/engine/answers/track_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/hinted_tracking.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/engine/reachable_answer.h"
-#include "converters/engine/remote_inputs.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/track_answer.h"
 #include "converters/engine/tracking_input.h"
 
 namespace lumen::engine {
@@ -25,9 +24,6 @@ public:
     return "  lumen track head.nrrd head.lumen --seeds head-seeds.json --inlier-rate 0.6";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override {
-    return {"VOLUME", "seeds"};
-  }
   void addRows(OptionTable& table) override {
     table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
     table.argument("OUT", &m_output, "Case to write, " + formatEndings(canWriteCase));
@@ -39,7 +35,7 @@ public:
     addFormatRow(table, "to", m_to, "OUT");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the tracked tree");
     requireInput(m_input, "volume");
@@ -62,7 +58,6 @@ public:
       nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, around.progress);
     const auto repetition =
         repeatTracks(volume, m_input, seeds, m_track, tracked.result, around.progress);
-    around.remote->record(tracked.result.metadata);
     to.writeCase(tracked.result, m_output, {}, around.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/reachable_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/engine/reachable_answer.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "converters/stages/fitting/refit.h"
@@ -42,7 +42,6 @@ public:
     return "  lumen trim head.lumen flow.lumen --min-radius 0.4 --min-length 2";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"CASE"}; }
   void addRows(OptionTable& table) override {
     table.argument("CASE", &m_input, "Case");
     table.argument("OUT", &m_output,
@@ -58,7 +57,7 @@ public:
     addFormatRow(table, "to", m_to, "OUT");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the trimmed tree");
     requireInput(m_input, "case file");

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "converters/base/option_name.h"
-#include "converters/engine/answer_text.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/engine/surface_answer.h"
 #include "converters/judge/facts/examination.h"
 #include "formats/case/case_file.h"
 
@@ -90,7 +90,6 @@ public:
            "  lumen validate head.lumen --surface";
   }
 
-  [[nodiscard]] std::vector<std::string> addressRows() const override { return {"FILE"}; }
   void addRows(OptionTable& table) override {
     table.argument("FILE", &m_files, "Cases, .lumen or .lumen.json").many();
     table
@@ -105,7 +104,7 @@ public:
                "the mesh: seconds for most cases");
   }
 
-  Answer run(Surroundings& around) override {
+  Answer run(const Surroundings& around) override {
     bool valid = true, personal = false, warned = false;
     Json files = Json::array();
     for (const std::string& file : m_files) {

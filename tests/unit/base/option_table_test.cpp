@@ -56,6 +56,14 @@ protected:
 
 }  // namespace
 
+TEST(FileNameTest, AnAddressIsNone) {
+  for (const char* text : {"https://example.org/a.nrrd", "s3://bucket/a.nrrd", "HTTP://a/b"})
+    EXPECT_TRUE(fileName()(text).starts_with("found an address, expected the name of a file"))
+        << text;
+  for (const char* text : {"a.nrrd", "/a/b.nrrd", "./https://a/b", "a:/b", "://a"})
+    EXPECT_EQ(fileName()(text), "") << text;
+}
+
 TEST_F(OptionTableTest, ARowStoresAValueOfItsType) {
   m_table.set("dark", {"true"});
   m_table.set("rays", {"42"});

@@ -127,6 +127,12 @@ TEST_F(BuildListTest, WhatIsNoListIsRefused) {
             std::string::npos);
 }
 
+TEST_F(BuildListTest, AnAddressIsNoInput) {
+  const std::string text = refusal("input\nhttps://me:word@example.org/a.nrrd\n");
+  EXPECT_TRUE(text.starts_with("line 2: input: found an address")) << text;
+  EXPECT_EQ(text.find("word"), std::string::npos) << text;
+}
+
 TEST_F(BuildListTest, RowsOfSomeLinesAreReadAlone) {
   const std::string text = "input,id\na.nrrd,a\nmissing.nrrd,NO\nb.nrrd,b\n";
   const BuildList one = readBuildList(text, list(), {4});

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/answers/answer_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "converters/base/number_text.h"
+#include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::engine {
+
+namespace {
+
+std::size_t blobCount(const formats::Case& value) {
+  return value.models ? value.models->centre.size() : 0;
+}
+
+std::size_t pointCount(const formats::Case& value) {
+  return value.points ? value.points->position.size() : 0;
+}
+
+}  // namespace
+
+Json jsonNumber(float value) {
+  if (!std::isfinite(value)) return nullptr;
+  const std::string text = formats::shortText(value);
+  double shortest = 0;
+  std::from_chars(text.data(), text.data() + text.size(), shortest);
+  return shortest;
+}
+
+Json jsonNumber(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value;
+}
+
+Json caseSummary(const formats::Case& value) {
+  Json json;
+  json["branches"] = value.tree.branches.size();
+  json["nodes"] = value.tree.nodeCount();
+  json["points"] = pointCount(value);
+  json["blobs"] = blobCount(value);
+  json["length_mm"] = jsonNumber(totalLength(value.tree));
+  return json;
+}
+
+std::string caseLine(const std::string& file, const formats::Case& value) {
+  return formats::printable(file) + ": " +
+         counted(value.tree.branches.size(), "branch", "branches") + ", " +
+         counted(value.tree.nodeCount(), "node", "nodes") + ", " +
+         counted(pointCount(value), "point", "points") + ", " +
+         counted(blobCount(value), "blob", "blobs") + ", " + fixedText(totalLength(value.tree), 1) +
+         " mm\n";
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/answers/case_info_answer.h"
+
+#include "converters/base/edit_steps.h"
+#include "converters/base/shown_text.h"
+#include "converters/engine/answers/reachable_answer.h"
+#include "converters/engine/answers/volume_info.h"
+
+namespace lumen::engine {
+
+namespace {
+
+std::optional<double> blobsPerNode(const convert::CaseInfo& info) {
+  if (!info.blobs || info.nodes == 0) return std::nullopt;
+  return static_cast<double>(*info.blobs) / static_cast<double>(info.nodes);
+}
+
+Json radiusJson(const RadiusRange& radius) {
+  return {{"mean", jsonNumber(radius.mean)},
+          {"min", jsonNumber(radius.min)},
+          {"max", jsonNumber(radius.max)}};
+}
+
+Json provenanceJson(const formats::Metadata& metadata) {
+  Json json;
+  json["voxel_size_mm"] = metadata.voxelSize ? jsonNumber(*metadata.voxelSize) : Json(nullptr);
+  json["source"] = metadata.source ? sourceVolumeJson(*metadata.source) : Json(nullptr);
+  json["parent_sha256"] =
+      metadata.parentSha256.empty() ? Json(nullptr) : Json(metadata.parentSha256);
+  json["point_step_mm"] =
+      metadata.pointQuantisation ? jsonNumber(metadata.pointQuantisation->step) : Json(nullptr);
+  json["steps"] = Json::array();
+  for (const auto& step : metadata.steps) {
+    Json parameters = Json::object();
+    for (const auto& [key, value] : step.parameters)
+      std::visit([&, &name = key](const auto& v) { parameters[name] = v; }, value);
+    json["steps"].push_back(
+        {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
+  }
+  return json;
+}
+
+Json branchJson(const convert::BranchInfo& branch) {
+  Json json;
+  json["label"] = branch.label;
+  json["kind"] = branch.kind;
+  json["nodes"] = branch.nodes;
+  json["length_mm"] = jsonNumber(branch.length);
+  json["radius_mm"] = branch.nodes > 0 ? radiusJson(branch.radius) : Json(nullptr);
+  json["stop_reason"] = branch.stopReason;
+  json["inlier_rate"] = branch.inlierRate ? jsonNumber(*branch.inlierRate) : Json(nullptr);
+  return json;
+}
+
+std::string branchTable(const convert::CaseInfo& info) {
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back(
+      {"branch", "kind", "nodes", "length", "radius", "min", "max", "inliers", "stopped by"});
+  for (const auto& b : info.branches)
+    rows.push_back({b.label, b.kind, std::to_string(b.nodes), fixedText(b.length, 1),
+                    fixedText(b.radius.mean, 3), fixedText(b.radius.min, 3),
+                    fixedText(b.radius.max, 3), fixedText(b.inlierRate, 2), b.stopReason});
+  return alignColumns(rows);
+}
+
+std::string stepText(const formats::Step& step) {
+  std::string text = step.name + " (" + step.tool + ")";
+  std::string separator = ": ";
+  for (const auto& [key, value] : step.parameters) {
+    text += separator + key + " " + parameterText(value);
+    separator = ", ";
+  }
+  return text;
+}
+
+std::string sourceText(const formats::SourceVolume& source) {
+  return joinedNumbers(source.size, " x ") + " voxels of " + joinedNumbers(source.spacing, " x ") +
+         " mm, sha256 " + source.sha256;
+}
+
+std::string motionText(const convert::MotionInfo& motion) {
+  std::string text = std::to_string(motion.times) + " times from " + shownNumber(motion.firstTime) +
+                     " to " + shownNumber(motion.lastTime) + " s, ";
+  text += motion.period > 0 ? "period " + shownNumber(motion.period) + " s" : "not periodic";
+  return text + ", " + std::to_string(motion.nodes) + " moving nodes, displacement up to " +
+         fixedText(motion.figures.displacement, 3) + " mm, strain up to " +
+         fixedText(motion.figures.strain, 3);
+}
+
+Json motionJson(const convert::MotionInfo& motion) {
+  return {{"times", motion.times},
+          {"first_s", jsonNumber(motion.firstTime)},
+          {"last_s", jsonNumber(motion.lastTime)},
+          {"period_s", motion.period > 0 ? jsonNumber(motion.period) : Json(nullptr)},
+          {"nodes", motion.nodes},
+          {"displacement_mm", jsonNumber(motion.figures.displacement)},
+          {"strain", jsonNumber(motion.figures.strain)}};
+}
+
+/// Adds lines for facts that few cases have.
+void addExtras(const convert::CaseInfo& info, Lines& lines) {
+  const formats::Metadata& metadata = info.metadata;
+  if (info.links > 0) lines.add("links", std::to_string(info.links));
+  if (const auto& rounded = metadata.pointQuantisation)
+    lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
+                            shownNumber(rounded->step) + " mm");
+  for (const auto& name : info.nodeArrays) lines.add("node array", name);
+  if (info.motion) lines.add("motion", motionText(*info.motion));
+  if (const auto& seeds = info.seeds; seeds && seeds->tracked + seeds->waiting > 0)
+    lines.add("seeds", std::to_string(seeds->tracked) + " tracked, " +
+                           std::to_string(seeds->waiting) + " waiting");
+  if (!metadata.parentSha256.empty()) lines.add("made from", "sha256 " + metadata.parentSha256);
+  if (!metadata.note.empty()) lines.add("note", metadata.note);
+}
+
+}  // namespace
+
+Json caseInfoJson(const convert::CaseInfo& info) {
+  Json json;
+  const auto perNode = blobsPerNode(info);
+  json["branches"] = info.branches.size();
+  json["nodes"] = info.nodes;
+  json["links"] = info.links;
+  json["points"] = info.points;
+  json["blobs"] = info.blobs.value_or(0);
+  json["blobs_per_node"] = perNode ? jsonNumber(*perNode) : Json(nullptr);
+  json["length_mm"] = jsonNumber(info.length);
+  json["reachable"] = reachJson(info.reach);
+  json["radius_mm"] = nullptr;
+  if (info.radius)
+    json["radius_mm"] = {{"min", jsonNumber(info.radius->min)},
+                         {"max", jsonNumber(info.radius->max)}};
+  json["error_of_fit_mm"] = nullptr;
+  if (info.errorOfFit)
+    json["error_of_fit_mm"] = {{"median", jsonNumber(info.errorOfFit->median)},
+                               {"p90", jsonNumber(info.errorOfFit->p90)},
+                               {"max", jsonNumber(info.errorOfFit->max)}};
+  json["provenance"] = provenanceJson(info.metadata);
+  json["note"] = info.metadata.note.empty() ? Json(nullptr) : Json(info.metadata.note);
+  json["node_arrays"] = info.nodeArrays;
+  json["motion"] = info.motion ? motionJson(*info.motion) : Json(nullptr);
+  json["seeds"] = nullptr;
+  if (info.seeds)
+    json["seeds"] = {{"tracked", info.seeds->tracked}, {"waiting", info.seeds->waiting}};
+  json["branch_table"] = Json::array();
+  for (const auto& branch : info.branches) json["branch_table"].push_back(branchJson(branch));
+  return json;
+}
+
+std::string caseInfoText(const convert::CaseInfo& info) {
+  Lines lines;
+  std::string blobs = std::to_string(info.blobs.value_or(0));
+  if (const auto perNode = blobsPerNode(info)) blobs += " (" + fixedText(perNode, 1) + " per node)";
+  lines.add("branches", std::to_string(info.branches.size()))
+      .add("nodes", std::to_string(info.nodes))
+      .add("points", std::to_string(info.points))
+      .add("blobs", blobs)
+      .add("length", fixedText(info.length, 1) + " mm");
+  lines.add("reachable", convert::reachText(info.reach));
+  if (info.reach)
+    for (const std::string& text : convert::closedTexts(*info.reach)) lines.add("closed", text);
+  if (info.radius)
+    lines.add("radius",
+              fixedText(info.radius->min, 3) + " to " + fixedText(info.radius->max, 3) + " mm");
+  if (const auto& e = info.errorOfFit)
+    lines.add("error of fit", "median " + fixedText(e->median, 4) + ", 90th percentile " +
+                                  fixedText(e->p90, 4) + ", greatest " + fixedText(e->max, 4) +
+                                  " mm");
+  if (info.metadata.voxelSize)
+    lines.add("voxel size", shownNumber(*info.metadata.voxelSize) + " mm");
+  if (info.metadata.source) lines.add("source", sourceText(*info.metadata.source));
+  addExtras(info, lines);
+  for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));
+  return lines.text() + "\n" + branchTable(info) + "\nLengths and radii in mm.\n";
+}
+
+}  // namespace lumen::engine

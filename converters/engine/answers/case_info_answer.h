@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The facts of a case as `lumen info` prints them.
+#pragma once
+
+#include <string>
+
+#include "converters/engine/answers/answer_text.h"
+#include "converters/judge/facts/case_info.h"
+
+namespace lumen::engine {
+
+/// branches, nodes, links, points, blobs, blobs_per_node, length_mm, radius_mm, error_of_fit_mm,
+/// provenance, note, node_arrays, seeds, branch_table. A value that the case does not have is null.
+Json caseInfoJson(const convert::CaseInfo& info);
+std::string caseInfoText(const convert::CaseInfo& info);
+
+}  // namespace lumen::engine

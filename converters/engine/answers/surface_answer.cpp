@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/answers/surface_answer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
+#include "converters/judge/facts/check_facts.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+namespace {
+
+Json placeJson(const Eigen::Vector3d& p) {
+  return Json::array({p.x(), p.y(), p.z()});
+}
+
+Json wallJson(const std::optional<convert::WallThickness>& wall) {
+  if (!wall) return nullptr;
+  return {{"least_mm", wall->least},
+          {"least_place", placeJson(wall->place)},
+          {"median_mm", wall->median},
+          {"step", convert::WallThickness::kStep},
+          {"histogram", wall->histogram}};
+}
+
+std::string wallLine(const convert::WallThickness& wall) {
+  constexpr std::size_t kFull = 9;  // bins below nine tenths of the thickness
+  std::size_t thin = 0;
+  for (std::size_t bin = 0; bin < kFull; ++bin) thin += wall.histogram[bin];
+  const double share =
+      wall.measured == 0 ? 0 : static_cast<double>(thin) / static_cast<double>(wall.measured);
+  return "wall         " + fixedText(wall.median, 3) + " mm thick (median), " +
+         fixedText(100 * share, 1) + " % under nine tenths of the thickness, least " +
+         fixedText(wall.least, 3) + " mm at " + convert::placeText(wall.place) + "\n";
+}
+
+}  // namespace
+
+std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report) {
+  std::vector<std::string> sentences = report.messages;
+  if (report.openedEdges > 0)
+    sentences.push_back(
+        counted(report.openedEdges, "edge", "edges") +
+        " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
+  if (report.crossings > 0)
+    sentences.push_back(
+        counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
+        " through each other; a greater " + kOption.gap.shown() + " or a smaller " +
+        kOption.edge.shown() + " may help");
+  for (const Eigen::Vector3d& place : report.cuts)
+    sentences.push_back("the lumen runs into itself at " + convert::placeText(place) +
+                        " mm, where no link joins it; it is cut there");
+  return sentences;
+}
+
+SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
+  if (!value.models || value.tree.nodeCount() == 0) return {};
+  try {
+    convert::SurfaceReport report = convert::closedSurface(value, {}, progress).report;
+    std::vector<std::string> warnings = surfaceWarnings(report);
+    return {std::move(report), std::move(warnings)};
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Cancelled) throw;
+    return {std::nullopt, {std::string("there is no closed surface: ") + error.what()}};
+  }
+}
+
+void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
+                   Progress& progress) {
+  for (const std::string& sentence : surfaceWarnings(report))
+    progress.warn(formats::printable(file) + ": " + sentence);
+}
+
+std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
+                         const formats::Case& value) {
+  if (!report) return "";
+  std::string text = "surface      " + counted(report->triangles, "triangle", "triangles") + ", " +
+                     counted(report->trees, "closed part", "closed parts") + ", " +
+                     counted(report->flatEnds, "flat end", "flat ends");
+  if (report->roundedEnds > 0)
+    text += ", " + counted(report->roundedEnds, "rounded end", "rounded ends");
+  if (!report->errors.empty() && report->errors.front() >= 0)
+    text += ", within " + fixedText(report->errors.front(), 4) + " mm of that with all triangles";
+  text += "\n";
+  if (report->wall) text += wallLine(*report->wall);
+  constexpr std::size_t kMostOverlapLines = 5;
+  const auto& branches = value.tree.branches;
+  for (std::size_t i = 0; i < std::min(kMostOverlapLines, report->overlaps.size()); ++i) {
+    const convert::Overlap& o = report->overlaps[i];
+    text += (i == 0 ? "overlap      " : "             ") +
+            formats::printable(branches[o.branch].label) + " and " +
+            formats::printable(branches[o.other].label) + " by up to " + fixedText(2 * o.depth, 2) +
+            " mm at " + convert::placeText(o.place) + "; kept " + fixedText(report->gap, 3) +
+            " mm apart\n";
+  }
+  if (report->overlaps.size() > kMostOverlapLines)
+    text += "             and " + std::to_string(report->overlaps.size() - kMostOverlapLines) +
+            " more pairs; " + kOption.json.shown() + " lists all\n";
+  return text;
+}
+
+Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const formats::Case& value) {
+  if (!report) return nullptr;
+  Json json = {{"trees", report->trees},
+               {"vertices", report->vertices},
+               {"triangles", report->triangles},
+               {"gap_mm", report->gap},
+               {"flatEnds", report->flatEnds},
+               {"roundedEnds", report->roundedEnds},
+               {"openedEdges", report->openedEdges},
+               {"offField", report->offField},
+               {"sharpTriangles", report->sharpTriangles},
+               {"crossings", report->crossings},
+               {"wall", wallJson(report->wall)},
+               {"cuts", Json::array()},
+               {"overlaps", Json::array()}};
+  json["errors_mm"] = Json::array();
+  for (const double error : report->errors)
+    json["errors_mm"].push_back(error < 0 ? Json() : jsonNumber(error));
+  for (const Eigen::Vector3d& place : report->cuts) json["cuts"].push_back(placeJson(place));
+  for (const convert::Overlap& o : report->overlaps)
+    json["overlaps"].push_back(
+        {{"branches", {value.tree.branches[o.branch].label, value.tree.branches[o.other].label}},
+         {"depth_mm", 2 * o.depth},
+         {"place", placeJson(o.place)}});
+  return json;
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facts of a closed surface, as text and as JSON.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "formats/case/case.h"
+
+namespace lumen::engine {
+
+/// Sentences about parts that a user should look at: ends that are not flat, stretches of branches
+/// without a surface, vessels that had to be opened or cut, triangles that pass through each other.
+std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report);
+
+/// Results of examineSurface().
+struct SurfaceFindings {
+  std::optional<convert::SurfaceReport> report;  ///< absent if there is no surface
+  std::vector<std::string> warnings;  ///< surfaceWarnings(), or the reason why there is no surface
+};
+
+/// Makes the closed surface that `lumen convert` makes of a case by default. Finds nothing in a case
+/// without models. Takes as long as the surface. Throws Error(Cancelled).
+SurfaceFindings examineSurface(const formats::Case& value, Progress& progress);
+
+/// Warns with surfaceWarnings(), after the name of the file.
+void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
+                   Progress& progress);
+
+/// Lines for the answer: triangles, ends, and where vessels overlap and by how much. Empty without
+/// a surface.
+std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
+                         const formats::Case& value);
+
+/// Facts of a closed surface as an object; null without a surface.
+Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const formats::Case& value);
+
+}  // namespace lumen::engine
