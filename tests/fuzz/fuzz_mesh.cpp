@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fuzz/mesh_input.h"
-
+// Meshes of the format LUMEN_FUZZ_FORMAT: what is read must be what MeshFile promises, and its repair
+// what RepairResult promises.
 #include <span>
 #include <string_view>
 
 #include "converters/base/error.h"
 #include "converters/geometry/mesh_edges.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/repair/mesh_report.h"
 #include "converters/stages/repair/repair.h"
 #include "formats/container/printable.h"
@@ -49,18 +50,20 @@ void checkRepaired(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+}  // namespace lumen::fuzz
 
-void checkMesh(const std::uint8_t* data, std::size_t size, MeshFormat format) {
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lumen::fuzz;
   try {
-    const MeshFile file =
-        parseMesh(std::string_view(reinterpret_cast<const char*>(data), size), "mesh", format);
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    const MeshFile file = parseMesh(bytes, "mesh", MeshFormat::LUMEN_FUZZ_FORMAT);
     checkFile(file);
     if (file.mesh.triangle.size() <= kMostRepaired) checkRepaired(file.mesh);
-  } catch (const Error& error) {
-    expect(error.kind() == ErrorKind::InvalidInput || error.kind() == ErrorKind::Unsupported,
+  } catch (const lumen::Error& error) {
+    expect(error.kind() == lumen::ErrorKind::InvalidInput ||
+               error.kind() == lumen::ErrorKind::Unsupported,
            "a bad file is invalid or unsupported input");
-    expect(formats::printable(error.what()) == error.what(), "messages are fit to print");
+    expect(lumen::formats::printable(error.what()) == error.what(), "messages are fit to print");
   }
+  return 0;
 }
-
-}  // namespace lumen::fuzz

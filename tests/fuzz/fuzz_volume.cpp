@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fuzz/volume_input.h"
-
+// Volumes of the format LUMEN_FUZZ_FORMAT, header and voxels: what is accepted must be sound, and what
+// is refused must be refused as a stage must.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -84,15 +84,15 @@ void readBoth(const fs::path& path, convert::VolumeFormat format) {
   expect(count == volume->geometry.voxelCount(), "there are as many voxels as the size says");
 }
 
-}  // namespace
-
-void readVolumeOf(const std::uint8_t* data, std::size_t size, const std::string& name,
-                  convert::VolumeFormat format) {
+/// The same bytes are also in the file "d", for headers that name one.
+void readVolumeOf(const std::uint8_t* data, std::size_t size) {
   static const Folder folder;
   (void)folder.write("d", data, size);
-  readBoth(folder.write(name, data, size), format);
+  readBoth(folder.write("v", data, size), convert::VolumeFormat::LUMEN_FUZZ_FORMAT);
 }
 
+/// A folder with a DICOM file of these bytes, or with several, between which the bytes have the word
+/// "#next-file#".
 void readSeriesOf(const std::uint8_t* data, std::size_t size) {
   constexpr std::string_view kNext = "#next-file#";
   constexpr std::size_t kMostFiles = 4;
@@ -109,4 +109,15 @@ void readSeriesOf(const std::uint8_t* data, std::size_t size) {
   readBoth(file.parent_path(), convert::VolumeFormat::Dicom);
 }
 
+}  // namespace
 }  // namespace lumen::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using lumen::convert::VolumeFormat;
+  constexpr VolumeFormat kFormat = VolumeFormat::LUMEN_FUZZ_FORMAT;
+  if (kFormat == VolumeFormat::Dicom)
+    lumen::fuzz::readSeriesOf(data, size);
+  else
+    lumen::fuzz::readVolumeOf(data, size);
+  return 0;
+}

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fuzz/centerline_checks.h"
-
+// Centerlines by the reader LUMEN_FUZZ_FORMAT: points, chains, and the case that is made of them if
+// their radii allow one.
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "converters/base/error.h"
 #include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/read_tre.h"
+#include "converters/io/centerline/read_vtp.h"
 #include "formats/case/validate.h"
+#include "formats/container/printable.h"
 #include "fuzz/fuzz_support.h"
 
 namespace lumen::fuzz {
@@ -56,11 +62,25 @@ void checkCase(convert::CenterlineFile file) {
 }
 
 }  // namespace
-
-void checkCenterline(convert::CenterlineFile file, bool hasRadii) {
-  checkPoints(file, hasRadii);
-  checkChains(file);
-  checkCase(std::move(file));
-}
-
 }  // namespace lumen::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lumen;
+  using namespace lumen::fuzz;
+  convert::CenterlineFile (*const parse)(std::string_view, const std::string&) =
+      convert::LUMEN_FUZZ_FORMAT;
+  const bool isVtp = parse == convert::parseVtpCenterline;  // which may lack radii
+  try {
+    convert::CenterlineFile file =
+        parse(std::string_view(reinterpret_cast<const char*>(data), size), "tree");
+    checkPoints(file, !isVtp);
+    checkChains(file);
+    checkCase(std::move(file));
+  } catch (const Error& error) {
+    expect(error.kind() == ErrorKind::InvalidInput ||
+               (isVtp && error.kind() == ErrorKind::Unsupported),
+           "a bad file is invalid input");
+    expect(formats::printable(error.what()) == error.what(), "messages are fit to print");
+  }
+  return 0;
+}

@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// A file of NRRD, header and voxels.
-#include "fuzz/fuzz_support.h"
-#include "fuzz/volume_input.h"
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  lumen::fuzz::readVolumeOf(data, size, "v.nrrd", lumen::convert::VolumeFormat::Nrrd);
-  return 0;
-}
