@@ -28,7 +28,7 @@ constexpr double kSlabShare = 0.35;  // half width of the bone, as a share of th
 
 // A unit vector across the vessel at a node.
 Vector3d randomSide(const formats::CenterlineTree& tree, std::uint32_t node, Random& random) {
-  const auto [u, v] = perpendiculars(nodeDirection(tree, node));
+  const auto [u, v] = perpendiculars(toEigen(tree.direction[node]));
   const double angle = 2 * kPi * random.uniform();
   return std::cos(angle) * u + std::sin(angle) * v;
 }
@@ -42,9 +42,9 @@ double shareWithin(double distance, double voxel) {
 std::vector<std::pair<Vector3d, Vector3d>> framesAlong(const formats::CenterlineTree& tree,
                                                        const BranchStretch& stretch) {
   std::vector<std::pair<Vector3d, Vector3d>> frames;
-  Vector3d u = perpendiculars(nodeDirection(tree, stretch.first)).first;
+  Vector3d u = perpendiculars(toEigen(tree.direction[stretch.first])).first;
   for (std::uint32_t n = stretch.first; n <= stretch.last; ++n) {
-    const Vector3d w = nodeDirection(tree, n);
+    const Vector3d w = toEigen(tree.direction[n]);
     const Vector3d across = u - u.dot(w) * w;
     u = across.norm() > 1e-6 ? across.normalized() : perpendiculars(w).first;
     frames.emplace_back(u, w.cross(u));
@@ -90,7 +90,7 @@ Bone::Bone(const formats::CenterlineTree& tree, const BranchStretch& stretch, do
   m_thickness = std::max(3 * radius, 10 * voxel);
   m_cortex = std::max(0.15 * m_thickness, 1.5 * voxel);
   m_pore = std::max(0.5 * m_thickness, 5 * voxel);
-  m_centre = nodeCentre(tree, stretch.middle) + (radius + gap - m_bend) * m_axis;
+  m_centre = toEigen(tree.centre[stretch.middle]) + (radius + gap - m_bend) * m_axis;
 }
 
 // A gyroid has struts and pores of equal width.
@@ -119,7 +119,7 @@ Streaks::Streaks(const formats::CenterlineTree& tree, const BranchStretch& stret
     : m_voxel(voxel) {
   const double radius = radiusOf(tree, stretch.middle);
   m_radius = std::max(0.75 * radius, 2 * voxel);
-  m_centre = nodeCentre(tree, stretch.middle) +
+  m_centre = toEigen(tree.centre[stretch.middle]) +
              (4 * radius + m_radius) * randomSide(tree, stretch.middle, random);
   m_phase = 2 * kPi * random.uniform();
   m_phase2 = 2 * kPi * random.uniform();
@@ -150,9 +150,9 @@ Design veinAlong(const formats::CenterlineTree& tree, const BranchStretch& stret
     const double radius = radiusOf(tree, node), vein = kVeinWidth * radius;
     const double angle = begin + kPi * static_cast<double>(i) /
                                      std::max(1.0, static_cast<double>(frames.size() - 1));
-    path.push_back({nodeCentre(tree, node) + kVeinApart * (radius + vein) *
-                                                 (std::cos(angle) * frames[i].first +
-                                                  std::sin(angle) * frames[i].second),
+    path.push_back({toEigen(tree.centre[node]) + kVeinApart * (radius + vein) *
+                                                     (std::cos(angle) * frames[i].first +
+                                                      std::sin(angle) * frames[i].second),
                     vein});
   }
   TreeBuilder builder(Frame{voxel, 0});
@@ -172,8 +172,8 @@ Design stentIn(const formats::CenterlineTree& tree, const BranchStretch& stretch
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const auto node = stretch.first + static_cast<std::uint32_t>(i);
       const double radius = radiusOf(tree, node);
-      path.push_back({nodeCentre(tree, node) + radius * (std::cos(angle) * frames[i].first +
-                                                         std::sin(angle) * frames[i].second),
+      path.push_back({toEigen(tree.centre[node]) + radius * (std::cos(angle) * frames[i].first +
+                                                             std::sin(angle) * frames[i].second),
                       std::max(kWireWidth * radius, kLeastWire * voxel)});
       angle += hand * static_cast<double>(tree.height[node]) / radius;
     }

@@ -13,10 +13,6 @@ namespace {
 constexpr int kCurveSamples = 4000;
 constexpr double kReferenceExtent = 25.4;  // mm: 128 voxels of 0.2 mm
 
-formats::Vec3f asFloat(const Eigen::Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 // The unit direction. Where a path turns back on itself, the direction of its rest; where it stands
 // still, the z axis.
 Eigen::Vector3d directionAt(const Path& path, std::size_t i) {
@@ -42,6 +38,15 @@ Path sampleCurve(const std::function<Eigen::Vector3d(double)>& position,
     path.push_back({position(t), radius(t)});
   }
   return path;
+}
+
+Path straightPath(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                  const std::function<double(double)>& radius) {
+  return sampleCurve([&](double t) -> Eigen::Vector3d { return from + t * (to - from); }, radius);
+}
+
+std::function<double(double)> constant(double value) {
+  return [value](double) { return value; };
 }
 
 double pathLength(const Path& path) {
@@ -78,8 +83,8 @@ std::int32_t TreeBuilder::nearestNode(std::uint32_t branch, const Eigen::Vector3
   const formats::Branch& b = tree().branches[branch];
   std::uint32_t best = b.firstNode;
   for (std::uint32_t n = b.firstNode; n < b.firstNode + b.nodeCount; ++n)
-    if ((nodeCentre(tree(), n) - point).squaredNorm() <
-        (nodeCentre(tree(), best) - point).squaredNorm())
+    if ((toEigen(tree().centre[n]) - point).squaredNorm() <
+        (toEigen(tree().centre[best]) - point).squaredNorm())
       best = n;
   return static_cast<std::int32_t>(best);
 }
@@ -101,8 +106,8 @@ std::uint32_t TreeBuilder::add(const std::string& label, std::int32_t parent, co
   tree.branches.push_back(branch);
   const double height = pathLength(even) / static_cast<double>(even.size() - 1);
   for (std::size_t i = 0; i < even.size(); ++i) {
-    tree.centre.push_back(asFloat(even[i].position));
-    tree.direction.push_back(asFloat(directionAt(even, i)));
+    tree.centre.push_back(toVec3f(even[i].position));
+    tree.direction.push_back(toVec3f(directionAt(even, i)));
     tree.radius.push_back(static_cast<float>(even[i].radius));
     tree.height.push_back(static_cast<float>(height));
     tree.parent.push_back(i == 0 ? branch.parentNode : static_cast<std::int32_t>(first + i) - 1);
@@ -116,7 +121,7 @@ void TreeBuilder::link(std::uint32_t from, std::uint32_t to) {
   formats::CenterlineTree& tree = m_design.tree;
   const formats::Branch& branch = tree.branches[from];
   const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
-  const auto other = static_cast<std::uint32_t>(nearestNode(to, nodeCentre(tree, last)));
+  const auto other = static_cast<std::uint32_t>(nearestNode(to, toEigen(tree.centre[last])));
   tree.links.push_back({std::min(last, other), std::max(last, other)});
   std::sort(tree.links.begin(), tree.links.end());
 }
@@ -130,22 +135,12 @@ void fadeContrast(Design& design, double share) {
     fromRoot.push_back(tree.parent[n] == formats::kNoParent
                            ? 0
                            : fromRoot[parent] +
-                                 (nodeCentre(tree, n) - nodeCentre(tree, parent)).norm());
+                                 (toEigen(tree.centre[n]) - toEigen(tree.centre[parent])).norm());
     farthest = std::max(farthest, fromRoot.back());
   }
   if (share == 0 || farthest == 0) return;
   for (std::size_t n = 0; n < fromRoot.size(); ++n)
     design.contrast[n] *= static_cast<float>(1 - share * fromRoot[n] / farthest);
-}
-
-Eigen::Vector3d nodeCentre(const formats::CenterlineTree& tree, std::uint32_t node) {
-  const formats::Vec3f& v = tree.centre[node];
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-
-Eigen::Vector3d nodeDirection(const formats::CenterlineTree& tree, std::uint32_t node) {
-  const formats::Vec3f& v = tree.direction[node];
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
 double radiusOf(const formats::CenterlineTree& tree, std::uint32_t node) {

@@ -12,6 +12,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/base/random.h"
+#include "converters/base/vectors.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/case/case.h"
 
@@ -38,6 +39,13 @@ using Path = std::vector<PathPoint>;
 /// A finely sampled curve: `position` and `radius` over t in [0, 1].
 Path sampleCurve(const std::function<Eigen::Vector3d(double)>& position,
                  const std::function<double(double)>& radius);
+
+/// From one point to another; `radius` over t in [0, 1].
+Path straightPath(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                  const std::function<double(double)>& radius);
+
+/// A radius that is `value` everywhere.
+std::function<double(double)> constant(double value);
 
 double pathLength(const Path& path);
 
@@ -77,9 +85,6 @@ private:
   Frame m_frame;
   Design m_design;
 };
-
-Eigen::Vector3d nodeCentre(const formats::CenterlineTree& tree, std::uint32_t node);
-Eigen::Vector3d nodeDirection(const formats::CenterlineTree& tree, std::uint32_t node);
 
 double radiusOf(const formats::CenterlineTree& tree, std::uint32_t node);
 

@@ -17,14 +17,6 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kTurn = 2 * std::numbers::pi;
 
-std::function<double(double)> same(double value) {
-  return [value](double) { return value; };
-}
-
-Path straightPath(const Vector3d& from, const Vector3d& to, double radius) {
-  return sampleCurve([&](double t) -> Vector3d { return from + t * (to - from); }, same(radius));
-}
-
 // From one point to another past a corner, which is rounded by a parabola over `blend` mm on both
 // sides; the radius goes from r0 to r1 over the same way.
 struct BentVessel {
@@ -94,9 +86,9 @@ Design designSacLobes(const Frame& frame) {
   const auto root =
       static_cast<std::int32_t>(builder.add("root", formats::kNoParent, trunk.path()));
   const Vector3d start = trunk.middle();
-  builder.add(
-      "b01", root,
-      straightPath(start, start + reach * Vector3d(-std::sin(turn), 0.05, std::cos(turn)), r2));
+  builder.add("b01", root,
+              straightPath(start, start + reach * Vector3d(-std::sin(turn), 0.05, std::cos(turn)),
+                           constant(r2)));
   const Vector3d centre = fork + 3.7 * scale * Vector3d(-0.06, 0.05, 1).normalized();
   const auto body = static_cast<std::int32_t>(builder.add(
       "sac", root, sacPath(start, centre, sac, 0, 0.9 * scale), formats::BranchKind::Aneurysm));
@@ -125,7 +117,7 @@ Design designCompanion(const Frame& frame) {
           return Vector3d(e * t, 0.5 * e + 0.07 * e * std::sin(kTurn * t),
                           0.48 * e + side * 0.5 * apart(t));
         },
-        same(radius));
+        constant(radius));
   };
   TreeBuilder builder(frame);
   builder.add("artery", formats::kNoParent, path(+1, bright));
@@ -169,13 +161,13 @@ Design designHairpin(const Frame& frame) {
 Design designRightAngle(const Frame& frame) {
   const double e = frame.extent, scale = frame.radiusScale();
   TreeBuilder builder(frame);
-  const auto root = static_cast<std::int32_t>(
-      builder.add("root", formats::kNoParent,
-                  straightPath({0.45 * e, 0.5 * e, 0}, {0.45 * e, 0.5 * e, e}, 2.3 * scale)));
+  const auto root = static_cast<std::int32_t>(builder.add(
+      "root", formats::kNoParent,
+      straightPath({0.45 * e, 0.5 * e, 0}, {0.45 * e, 0.5 * e, e}, constant(2.3 * scale))));
   const auto leave = [&](const std::string& label, double height, const Vector3d& along,
                          double radius) {
     const Vector3d start(0.45 * e, 0.5 * e, height * e);
-    builder.add(label, root, straightPath(start, start + 0.42 * e * along, radius));
+    builder.add(label, root, straightPath(start, start + 0.42 * e * along, constant(radius)));
   };
   leave("b01", 0.36, Vector3d(1, 0, 0), 0.6 * scale);
   leave("b02", 0.68, Vector3d(0.3, 0.953939201, 0), 1.0 * scale);
@@ -202,7 +194,7 @@ Design designFading(const Frame& frame) {
                          0.8 * scale};
   const auto b01 = static_cast<std::int32_t>(builder.add("b01", root, child.path()));
   builder.add("b02", b01,
-              straightPath(child.middle(), {0.88 * e, 0.3 * e, 0.66 * e}, 0.65 * scale));
+              straightPath(child.middle(), {0.88 * e, 0.3 * e, 0.66 * e}, constant(0.65 * scale)));
   fadeContrast(builder.design(), 0.65);
   return builder.design();
 }

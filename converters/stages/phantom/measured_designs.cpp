@@ -17,14 +17,6 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kStraight = std::numbers::pi;  // 180 degrees
 
-std::function<double(double)> always(double value) {
-  return [value](double) { return value; };
-}
-
-Path linePath(const Vector3d& from, const Vector3d& to, const std::function<double(double)>& r) {
-  return sampleCurve([&](double t) -> Vector3d { return from + t * (to - from); }, r);
-}
-
 class Notes {
 public:
   Notes(Design& design, const std::string& branch) : m_design(design), m_branch(branch) {}
@@ -137,7 +129,7 @@ Design sacOnTube(const Frame& frame, double along, double across, double neckRad
   TreeBuilder builder(frame);
   const Vector3d from(0.28 * e, 0.46 * e, 0), to(0.36 * e, 0.54 * e, e);
   const auto root = static_cast<std::int32_t>(
-      builder.add("root", formats::kNoParent, linePath(from, to, always(r))));
+      builder.add("root", formats::kNoParent, straightPath(from, to, constant(r))));
   const Vector3d flow = (to - from).normalized();
   const Vector3d out = (Vector3d(1, 0.2, 0) - Vector3d(1, 0.2, 0).dot(flow) * flow).normalized();
   builder.add("sac", root, sac.path(0.5 * (from + to), out, 0.3 * r),
@@ -163,7 +155,7 @@ Design designCoil(const Frame& frame) {
            b * (angle - 0.5 * last) * axis;
   };
   TreeBuilder builder(frame);
-  builder.add("root", formats::kNoParent, sampleCurve(position, always(r)));
+  builder.add("root", formats::kNoParent, sampleCurve(position, constant(r)));
   Notes notes(builder.design(), "root");
   const double square = a * a + b * b;
   noteEvenTube(notes, last * std::sqrt(square), (position(1) - position(0)).norm(), a / square,
@@ -181,7 +173,7 @@ Design designArc(const Frame& frame) {
            bend * (std::cos(turn * t) * u + std::sin(turn * t) * v);
   };
   TreeBuilder builder(frame);
-  builder.add("root", formats::kNoParent, sampleCurve(position, always(r)));
+  builder.add("root", formats::kNoParent, sampleCurve(position, constant(r)));
   Notes notes(builder.design(), "root");
   noteEvenTube(notes, turn * bend, (position(1) - position(0)).norm(), 1 / bend, 0, r);
   return builder.design();
@@ -193,7 +185,7 @@ Design designCone(const Frame& frame) {
   TreeBuilder builder(frame);
   const Vector3d from(0.42 * e, 0.47 * e, 0), to(0.58 * e, 0.55 * e, e);
   builder.add("root", formats::kNoParent,
-              linePath(from, to, [&](double t) { return r0 + t * (r1 - r0); }));
+              straightPath(from, to, [&](double t) { return r0 + t * (r1 - r0); }));
   Notes notes(builder.design(), "root");
   // the wall touches the balls of the axis where these are smaller than the cone's circles there:
   // the sections' radii are those of the balls over the cosine of the half angle
@@ -222,7 +214,7 @@ Design designEllipseTube(const Frame& frame) {
   const Vector3d u = (std::cos(0.4) * across + std::sin(0.4) * other).normalized();
   const Vector3d v = along.cross(u);
   TreeBuilder builder(frame);
-  builder.add("root", formats::kNoParent, linePath(from, to, always(b)));
+  builder.add("root", formats::kNoParent, straightPath(from, to, constant(b)));
   builder.design().wall = [=](const Vector3d& point) {
     const Vector3d p = point - from;
     const double x = p.dot(u) / a, y = p.dot(v) / b;
@@ -261,11 +253,11 @@ Design designFork(const Frame& frame) {
   const Vector3d along1 = std::cos(one) * trunk + std::sin(one) * side;
   const Vector3d along2 = std::cos(two) * trunk - std::sin(two) * side;
   TreeBuilder builder(frame);
-  Path path = linePath(from, fork, always(r0));
-  const Path rest = linePath(fork, fork + length * along1, always(r1));
+  Path path = straightPath(from, fork, constant(r0));
+  const Path rest = straightPath(fork, fork + length * along1, constant(r1));
   path.insert(path.end(), rest.begin(), rest.end());
   const auto root = static_cast<std::int32_t>(builder.add("root", formats::kNoParent, path));
-  builder.add("b01", root, linePath(fork, fork + length * along2, always(r2)));
+  builder.add("b01", root, straightPath(fork, fork + length * along2, constant(r2)));
   Notes notes(builder.design(), "b01");
   notes.add("fork_continuing_in_plane_deg", 30);
   notes.add("fork_branching_in_plane_deg", 50);
@@ -300,11 +292,11 @@ Design designSacFork(const Frame& frame) {
   const double length = 0.42 * e;
   const CutSac sac{ball, ball, r + std::sqrt(ball * ball - neck * neck), r};
   TreeBuilder builder(frame);
-  Path path = linePath(from, fork, always(r));
-  const Path rest = linePath(fork, fork + length * side, always(r));
+  Path path = straightPath(from, fork, constant(r));
+  const Path rest = straightPath(fork, fork + length * side, constant(r));
   path.insert(path.end(), rest.begin(), rest.end());
   const auto root = static_cast<std::int32_t>(builder.add("root", formats::kNoParent, path));
-  builder.add("b01", root, linePath(fork, fork - length * side, always(r)));
+  builder.add("b01", root, straightPath(fork, fork - length * side, constant(r)));
   builder.add("sac", root, sac.path(fork, trunk, 0.3 * r), formats::BranchKind::Aneurysm);
   Notes notes(builder.design(), "sac");
   noteSac(notes, sac, 2 * r, 0, "bifurcation");

@@ -18,12 +18,6 @@ namespace {
 
 constexpr int kSmallestSize = 32, kLargestSize = 1024;
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 void requireRange(const OptionName& option, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw Error(ErrorKind::Usage, "phantom: " + option.shown() + " is " + formats::shortText(value) +
@@ -31,35 +25,16 @@ void requireRange(const OptionName& option, double value, double low, double hig
                                     formats::shortText(high));
 }
 
-void checkSubject(const PhantomOptions& options) {
-  if (!options.tree.empty()) {
-    if (!options.name.empty())
-      throw Error(ErrorKind::Usage, "phantom: has the name '" + formats::printable(options.name) +
-                                        "' and " + kOption.tree.shown() + ", expected one of them");
-    if (options.size != 0)
-      throw Error(ErrorKind::Usage, "phantom: " + kOption.size.shown() + " is given with " +
-                                        kOption.tree.shown() +
-                                        ", whose box fits the tree; leave it out");
-    return;
-  }
-  const std::vector<std::string>& names = phantomNames();
-  if (std::find(names.begin(), names.end(), options.name) == names.end())
-    throw Error(ErrorKind::Usage, "phantom: unknown name '" + formats::printable(options.name) +
-                                      "', expected one of " + joined(names));
-}
-
+// What the rows of the options cannot state.
 void checkOptions(const PhantomOptions& options) {
-  checkSubject(options);
+  const std::vector<std::string>& names = phantomNames();
+  if (options.tree.empty() && std::find(names.begin(), names.end(), options.name) == names.end())
+    throw Error(ErrorKind::Usage,
+                "phantom: there is no '" + formats::printable(options.name) + "'");
   if (options.size != 0) requireRange(kOption.size, options.size, kSmallestSize, kLargestSize);
-  requireRange(kOption.voxel, options.voxel, 0.01, 10);
   if (options.sliceThickness != 0)
     requireRange(kOption.sliceThickness, options.sliceThickness, options.voxel,
                  100 * options.voxel);
-  requireRange(kOption.noise, options.noise, 0, 2);
-  requireRange(kOption.bias, options.bias, 0, 2);
-  requireRange(kOption.psf, options.psf, 0, 5);
-  requireRange(kOption.fade, options.fade, 0, 1);
-  requireRange(kOption.phases, options.phases, 2, 100);
   (void)parseClutter(options.clutter);
 }
 
@@ -233,16 +208,6 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
     parameters.erase(kOption.phases.name);
   }
   return parameters;
-}
-
-const std::vector<std::string>& phantomNames() {
-  static const std::vector<std::string> names = {
-      "tube",        "helix",        "bifurcation",  "kissing",    "aneurysm",
-      "stenosis",    "dropout",      "sac-lobes",    "companion",  "hairpin",
-      "right-angle", "fading",       "thick-slices", "coil",       "arc",
-      "cone",        "ellipse-tube", "fork",         "sac-sphere", "sac-ellipsoid",
-      "sac-fork",    "willis",       "coronary",     "hepatic",    "patient"};
-  return names;
 }
 
 Phantom makePhantom(const PhantomOptions& options, Progress& progress) {

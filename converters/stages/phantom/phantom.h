@@ -116,8 +116,9 @@ const std::map<std::string, bool>& carelessByName();
 /// Names of the phantoms, in the order of the table above.
 const std::vector<std::string>& phantomNames();
 
-/// Makes a phantom. Throws Error(Usage) for an unknown name, options out of range and both or
-/// neither of name and tree, Error(InvalidInput) for the file of the tree, and Error(Cancelled).
+/// Makes a phantom of options within the ranges of their rows. Throws Error(Usage) for an unknown
+/// name, and for a size or thickness that is too small, Error(InvalidInput) for the file of the
+/// tree, and Error(Cancelled).
 Phantom makePhantom(const PhantomOptions& options, Progress& progress);
 
 /// Receives the volume of a phase, from 1 on: those after the rest.

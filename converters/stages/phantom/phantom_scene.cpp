@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
+#include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
@@ -30,6 +29,38 @@ constexpr double kMostDraws = 1e11;        // distances of voxels to pieces of w
 constexpr double kNamedSlice = 5;          // voxels, of the phantom with thick slices
 // A stream of its own, so that the clicks do not change when the drawing does.
 constexpr std::uint64_t kClicks = 0x636c69636b73ULL;
+
+using Designer = Design (*)(const Frame&);
+
+// In the order of the table of phantom.h; "patient" comes after them.
+const std::vector<std::pair<std::string, Designer>>& designs() {
+  static const std::vector<std::pair<std::string, Designer>> rows = {
+      {"tube", designTube},
+      {"helix", designHelix},
+      {"bifurcation", designBifurcation},
+      {"kissing", designKissing},
+      {"aneurysm", designAneurysm},
+      {"stenosis", designStenosis},
+      {"dropout", designDropout},
+      {"sac-lobes", designSacLobes},
+      {"companion", designCompanion},
+      {"hairpin", designHairpin},
+      {"right-angle", designRightAngle},
+      {"fading", designFading},
+      {"thick-slices", designThickSlices},
+      {"coil", designCoil},
+      {"arc", designArc},
+      {"cone", designCone},
+      {"ellipse-tube", designEllipseTube},
+      {"fork", designFork},
+      {"sac-sphere", designSacSphere},
+      {"sac-ellipsoid", designSacEllipsoid},
+      {"sac-fork", designSacFork},
+      {"willis", designWillis},
+      {"coronary", designCoronary},
+      {"hepatic", designHepatic}};
+  return rows;
+}
 
 // Voxels along each edge, as whole numbers that need not fit any integer.
 Vector3d sizeOf(const Box3d& box, double voxel) {
@@ -117,48 +148,34 @@ Box3d boxOfPhases(const formats::CenterlineTree& tree, const PhantomOptions& opt
   const MovingTissue tissue(options.motion, box);
   for (int phase = 1; phase < options.phases; ++phase)
     for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
-      box.add(tissue.place(nodeCentre(tree, n), static_cast<double>(phase) / options.phases),
+      box.add(tissue.place(toEigen(tree.centre[n]), static_cast<double>(phase) / options.phases),
               static_cast<double>(tree.radius[n]));
   return box;
 }
 
 }  // namespace
 
+const std::vector<std::string>& phantomNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, design] : designs()) all.push_back(name);
+    all.emplace_back("patient");
+    return all;
+  }();
+  return names;
+}
+
 Box3d boxOf(const formats::CenterlineTree& tree) {
   Box3d box;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
-    box.add(nodeCentre(tree, n), static_cast<double>(tree.radius[n]));
+    box.add(toEigen(tree.centre[n]), static_cast<double>(tree.radius[n]));
   return box;
 }
 
 PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
-  const std::map<std::string, std::function<Design(const Frame&)>> small = {
-      {"tube", designTube},
-      {"helix", designHelix},
-      {"bifurcation", designBifurcation},
-      {"kissing", designKissing},
-      {"aneurysm", designAneurysm},
-      {"stenosis", designStenosis},
-      {"dropout", designDropout},
-      {"sac-lobes", designSacLobes},
-      {"companion", designCompanion},
-      {"hairpin", designHairpin},
-      {"right-angle", designRightAngle},
-      {"fading", designFading},
-      {"thick-slices", designThickSlices},
-      {"coil", designCoil},
-      {"arc", designArc},
-      {"cone", designCone},
-      {"ellipse-tube", designEllipseTube},
-      {"fork", designFork},
-      {"sac-sphere", designSacSphere},
-      {"sac-ellipsoid", designSacEllipsoid},
-      {"sac-fork", designSacFork},
-      {"willis", designWillis},
-      {"coronary", designCoronary},
-      {"hepatic", designHepatic}};
-  const auto found = small.find(options.name);
-  const bool patient = found == small.end();
+  const auto found = std::find_if(designs().begin(), designs().end(),
+                                  [&](const auto& row) { return row.first == options.name; });
+  const bool patient = found == designs().end();
   const bool isLarge = patient || options.name == "willis";
   const int size = options.size != 0 ? options.size : isLarge ? 256 : 128;
   const Frame frame{options.voxel, options.voxel * (size - 1)};

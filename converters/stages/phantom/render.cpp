@@ -38,7 +38,7 @@ std::vector<Segment> makeSegments(const formats::CenterlineTree& tree, double ma
   std::vector<Segment> segments;
   for (const formats::Branch& branch : tree.branches)
     for (std::uint32_t n = branch.firstNode; n + 1 < branch.firstNode + branch.nodeCount; ++n) {
-      const Vector3d a = nodeCentre(tree, n), b = nodeCentre(tree, n + 1);
+      const Vector3d a = toEigen(tree.centre[n]), b = toEigen(tree.centre[n + 1]);
       const double ra = static_cast<double>(tree.radius[n]),
                    rb = static_cast<double>(tree.radius[n + 1]);
       segments.push_back({RoundCone(a, ra, b, rb),
@@ -134,8 +134,8 @@ void applyContrast(const Design& design, const VolumeGeometry& grid, Image& imag
         const Vector3d centre = centreOf(grid, x, y, z);
         std::uint32_t nearest = 0;
         for (std::uint32_t n = 1; n < design.tree.nodeCount(); ++n)
-          if ((nodeCentre(design.tree, n) - centre).squaredNorm() <
-              (nodeCentre(design.tree, nearest) - centre).squaredNorm())
+          if ((toEigen(design.tree.centre[n]) - centre).squaredNorm() <
+              (toEigen(design.tree.centre[nearest]) - centre).squaredNorm())
             nearest = n;
         row[x] *= design.contrast[nearest];
       }

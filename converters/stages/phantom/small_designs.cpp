@@ -16,10 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::function<double(double)> constant(double value) {
-  return [value](double) { return value; };
-}
-
 // 0 below 0, 1 above 1, with two continuous derivatives in between.
 double smoothStep(double x) {
   x = std::clamp(x, 0.0, 1.0);
@@ -49,9 +45,7 @@ Design designTube(const Frame& frame) {
   const double e = frame.extent;
   TreeBuilder builder(frame);
   const Vector3d from(0.42 * e, 0.47 * e, 0), to(0.58 * e, 0.55 * e, e);
-  builder.add("root", formats::kNoParent,
-              sampleCurve([&](double t) -> Vector3d { return from + t * (to - from); },
-                          constant(1.0 * frame.radiusScale())));
+  builder.add("root", formats::kNoParent, straightPath(from, to, constant(frame.radiusScale())));
   return builder.design();
 }
 

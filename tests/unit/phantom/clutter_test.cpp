@@ -157,7 +157,7 @@ TEST(Willis, HasThreeInletsAndThreeLinks) {
     EXPECT_LT(first, second);
     EXPECT_NE(tree.branch[first], tree.branch[second]);
     // the end lies on the other vessel's axis: nodes are 0.2 mm apart
-    EXPECT_LT((nodeCentre(tree, first) - nodeCentre(tree, second)).norm(), 0.11);
+    EXPECT_LT((toEigen(tree.centre[first]) - toEigen(tree.centre[second])).norm(), 0.11);
   }
 }
 

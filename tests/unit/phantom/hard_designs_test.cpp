@@ -40,7 +40,7 @@ TEST(HardPhantoms, CompanionsTouchOverSevenTenthsOfTheExtentAndDifferInBrightnes
   double touching = 0;
   for (std::uint32_t n = vein.firstNode; n < vein.firstNode + vein.nodeCount; ++n) {
     EXPECT_FLOAT_EQ(design.contrast[n], 0.55F);
-    const double gap = artery.nearest(nodeCentre(design.tree, n)).distance -
+    const double gap = artery.nearest(toEigen(design.tree.centre[n])).distance -
                        static_cast<double>(design.tree.radius[n]);
     EXPECT_GT(gap, -0.005);
     if (gap < 0.02) touching += static_cast<double>(design.tree.height[n]);
@@ -54,11 +54,13 @@ TEST(HardPhantoms, TheHairpinsLimbsComeAsCloseAsItsTightestBend) {
   double reversals = 0, nearest = 1e9;
   const auto last = static_cast<std::uint32_t>(design.tree.nodeCount());
   for (std::uint32_t n = 1; n < last; ++n)
-    if (nodeDirection(design.tree, n).x() * nodeDirection(design.tree, n - 1).x() < 0) ++reversals;
+    if (toEigen(design.tree.direction[n]).x() * toEigen(design.tree.direction[n - 1]).x() < 0)
+      ++reversals;
   // limbs are apart by the bend's diameter; nodes less than half a turn apart do not count
   for (std::uint32_t a = 0; a < last; ++a)
     for (std::uint32_t b = a + 38; b < last; ++b)
-      nearest = std::min(nearest, (nodeCentre(design.tree, a) - nodeCentre(design.tree, b)).norm());
+      nearest = std::min(nearest,
+                         (toEigen(design.tree.centre[a]) - toEigen(design.tree.centre[b])).norm());
   EXPECT_EQ(reversals, 3);
   EXPECT_NEAR(nearest, 2 * 1.5 * 0.8, 0.05);
 }
@@ -69,9 +71,9 @@ TEST(HardPhantoms, ChildrenLeaveTheWideParentAtRightAngles) {
   for (const std::size_t b : {1U, 2U}) {
     const formats::Branch& child = design.tree.branches[b];
     const auto parentNode = static_cast<std::uint32_t>(child.parentNode);
-    EXPECT_NEAR(
-        nodeDirection(design.tree, child.firstNode).dot(nodeDirection(design.tree, parentNode)), 0,
-        1e-6);
+    EXPECT_NEAR(toEigen(design.tree.direction[child.firstNode])
+                    .dot(toEigen(design.tree.direction[parentNode])),
+                0, 1e-6);
     EXPECT_LT(design.tree.radius[child.firstNode], 0.5F * design.tree.radius[parentNode]);
   }
 }
@@ -94,7 +96,7 @@ TEST(HardPhantoms, TheSacSitsInTheForkAndLobesStandOutOfIt) {
     EXPECT_EQ(design.tree.branch[static_cast<std::size_t>(lobe.parentNode)], 2U);
     const std::uint32_t last = lobe.firstNode + lobe.nodeCount - 1;
     const double radius = static_cast<double>(design.tree.radius[last]);
-    const double outside = sac.nearest(nodeCentre(design.tree, last)).distance + radius;
+    const double outside = sac.nearest(toEigen(design.tree.centre[last])).distance + radius;
     EXPECT_GT(outside, radius);
     EXPECT_LT(outside, 2 * radius);
   }
@@ -103,7 +105,7 @@ TEST(HardPhantoms, TheSacSitsInTheForkAndLobesStandOutOfIt) {
   const std::uint32_t last = body.firstNode + body.nodeCount - 1;
   const double radius = static_cast<double>(design.tree.radius[last]);
   for (const TubeTreeDistance* child : {&fork0, &fork1})
-    EXPECT_GT(child->nearest(nodeCentre(design.tree, last)).distance, radius);
+    EXPECT_GT(child->nearest(toEigen(design.tree.centre[last])).distance, radius);
 }
 
 TEST(ThickSlices, AreFiveVoxelsThickAndKeepTheVolumeOfTheVessels) {

@@ -110,7 +110,7 @@ TEST(PhantomIntensity, DropsToAThirdTwiceInDropout) {
   int drops = 0;
   bool low = false;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
-    const Vector3d i = phantom.volume.geometry.indexFromWorld(nodeCentre(tree, n));
+    const Vector3d i = phantom.volume.geometry.indexFromWorld(toEigen(tree.centre[n]));
     const auto x = static_cast<std::size_t>(std::lround(i.x())),
                y = static_cast<std::size_t>(std::lround(i.y())),
                z = static_cast<std::size_t>(std::lround(i.z()));

@@ -23,7 +23,7 @@ double lengthOf(const Design& design, std::size_t branch) {
   const formats::Branch& b = design.tree.branches[branch];
   double length = 0;
   for (std::uint32_t n = b.firstNode + 1; n < b.firstNode + b.nodeCount; ++n)
-    length += (nodeCentre(design.tree, n) - nodeCentre(design.tree, n - 1)).norm();
+    length += (toEigen(design.tree.centre[n]) - toEigen(design.tree.centre[n - 1])).norm();
   return length;
 }
 
@@ -36,8 +36,8 @@ TEST(MeasuredPhantoms, AxesHaveTheLengthsThatTheTruthStates) {
 
 TEST(MeasuredPhantoms, ThreeNodesOfTheCoilLieOnACircleOfItsCurvature) {
   const Design design = designCoil(kFrame);
-  const Vector3d a = nodeCentre(design.tree, 100), b = nodeCentre(design.tree, 110),
-                 c = nodeCentre(design.tree, 120);
+  const Vector3d a = toEigen(design.tree.centre[100]), b = toEigen(design.tree.centre[110]),
+                 c = toEigen(design.tree.centre[120]);
   const double area = 0.5 * (b - a).cross(c - a).norm();
   const double curvature = 4 * area / ((b - a).norm() * (c - b).norm() * (c - a).norm());
   EXPECT_NEAR(curvature, note(design, "root.curvature_per_mm"), 2e-3);
@@ -65,8 +65,8 @@ TEST(MeasuredPhantoms, SacsHaveTheVolumesThatTheTruthStatesBeyondTheirNecks) {
     const Design design = make(kFrame);
     const TubeTreeDistance wall(design.tree);
     const formats::Branch& sac = design.tree.branches.back();
-    const Vector3d out = nodeDirection(design.tree, sac.firstNode + 10);
-    const Vector3d axis = nodeCentre(design.tree, sac.firstNode);
+    const Vector3d out = toEigen(design.tree.direction[sac.firstNode + 10]);
+    const Vector3d axis = toEigen(design.tree.centre[sac.firstNode]);
     const double plane = static_cast<double>(design.tree.radius[0]);
     const double step = 0.1;
     double volume = 0;
@@ -93,9 +93,9 @@ TEST(MeasuredPhantoms, AHemisphereWouldHaveNoEllipticity) {
 TEST(MeasuredPhantoms, TheForkStatesTheAnglesOfItsAxes) {
   const Design design = designFork(kFrame);
   const formats::Branch &root = design.tree.branches[0], &child = design.tree.branches[1];
-  const Vector3d trunk = nodeDirection(design.tree, 3),
-                 one = nodeDirection(design.tree, root.firstNode + root.nodeCount - 2),
-                 two = nodeDirection(design.tree, child.firstNode + child.nodeCount - 2);
+  const Vector3d trunk = toEigen(design.tree.direction[3]),
+                 one = toEigen(design.tree.direction[root.firstNode + root.nodeCount - 2]),
+                 two = toEigen(design.tree.direction[child.firstNode + child.nodeCount - 2]);
   const auto degrees = [](const Vector3d& a, const Vector3d& b) {
     return std::acos(a.dot(b)) * 180 / std::numbers::pi;
   };

@@ -45,7 +45,7 @@ std::vector<double> clearances(const formats::CenterlineTree& tree, std::size_t 
   std::vector<double> result;
   const formats::Branch& b = tree.branches[branch];
   for (std::uint32_t n = b.firstNode; n < b.firstNode + b.nodeCount; ++n)
-    result.push_back(wall.nearest(nodeCentre(tree, n)).distance - radius(tree, n));
+    result.push_back(wall.nearest(toEigen(tree.centre[n])).distance - radius(tree, n));
   return result;
 }
 
@@ -124,9 +124,9 @@ TEST(PatientPhantom, TheKissingPairTouchesOverTenMillimetresAndParts) {
 
 TEST(PatientPhantom, TheWallStaysInsideTheVolumeButWhereTheRootEnters) {
   const formats::CenterlineTree tree = make(kDefault, 2).tree;
-  EXPECT_EQ(nodeCentre(tree, 0).z(), 0);
+  EXPECT_EQ(toEigen(tree.centre[0]).z(), 0);
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
-    const Vector3d centre = nodeCentre(tree, n);
+    const Vector3d centre = toEigen(tree.centre[n]);
     if (tree.branch[n] == 0 && centre.z() < 10) continue;
     EXPECT_GE(centre.minCoeff() - radius(tree, n), 4 * kVoxel);
     EXPECT_LE(centre.maxCoeff() + radius(tree, n), kDefault.extent - 4 * kVoxel);
@@ -138,8 +138,8 @@ TEST(PatientPhantom, NoVesselBendsMoreTightlyThanTwoAndAHalfRadii) {
   for (const formats::Branch& b : tree.branches) {
     if (b.kind == formats::BranchKind::Aneurysm) continue;
     for (std::uint32_t n = b.firstNode + 5; n + 5 < b.firstNode + b.nodeCount; ++n) {
-      const Vector3d before = nodeCentre(tree, n) - nodeCentre(tree, n - 5);
-      const Vector3d after = nodeCentre(tree, n + 5) - nodeCentre(tree, n);
+      const Vector3d before = toEigen(tree.centre[n]) - toEigen(tree.centre[n - 5]);
+      const Vector3d after = toEigen(tree.centre[n + 5]) - toEigen(tree.centre[n]);
       const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
       EXPECT_LT(turn * 2.5 * radius(tree, n), 0.5 * (before.norm() + after.norm())) << b.label;
     }
@@ -151,7 +151,7 @@ TEST(PatientPhantom, AChildLeavesAt30To80DegreesWithHalfTo85PerCentOfTheRadius) 
   for (const formats::Branch& b : tree.branches) {
     if (b.parentNode < 0 || b.kind == formats::BranchKind::Aneurysm) continue;
     const auto parent = static_cast<std::uint32_t>(b.parentNode);
-    const double cosine = nodeDirection(tree, parent).dot(nodeDirection(tree, b.firstNode));
+    const double cosine = toEigen(tree.direction[parent]).dot(toEigen(tree.direction[b.firstNode]));
     EXPECT_GT(cosine, std::cos(81 * 3.14159265 / 180)) << b.label;
     EXPECT_LT(cosine, std::cos(29 * 3.14159265 / 180)) << b.label;
     const double share = radius(tree, b.firstNode) / radius(tree, parent);

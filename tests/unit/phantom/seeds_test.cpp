@@ -77,7 +77,7 @@ TEST(PhantomSeeds, ARootHasARadiusWithinTenPerCentAndADirectionWithinTenDegrees)
       const formats::Branch& branch = branchOf(clicked, seed.label);
       const double radius = static_cast<double>(clicked.tree.radius[branch.firstNode]);
       EXPECT_NEAR(*seed.points[0].radius, radius, 0.1 * radius);
-      const Vector3d along = nodeDirection(clicked.tree, branch.firstNode);
+      const Vector3d along = toEigen(clicked.tree.direction[branch.firstNode]);
       EXPECT_GT(seed.direction->dot(along), 0.96);  // the helix bends a little up to the click
       EXPECT_NEAR(seed.direction->norm(), 1, 1e-12);
     }
@@ -92,7 +92,8 @@ TEST(PhantomSeeds, AChildIsClickedBetweenOneAndTwoAndAHalfParentRadiiFromThePare
       const formats::Branch& parent = branchOf(clicked, *seed.parent);
       double nearest = 1e9;
       for (std::uint32_t n = parent.firstNode; n < parent.firstNode + parent.nodeCount; ++n)
-        nearest = std::min(nearest, (nodeCentre(clicked.tree, n) - seed.points[0].position).norm());
+        nearest =
+            std::min(nearest, (toEigen(clicked.tree.centre[n]) - seed.points[0].position).norm());
       EXPECT_GT(nearest, 1.25 * parentRadius) << seed.label;
       EXPECT_LT(nearest, 2.5 * parentRadius) << seed.label;
     }

@@ -112,8 +112,8 @@ TEST(TreePhantom, TheBoxFitsTheTreeWhereTheFileHasIt) {
   const formats::CenterlineTree& tree = phantom.truth.tree;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
     const Vector3d reach = Vector3d::Constant(static_cast<double>(tree.radius[n]) + 4.9);
-    EXPECT_TRUE(geometry.containsWorld(nodeCentre(tree, n) - reach));
-    EXPECT_TRUE(geometry.containsWorld(nodeCentre(tree, n) + reach));
+    EXPECT_TRUE(geometry.containsWorld(toEigen(tree.centre[n]) - reach));
+    EXPECT_TRUE(geometry.containsWorld(toEigen(tree.centre[n]) + reach));
   }
   const formats::Status valid = formats::validate(phantom.truth);
   EXPECT_TRUE(valid) << valid.error().text();
