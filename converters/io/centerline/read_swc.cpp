@@ -16,6 +16,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/parsed_number.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "formats/container/printable.h"
 
@@ -29,7 +30,6 @@ constexpr std::int32_t kSoma = 1;  // a type of SWC
 constexpr double kSomaRounding = 0.05;
 constexpr double kLargestId = 2147483647;
 constexpr double kLargestLength = 1e9;  // far beyond any plausible unit
-constexpr std::size_t kShownBytes = 24;
 constexpr std::array<const char*, 7> kColumns = {"the id", "the type",   "x",         "y",
                                                  "z",      "the radius", "the parent"};
 constexpr const char* kExpectedLine = "expected: id type x y z radius parent";
@@ -134,9 +134,7 @@ private:
   }
 
   static std::string found(std::string_view text, std::size_t column) {
-    const bool cut = text.size() > kShownBytes;
-    return std::string(kColumns[column]) + " is \"" +
-           formats::printable(text.substr(0, kShownBytes)) + (cut ? "...\"" : "\"");
+    return std::string(kColumns[column]) + " is " + quotedText(std::string(text));
   }
 
   [[nodiscard]] Line lineOf(const std::array<std::string_view, 7>& columns) const {

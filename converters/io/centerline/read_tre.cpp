@@ -19,6 +19,7 @@
 #include "converters/base/files.h"
 #include "converters/base/number_text.h"
 #include "converters/base/parsed_number.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "converters/io/centerline/join_curves.h"
@@ -62,7 +63,7 @@ public:
       const std::string line = trimmed(std::string(nextLine()));
       if (line.empty()) continue;
       const auto equals = line.find('=');
-      if (equals == line.npos) refuse("is " + shown(line) + "; expected KEY = VALUE");
+      if (equals == line.npos) refuse("is " + quotedText(line) + "; expected KEY = VALUE");
       take(trimmed(line.substr(0, equals)), trimmed(line.substr(equals + 1)));
     }
     if (m_objects.empty())
@@ -79,11 +80,11 @@ private:
     }
     if (m_objects.empty()) {
       if (key == "Comment" || key == "NDims") return;
-      refuse("is " + shown(key) + "; expected ObjectType first");
+      refuse("is " + quotedText(key) + "; expected ObjectType first");
     }
     TreObject& object = m_objects.back();
     if (key == "NDims" && value != "3")
-      refuse("has " + shown(value) + " dimensions; expected 3");
+      refuse("has " + quotedText(value) + " dimensions; expected 3");
     else if (key == "ID")
       object.id = whole(value);
     else if (key == "ParentPoint")
@@ -120,7 +121,7 @@ private:
 
   void takeType(TreObject& object, const std::string& value) {
     if (value != "MET_FLOAT" && value != "MET_DOUBLE")
-      refuse("has the ElementType " + shown(value) + "; expected MET_FLOAT or MET_DOUBLE");
+      refuse("has the ElementType " + quotedText(value) + "; expected MET_FLOAT or MET_DOUBLE");
     object.isDouble = value == "MET_DOUBLE";
   }
 
@@ -142,7 +143,7 @@ private:
   void takePoints(TreObject& object) {
     if (object.type != "Tube") {
       if (object.isBinary)
-        refuse("begins the binary data of " + shown(object.type) + "; expected tubes alone");
+        refuse("begins the binary data of " + quotedText(object.type) + "; expected tubes alone");
       return skipLines(object.count.value_or(0));
     }
     if (!object.count) refuse("begins points whose number is unknown; expected NPoints before");
@@ -237,7 +238,7 @@ private:
     std::vector<double> numbers;
     for (std::string_view word; !(word = nextWord(text)).empty();) {
       const auto value = parsedNumber(word);
-      if (!value) refuse("has " + shown(std::string(word)) + "; expected a number");
+      if (!value) refuse("has " + quotedText(std::string(word)) + "; expected a number");
       numbers.push_back(*value);
     }
     return numbers;
@@ -257,13 +258,10 @@ private:
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size())
-      refuse("has " + shown(text) + "; expected a whole number");
+      refuse("has " + quotedText(text) + "; expected a whole number");
     return value;
   }
 
-  static std::string shown(const std::string& text) {
-    return "\"" + formats::printable(text.substr(0, 40)) + (text.size() > 40 ? "...\"" : "\"");
-  }
   [[noreturn]] void refuse(const std::string& what) const {
     throw invalidInput(m_name + ": line " + std::to_string(m_number) + " " + what);
   }

@@ -13,7 +13,6 @@
 namespace lumen::convert {
 namespace {
 
-constexpr std::size_t kShownBytes = 24;
 constexpr std::size_t kFirstTable = 1024;
 
 std::uint64_t hashOf(const Eigen::Vector3d& point) {
@@ -30,12 +29,6 @@ std::uint64_t hashOf(const Eigen::Vector3d& point) {
 
 void refuseMesh(const std::string& name, const std::string& place, const std::string& what) {
   throw invalidInput(name + ": " + (place.empty() ? "" : place + ": ") + what);
-}
-
-std::string quotedText(std::string_view text) {
-  std::string quoted = "\"";
-  quoted += formats::printable(text.substr(0, kShownBytes));
-  return quoted + (text.size() > kShownBytes ? "...\"" : "\"");
 }
 
 void MeshBuilder::refusePoint(const Eigen::Vector3d& point, const std::string& place) const {

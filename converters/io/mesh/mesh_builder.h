@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/shown_text.h"
 #include "converters/io/mesh/mesh_file.h"
 
 namespace lumen::convert {
@@ -22,8 +23,9 @@ constexpr double kLargestCoordinate = 1e12;
 [[noreturn]] void refuseMesh(const std::string& name, const std::string& place,
                              const std::string& what);
 
-/// A text of a file, as quoted in a message: printable, and cut after 24 bytes.
-std::string quotedText(std::string_view text);
+inline std::string quotedText(std::string_view text) {
+  return quotedText(std::string(text));
+}
 
 /// A mesh under construction. Names of groups are looked up, so the cost does not grow with their
 /// number.

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "converters/base/shown_text.h"
 #include "converters/io/mesh/text_cursor.h"
 
 namespace lumen::convert {

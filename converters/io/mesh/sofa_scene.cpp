@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <optional>
-#include <type_traits>
 #include <utility>
-
-#include <expat.h>
 
 #include "converters/base/error.h"
 #include "converters/base/parsed_number.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/io/vtk/xml_events.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -24,7 +22,6 @@ using Eigen::Affine3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kDeepest = 64;  // maximum nesting of nodes
-constexpr std::size_t kFedAtOnce = std::size_t{16} << 20;
 constexpr std::size_t kMostListed = 20;
 
 /// Transform that SOFA makes of translation, rotation and scale: first the scale, then the
@@ -48,62 +45,27 @@ struct OpenNode {
   bool isStill = false;
 };
 
-// Calls of expat, which is C: nothing may throw through it.
-class SceneHandler {
+class SceneHandler : XmlEvents {
 public:
-  SceneHandler(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
+  SceneHandler(std::string_view text, const std::string& name) : XmlEvents(text, name) {}
 
   std::vector<SofaLoader> parse() {
-    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> owner(
-        XML_ParserCreate(nullptr), XML_ParserFree);
-    if (!owner) throw failed(m_name + ": no memory to parse XML");
-    m_parser = owner.get();
-    XML_SetUserData(m_parser, this);
-    XML_SetElementHandler(
-        m_parser,
-        [](void* self, const XML_Char* tag, const XML_Char** attributes) {
-          static_cast<SceneHandler*>(self)->begin(tag, attributes);
-        },
-        [](void* self, const XML_Char* tag) { static_cast<SceneHandler*>(self)->end(tag); });
-    XML_SetStartDoctypeDeclHandler(
-        m_parser, [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-          static_cast<SceneHandler*>(self)->refuse("has a document type; expected none in a scene");
-        });
-    feed();
-    if (m_fault) throw *m_fault;
+    run("; lumen reads scenes in XML (.scn)");
     return std::move(m_loaders);
   }
 
 private:
-  void feed() {
-    for (std::size_t at = 0;;) {
-      const std::size_t size = std::min(kFedAtOnce, m_text.size() - at);
-      const bool isLast = at + size == m_text.size();
-      if (XML_Parse(m_parser, m_text.data() + at, static_cast<int>(size), isLast) !=
-          XML_STATUS_OK) {
-        if (!m_fault)
-          refuse(std::string("is no XML (") + XML_ErrorString(XML_GetErrorCode(m_parser)) +
-                 "); lumen reads scenes in XML (.scn)");
-        return;
-      }
-      if (isLast) return;
-      at += size;
-    }
-  }
-
-  void begin(const char* tag, const char** attributes) {
-    if (m_fault) return;
-    if (std::string_view(tag) == "Node") {
+  void begin(std::string_view tag, const char** attributes) override {
+    if (tag == "Node") {
       if (m_nodes.size() == kDeepest) return refuse("has nodes more than 64 deep");
       m_nodes.push_back({std::string(attribute(attributes, "name")), {}, {}, false});
       return;
     }
     if (m_nodes.empty())
-      return refuse("begins with <" + formats::printable(std::string(tag).substr(0, 40)) +
-                    ">; expected <Node>, with which a scene of SOFA begins");
+      return refuse("begins with " + quotedText(std::string(tag)) +
+                    "; expected <Node>, with which a scene of SOFA begins");
     // older scenes write it as <Object type="MeshOBJLoader">
-    const bool isOld = std::string_view(tag) == "Object";
-    const std::string component(isOld ? attribute(attributes, "type") : std::string_view(tag));
+    const std::string component(tag == "Object" ? attribute(attributes, "type") : tag);
     if (component.starts_with("Mesh") && component.ends_with("Loader"))
       addLoader(component, attributes);
     else if (component == "MechanicalObject")
@@ -113,8 +75,8 @@ private:
       m_nodes.back().isStill |= isFalse(attribute(attributes, "moving"));
   }
 
-  void end(const char* tag) {
-    if (m_fault || std::string_view(tag) != "Node" || m_nodes.empty()) return;
+  void end(std::string_view tag) override {
+    if (tag != "Node" || m_nodes.empty()) return;
     const OpenNode node = std::move(m_nodes.back());
     m_nodes.pop_back();
     for (const std::size_t i : node.loaders) {
@@ -204,8 +166,7 @@ private:
       values.push_back(*value);
     }
     if (values.size() == count && words(text).size() == count) return values;
-    refuse(std::string("has the ") + name + " \"" +
-           formats::printable(std::string(text.substr(0, 60))) + "\"; expected " +
+    refuse(std::string("has the ") + name + " " + quotedText(std::string(text)) + "; expected " +
            (count == 1 ? "a number" : std::to_string(count) + " numbers"));
     return {};
   }
@@ -220,29 +181,12 @@ private:
     return out;
   }
 
-  static std::string_view attribute(const char** attributes, std::string_view name) {
-    for (; *attributes != nullptr; attributes += 2)
-      if (name == attributes[0]) return attributes[1];
-    return {};
-  }
   static bool isFalse(std::string_view text) {
     return text == "0" || lowerCase(std::string(text)) == "false";
   }
 
-  void refuse(const std::string& what) {
-    if (!m_fault) m_fault = invalidInput(m_name + ": line " + std::to_string(line()) + ": " + what);
-    XML_StopParser(m_parser, XML_FALSE);
-  }
-  [[nodiscard]] std::size_t line() const {
-    return static_cast<std::size_t>(XML_GetCurrentLineNumber(m_parser));
-  }
-
-  std::string_view m_text;
-  const std::string& m_name;
-  XML_Parser m_parser = nullptr;
   std::vector<OpenNode> m_nodes;
   std::vector<SofaLoader> m_loaders;
-  std::optional<Error> m_fault;
 };
 
 using Loaders = std::vector<const SofaLoader*>;

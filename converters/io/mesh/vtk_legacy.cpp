@@ -10,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/mesh/mesh_bytes.h"
 #include "converters/io/mesh/text_cursor.h"

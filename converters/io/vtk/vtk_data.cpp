@@ -11,12 +11,11 @@
 
 #include "converters/base/error.h"
 #include "converters/base/parsed_number.h"
-#include "formats/container/printable.h"
+#include "converters/base/shown_text.h"
 
 namespace lumen {
 namespace {
 
-constexpr std::size_t kShownVtkBytes = 24;
 // deflate packs at most 258 bytes into two bits, and its streams have a few bytes of overhead
 constexpr std::uint64_t kMostPerPackedByte = 1032;
 
@@ -142,9 +141,7 @@ private:
 
   [[nodiscard]] double numberOf(std::string_view word) const {
     const auto value = parsedNumber(word);
-    if (!value)
-      refuse("has \"" + formats::printable(word.substr(0, kShownVtkBytes)) +
-             (word.size() > kShownVtkBytes ? "...\"" : "\"") + "; expected a number");
+    if (!value) refuse("has " + convert::quotedText(std::string(word)) + "; expected a number");
     return *value;
   }
 
@@ -241,8 +238,8 @@ std::vector<double> decodeVtkNumbers(const VtkEncodedArray& array, const VtkPack
   if (array.type == "UInt32") return decodeNumbers<std::uint32_t>(decoder, packing, count);
   if (array.type == "UInt16") return decodeNumbers<std::uint16_t>(decoder, packing, count);
   if (array.type == "UInt8") return decodeNumbers<std::uint8_t>(decoder, packing, count);
-  decoder.refuse("is of the type \"" + formats::printable(array.type.substr(0, kShownVtkBytes)) +
-                 "\"; expected Int8 to Int64, UInt8 to UInt64, Float32 or Float64");
+  decoder.refuse("is of the type " + convert::quotedText(std::string(array.type)) +
+                 "; expected Int8 to Int64, UInt8 to UInt64, Float32 or Float64");
 }
 
 std::string decodeVtkText(const VtkEncodedArray& array, const VtkPacking& packing,

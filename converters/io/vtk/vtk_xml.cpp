@@ -8,18 +8,16 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <expat.h>
-
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/vtk/vtk_data.h"
+#include "converters/io/vtk/xml_events.h"
 #include "formats/container/printable.h"
 
 namespace lumen {
@@ -38,8 +36,11 @@ const VtkArray* VtkPolyData::cellArray(std::string_view name) const {
 
 namespace {
 
+std::string quoted(std::string_view text) {
+  return convert::quotedText(std::string(text));
+}
+
 constexpr int kDeepest = 16;  // limit; the format itself is five levels deep
-constexpr std::size_t kFed = std::size_t{16} << 20;
 constexpr std::uint32_t kMostComponents = 64;
 constexpr std::uint32_t kMostIndices = std::numeric_limits<std::uint32_t>::max();
 
@@ -87,32 +88,14 @@ struct Document {
   bool isAppendedBase64 = false;
 };
 
-// Calls of expat, which is C: nothing may throw through it.
-class VtkXmlParser {
+class VtkXmlParser : XmlEvents {
 public:
   VtkXmlParser(std::string_view text, const std::string& name,
                std::span<const std::string_view> wanted)
-      : m_text(text), m_name(name), m_wanted(wanted) {}
+      : XmlEvents(text, name), m_wanted(wanted) {}
 
   Document parse() {
-    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> owner(
-        XML_ParserCreate(nullptr), XML_ParserFree);
-    if (!owner) throw failed(m_name + ": no memory to parse XML");
-    m_parser = owner.get();
-    XML_SetUserData(m_parser, this);
-    XML_SetElementHandler(
-        m_parser,
-        [](void* self, const XML_Char* tag, const XML_Char** attributes) {
-          static_cast<VtkXmlParser*>(self)->begin(tag, attributes);
-        },
-        [](void* self, const XML_Char* tag) { static_cast<VtkXmlParser*>(self)->end(tag); });
-    XML_SetStartDoctypeDeclHandler(
-        m_parser, [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-          static_cast<VtkXmlParser*>(self)->refuse(
-              "has a document type; expected none in a file of VTK");
-        });
-    feed();
-    if (m_fault) throw *m_fault;
+    run();
     if (!m_isFile) throw invalidInput(m_name + ": has no <VTKFile>; expected a file of VTK (.vtp)");
     if (m_document.pieces.empty())
       throw invalidInput(m_name + ": has no <Piece>; expected one at least");
@@ -120,27 +103,10 @@ public:
   }
 
 private:
-  void feed() {
-    for (std::size_t at = 0;;) {
-      const std::size_t size = std::min(kFed, m_text.size() - at);
-      const bool isLast = at + size == m_text.size();
-      const auto status = XML_Parse(m_parser, m_text.data() + at, static_cast<int>(size), isLast);
-      if (status != XML_STATUS_OK) {
-        if (!m_fault && !m_document.appended)
-          refuse(std::string("is no XML (") + XML_ErrorString(XML_GetErrorCode(m_parser)) + ")");
-        return;
-      }
-      if (isLast) return;
-      at += size;
-    }
-  }
-
-  void begin(const char* tag, const char** attributes) {
-    if (m_fault || m_document.appended) return;
+  void begin(std::string_view name, const char** attributes) override {
     if (++m_depth > kDeepest) return refuse("has elements more than 16 deep");
-    const std::string_view name = tag;
     if (name == "VTKFile") return beginFile(attributes);
-    if (!m_isFile) return refuse("begins with <" + shown(name) + ">; expected <VTKFile>");
+    if (!m_isFile) return refuse("begins with " + quoted(name) + "; expected <VTKFile>");
     if (name == "Piece") return beginPiece(attributes);
     if (name == "AppendedData") return beginAppended(attributes);
     if (name == "DataArray") return beginArray(attributes);
@@ -153,15 +119,13 @@ private:
     m_isOpen = false;  // an array around a section has no end
   }
 
-  void end(const char* tag) {
-    if (m_fault || m_document.appended) return;
+  void end(std::string_view name) override {
     --m_depth;
-    const std::string_view name = tag;
     if (name == "DataArray" && m_isOpen) {
       m_isOpen = false;
       Element& element = elements().back();
       // keys may follow the data within the element
-      element.to = std::min({byte(), m_text.find('<', element.from), m_text.size()});
+      element.to = std::min({tagBegin(), m_text.find('<', element.from), m_text.size()});
       element.to = std::max(element.from, element.to);
     }
     if (m_section != kNoSection && name == kSectionNames[m_section]) {
@@ -175,19 +139,19 @@ private:
     m_isFile = true;
     const std::string_view type = attribute(attributes, "type");
     if (type != "PolyData")
-      return refuse("is of the type \"" + shown(type) + "\"; expected PolyData",
+      return refuse("is of the type " + quoted(type) + "; expected PolyData",
                     ErrorKind::Unsupported);
     m_document.packing.bigEndian = attribute(attributes, "byte_order") == "BigEndian";
     const std::string_view header = attribute(attributes, "header_type");
     if (header == "UInt64")
       m_document.packing.headerBytes = 8;
     else if (!header.empty() && header != "UInt32")
-      return refuse("has the header_type \"" + shown(header) + "\"; expected UInt32 or UInt64");
+      return refuse("has the header_type " + quoted(header) + "; expected UInt32 or UInt64");
     const std::string_view packer = attribute(attributes, "compressor");
     m_document.packing.zlib = !packer.empty();
     if (!packer.empty() && packer != "vtkZLibDataCompressor")
-      refuse("is packed by \"" + shown(packer) +
-                 "\"; lumen reads vtkZLibDataCompressor and unpacked data",
+      refuse("is packed by " + quoted(packer) +
+                 "; lumen reads vtkZLibDataCompressor and unpacked data",
              ErrorKind::Unsupported);
   }
 
@@ -232,9 +196,9 @@ private:
     if (form == "binary")
       element.form = VtkForm::Base64;
     else if (!element.isAppended && !form.empty() && form != "ascii")
-      return refuse("has the format \"" + shown(form) + "\"; expected ascii, binary or appended");
+      return refuse("has the format " + quoted(form) + "; expected ascii, binary or appended");
     element.offset = element.isAppended ? count(attributes, "offset") : 0;
-    element.from = byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(m_parser));
+    element.from = tagEnd();
     elements().push_back(std::move(element));
     m_isOpen = true;
   }
@@ -242,18 +206,12 @@ private:
   // The appended data need not be XML.
   void beginAppended(const char** attributes) {
     m_document.isAppendedBase64 = attribute(attributes, "encoding") == "base64";
-    const std::size_t from = byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(m_parser));
+    const std::size_t from = tagEnd();
     const std::size_t mark = m_text.find_first_not_of(" \t\r\n", from);
     if (mark == m_text.npos || m_text[mark] != '_')
       return refuse("has appended data that do not begin with an underscore");
     m_document.appended = mark + 1;
-    XML_StopParser(m_parser, XML_FALSE);
-  }
-
-  static std::string_view attribute(const char** attributes, std::string_view name) {
-    for (; *attributes != nullptr; attributes += 2)
-      if (name == attributes[0]) return attributes[1];
-    return {};
+    stop();
   }
 
   std::uint64_t count(const char** attributes, const char* name) {
@@ -263,31 +221,12 @@ private:
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() ||
         value > (std::uint64_t{1} << 48))
-      refuse(std::string("has the ") + name + " \"" + shown(text) + "\"; expected a whole number");
+      refuse(std::string("has the ") + name + " " + quoted(text) + "; expected a whole number");
     return value;
   }
 
-  void refuse(const std::string& what, ErrorKind kind = ErrorKind::InvalidInput) {
-    if (!m_fault) m_fault = Error(kind, m_name + ": line " + std::to_string(line()) + ": " + what);
-    XML_StopParser(m_parser, XML_FALSE);
-  }
-
-  static std::string shown(std::string_view text) {
-    return formats::printable(text.substr(0, 40)) + (text.size() > 40 ? "..." : "");
-  }
-  [[nodiscard]] std::size_t line() const {
-    return static_cast<std::size_t>(XML_GetCurrentLineNumber(m_parser));
-  }
-  [[nodiscard]] std::size_t byte() const {
-    return static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(m_parser)));
-  }
-
-  std::string_view m_text;
-  const std::string& m_name;
   std::span<const std::string_view> m_wanted;
-  XML_Parser m_parser = nullptr;
   Document m_document;
-  std::optional<Error> m_fault;
   int m_depth = 0;
   bool m_isFile = false, m_inPiece = false, m_isOpen = false;
   Section m_section = kNoSection;
@@ -434,8 +373,8 @@ private:
   }
 
   static std::string place(const Element& element) {
-    return "line " + std::to_string(element.line) + ": the array \"" +
-           formats::printable(element.name.substr(0, 40)) + "\"";
+    return "line " + std::to_string(element.line) + ": the array " +
+           convert::quotedText(element.name);
   }
   [[noreturn]] void refuse(const std::string& what) const {
     throw invalidInput(m_name + ": " + what);

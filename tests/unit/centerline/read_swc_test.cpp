@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 3: the parents of point 3 lead back to it; expected a way to a root, whose "
                 "parent is -1"},
         Refused{"1 0 \x1b[2Jabcdefghijklmnopqrstuvwxyz 0 0 1 -1\n",
-                "line 1: x is \"\\u001b[2Jabcdefghijklmnopqrst...\"; expected a number"}));
+                "line 1: x is \"\\u001b[2Jabcdefghijklmnopqrstuvwxyz\"; expected a number"}));
 
 TEST(ReadSwc, ALongChainThatRunsBackwardsTakesNoRecursion) {
   std::string text;

@@ -97,7 +97,7 @@ TEST(SofaScene, RefusesWhatItCannotRead) {
   EXPECT_EQ(refusal("<Node/>"),
             "3: s.scn: loads no mesh; expected a MeshOBJLoader or a MeshSTLLoader");
   EXPECT_EQ(refusal("<html/>"),
-            "3: s.scn: line 1: begins with <html>; expected <Node>, with which a scene of SOFA "
+            "3: s.scn: line 1: begins with \"html\"; expected <Node>, with which a scene of SOFA "
             "begins");
   EXPECT_NE(refusal("import Sofa").find("is no XML"), std::string::npos);
   EXPECT_NE(refusal("<!DOCTYPE a [<!ENTITY b \"c\">]><Node/>").find("document type"),
