@@ -23,7 +23,6 @@
 #include "converters/cli/usage_error.h"
 #include "converters/cli/version_text.h"
 #include "converters/engine/operation_process.h"
-#include "converters/io/volume/itk_image.h"
 
 namespace lumen::cli {
 
@@ -43,7 +42,6 @@ int exitCode(ErrorKind kind) {
 void limitThreads(int threads, std::optional<tbb::global_control>& control) {
   if (threads <= 0) return;
   control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  convert::limitItkThreads(threads);
 }
 
 void print(std::string_view text) {

@@ -45,7 +45,7 @@ convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolu
 
 template <VolumeFormat format, bool compressed>
 void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
-  convert::writeVolume(volume, file, format, compressed);
+  writeText(convert::encodeVolume(volume, format, compressed, file), file);
 }
 
 template <convert::MeshFormat format>

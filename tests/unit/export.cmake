@@ -36,11 +36,14 @@ find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIOMeta ITKI
 lumen_test(grid_files_test
   LABELS foreign
   LIBS lumen_export ${ITK_LIBRARIES}
-  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/grid_files_test.cpp)
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/grid_files_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/itk_reads_test.cpp)
+target_include_directories(grid_files_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume)
 target_compile_definitions(grid_files_test PRIVATE ITK_USE_SYSTEM_EIGEN)
 target_include_directories(grid_files_test SYSTEM PRIVATE ${ITK_INCLUDE_DIRS})
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  target_compile_options(grid_files_test PRIVATE -include ${PROJECT_SOURCE_DIR}/converters/io/volume/itk_for_clang.h)
+  target_compile_options(grid_files_test PRIVATE -include ${PROJECT_SOURCE_DIR}/tests/itk_for_clang.h)
 endif()
 
 lumen_test(export_test

@@ -208,6 +208,17 @@ DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progre
   return grid;
 }
 
+Volume distanceVolume(const DistanceGrid& grid, float sign) {
+  Volume volume;
+  volume.geometry.size = grid.lattice.size;
+  volume.geometry.spacing.setConstant(grid.lattice.spacing);
+  volume.geometry.origin = grid.lattice.first;
+  auto& distances = volume.voxels.emplace<std::vector<float>>();
+  distances.reserve(grid.values.size());
+  for (const WallDistance& value : grid.values) distances.push_back(sign * value.distance);
+  return volume;
+}
+
 void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
                   const TakeLayers& take, Progress& progress) {
   const GridShortcuts shortcuts(source, lattice, progress);

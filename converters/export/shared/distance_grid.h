@@ -13,6 +13,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/export/shared/vessel_distance.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::convert {
 
@@ -83,6 +84,9 @@ struct DistanceGrid {
 
 /// Throws Error(Usage) for more than kMostGridSamples, Error(Cancelled).
 DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress);
+
+/// The distances times `sign`, in a volume along the axes of LPS.
+Volume distanceVolume(const DistanceGrid& grid, float sign);
 
 /// sampleGrid() in layers of constant z, `layers` at a time, each handed to `take` with the index
 /// of its first layer.

@@ -7,6 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/volume/text_header.h"
 #include "formats/container/printable.h"
 
@@ -72,7 +73,7 @@ NamePattern parsePattern(const fs::path& header, const std::string& text) {
     }
   }
   if (sound && places == 1) return pattern;
-  throw invalidInput(header.string() + ": its voxels are in files named " + cited(text) +
+  throw invalidInput(header.string() + ": its voxels are in files named " + quotedText(text) +
                      "; expected a pattern with one number in it, such as \"slice%03d.raw\"");
 }
 

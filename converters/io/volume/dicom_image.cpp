@@ -2,13 +2,13 @@
 #include "converters/io/volume/dicom_image.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <utility>
 
 #include "converters/base/number_text.h"
+#include "converters/base/parsed_number.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -72,15 +72,10 @@ std::vector<double> parseNumbers(const std::string& text) {
   for (bool more = true; more;) {
     const std::size_t end = text.find('\\', begin);
     more = end != std::string::npos;
-    std::string word = trimmedText(text.substr(begin, more ? end - begin : end));
+    const auto value = parsedNumber(trimmedText(text.substr(begin, more ? end - begin : end)));
     begin = end + 1;
-    if (!word.empty() && word[0] == '+') word.erase(0, 1);
-    double value = 0;
-    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size() ||
-        !std::isfinite(value))
-      return {};
-    values.push_back(value);
+    if (!value || !std::isfinite(*value)) return {};
+    values.push_back(*value);
   }
   return values;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Header of NRRD or MetaImage, the common result of both parsers.
+// Header of NRRD, MetaImage or NIfTI, the common result of their parsers.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/io/volume/open_volume.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/io/volume/stated_geometry.h"
 #include "converters/io/volume/stored_voxels.h"
@@ -20,15 +21,9 @@ struct ImageHeader {
   std::vector<std::string> assumptions;
 };
 
-/// The header of an NRRD file. Throws Error(InvalidInput), naming the file, unless it is a header
-/// of NRRD 1 to 5 of a scalar 3-D volume in which every relevant field is sound, and for files of
-/// voxels that are missing or not allowed; Error(Unsupported) for an encoding that is not read.
-ImageHeader readNrrdHeader(const std::filesystem::path& path, const ReadVolumeOptions& options);
-
-/// The header of a MetaImage file. Throws Error(InvalidInput), naming the file, unless it describes
-/// a scalar 3-D volume and every relevant field is sound, and for files of voxels that are missing
-/// or not allowed; Error(Unsupported) for an encoding that is not read.
-ImageHeader readMetaHeader(const std::filesystem::path& path, const ReadVolumeOptions& options);
+/// The volume of this header, once the geometry is settled and the files can hold the voxels.
+OpenVolume openImage(ImageHeader image, const ReadVolumeOptions& options,
+                     const std::filesystem::path& path);
 
 /// The sizes along a volume's three axes, the first three of `sizes`. Throws Error(InvalidInput)
 /// unless there are three, and the product of all sizes fits a file.

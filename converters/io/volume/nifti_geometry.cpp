@@ -2,6 +2,7 @@
 #include "converters/io/volume/nifti_geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -189,6 +190,9 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
   StatedGeometry stated;
   VolumeGeometry& geometry = stated.geometry;
   stated.unit = millimetres(header.unitCode);
+  stated.unitNote = "its header states no unit of length that NIfTI has (xyzt_units is " +
+                    std::to_string(header.unitCode) +
+                    "), so lengths are taken as mm; state the unit with " + kOption.unit.shown();
   geometry.size = header.size;
   geometry.spacing = toEigen(header.pixdim);
   const Transform sform = sformOf(header), qform = qformOf(header);
@@ -209,8 +213,9 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
   return stated;
 }
 
-nifti_1_header niftiHeader(const VolumeGeometry& geometry, short datatype,
-                           const std::filesystem::path& path) {
+std::string niftiHeader(const Volume& volume, const std::filesystem::path& path) {
+  constexpr std::array<short, 4> kTypes = {DT_UINT8, DT_INT16, DT_UINT16, DT_FLOAT32};
+  const VolumeGeometry& geometry = volume.geometry;
   for (const int size : geometry.size)
     if (size > std::numeric_limits<short>::max())
       throw unsupported(path.string() + ": has " + std::to_string(size) +
@@ -219,12 +224,12 @@ nifti_1_header niftiHeader(const VolumeGeometry& geometry, short datatype,
   header.sizeof_hdr = sizeof(header);
   header.regular = 'r';  // ANALYZE's mark, which some readers still look for
   std::memcpy(header.magic, "n+1", 4);
-  header.vox_offset = 352;
+  header.vox_offset = kNiftiFirstVoxel;
   std::fill(std::begin(header.dim), std::end(header.dim), short{1});
   header.dim[0] = 3;
   int voxelBytes = 0, swapSize = 0;
-  nifti_datatype_sizes(datatype, &voxelBytes, &swapSize);
-  header.datatype = datatype;
+  header.datatype = kTypes[volume.voxels.index()];
+  nifti_datatype_sizes(header.datatype, &voxelBytes, &swapSize);
   header.bitpix = static_cast<short>(8 * voxelBytes);
   const mat44 axes = rasAxes(geometry.direction);
   mat44 matrix = axes;
@@ -242,7 +247,9 @@ nifti_1_header niftiHeader(const VolumeGeometry& geometry, short datatype,
   header.qform_code = header.sform_code = NIFTI_XFORM_SCANNER_ANAT;
   header.xyzt_units = NIFTI_UNITS_MM;
   header.scl_slope = 1;
-  return header;
+  std::string bytes(kNiftiFirstVoxel, '\0');  // zeros behind the header: no extensions
+  std::memcpy(bytes.data(), &header, sizeof(header));
+  return bytes;
 }
 
 }  // namespace lumen::convert

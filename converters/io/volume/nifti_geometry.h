@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <nifti/nifti1.h>
-
 #include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/stated_geometry.h"
 
@@ -23,9 +21,9 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
                              const std::filesystem::path& path,
                              std::vector<std::string>& assumptions);
 
-/// A header for one file of voxels with the NIfTI type `datatype`. Throws Error(Unsupported),
-/// naming `path`, for more than 32767 voxels along an axis.
-nifti_1_header niftiHeader(const VolumeGeometry& geometry, short datatype,
-                           const std::filesystem::path& path);
+/// The bytes before the voxels of a file of this volume: qform and sform are both written, as
+/// scanner coordinates in mm. Throws Error(Unsupported), naming `path`, for more than 32767 voxels
+/// along an axis.
+std::string niftiHeader(const Volume& volume, const std::filesystem::path& path);
 
 }  // namespace lumen::convert

@@ -39,7 +39,6 @@ struct NiftiHeader {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
            static_cast<std::size_t>(size[2]);
   }
-  [[nodiscard]] std::size_t voxelBytes() const { return voxelCount() * sizeOf(type); }
   [[nodiscard]] bool isScaled() const { return slope != 0 && (slope != 1 || intercept != 0); }
 };
 

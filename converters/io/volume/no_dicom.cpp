@@ -2,7 +2,7 @@
 // Replacement of the DICOM reader where lumen is built without it.
 #include "converters/base/error.h"
 #include "converters/io/volume/dicom_series.h"
-#include "converters/io/volume/read_dicom.h"
+#include "converters/io/volume/open_volume.h"
 
 namespace lumen::convert {
 namespace {
@@ -15,13 +15,8 @@ namespace {
 
 }  // namespace
 
-Volume readDicom(const std::filesystem::path& path, const ReadVolumeOptions& /*options*/,
-                 const Progress& /*progress*/) {
-  refuse(path);
-}
-
-VolumeHeader readDicomHeader(const std::filesystem::path& path,
-                             const ReadVolumeOptions& /*options*/, const Progress& /*progress*/) {
+OpenVolume openDicom(const std::filesystem::path& path, const ReadVolumeOptions& /*options*/,
+                     const Progress& /*progress*/) {
   refuse(path);
 }
 

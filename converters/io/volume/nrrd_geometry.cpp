@@ -11,6 +11,8 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/parsed_number.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/length_units.h"
@@ -57,7 +59,7 @@ Space anatomicalSpace(const TextHeader& header, std::vector<std::string>& assump
   } else if (name == "leftanteriorsuperior" || name == "las") {
     space.toLps = Vector3d(1, -1, 1);
   } else if (name == "scannerxyz" || name == "3drighthanded" || name == "3dlefthanded") {
-    assumptions.push_back("its space is " + cited(header.text("space")) +
+    assumptions.push_back("its space is " + quotedText(header.text("space")) +
                           ", which does not state where the patient's left, back and head are; its "
                           "axes are taken to run there (LPS)");
   } else {
@@ -73,7 +75,8 @@ Space readSpace(const TextHeader& header, std::vector<std::string>& assumptions)
   if (header.has("space")) {
     space = anatomicalSpace(header, assumptions);
     if (dimension != 0 && static_cast<std::size_t>(dimension) != space.dimension)
-      throw header.refusal("space dimension", "that of its space " + cited(header.text("space")));
+      throw header.refusal("space dimension",
+                           "that of its space " + quotedText(header.text("space")));
   } else {
     assumptions.emplace_back(
         "its header states no space, so its axes are taken as left, posterior and superior");
@@ -102,7 +105,7 @@ std::vector<std::optional<Vector3d>> readVectors(const TextHeader& header, const
     if (text[at] != '(' || end == std::string::npos) throw refused();
     std::vector<double> values;
     for (const std::string& word : splitWords(text.substr(at + 1, end - at - 1), ", \t"))
-      values.push_back(parseNumber(word).value_or(std::numeric_limits<double>::infinity()));
+      values.push_back(parsedNumber(word).value_or(std::numeric_limits<double>::infinity()));
     if (values.size() != dimension) throw refused();
     const bool none = std::all_of(values.begin(), values.end(), [](double v) { return v != v; });
     for (const double value : values)

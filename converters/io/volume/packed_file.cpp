@@ -16,6 +16,8 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/volume/text_header.h"
 #include "formats/container/printable.h"
 
@@ -180,7 +182,7 @@ private:
       if (c >= 'a' && c <= 'f') return c - 'a' + 10;
       if (c >= 'A' && c <= 'F') return c - 'A' + 10;
       if (c != ' ' && c != '\n' && c != '\r' && c != '\t')
-        throw invalidInput(shown(m_blocks->path()) + ": holds " + cited({&c, 1}) +
+        throw invalidInput(shown(m_blocks->path()) + ": holds " + quotedText({&c, 1}) +
                            " among its voxels; expected hexadecimal digits");
     }
     return -1;
@@ -232,7 +234,7 @@ private:
       return value;
     } else {
       // writers print whole numbers as 1e+06 too
-      const auto value = parseNumber(m_word);
+      const auto value = parsedNumber(m_word);
       const double low = static_cast<double>(std::numeric_limits<T>::min());
       const double high = std::ldexp(1.0, std::numeric_limits<T>::digits);
       if (!value || !(*value >= low && *value < high) || *value != std::floor(*value))
@@ -241,7 +243,7 @@ private:
     }
   }
   [[nodiscard]] Error refused() const {
-    return invalidInput(shown(m_blocks->path()) + ": holds " + cited(m_word) +
+    return invalidInput(shown(m_blocks->path()) + ": holds " + quotedText(m_word) +
                         " among its voxels; expected numbers that its pixel type holds");
   }
 
@@ -249,35 +251,12 @@ private:
   std::string m_word;
 };
 
-std::unique_ptr<PackedFile> openText(PixelType type, std::unique_ptr<Blocks> blocks) {
-  switch (type) {
-    case PixelType::Int8:
-      return std::make_unique<TextFile<std::int8_t>>(std::move(blocks));
-    case PixelType::UInt8:
-      return std::make_unique<TextFile<std::uint8_t>>(std::move(blocks));
-    case PixelType::Int16:
-      return std::make_unique<TextFile<std::int16_t>>(std::move(blocks));
-    case PixelType::UInt16:
-      return std::make_unique<TextFile<std::uint16_t>>(std::move(blocks));
-    case PixelType::Int32:
-      return std::make_unique<TextFile<std::int32_t>>(std::move(blocks));
-    case PixelType::UInt32:
-      return std::make_unique<TextFile<std::uint32_t>>(std::move(blocks));
-    case PixelType::Int64:
-      return std::make_unique<TextFile<std::int64_t>>(std::move(blocks));
-    case PixelType::UInt64:
-      return std::make_unique<TextFile<std::uint64_t>>(std::move(blocks));
-    case PixelType::Float32:
-      return std::make_unique<TextFile<float>>(std::move(blocks));
-    case PixelType::Float64:
-      break;
-  }
-  return std::make_unique<TextFile<double>>(std::move(blocks));
-}
-
 /// Reads data that is not deflated.
 std::unique_ptr<PackedFile> unpacked(const StoredVoxels& stored, std::unique_ptr<Blocks> blocks) {
-  if (stored.packing == Packing::Text) return openText(stored.type, std::move(blocks));
+  if (stored.packing == Packing::Text)
+    return withPixelType(stored.type, [&](auto zero) -> std::unique_ptr<PackedFile> {
+      return std::make_unique<TextFile<decltype(zero)>>(std::move(blocks));
+    });
   if (stored.packing == Packing::Hex) return std::make_unique<HexFile>(std::move(blocks));
   return std::make_unique<RawFile>(std::move(blocks));
 }

@@ -12,9 +12,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/io/volume/image_file.h"
-#include "converters/io/volume/nifti_file.h"
-#include "converters/io/volume/read_dicom.h"
+#include "converters/io/volume/open_volume.h"
 #include "converters/io/volume/stated_geometry.h"
 
 namespace lumen::convert {
@@ -22,33 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Volume read(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
-            const Progress& progress) {
-  switch (format) {
-    case VolumeFormat::Dicom:
-      return readDicom(path, options, progress);
-    case VolumeFormat::Nifti:
-      return readNifti(path, options, progress);
-    case VolumeFormat::Nrrd:
-    case VolumeFormat::MetaImage:
-      break;
-  }
-  return readImageFile(path, format, options, progress);
-}
-
-VolumeHeader readHeader(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
-                        const Progress& progress) {
-  switch (format) {
-    case VolumeFormat::Dicom:
-      return readDicomHeader(path, options, progress);
-    case VolumeFormat::Nifti:
-      return readNiftiHeader(path, options, progress);
-    case VolumeFormat::Nrrd:
-    case VolumeFormat::MetaImage:
-      break;
-  }
-  return readImageFileHeader(path, format, options, progress);
-}
+/// One row for each format, in the order of VolumeFormat.
+constexpr std::array kOpeners = {openNrrd, openNifti, openMetaImage, openDicom};
 
 /// Refuses an error page that a server sent instead of the file.
 void refuseWebPage(const fs::path& path) {
@@ -125,22 +98,27 @@ void crop(Volume& volume, const CellBox& box, const fs::path& path) {
   std::visit([&](auto& voxels) { voxels = cropped(voxels, whole, box); }, volume.voxels);
 }
 
+OpenVolume open(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
+                const Progress& progress) {
+  checkPlace(path, format, options);
+  progress.check();
+  return kOpeners.at(static_cast<std::size_t>(format))(path, options, progress);
+}
+
 }  // namespace
 
 VolumeHeader readVolumeHeader(const fs::path& path, VolumeFormat format,
                               const ReadVolumeOptions& options, const Progress& progress) {
-  checkPlace(path, format, options);
-  progress.check();
-  VolumeHeader header = readHeader(path, format, options, progress);
+  VolumeHeader header = open(path, format, options, progress).header;
   if (options.crop) cropGeometry(header.geometry, *options.crop, path);
   return header;
 }
 
 Volume readVolume(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
                   const Progress& progress) {
-  checkPlace(path, format, options);
-  progress.check();
-  Volume volume = read(path, format, options, progress);
+  OpenVolume file = open(path, format, options, progress);
+  Volume volume{file.header.geometry, {}, std::move(file.header.assumptions)};
+  volume.voxels = file.readVoxels(progress, volume.assumptions);
   progress.check();
   if (options.crop) crop(volume, *options.crop, path);
   std::visit([&](const auto& voxels) { checkValues(voxels, path); }, volume.voxels);

@@ -64,6 +64,8 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
                                        : "its header states no unit, so its spacing is taken as ") +
                           spacingText(geometry.spacing, kHeaderDigits) +
                           " mm, which is unusual; state the unit with " + kOption.unit.shown());
+  else if (!stated.unit && !options.unit && !options.spacing && !stated.unitNote.empty())
+    assumptions.push_back(stated.unitNote);
   checkGeometry(geometry, path);
   return geometry;
 }

@@ -18,7 +18,8 @@ struct StatedGeometry {
   /// Lengths are in the file's unit. A spacing is NaN along an axis whose spacing is not stated.
   VolumeGeometry geometry;
   std::optional<double> unit;  ///< mm of the file's unit; empty: the header states none
-  std::string placedBy;        ///< of several transforms the one that counts; empty: there is one
+  std::string unitNote;  ///< the assumption where `unit` is empty; empty: it goes without saying
+  std::string placedBy;  ///< of several transforms the one that counts; empty: there is one
 };
 
 /// The geometry in mm: spacing and unit are those of the options, else of the header, else 1 mm. An

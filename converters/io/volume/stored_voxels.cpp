@@ -143,38 +143,16 @@ Voxels readAs(const StoredVoxels& stored, const Progress& progress,
   return std::make_unique<VoxelReader<From, To>>(stored, progress, assumptions)->read();
 }
 
-Voxels readType(const StoredVoxels& stored, const Progress& progress,
-                std::vector<std::string>& assumptions) {
-  switch (stored.type) {
-    case PixelType::Int8:
-      return readAs<std::int8_t, std::int16_t>(stored, progress, assumptions);
-    case PixelType::UInt8:
-      return readAs<std::uint8_t, std::uint8_t>(stored, progress, assumptions);
-    case PixelType::Int16:
-      return readAs<std::int16_t, std::int16_t>(stored, progress, assumptions);
-    case PixelType::UInt16:
-      return readAs<std::uint16_t, std::uint16_t>(stored, progress, assumptions);
-    case PixelType::Int32:
-      return readAs<std::int32_t, float>(stored, progress, assumptions);
-    case PixelType::UInt32:
-      return readAs<std::uint32_t, float>(stored, progress, assumptions);
-    case PixelType::Int64:
-      return readAs<std::int64_t, float>(stored, progress, assumptions);
-    case PixelType::UInt64:
-      return readAs<std::uint64_t, float>(stored, progress, assumptions);
-    case PixelType::Float32:
-      return readAs<float, float>(stored, progress, assumptions);
-    case PixelType::Float64:
-      break;
-  }
-  return readAs<double, float>(stored, progress, assumptions);
-}
+/// The type in memory: the widest that Voxels has, where the file's is none of them.
+template <class From>
+using InMemory =
+    std::conditional_t<std::is_same_v<From, std::int8_t>, std::int16_t,
+                       std::conditional_t<(sizeof(From) < sizeof(float)), From, float>>;
 
 }  // namespace
 
 std::size_t sizeOf(PixelType type) {
-  constexpr std::array<std::size_t, 10> kSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-  return kSizes.at(static_cast<std::size_t>(type));
+  return withPixelType(type, [](auto zero) { return sizeof(zero); });
 }
 
 std::string nameOf(PixelType type) {
@@ -212,7 +190,10 @@ std::uint64_t checkStored(const StoredVoxels& stored, std::vector<std::string>& 
 Voxels readStored(const StoredVoxels& stored, const Progress& progress,
                   std::vector<std::string>& assumptions) {
   try {
-    return readType(stored, progress, assumptions);
+    return withPixelType(stored.type, [&](auto zero) {
+      using From = decltype(zero);
+      return readAs<From, InMemory<From>>(stored, progress, assumptions);
+    });
   } catch (const std::bad_alloc&) {
     throw invalidInput(stored.header.string() + ": its " + std::to_string(stored.wantedCount()) +
                        " voxels do not fit in memory");

@@ -17,6 +17,34 @@ namespace lumen::convert {
 
 enum class PixelType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
+/// Calls `use` with a zero of this type.
+template <class Use>
+auto withPixelType(PixelType type, const Use& use) {
+  switch (type) {
+    case PixelType::Int8:
+      return use(std::int8_t{});
+    case PixelType::UInt8:
+      return use(std::uint8_t{});
+    case PixelType::Int16:
+      return use(std::int16_t{});
+    case PixelType::UInt16:
+      return use(std::uint16_t{});
+    case PixelType::Int32:
+      return use(std::int32_t{});
+    case PixelType::UInt32:
+      return use(std::uint32_t{});
+    case PixelType::Int64:
+      return use(std::int64_t{});
+    case PixelType::UInt64:
+      return use(std::uint64_t{});
+    case PixelType::Float32:
+      return use(float{});
+    case PixelType::Float64:
+      break;
+  }
+  return use(double{});
+}
+
 /// Size of one voxel, bytes.
 std::size_t sizeOf(PixelType type);
 /// Name of a type, "int8" ... "float64".

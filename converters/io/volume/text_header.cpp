@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "converters/base/parsed_number.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "formats/container/printable.h"
 
@@ -17,23 +18,14 @@ namespace {
 /// Numbers have several notations, and words either case.
 bool isSameValue(const std::string& a, const std::string& b) {
   const auto same = [](const std::string& v, const std::string& w) {
-    const auto number = parseNumber(v);
-    return lowerCase(v) == lowerCase(w) || (number && number == parseNumber(w));
+    const auto number = parsedNumber(v);
+    return lowerCase(v) == lowerCase(w) || (number && number == parsedNumber(w));
   };
   const auto left = splitWords(a), right = splitWords(b);
   return std::equal(left.begin(), left.end(), right.begin(), right.end(), same);
 }
 
 }  // namespace
-
-std::string cited(std::string_view text) {
-  constexpr std::size_t kShown = 60;
-  const bool cut = text.size() > kShown;
-  std::string out = "\"";
-  out += formats::printable(text.substr(0, kShown));
-  out += cut ? "...\"" : "\"";
-  return out;
-}
 
 std::vector<std::string> splitWords(std::string_view text, std::string_view separators) {
   std::vector<std::string> words;
@@ -46,16 +38,12 @@ std::vector<std::string> splitWords(std::string_view text, std::string_view sepa
   return words;
 }
 
-std::optional<double> parseNumber(std::string_view text) {
-  return parsedNumber(text);
-}
-
 std::optional<std::int64_t> parseInteger(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) return value;
-  const auto real = parseNumber(text);         // "48.0"
+  const auto real = parsedNumber(text);        // "48.0"
   constexpr double kExact = 9007199254740992;  // 2^53
   if (!real || std::abs(*real) > kExact || *real != std::floor(*real)) return {};
   return static_cast<std::int64_t>(*real);
@@ -85,7 +73,7 @@ void TextHeader::set(const std::string& name, const std::string& value) {
   const auto [field, added] = m_fields.emplace(name, value);
   if (added || isSameValue(field->second, value)) return;
   throw invalidInput(m_path.string() + ": its header states " + formats::printable(name) +
-                     " twice: " + cited(field->second) + " and " + cited(value));
+                     " twice: " + quotedText(field->second) + " and " + quotedText(value));
 }
 
 const std::string& TextHeader::text(const std::string& name) const {
@@ -104,7 +92,7 @@ std::vector<double> TextHeader::numbers(const std::string& name, std::size_t cou
   if (!has(name)) return values;
   const auto words = splitWords(text(name));
   for (const std::string& word : words)
-    if (const auto value = parseNumber(word)) values.push_back(*value);
+    if (const auto value = parsedNumber(word)) values.push_back(*value);
   if (values.size() != count || words.size() != count)
     throw refusal(name, std::to_string(count) + " numbers");
   return values;
@@ -129,7 +117,7 @@ std::int64_t TextHeader::integer(const std::string& name, std::int64_t low, std:
 }
 
 Error TextHeader::refusal(const std::string& name, const std::string& expected) const {
-  return invalidInput(m_path.string() + ": its " + name + " is " + cited(text(name)) +
+  return invalidInput(m_path.string() + ": its " + name + " is " + quotedText(text(name)) +
                       "; expected " + expected);
 }
 

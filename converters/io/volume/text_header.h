@@ -14,15 +14,10 @@
 
 namespace lumen::convert {
 
-/// "text" in quotes, printable and cut to 60 bytes, as a message quotes a header.
-std::string cited(std::string_view text);
-
 /// The words of `text` between characters of `separators`.
 std::vector<std::string> splitWords(std::string_view text, std::string_view separators = " \t\r");
 
-/// The number that the whole of `text` represents; "nan" and "inf" in any case are numbers, and a
-/// sign may be +. Empty for anything else, also for a number beyond a double's range.
-std::optional<double> parseNumber(std::string_view text);
+/// The whole number that the whole of `text` represents, also as "48.0"; empty for anything else.
 std::optional<std::int64_t> parseInteger(std::string_view text);
 
 /// Reads lines at the beginning of a file, within which a header must end.

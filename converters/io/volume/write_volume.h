@@ -1,32 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writers of volumes, to files and to a case's record of its volume.
+// The writer of volumes, as bytes of a file, and their record in a case.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <string_view>
 
-#include "converters/io/volume/itk_image.h"
-#include "converters/io/volume/read_volume.h"
+#include "converters/io/volume/read_volume_options.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
-/// Writes header and voxels into one file, atomically. ITK requires that the name ends in .nrrd for
-/// NRRD, and in .mha for MetaImage. Throws Error(Unsupported) for DICOM.
-void writeVolume(const Volume& volume, const std::filesystem::path& path, VolumeFormat format,
-                 bool compressed);
+/// Texts that a header of NRRD holds beside its own fields.
+using VolumeNotes = std::map<std::string, std::string>;
 
-/// The bytes of the file that writeVolume() writes, through a file in the system's folder for
-/// temporary files. Notes are for NRRD alone. Throws as writeVolume().
+/// The bytes of one file with header and voxels; equal volumes give equal bytes. `file` is named in
+/// messages; notes are for NRRD alone. Throws Error(Unsupported) for DICOM, and for more than 32767
+/// voxels along an axis of NIfTI.
 std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
-                         const VolumeNotes& notes = {});
+                         const std::filesystem::path& file, const VolumeNotes& notes = {});
+
+/// The header of a MetaImage file whose voxels are in the file `raw` beside it, as voxelBytes().
+std::string metaImageHeader(const Volume& volume, const std::string& raw);
+
+/// The voxels, x fastest, little-endian.
+std::string_view voxelBytes(const Volume& volume);
 
 /// The record of a volume without the digest of its voxels.
 formats::SourceVolume describeGeometry(const VolumeGeometry& geometry);
 
-/// The record of `volume` that a case keeps. The digest is SHA-256 over the voxels, x fastest, in
-/// the in-memory pixel type, little-endian.
+/// The record of `volume` that a case keeps. The digest is SHA-256 over voxelBytes().
 formats::SourceVolume describeSource(const Volume& volume);
 
 }  // namespace lumen::convert

@@ -13,7 +13,6 @@
 #include <tbb/global_control.h>
 
 #include "converters/base/message_text.h"
-#include "converters/io/volume/itk_image.h"
 #include "packages/python/src/python_error.h"
 
 namespace py = pybind11;
@@ -140,11 +139,9 @@ std::optional<py::error_already_set> watchUntilEnd(Worker& worker, WatchedProgre
 
 Messages runWatched(const Watch& watch, const std::function<void(Progress&)>& work) {
   std::optional<tbb::global_control> control;
-  if (watch.threads > 0) {
+  if (watch.threads > 0)
     control.emplace(tbb::global_control::max_allowed_parallelism,
                     static_cast<std::size_t>(watch.threads));
-    convert::limitItkThreads(watch.threads);
-  }
   WatchedProgress progress(watch.strict);
   Worker worker(progress, work);
   const auto raised = watchUntilEnd(worker, progress, watch.report);

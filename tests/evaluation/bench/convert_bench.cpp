@@ -19,6 +19,7 @@
 #include <tbb/global_control.h>
 
 #include "convert_itk.h"
+#include "converters/base/files.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/io/volume/read_volume.h"
 #include "converters/io/volume/write_volume.h"
@@ -122,7 +123,9 @@ public:
     options.size = size;
     Progress progress;
     const convert::Phantom phantom = convert::makePhantom(options, progress);
-    convert::writeVolume(phantom.volume, stem(size) + ".nrrd", convert::VolumeFormat::Nrrd, true);
+    const std::string name = stem(size) + ".nrrd";
+    writeNewFile(convert::encodeVolume(phantom.volume, convert::VolumeFormat::Nrrd, true, name),
+                 name);
     convert::writeSeeds(phantom.seeds, stem(size) + ".json");
   }
 

@@ -114,6 +114,18 @@ void expectField(const Image& distance, const Image& branch, const VesselDistanc
 
 }  // namespace
 
+TEST_F(GridFiles, DoNotDependOnNamesInTheFolderOfTemporaries) {
+  const fs::path folder = m_folder / "temporaries";
+  for (const char* name : {"volume.nrrd", "volume.nii", "volume.mha"})
+    fs::create_directories(folder / name);
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before != nullptr ? before : "";
+  setenv("TMPDIR", folder.c_str(), 1);
+  EXPECT_NO_THROW(write(landmarkCase(), 1, {.formats = {GridFormat::Nrrd, GridFormat::Nifti}}));
+  before != nullptr ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
+  EXPECT_TRUE(fs::exists(m_folder / "distance.nii.gz"));
+}
+
 TEST_F(GridFiles, AreReadByItkAtTheirPlaces) {
   const formats::Case source = landmarkCase();
   write(source, 0.35, {.formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Mhd}});

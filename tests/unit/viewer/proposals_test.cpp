@@ -36,7 +36,7 @@ std::set<std::string> labelsIn(const Json& list) {
 class ProposalsTest : public ServedTest {
 protected:
   void SetUp() override {
-    convert::writeVolume(treeVolume(), path("tree.nrrd"), convert::VolumeFormat::Nrrd, false);
+    writeVolume("tree.nrrd", treeVolume());
     serve({"tree.nrrd"});
   }
   void find() const { performAll({{"op", "find"}}); }
@@ -282,7 +282,7 @@ TEST_F(ProposalsTest, AMaskIsRefusedInASentence) {
   });
   for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(mask.voxels))
     voxel = voxel > 500 ? 1 : 0;
-  convert::writeVolume(mask, path("mask.nrrd"), convert::VolumeFormat::Nrrd, false);
+  writeVolume("mask.nrrd", mask);
   serve({"mask.nrrd"});
   EXPECT_EQ(outcome({{"op", "find"}}),
             "mask.nrrd: its voxels are labels, as of a mask; expected the intensities of an "
@@ -294,7 +294,7 @@ TEST_F(ProposalsTest, AVolumeWithoutVesselsIsReported) {
   std::uint32_t random = 1;
   for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(noise.voxels))
     voxel = static_cast<std::int16_t>((random = random * 1664525U + 1013904223U) >> 24);
-  convert::writeVolume(noise, path("noise.nrrd"), convert::VolumeFormat::Nrrd, false);
+  writeVolume("noise.nrrd", noise);
   serve({"noise.nrrd"});
   const std::string text = outcome({{"op", "find"}});
   EXPECT_TRUE(text.starts_with("no vessels are found in noise.nrrd, as ")) << text;

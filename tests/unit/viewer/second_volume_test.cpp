@@ -45,9 +45,6 @@ TEST(SharedPart, IsThatOfTheSmallerVolume) {
 
 class SecondVolumeTest : public ServedTest {
 protected:
-  void writeVolume(const std::string& name, const convert::Volume& volume) const {
-    convert::writeVolume(volume, path(name), convert::VolumeFormat::Nrrd, false);
-  }
   /// Serves the first volume, beside a case if there is one, and opens the other as the second.
   void serveBoth(const std::vector<std::string>& first, const std::string& second) {
     serve(first);

@@ -97,9 +97,10 @@ protected:
   void writeCase(const std::string& name, const formats::Case& value) const {
     ASSERT_TRUE(formats::writeCaseFile(value, path(name)));
   }
-  void writeTube(const std::string& name) const {
-    convert::writeVolume(tubeVolume(), path(name), convert::VolumeFormat::Nrrd, false);
+  void writeVolume(const std::string& name, const convert::Volume& volume) const {
+    write(name, convert::encodeVolume(volume, convert::VolumeFormat::Nrrd, false, name));
   }
+  void writeTube(const std::string& name) const { writeVolume(name, tubeVolume()); }
 
   /// Opens files of the folder and serves them; the first case is the one that is saved.
   void serve(const std::vector<std::string>& names) {

@@ -146,7 +146,7 @@ TEST_F(TrackFurtherTest, ASecondClickAddsAVesselAndLeavesTheFirstAsItIs) {
     return std::min(convert::capsule(p, {3.2, 6.4, 0.4}, {3.2, 6.4, 12.2}, 1.0),
                     convert::capsule(p, {9.6, 6.4, 0.4}, {9.6, 6.4, 12.2}, 1.0));
   });
-  convert::writeVolume(volume, path("tubes.nrrd"), convert::VolumeFormat::Nrrd, false);
+  writeVolume("tubes.nrrd", volume);
   serve({"tubes.nrrd"});
   const auto click = [this](const std::string& label, double x) {
     ASSERT_EQ(

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/io/volume/read_volume.h"
 #include "converters/io/volume/write_volume.h"
 
@@ -79,7 +80,7 @@ inline Volume readQuietly(const std::filesystem::path& path,
 
 /// Compressed, but for a name in .nii.
 inline void writeAsNamed(const Volume& volume, const std::filesystem::path& path) {
-  writeVolume(volume, path, formatOf(path), path.extension() != ".nii");
+  writeNewFile(encodeVolume(volume, formatOf(path), path.extension() != ".nii", path), path);
 }
 
 inline std::string readRefusal(const std::filesystem::path& path,

@@ -16,7 +16,6 @@
 #include "converters/export/shared/cdf.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/export_text.h"
-#include "converters/export/shared/meta_image.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/vdb.h"
@@ -102,14 +101,6 @@ VolumeNotes makeNotes(const formats::CenterlineTree& tree) {
   return notes;
 }
 
-VolumeGeometry geometryOf(const Lattice& lattice) {
-  VolumeGeometry geometry;
-  geometry.size = lattice.size;
-  geometry.spacing.setConstant(lattice.spacing);
-  geometry.origin = lattice.first;
-  return geometry;
-}
-
 std::vector<std::uint16_t> findBranches(const DistanceGrid& grid) {
   std::vector<std::uint16_t> branches;
   branches.reserve(grid.values.size());
@@ -151,39 +142,27 @@ private:
   }
 
   void addVolumes() {
-    const bool asNrrd = wants(m_options, GridFormat::Nrrd),
-               asNifti = wants(m_options, GridFormat::Nifti),
-               asMhd = wants(m_options, GridFormat::Mhd);
-    if (!asNrrd && !asNifti && !asMhd) return;
+    if (!wants(m_options, GridFormat::Nrrd) && !wants(m_options, GridFormat::Nifti) &&
+        !wants(m_options, GridFormat::Mhd))
+      return;
     const DistanceGrid grid = sampleGrid(m_source, m_plan.lattice, m_input.progress);
-    if (asMhd) addMhd(grid);
-    Volume volume{geometryOf(grid.lattice), std::vector<float>()};
-    auto& distances = std::get<std::vector<float>>(volume.voxels);
-    for (const WallDistance& value : grid.values) distances.push_back(value.distance);
+    Volume volume = distanceVolume(grid, 1);
     addVolume(volume, "distance", kDistances);
     volume.voxels = findBranches(grid);
     addVolume(volume, "branch", kBranches);
   }
 
   void addVolume(const Volume& volume, const std::string& name, const std::string& about) {
-    if (wants(m_options, GridFormat::Nrrd))
-      add(name + ".nrrd",
-          encodeVolume(volume, VolumeFormat::Nrrd, true, makeNotes(m_input.source.tree)), about);
-    if (wants(m_options, GridFormat::Nifti))
-      add(name + ".nii.gz", encodeVolume(volume, VolumeFormat::Nifti, true), about);
-  }
-
-  void addMhd(const DistanceGrid& grid) {
-    const auto addPair = [&](const std::string& name, const std::string& type, std::string bytes,
-                             const std::string& about) {
+    if (wants(m_options, GridFormat::Mhd)) {
       const std::string raw = m_plan.stem + name + ".raw";
-      add(name + ".mhd", metaImageHeader(grid.lattice, type, raw), about + "; in `" + raw + "`");
-      add(name + ".raw", std::move(bytes), "");
+      add(name + ".mhd", metaImageHeader(volume, raw), about + "; in `" + raw + "`");
+      add(name + ".raw", std::string(voxelBytes(volume)), "");
+    }
+    const auto addAs = [&](const std::string& file, VolumeFormat format) {
+      add(file, encodeVolume(volume, format, true, file, makeNotes(m_input.source.tree)), about);
     };
-    const std::vector<std::uint16_t> branches = findBranches(grid);
-    addPair("distance", "MET_FLOAT", distanceBytes<float>(grid, 1), kDistances);
-    addPair("branch", "MET_USHORT",
-            {reinterpret_cast<const char*>(branches.data()), 2 * branches.size()}, kBranches);
+    if (wants(m_options, GridFormat::Nrrd)) addAs(name + ".nrrd", VolumeFormat::Nrrd);
+    if (wants(m_options, GridFormat::Nifti)) addAs(name + ".nii.gz", VolumeFormat::Nifti);
   }
 
   const ExportInput& m_input;

@@ -15,10 +15,10 @@
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/markdown_text.h"
-#include "converters/export/shared/meta_image.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/targets/sofa/scene.h"
 #include "converters/io/mesh/write_plain.h"
+#include "converters/io/volume/write_volume.h"
 #include "formats/case/binary_encode.h"
 #include "formats/container/printable.h"
 
@@ -75,6 +75,14 @@ std::string startText(const SceneInput& input, const SofaOptions& options) {
                      {"release", options.dialect == SofaDialect::V23_06 ? "v23.06" : "v25.06"}});
 }
 
+/// The distances as doubles, positive in the lumen, little-endian.
+std::string wallBytes(const DistanceGrid& grid) {
+  std::vector<double> distances;
+  for (const WallDistance& value : grid.values)
+    distances.push_back(-static_cast<double>(value.distance));
+  return {reinterpret_cast<const char*>(distances.data()), distances.size() * sizeof(double)};
+}
+
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
   const double spacing =
       gridSpacing(input.options.spacing, scene.box, kGridBorder, input.source.tree);
@@ -84,12 +92,13 @@ void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& in
   const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
   scene.grid = {lattice.size, lattice.first, lattice.last()};
   result.losses = gridLosses(spacing, input.source.tree);
-  result.files.push_back({"wall.raw", distanceBytes<double>(grid, -1),
+  result.files.push_back({"wall.raw", wallBytes(grid),
                           "distances to the wall, mm, positive in the lumen, doubles, x fastest",
                           ""});
-  result.files.push_back({"distance.mhd", metaImageHeader(lattice, "MET_FLOAT", "distance.raw"),
+  const Volume distances = distanceVolume(grid, -1);
+  result.files.push_back({"distance.mhd", metaImageHeader(distances, "distance.raw"),
                           "the same in floats, in `distance.raw`, for a DiscreteGridField", ""});
-  result.files.push_back({"distance.raw", distanceBytes<float>(grid, -1), "", ""});
+  result.files.push_back({"distance.raw", std::string(voxelBytes(distances)), "", ""});
 }
 
 void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOptions& options) {

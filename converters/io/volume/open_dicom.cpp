@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/volume/read_dicom.h"
-
+// DICOM of open_volume.h.
+#include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -8,6 +8,7 @@
 #include "converters/io/volume/dicom_folder.h"
 #include "converters/io/volume/dicom_pixels.h"
 #include "converters/io/volume/dicom_stack.h"
+#include "converters/io/volume/open_volume.h"
 
 namespace lumen::convert {
 namespace {
@@ -48,37 +49,39 @@ std::string encodingName(DicomPacking packing) {
   }
 }
 
-}  // namespace
-
-Volume readDicom(const fs::path& path, const ReadVolumeOptions& options, const Progress& progress) {
-  DicomStack stack = stackOf(findDicomSeries(path, options, progress), options, path);
-  Volume volume;
-  volume.geometry = stack.geometry;
-  volume.assumptions = std::move(stack.assumptions);
+Voxels readSlices(const DicomStack& stack, const Progress& progress) {
+  Voxels all;
   bool first = true;
   for (const DicomFrame& slice : stack.slices) {
     progress.check();
     Voxels voxels = readDicomFrame(*slice.image, slice.frame, progress);
     if (std::exchange(first, false))
-      volume.voxels =
-          std::visit([](auto& v) -> Voxels { return std::decay_t<decltype(v)>(); }, voxels);
-    append(volume.voxels, std::move(voxels), volume.geometry.voxelCount());
+      all = std::visit([](auto& v) -> Voxels { return std::decay_t<decltype(v)>(); }, voxels);
+    append(all, std::move(voxels), stack.geometry.voxelCount());
   }
-  return volume;
+  return all;
 }
 
-VolumeHeader readDicomHeader(const fs::path& path, const ReadVolumeOptions& options,
-                             const Progress& progress) {
-  DicomStack stack = stackOf(findDicomSeries(path, options, progress), options, path);
-  const DicomImage& first = stack.images[0];
-  VolumeHeader header;
-  header.geometry = stack.geometry;
+}  // namespace
+
+OpenVolume openDicom(const fs::path& path, const ReadVolumeOptions& options,
+                     const Progress& progress) {
+  // shared, because slices point to its images
+  const auto stack = std::make_shared<const DicomStack>(
+      stackOf(findDicomSeries(path, options, progress), options, path));
+  const DicomImage& first = stack->images[0];
+  OpenVolume open;
+  VolumeHeader& header = open.header;
+  header.geometry = stack->geometry;
   header.storedType = (first.isSigned ? "int" : "uint") + std::to_string(first.bitsAllocated);
   header.encoding = encodingName(first.packing);
-  header.voxelBytes = first.frameBytes() * stack.slices.size();
-  for (const DicomImage& image : stack.images) header.storedBytes += fs::file_size(image.file);
-  header.assumptions = std::move(stack.assumptions);
-  return header;
+  header.voxelBytes = first.frameBytes() * stack->slices.size();
+  for (const DicomImage& image : stack->images) header.storedBytes += fs::file_size(image.file);
+  header.assumptions = stack->assumptions;
+  open.readVoxels = [stack](const Progress& running, std::vector<std::string>&) {
+    return readSlices(*stack, running);
+  };
+  return open;
 }
 
 }  // namespace lumen::convert

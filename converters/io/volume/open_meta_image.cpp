@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// MetaImage headers, after the MetaIO documentation of ITK.
+// MetaImage of open_volume.h, after the MetaIO documentation of ITK.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <system_error>
+#include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/detached_data.h"
 #include "converters/io/volume/image_header.h"
@@ -129,7 +131,7 @@ StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int
   stated.unit = millimetresPer(unit);
   if (!stated.unit && !options.unit)
     assumptions.push_back(
-        "its DistanceUnits are " + cited(unit) +
+        "its DistanceUnits are " + quotedText(unit) +
         ", which are not known as a length, so they are taken to be mm; state the unit with " +
         kOption.unit.shown());
   return stated;
@@ -222,7 +224,7 @@ void setMetaFiles(const TextHeader& header, const std::vector<std::int64_t>& siz
     throw invalidInput(header.path().string() + ": its ElementDataFile names " +
                        std::to_string(names.count) + " files; expected " +
                        std::to_string(slicesOf(sizes, axes)) + " for its DimSize " +
-                       cited(header.text(kSizes)));
+                       quotedText(header.text(kSizes)));
   voxels.files = detachedFiles(header.path(), names, options.allowedDetached);
 }
 
@@ -251,7 +253,9 @@ void noteScaling(const TextHeader& header, std::vector<std::string>& assumptions
 
 }  // namespace
 
-ImageHeader readMetaHeader(const fs::path& path, const ReadVolumeOptions& options) {
+OpenVolume openMetaImage(const fs::path& path, const ReadVolumeOptions& options,
+                         const Progress& progress) {
+  progress.check();
   const TextHeader fields = readMetaFields(path);
   if (fields.has("ObjectType") && lowerCase(fields.text("ObjectType")) != "image")
     throw fields.refusal("ObjectType", "Image");
@@ -274,7 +278,7 @@ ImageHeader readMetaHeader(const fs::path& path, const ReadVolumeOptions& option
                                            " bytes of the header");
   if (stated > 0) header.voxels.offset = stated;
   if (header.voxels.files.size() > 1) header.voxels.packedSize.reset();  // the sum of all files
-  return header;
+  return openImage(std::move(header), options, path);
 }
 
 }  // namespace lumen::convert

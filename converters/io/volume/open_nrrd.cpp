@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NRRD headers, after G. Kindlmann, "Definition of NRRD File Format" (Teem).
+// NRRD of open_volume.h, after G. Kindlmann, "Definition of NRRD File Format" (Teem).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/detached_data.h"
 #include "converters/io/volume/image_header.h"
@@ -45,7 +46,7 @@ void checkMagic(const fs::path& path, const std::string& line) {
   static const std::array<std::string, 6> known = {"NRRD00.01", "NRRD0001", "NRRD0002",
                                                    "NRRD0003",  "NRRD0004", "NRRD0005"};
   if (std::find(known.begin(), known.end(), trimmed(line)) == known.end())
-    throw unsupported(path.string() + ": is of the version " + cited(trimmed(line)) +
+    throw unsupported(path.string() + ": is of the version " + quotedText(trimmed(line)) +
                       "; expected NRRD0001 to NRRD0005");
 }
 
@@ -53,7 +54,7 @@ void setField(TextHeader& header, const std::string& line) {
   if (line[0] == '#') return;
   const auto colon = line.find(':');
   if (colon == std::string::npos)
-    throw invalidInput(header.path().string() + ": its header has the line " + cited(line) +
+    throw invalidInput(header.path().string() + ": its header has the line " + quotedText(line) +
                        "; expected a field, a colon and a value");
   if (line.compare(colon, 2, ":=") == 0) return;  // a key and value of the user
   const std::string name = fieldName(lowerCase(trimmed(line.substr(0, colon))));
@@ -139,7 +140,8 @@ Packing readPacking(const TextHeader& header) {
   if (encoding == "gzip" || encoding == "gz") return Packing::Deflate;
   if (encoding == "ascii" || encoding == "text" || encoding == "txt") return Packing::Text;
   if (encoding == "hex") return Packing::Hex;
-  throw unsupported(header.path().string() + ": its encoding is " + cited(header.text("encoding")) +
+  throw unsupported(header.path().string() + ": its encoding is " +
+                    quotedText(header.text("encoding")) +
                     "; expected raw, gzip, hex or text, as in \"unu save -f nrrd -e gzip\"");
 }
 
@@ -202,13 +204,15 @@ void setFiles(const TextHeader& header, const std::vector<std::int64_t>& sizes,
   if (names.count != needed && !slabs)
     throw invalidInput(header.path().string() + ": its data file names " +
                        std::to_string(names.count) + " files; expected " + std::to_string(needed) +
-                       " for its sizes " + cited(header.text("sizes")));
+                       " for its sizes " + quotedText(header.text("sizes")));
   voxels.files = detachedFiles(header.path(), names, options.allowedDetached);
 }
 
 }  // namespace
 
-ImageHeader readNrrdHeader(const fs::path& path, const ReadVolumeOptions& options) {
+OpenVolume openNrrd(const fs::path& path, const ReadVolumeOptions& options,
+                    const Progress& progress) {
+  progress.check();
   const TextHeader fields = readFields(path);
   ImageHeader header;
   StoredVoxels& voxels = header.voxels;
@@ -228,7 +232,7 @@ ImageHeader readNrrdHeader(const fs::path& path, const ReadVolumeOptions& option
   constexpr std::int64_t kMostSkipped = std::int64_t{1} << 50;
   voxels.byteSkip = fields.integer("byte skip", fromEnd ? -kMostSkipped : 0, kMostSkipped, 0);
   setFiles(fields, sizes, options, voxels);
-  return header;
+  return openImage(std::move(header), options, path);
 }
 
 }  // namespace lumen::convert
