@@ -15,8 +15,8 @@
 #include "converters/judge/measure/measure_text.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
+#include "viewer/session/corrections.h"
 #include "viewer/session/proposals.h"
-#include "viewer/session/seed_changes.h"
 #include "viewer/session/vessel_tracking.h"
 #include "viewer/session/work_list.h"
 
