@@ -23,7 +23,7 @@
 #include "viewer/server/html_page.h"
 #include "viewer/server/idle.h"
 #include "viewer/server/server.h"
-#include "viewer/session/second_volume.h"
+#include "viewer/session/source_match.h"
 
 namespace lumen::viewer {
 

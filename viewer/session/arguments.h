@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments of a request, checked.
+// Arguments of a request, checked, and a request that came too late.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/error.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/case/json_place.h"
@@ -45,5 +46,12 @@ private:
 
 /// Strict JSON of at most `mostBytes`. Throws Error(Usage).
 formats::JsonDocument parseRequest(const std::string& text, std::size_t mostBytes);
+
+/// The request was legal when the page made it. The server answers it with 409, a job ends with its
+/// sentence.
+class Conflict : public Error {
+public:
+  explicit Conflict(const std::string& sentence) : Error(ErrorKind::Usage, sentence) {}
+};
 
 }  // namespace lumen::viewer

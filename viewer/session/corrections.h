@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corrections of a case by hand, as a page asks for them.
+// Corrections of a case and changes of its seeds by hand, as a page asks for them.
 #pragma once
 
 #include <optional>
@@ -22,5 +22,16 @@ struct Correction {
 /// Error(Usage) if there is no case, and for arguments that do not fit it.
 std::optional<Correction> correct(const std::string& op, const Arguments& request,
                                   const Document& document);
+
+struct SeedChange {
+  std::string label;  ///< label of the seed
+  std::string title;  ///< title for undo, such as "move seed ica"
+  Document document;  ///< after the change
+};
+
+/// The change with the name `op`, or nothing if no change of seeds has that name. Throws
+/// Error(Usage) for arguments that do not fit the document.
+std::optional<SeedChange> changeSeeds(const std::string& op, const Arguments& request,
+                                      const Document& document);
 
 }  // namespace lumen::viewer

@@ -9,8 +9,8 @@
 #include "converters/base/progress.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/history.h"
+#include "viewer/session/pack.h"
 #include "viewer/session/surfaces.h"
-#include "viewer/session/tagged.h"
 #include "viewer/session/volume_pack.h"
 
 namespace lumen::viewer {

@@ -8,7 +8,7 @@
 #include "converters/base/text.h"
 #include "converters/io/volume/dicom_series.h"
 #include "formats/container/printable.h"
-#include "viewer/session/conflict.h"
+#include "viewer/session/arguments.h"
 #include "viewer/session/document_seeds.h"
 #include "viewer/session/proposals.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "viewer/session/conflict.h"
+#include "viewer/session/arguments.h"
 #include "viewer/session/events.h"
 
 namespace lumen::viewer {
@@ -63,7 +63,8 @@ Json Findings::work(const Document& document) const {
 
 WorkItem Findings::workItem(std::size_t number) const {
   const std::lock_guard lock(m_mutex);
-  if (number < m_firstWork) throw Conflict("the case was checked again meanwhile; look, and try again");
+  if (number < m_firstWork)
+    throw Conflict("the case was checked again meanwhile; look, and try again");
   if (number - m_firstWork >= m_work.size()) refuse("the check has no place with that number");
   return m_work[number - m_firstWork];
 }

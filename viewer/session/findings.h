@@ -11,7 +11,7 @@
 #include "converters/judge/measure/measure_case.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"
-#include "viewer/session/tagged.h"
+#include "viewer/session/pack.h"
 #include "viewer/session/work_list.h"
 
 namespace lumen::viewer {

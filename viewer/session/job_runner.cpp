@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "viewer/session/conflict.h"
+#include "viewer/session/arguments.h"
 
 namespace lumen::viewer {
 

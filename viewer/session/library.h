@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "converters/engine/answers/answer_text.h"
-#include "viewer/session/tagged.h"
+#include "viewer/session/pack.h"
 
 namespace lumen::viewer {
 

@@ -8,7 +8,6 @@
 #include "formats/container/printable.h"
 #include "viewer/session/corrections.h"
 #include "viewer/session/proposals.h"
-#include "viewer/session/seed_changes.h"
 #include "viewer/session/source_match.h"
 
 namespace lumen::viewer {

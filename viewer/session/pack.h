@@ -5,10 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "converters/engine/answers/answer_text.h"
@@ -69,5 +71,15 @@ private:
   Json m_arrays = Json::object();
   std::string m_body;
 };
+
+/// Bytes with a name: `tag` differs where the bytes do. Null `bytes`: there is no such part.
+struct Tagged {
+  std::string tag;
+  std::shared_ptr<const std::string> bytes;
+};
+
+inline Tagged tagged(std::string tag, std::string bytes) {
+  return {std::move(tag), std::make_shared<const std::string>(std::move(bytes))};
+}
 
 }  // namespace lumen::viewer

@@ -7,7 +7,7 @@
 #include "converters/base/progress.h"
 #include "converters/engine/file_format.h"
 #include "converters/io/seeds/case_seeds.h"
-#include "viewer/session/conflict.h"
+#include "viewer/session/arguments.h"
 #include "viewer/session/document_seeds.h"
 
 namespace lumen::viewer {
@@ -107,6 +107,21 @@ fs::path Saving::save(Document& document, bool force) {
   m_caseSeeds = document.seeds;
   m_stamp = readFileStamp(file);
   return file;
+}
+
+bool ChangedFiles::look(const Document& document) {
+  std::set<int> changed;
+  for (const OpenFile& file : document.files)
+    if (!file.path.empty() && readFileStamp(file.path) != file.stamp) changed.insert(file.id);
+  const std::lock_guard lock(m_mutex);
+  if (changed == m_ids) return false;
+  m_ids = std::move(changed);
+  return true;
+}
+
+std::set<int> ChangedFiles::ids() const {
+  const std::lock_guard lock(m_mutex);
+  return m_ids;
 }
 
 }  // namespace lumen::viewer

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Place where the document is saved, and the parts of it that the files on disk hold.
+// Files on disk: the place where the document is saved, the parts of it that they hold, and those that have
+// changed since.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include "viewer/session/document.h"
@@ -65,6 +67,18 @@ private:
   std::shared_ptr<const formats::Case> m_case;
   std::shared_ptr<const Seeds> m_caseSeeds;  ///< in the file of the case
   std::shared_ptr<const Seeds> m_seeds;      ///< in a file of seeds
+};
+
+/// The numbers of the open files that another program has changed on disk, as of the last look. All calls are thread-safe.
+class ChangedFiles {
+public:
+  /// Compares the files on disk with the document; true if the answer is another one than before.
+  bool look(const Document& document);
+  [[nodiscard]] std::set<int> ids() const;
+
+private:
+  mutable std::mutex m_mutex;  ///< guards the next
+  std::set<int> m_ids;
 };
 
 }  // namespace lumen::viewer

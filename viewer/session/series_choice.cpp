@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "formats/container/printable.h"
-#include "viewer/session/conflict.h"
+#include "viewer/session/arguments.h"
 #include "viewer/session/pack.h"
 
 namespace lumen::viewer {

@@ -13,7 +13,7 @@
 #include "viewer/session/arguments.h"
 #include "viewer/session/dropped_files.h"
 #include "viewer/session/opening.h"
-#include "viewer/session/tagged.h"
+#include "viewer/session/pack.h"
 
 namespace lumen::viewer {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a document's volume and case are of one patient, as far as files can show it.
+// Whether a document's volumes and case are of one patient, as far as files can show it.
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "converters/voxels/volume.h"
 #include "viewer/session/document.h"
 
 namespace lumen::viewer {
@@ -23,5 +24,15 @@ void requireOneSource(const Document& document);
 /// The document whose case records, as a step with the digest of the voxels, that its volume was
 /// accepted. Throws Error(Usage) if there is nothing to accept.
 Document withAcceptedVolume(const Document& document);
+
+/// Share of the second volume that lies in the first, or of the first in the second: the greater,
+/// in [0, 1]. Both are sampled at places that are spread evenly over them.
+double sharedPart(const convert::VolumeGeometry& first, const convert::VolumeGeometry& second);
+
+/// A sentence on what speaks against both volumes being seen at one place: they do not overlap or
+/// hardly do, they have the same voxels at other places, or the open case was made from the second
+/// and not from the first. None without a second volume and where nothing does. No file states that
+/// two volumes are of one patient, so no answer does not state it either.
+std::optional<std::string> secondDoubt(const Document& document);
 
 }  // namespace lumen::viewer

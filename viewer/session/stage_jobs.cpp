@@ -14,8 +14,8 @@
 #include "converters/judge/compare/compare.h"
 #include "converters/judge/measure/measure_case.h"
 #include "converters/stages/fitting/fit.h"
+#include "viewer/session/corrections.h"
 #include "viewer/session/proposals.h"
-#include "viewer/session/seed_changes.h"
 #include "viewer/session/vessel_tracking.h"
 #include "viewer/session/work_list.h"
 

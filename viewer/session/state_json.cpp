@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/session/state_json.h"
-
+// workspace.h: the state as pages get it.
 #include <set>
 #include <string_view>
 
@@ -10,8 +9,8 @@
 #include "formats/container/printable.h"
 #include "viewer/session/document_seeds.h"
 #include "viewer/session/proposals.h"
-#include "viewer/session/second_volume.h"
 #include "viewer/session/source_match.h"
+#include "viewer/session/workspace.h"
 
 namespace lumen::viewer {
 
@@ -113,7 +112,8 @@ Json unsavedJson(const std::vector<std::filesystem::path>& files,
 
 }  // namespace
 
-Json stateJson(const Workspace& workspace) {
+Json Workspace::state() const {
+  const Workspace& workspace = *this;
   const Moment now = workspace.history.now();
   const Document& document = now.document;
   Json json;

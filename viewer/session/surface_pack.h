@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles as the page shows them.
+// Triangles as the page shows them, and fewer of them while the scene moves.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "converters/io/mesh/mesh_file.h"
 #include "converters/io/mesh/mesh_skin.h"
@@ -30,5 +33,24 @@ std::string meshPack(const convert::MeshFile& mesh);
 
 /// The mesh in mm; a file without a unit is in mm.
 convert::MeshFile inMillimetres(convert::MeshFile mesh);
+
+/// A run of triangles.
+struct TriangleRun {
+  std::size_t first = 0, count = 0;
+};
+
+/// Triangles between the same vertices, run by run.
+struct MovingSurface {
+  std::vector<convert::Triangle> triangle;
+  std::vector<TriangleRun> run;  ///< one for each run of the surface
+};
+
+/// Each run of `triangle` with a share of its triangles, so that all have about `most`, but no wall
+/// moved by more than a third of its radius. `radius` is that of each vertex, mm. A run is never
+/// empty if it was not.
+MovingSurface movingSurface(std::span<const convert::Float3> position,
+                            std::span<const float> radius,
+                            std::span<const convert::Triangle> triangle,
+                            std::span<const TriangleRun> run, std::size_t most);
 
 }  // namespace lumen::viewer

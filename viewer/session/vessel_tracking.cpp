@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
@@ -154,6 +155,25 @@ Json vesselNear(const Eigen::Vector3d& click, const Document& document, Tracking
           {"direction", json(vessel.direction)},
           {"radius", vessel.radius},
           {"reason", vessel.reason}};
+}
+
+std::shared_ptr<const convert::TrackingVolume> TrackingCache::volumeFor(
+    const Document& document, const Seeds& clicks, const convert::TrackOptions& options,
+    Progress& progress) {
+  const formats::Step* const step =
+      document.value ? lastStep(document.value->metadata, "track") : nullptr;
+  const formats::Step made = step != nullptr ? *step : formats::Step{};
+  const std::lock_guard lock(m_mutex);
+  if (!m_tracking || m_volume != document.volume || !(m_step == made)) {
+    m_tracking.reset();
+    m_tracking = step != nullptr ? std::make_shared<const convert::TrackingVolume>(
+                                       *document.volume, *document.value, progress)
+                                 : std::make_shared<const convert::TrackingVolume>(
+                                       *document.volume, clicks, options, progress);
+    m_volume = document.volume;
+    m_step = made;
+  }
+  return m_tracking;
 }
 
 }  // namespace lumen::viewer

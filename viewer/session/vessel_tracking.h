@@ -1,18 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracking of vessels from seeds, and the vessel under the pointer.
+// Tracking of vessels from seeds, the vessel under the pointer, and the volume as both take it.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "converters/base/progress.h"
+#include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/tracking_volume.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"
 #include "viewer/session/session_options.h"
-#include "viewer/session/tracking_cache.h"
 
 namespace lumen::viewer {
+
+/// Keeps the last tracking volume: another volume, or a case that was tracked otherwise, has
+/// another one. All calls are thread-safe; while one makes it, others wait.
+class TrackingCache {
+public:
+  /// `clicks` and `options` count where no case was tracked in the volume yet.
+  std::shared_ptr<const convert::TrackingVolume> volumeFor(const Document& document,
+                                                           const Seeds& clicks,
+                                                           const convert::TrackOptions& options,
+                                                           Progress& progress);
+
+private:
+  std::mutex m_mutex;  ///< guards all that follow
+  std::shared_ptr<const convert::TrackingVolume> m_tracking;
+  std::shared_ptr<const convert::Volume> m_volume;
+  formats::Step m_step;  ///< step that tracked the case
+};
 
 /// The seeds with the labels of the request, or all, without those that are vessels already. A
 /// parent that is neither a vessel nor among them is left out.

@@ -5,8 +5,7 @@
 
 #include "converters/base/message_text.h"
 #include "formats/case/motion.h"
-#include "viewer/session/conflict.h"
-#include "viewer/session/state_json.h"
+#include "viewer/session/arguments.h"
 
 namespace lumen::viewer {
 
@@ -38,10 +37,6 @@ void Workspace::end() {
   jobs.wait();
   library.end();
   surfaces.end();
-}
-
-Json Workspace::state() const {
-  return stateJson(*this);
 }
 
 void Workspace::announce() {

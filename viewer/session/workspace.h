@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "viewer/session/arguments.h"
-#include "viewer/session/changed_files.h"
 #include "viewer/session/document_packs.h"
 #include "viewer/session/dropped_files.h"
 #include "viewer/session/events.h"
@@ -24,8 +23,8 @@
 #include "viewer/session/series_choice.h"
 #include "viewer/session/session_options.h"
 #include "viewer/session/surfaces.h"
-#include "viewer/session/tracking_cache.h"
 #include "viewer/session/unsaved_work.h"
+#include "viewer/session/vessel_tracking.h"
 
 namespace lumen::viewer {
 

@@ -5,7 +5,7 @@
 
 #include "converters/base/error.h"
 #include "served.h"
-#include "viewer/session/conflict.h"
+#include "viewer/session/arguments.h"
 #include "viewer/session/history.h"
 #include "viewer/session/job_runner.h"
 #include "viewer/session/opening.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A second volume beside the first: it is shown, doubts are stated, and nothing of it enters a case.
-#include "viewer/session/second_volume.h"
-
 #include "served.h"
+#include "viewer/session/source_match.h"
 
 namespace lumen::test {
 

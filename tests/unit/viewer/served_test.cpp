@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viewer/session/moving_surface.h"
+#include "viewer/session/surface_pack.h"
 
 namespace lumen::test {
 
