@@ -112,6 +112,10 @@ bool divide(formats::Case& target, std::uint32_t tip) {
   return true;
 }
 
+}  // namespace
+
+namespace {
+
 /// Distance over radius from a point to the stretch between a branch's parent and its first node,
 /// outside of the parent's ball: a vessel begins at the wall that it leaves. Infinite without one.
 double shareBeforeFirst(const CenterlineTree& tree, const formats::Branch& record,

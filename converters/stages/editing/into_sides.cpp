@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 /// Gap up to the axis of the other vessel, of both radii: what is left of a vessel behind its cut is
 /// a bump of a wall, and dropped, as long as it is no longer than both are wide.
 constexpr double kSideGapRadii = 2;
+constexpr double kSideAhead = 0.8;  // cosine, of an end and the way to the other vessel
 /// Way along the vessels from an end to the place ahead of it, of both radii: a shorter one is a fork
 /// that the end itself hangs on.
 constexpr double kSideLoopRadii = 8;
@@ -32,7 +33,7 @@ std::optional<std::uint32_t> nodeAhead(const NodeGraph& graph, std::uint32_t end
     if (toWall >= least || length > kSideGapRadii * wide) continue;
     const double along = outward.dot(gap);
     const double beside = (gap - along * outward).norm();
-    if (along < kAheadOfEnd * length || beside > graph.radius(node)) continue;
+    if (along < kSideAhead * length || beside > graph.radius(node)) continue;
     const auto way = graph.wayBetween(end, node);
     if ((way && *way < kSideLoopRadii * wide) || !isOpen(from, graph.position(node))) continue;
     least = toWall;

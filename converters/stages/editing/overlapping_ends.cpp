@@ -12,6 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kOppositeCosine = 0.7;    // of the directions out of both tips
+constexpr double kLikeOverlapRadii = 1.4;  // ratio of the radii of one vessel on both sides
+
 /// A tip, and the nodes from it on up to the first fork.
 struct Tip {
   std::vector<std::uint32_t> nodes;
@@ -48,8 +51,8 @@ std::size_t countWithin(const NodeGraph& graph, const Tip& tip, const Tip& other
 }
 
 std::optional<Overlap> overlapOf(const NodeGraph& graph, const Tip& a, const Tip& b) {
-  if (a.outward.dot(b.outward) > -kFacingCosine) return std::nullopt;
-  if (std::max(a.radius, b.radius) > kLikeRadii * std::min(a.radius, b.radius))
+  if (a.outward.dot(b.outward) > -kOppositeCosine) return std::nullopt;
+  if (std::max(a.radius, b.radius) > kLikeOverlapRadii * std::min(a.radius, b.radius))
     return std::nullopt;
   const bool isOneVessel =
       std::find(a.nodes.begin(), a.nodes.end(), b.nodes.front()) != a.nodes.end();

@@ -2,7 +2,6 @@
 // Wide vessels that fade along their course (docs/method.md, section 1.13).
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -11,9 +10,6 @@
 #include "converters/voxels/cell_box.h"
 
 namespace lumen::convert {
-
-/// Fewer voxels show nothing: a cube of three.
-constexpr std::size_t kSpeck = 27;
 
 /// Excess of every voxel of a volume over its background, and what of it is lumen.
 struct Excess {

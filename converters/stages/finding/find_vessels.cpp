@@ -17,7 +17,6 @@
 #include "converters/stages/finding/bone.h"
 #include "converters/stages/finding/bright_voxels.h"
 #include "converters/stages/finding/ends_at_faces.h"
-#include "converters/stages/finding/faded_lumen.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/grid_geometry.h"
 #include "converters/voxels/vessel_paths.h"
@@ -27,10 +26,13 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::size_t kLeastPart = 27;  // voxels: fewer are a speck
 constexpr double kLeastLength = 10;     // voxels of the longest vessel of a tree
 constexpr double kLeastOfParent = 1;    // of the parent's depth: less is a bump on its wall
+constexpr int kMostPasses = 10;         // of which each takes bone away
 constexpr int kSmoothing = 6;           // passes of (1, 2, 1)/4 over a course
 constexpr double kSacStep = 0.5;        // radii from one point of an aneurysm to the next
+constexpr double kRimVoxels = 1;        // of a vessel: half for its wall, half for its section
 
 /// From voxels of the lumen to courses.
 class CourseFinder {
@@ -47,7 +49,7 @@ public:
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
       const std::vector<std::uint32_t> part = connectedPart(i, isSeen);
-      if (part.size() < kSpeck) continue;
+      if (part.size() < kLeastPart) continue;
       m_trees.push_back(m_paths.find(m_paths.widestTip(i, m_progress), m_progress));
     }
   }
@@ -78,7 +80,7 @@ private:
     std::vector<std::uint32_t> part(1, first);
     isSeen[first] = true;
     for (std::size_t k = 0; k < part.size(); ++k) {
-      m_progress.check();
+      if (k % 4096 == 0) m_progress.check();
       m_set.eachBeside(part[k], [&](std::uint32_t j, const Vector3d&) {
         if (!isSeen[j]) part.push_back(j);
         isSeen[j] = true;
@@ -210,7 +212,7 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   FoundVessels found;
   found.geometry = volume.geometry;
   found.lumen = std::move(bright.indices);
-  for (bool isMore = true; isMore;) {  // each pass takes bone away
+  for (int pass = 0;; ++pass) {
     const VoxelSet set(grid, std::move(found.lumen));
     CourseFinder finder(set, progress);
     finder.findPaths();
@@ -219,8 +221,9 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
     for (std::uint32_t i = 0; i < set.size(); ++i)
       (!isBone.empty() && isBone[i] ? found.bone : found.lumen).push_back(set.index(i));
     std::sort(found.bone.begin(), found.bone.end());
-    isMore = !isBone.empty();
-    if (!isMore) found.courses = finder.courses();
+    if (!isBone.empty() && pass < kMostPasses) continue;
+    found.courses = finder.courses();
+    break;
   }
   toWorld(grid, volume.geometry, found.courses);
   if (!found.bone.empty())
@@ -234,8 +237,7 @@ std::vector<SeedBranch> coursesBeside(const FoundVessels& found, std::span<const
                                       Progress& progress) {
   const VolumeGeometry grid = gridGeometry(found.geometry);
   std::vector<WorldBall> balls(vessels.begin(), vessels.end());
-  // the rim of a vessel: half a voxel for its wall, half a voxel for its section
-  for (WorldBall& ball : balls) ball.radius += grid.voxelSize();
+  for (WorldBall& ball : balls) ball.radius += kRimVoxels * grid.voxelSize();
   const VoxelSet set(grid, outside(grid, found.lumen, balls, progress));
   CourseFinder finder(set, progress);
   finder.findPaths();

@@ -24,7 +24,11 @@ namespace {
 using Eigen::Vector3d;
 using formats::StopReason;
 
+constexpr double kThinnestVoxels = 1;  // voxels: what is thinner is blurred to that
 constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall that it leaves
+/// First stream of random numbers of the search at bridged nodes, far from those of tracking and
+/// of the review of walls.
+constexpr std::uint64_t kSearchStream = std::uint64_t{1} << 33;
 
 /// Leaves the longest stretch that begins and ends with a cylinder and has the least share of them, `leastFitted`; the
 /// first of several. A course that follows a vessel and then something else is a vessel as far as cylinders bear it out.
@@ -90,9 +94,13 @@ void dropInside(std::span<const BranchLumen> before, double voxel, double apart,
   keepStretch(branch, out.first, out.end);
 }
 
+bool isAtFace(const VolumeGeometry& geometry, const TrackedNode& node, double sign) {
+  return !geometry.containsWorld(node.centre + sign * kAtFaceRadii * node.radius * node.direction);
+}
+
 TrackedBranch follow(TrackRun& run, const SeedBranch& seed) {
   const VolumeGeometry& geometry = run.context.volume.geometry();
-  const double least = geometry.voxelSize();  // what is thinner is blurred to that
+  const double least = kThinnestVoxels * geometry.voxelSize();
   std::vector<Vector3d> line;
   std::vector<double> radii;
   for (const SeedPoint& point : seed.points) {
@@ -267,6 +275,29 @@ void dropUnsupported(const TrackContext& context, TrackedTree& tree) {
     branch.nodes.clear();
     if (branch.parentBranch >= 0) --children[static_cast<std::size_t>(branch.parentBranch)];
   }
+}
+
+void searchBridged(const TrackContext& context, const WallShape& shape, TrackedTree& tree) {
+  std::vector<BranchLumen> lumens;
+  for (const TrackedBranch& branch : tree.branches) lumens.emplace_back(branch);
+  std::vector<std::vector<TrackedNode>> found(tree.branches.size());
+  tbb::parallel_for(tree.known, tree.branches.size(), [&](std::size_t i) {
+    found[i] = tree.branches[i].nodes;
+    if (!tree.isVessel(i)) return;
+    TrackRun run(context, Random(context.options.seed, kSearchStream + i));
+    for (std::size_t n = 1; n + 1 < found[i].size(); ++n) {
+      context.progress.check();
+      if (isFitted(found[i][n]) || isInAnother(lumens, i, found[i][n].centre)) continue;
+      auto node = nodeBetween(run, found[i][n - 1], found[i][n], found[i][n + 1]);
+      if (!node) continue;
+      TrackedBranch one;
+      one.nodes.push_back(std::move(*node));
+      correctWalls(one, tree.seeds[i].kind, shape);
+      found[i][n] = std::move(one.nodes[0]);
+    }
+  });
+  for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
+    tree.branches[i].nodes = std::move(found[i]);
 }
 
 }  // namespace lumen::convert

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "converters/stages/tracking/corrections.h"
 #include "converters/stages/tracking/track_run.h"
 #include "converters/stages/tracking/tracked_tree.h"
 
@@ -23,5 +24,10 @@ std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const 
 /// Drops the vessels without children that have too few cylinders for the context's rules, once all
 /// are joined.
 void dropUnsupported(const TrackContext& context, TrackedTree& tree);
+
+/// Searches at random for cylinders at the bridged nodes of the new vessels of a tree, outside of
+/// all others, and corrects their walls. The ends of vessels stay. The result does not depend on the
+/// number of threads. Throws Error(Cancelled).
+void searchBridged(const TrackContext& context, const WallShape& shape, TrackedTree& tree);
 
 }  // namespace lumen::convert

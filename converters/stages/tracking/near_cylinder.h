@@ -7,9 +7,6 @@
 
 namespace lumen::convert {
 
-/// Least and largest radius where the expected one is a depth among voxels, in that one.
-constexpr double kLeastOfDepth = 0.5, kMostOfDepth = 1.8;
-
 /// The best cylinder through `points` that holds their origin, of those to which robust least
 /// squares lead from the expected axis and a few radii around the expected one, or the first whose
 /// rate is accepted: candidates count the less the farther they are off, in a band that narrows to

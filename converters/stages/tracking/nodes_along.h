@@ -2,6 +2,7 @@
 // Nodes along a line that is known to lead through a vessel (docs/method.md, section 1.12).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,5 +25,10 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector
 /// those that fit, on which they stay if they are bridged.
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
                                     std::span<const double> radii);
+
+/// The node that fits at a bridged one, of about its radius and course and between its neighbours;
+/// empty if there is none.
+std::optional<TrackedNode> nodeBetween(TrackRun& run, const TrackedNode& before,
+                                       const TrackedNode& bridged, const TrackedNode& after);
 
 }  // namespace lumen::convert

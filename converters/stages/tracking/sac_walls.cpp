@@ -27,11 +27,12 @@ constexpr double kAroundTubeRadii[] = {1.25, 1.5};
 /// Share of the directions around an axis: where the lumen continues in more of them, there is no
 /// tube.
 constexpr double kOpenShare = 1.0 / 3.0;
+constexpr int kDirections = 24;
 /// Depth in the lumen beyond which a point is on no wall, in voxels.
 constexpr double kWithinVoxels = 1.75;
-/// About the most wall points of a sac. They are a voxel apart, as nearer ones add nothing; those of
-/// a large sac are farther apart.
-constexpr double kMostPoints = 4000;
+/// Distance between the wall points of a sac, in voxels, as nearer ones add nothing; and about the
+/// most of them: points of a large sac are farther apart.
+constexpr double kApartVoxels = 1, kMostPoints = 4000;
 
 /// One sac: the aneurysms that make it up, and the vessels that open into it, as positions in the
 /// seeds' order.
@@ -85,15 +86,15 @@ bool isTube(const TrackContext& context, double wallLevel, const TrackedNode& no
   const VolumeGeometry& geometry = context.volume.geometry();
   const auto [u, v] = planeBasis(node.direction);
   int open = 0;
-  for (int i = 0; i < kDirectionsAround; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kDirectionsAround;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kDirections;
     const Vector3d outward = node.radius * (std::cos(angle) * u + std::sin(angle) * v);
     open += std::all_of(std::begin(kAroundTubeRadii), std::end(kAroundTubeRadii), [&](double r) {
       const Vector3d at = geometry.indexFromWorld(node.centre + r * outward);
       return sign * (static_cast<double>(context.volume.sample(at)) - wallLevel) > 0;
     });
   }
-  return open <= kOpenShare * kDirectionsAround;
+  return open <= kOpenShare * kDirections;
 }
 
 /// The pieces of vessels near a sac that bound it. Vessels that open into it bound it only where
@@ -146,7 +147,7 @@ std::vector<Vector3d> chooseWallPoints(const TrackContext& context, const SacReg
       strong.push_back(wall.points[i]);
   const double voxel = context.volume.geometry().voxelSize();
   const double even = std::sqrt(static_cast<double>(strong.size()) / kMostPoints);
-  return thinnedOut(strong, std::max(1.0, even) * voxel);
+  return thinnedOut(strong, std::max(kApartVoxels, even) * voxel);
 }
 
 /// Drops points that are deeper in a region's lumen than any wall.

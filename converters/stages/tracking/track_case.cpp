@@ -52,9 +52,12 @@ void correctAdded(TrackedBranch& branch, const TrackedBranch& before, BranchKind
   }
 }
 
+/// The first nodes of all branches: trackByDepth() or followCourses().
+using TrackBranches = void (*)(const TrackContext&, TrackedTree&, Progress&);
+
 /// Conditions under which a tree is tracked.
 struct TrackPlan {
-  SeedPoints points;
+  TrackBranches trackBranches;
   PlaceTest isNoVessel;
   std::optional<WallShape> shape;  ///< by which walls are corrected; measured if empty
   CourseRules rules = {};
@@ -67,15 +70,15 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
                     Progress& progress) {
   TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
                        plan.isNoVessel);
+  const bool isFound = plan.trackBranches == followCourses;
   context.rules = plan.rules;
-  context.points = plan.points;
-  const bool areCourses = plan.points == SeedPoints::Courses;
+  context.isCourseKnown = isFound;
   progress.begin("track", tree.seeds.size() - tree.known);
-  areCourses ? followCourses(context, tree, progress) : trackByDepth(context, tree, progress);
-  areCourses ? trimTips(context, tree) : extendTips(context, tree);
+  plan.trackBranches(context, tree, progress);
+  isFound ? trimTips(context, tree) : extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
-  if (areCourses) dropUnsupported(context, tree);
+  if (isFound) dropUnsupported(context, tree);
   progress.end();
   const WallShape shape = plan.shape ? *plan.shape : measureWallShape(volume, tree);
   const std::vector<TrackedBranch> before(
@@ -88,6 +91,15 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
     if (tree.isVessel(i)) correctBends(tree.branches[i].nodes);
   });
   return shape;
+}
+
+/// Searches at random for cylinders where courses left bridged nodes, once all vessels are tracked.
+void fillBridges(const TrackingVolume& volume, const TrackPlan& plan, TrackedTree& tree,
+                 const Progress& progress) {
+  if (plan.trackBranches != followCourses) return;
+  const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
+                             plan.isNoVessel);
+  searchBridged(context, *plan.shape, tree);
 }
 
 std::string quotedLabel(const std::string& label) {
@@ -169,15 +181,19 @@ void dropOtherArrays(AddedTracks& out) {
   out.result.motion.reset();
 }
 
-/// A vessel beside others needs more evidence, as no skeleton of the whole lumen supports it.
+}  // namespace
+
+namespace {
+
+/// Vessels beside others need more, as no skeleton of a whole lumen bears them out.
 constexpr CourseRules kRulesBeside{0.5, true, 0.5};
 
-/// Adds balls from one place to another, half as far apart as nodes: the rim of each holds what lies
-/// between it and the next. `from` itself is left out unless it is `to`.
+/// Adds balls from one place to another, a step of a quarter of the lesser radius apart, so that
+/// what lies between two of them is within their rim. `from` itself is left out unless it is `to`.
 void addBalls(const WorldBall& from, const WorldBall& to, std::vector<WorldBall>& balls) {
-  const double step = 0.5 * kSpacingRadii * std::min(from.radius, to.radius);
+  constexpr double kStepRadii = 0.25;
   const Eigen::Vector3d way = to.centre - from.centre;
-  const double count = 1 + std::floor(way.norm() / step);
+  const double count = 1 + std::floor(way.norm() / (kStepRadii * std::min(from.radius, to.radius)));
   for (double k = 1; k <= count; ++k)
     balls.push_back(
         {from.centre + k / count * way, from.radius + k / count * (to.radius - from.radius)});
@@ -190,7 +206,7 @@ std::vector<WorldBall> ballsIn(const TrackedTree& tree, const VolumeGeometry& ge
   std::vector<WorldBall> balls;
   const auto ballOf = [](const TrackedNode& node) { return WorldBall{node.centre, node.radius}; };
   const auto addBeyond = [&](const TrackedNode& end, double sign) {
-    const Eigen::Vector3d on = end.centre + sign * kEndRadii * end.radius * end.direction;
+    const Eigen::Vector3d on = end.centre + sign * kAtFaceRadii * end.radius * end.direction;
     if (!geometry.containsWorld(on)) addBalls(ballOf(end), {on, end.radius}, balls);
   };
   for (std::size_t i = 0; i < tree.branches.size(); ++i) {
@@ -225,20 +241,18 @@ void addBeside(const TrackingVolume& volume, const GridFrame& frame, const Cours
     labels.insert(course.label);
     if (course.parent && !labels.contains(*course.parent)) course.parent.reset();
   }
-  TrackedTree all{std::move(tree.seeds), std::move(tree.branches)};
-  all.known = all.seeds.size();
+  tree.known = tree.seeds.size();
   for (SeedBranch& course : courses) {
     for (std::string* name : {&course.label, course.parent ? &*course.parent : nullptr})
       if (name) *name = "beside-" + *name;
-    all.seeds.push_back(std::move(course));
+    tree.seeds.push_back(std::move(course));
   }
-  trackTree(volume, {SeedPoints::Courses, isNoVessel, shape, kRulesBeside}, all, progress);
-  tree.seeds = std::move(all.seeds);
-  tree.branches = std::move(all.branches);
+  trackTree(volume, {followCourses, isNoVessel, shape, kRulesBeside}, tree, progress);
+  tree.known = 0;
 }
 
 TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                    const TrackOptions& options, SeedPoints points,
+                    const TrackOptions& options, TrackBranches trackBranches,
                     const PlaceTest& isNoVessel, Progress& progress,
                     const CoursesBeside& beside = {}) {
   const GridFrame frame(volume.geometry);
@@ -249,9 +263,10 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   if (isNoVessel)
     inGrid = [&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); };
   const WallShape shape =
-      trackTree(tracking, {points, inGrid, tracking.wallShape()}, tree, progress);
+      trackTree(tracking, {trackBranches, inGrid, tracking.wallShape()}, tree, progress);
   used.pointSpread = shape.pointSpread;
   if (beside) addBeside(tracking, frame, beside, inGrid, shape, tree, progress);
+  fillBridges(tracking, {trackBranches, inGrid, shape}, tree, progress);
   for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
 
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
@@ -263,16 +278,33 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   return out;
 }
 
+}  // namespace
+
+TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                           const TrackOptions& options, Progress& progress) {
+  return newCase(volume, seeds, options, trackByDepth, {}, progress);
+}
+
+TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
+                              const PlaceTest& isNoVessel, const TrackOptions& options,
+                              Progress& progress, const CoursesBeside& beside) {
+  return newCase(volume, courses, options, followCourses, isNoVessel, progress, beside);
+}
+
+namespace {
+
 /// Tracks the seeds behind the known ones of `tree` into a case of the known ones.
 AddedTracks intoCase(const TrackingVolume& volume, const formats::Case& known, TrackedTree& tree,
-                     SeedPoints points, const PlaceTest& isNoVessel, Progress& progress) {
+                     TrackBranches trackBranches, const PlaceTest& isNoVessel, Progress& progress) {
   AddedTracks out;
   out.result = known;
   out.firstNewNode = static_cast<std::uint32_t>(known.tree.nodeCount());
   out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
   const std::size_t added = tree.seeds.size() - tree.known;
   if (added == 0) return out;
-  trackTree(volume, {points, isNoVessel, volume.wallShape()}, tree, progress);
+  const WallShape shape =
+      trackTree(volume, {trackBranches, isNoVessel, volume.wallShape()}, tree, progress);
+  fillBridges(volume, {trackBranches, isNoVessel, shape}, tree, progress);
   static_cast<TrackRemarks&>(out) = remarksOn(tree);
   if (out.failures.size() == added) return out;
   out.changed = replacePoints(tree, out.result);
@@ -305,23 +337,12 @@ void nameAnew(const formats::Case& known, std::vector<SeedBranch>& seeds) {
 
 }  // namespace
 
-TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                           const TrackOptions& options, Progress& progress) {
-  return newCase(volume, seeds, options, SeedPoints::Clicks, {}, progress);
-}
-
-TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
-                              const PlaceTest& isNoVessel, const TrackOptions& options,
-                              Progress& progress, const CoursesBeside& beside) {
-  return newCase(volume, courses, options, SeedPoints::Courses, isNoVessel, progress, beside);
-}
-
 AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
                                const std::vector<SeedBranch>& seeds, Progress& progress) {
   requireNewLabels(known, seeds);
   TrackedTree tree = makeTrackedTree(known);
   appendParentsFirst(seeds, tree.seeds);
-  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Clicks, {}, progress);
+  AddedTracks out = intoCase(volume, known, tree, trackByDepth, {}, progress);
   for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
     if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));
   requireValid(out.result);
@@ -335,7 +356,7 @@ AddedTracks addTracksAlongCourses(const TrackingVolume& volume, const formats::C
   std::vector<SeedBranch> stretches = stretchesOutside(courses, tree);
   nameAnew(known, stretches);
   tree.seeds.insert(tree.seeds.end(), stretches.begin(), stretches.end());
-  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Courses, isNoVessel, progress);
+  AddedTracks out = intoCase(volume, known, tree, followCourses, isNoVessel, progress);
   const std::size_t found = out.result.tree.branches.size() - known.tree.branches.size();
   if (found > 0)
     recordEdit(out.result.metadata,

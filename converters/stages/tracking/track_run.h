@@ -2,7 +2,6 @@
 // Data and buffers that the steps of tracking hand on to one another.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
@@ -22,9 +21,6 @@
 
 namespace lumen::convert {
 
-/// Directions around an axis in which the volume is examined.
-constexpr int kDirectionsAround = 16;
-
 /// Whether a place, mm, LPS, is known to be no vessel. An empty one knows of none.
 using PlaceTest = std::function<bool(const Eigen::Vector3d&)>;
 
@@ -33,12 +29,6 @@ struct CourseRules {
   double leastFitted = 1.0 / 3;  ///< share of its nodes that are cylinders
   bool isSurrounded = false;     ///< a cylinder has wall on all sides of its axis
   double apart = 0;              ///< radii between its axis and the wall of a known vessel
-};
-
-/// Meaning of a seed's points.
-enum class SeedPoints : std::uint8_t {
-  Clicks,  ///< places in a vessel, from which a track advances by random search
-  Courses  ///< points with radii along the whole vessel: cylinders lie next to them
 };
 
 /// Data that all tracks of one volume share. Any number of threads may read one. The referenced
@@ -60,7 +50,7 @@ struct TrackContext {
   const Progress& progress;
   PlaceTest isNoVessel;
   CourseRules rules;
-  SeedPoints points = SeedPoints::Clicks;
+  bool isCourseKnown = false;  ///< cylinders lie next to their guesses; none is drawn at random
   CylinderSearch search;
   std::vector<Eigen::Vector3d> rays;  ///< unit directions
 };
@@ -73,7 +63,7 @@ constexpr double kSamplesPerEdge = 16.0;
 struct TrackWorkspace {
   explicit TrackWorkspace(const TrackContext& context)
       : caster(context.volume, context.rays, context.options.samples, context.options.dark,
-               context.points == SeedPoints::Courses ? kSamplesPerEdge : std::numeric_limits<double>::infinity()) {}
+               context.isCourseKnown ? kSamplesPerEdge : std::numeric_limits<double>::infinity()) {}
 
   RayCaster caster;
   Candidates candidates;

@@ -22,17 +22,27 @@ using formats::StopReason;
 
 /// Radii from the goal's axis at which a track back has arrived: in its lumen, or at its wall.
 constexpr double kArrivedRadii = 2.0;
+/// A track back that is longer than this many straight distances leads along other vessels.
+constexpr double kLongestReturn = 3.0;
 
 /// Least inlier rate beyond a gap, as a share of the recent mean. A find must be nearly as good a
 /// cylinder as the vessel was; its contrast may fall by more.
 constexpr double kLikeRate = 0.8;
 /// Recent radii: a shorter gap is bridged in any direction of the vessel beyond it.
 constexpr double kShortGapRadii = 2.0;
+/// Cosine of 40 degrees, the largest angle between the bridge and a vessel beyond a gap; and of 50,
+/// the largest turn. Another vessel that passes by runs across.
+constexpr double kOnCourseCosine = 0.77, kLargestTurnCosine = 0.64;
 /// Directions around the last one that are tried, and the tangent of their angle to it.
 constexpr int kSides = 6;
 constexpr double kTiltTangent = 0.5;
 /// Nodes that are given up, by turns. A track goes astray for a node or a few.
 constexpr std::array<std::size_t, 3> kGivenUpNodes = {0, 3, 6};
+
+bool isAtFace(const BsplineVolume& volume, const TrackedNode& last) {
+  return !volume.geometry().containsWorld(last.centre +
+                                          kAtFaceRadii * last.radius * last.direction);
+}
 
 /// Limits on nodes beyond a gap, by the vessel so far.
 struct Likeness {
@@ -41,15 +51,14 @@ struct Likeness {
 
   [[nodiscard]] bool holds(const TrackedNode& node) const {
     return node.strength >= kLikeStrength * mean.strength &&
-           node.radius >= kNarrowest * last.radius &&
-           node.radius <= kWidest * last.radius;
+           node.radius >= kNarrowestBeyond * last.radius &&
+           node.radius <= kWidestBeyond * last.radius;
   }
-  /// Another vessel that passes by runs across.
   [[nodiscard]] bool onCourse(const TrackedNode& node) const {
     const Vector3d bridge = node.centre - last.centre;
     return bridge.norm() < kShortGapRadii * mean.radius ||
-           (bridge.normalized().dot(node.direction) > kAheadCosine &&
-            last.direction.dot(node.direction) > kAheadCosine);
+           (bridge.normalized().dot(node.direction) > kOnCourseCosine &&
+            last.direction.dot(node.direction) > kLargestTurnCosine);
   }
 };
 
@@ -136,7 +145,7 @@ Step trackOneStep(TrackRun& run, std::vector<TrackedNode>& nodes, std::size_t& l
   }
   if (turn) nodes.resize(std::max<std::size_t>(*turn, 1));
   const StopReason reason = node ? StopReason::TurnedBack : StopReason::NoValidCylinder;
-  if (isAtFace(context.volume.geometry(), nodes.back())) return {reason};
+  if (isAtFace(context.volume, nodes.back())) return {reason};
   // a track that turned back has given up nodes, and would turn back for ever if it might do so
   // again at the same place
   const bool isLonger = before > longest;
@@ -165,7 +174,7 @@ void trackToEnd(TrackRun& run, TrackedBranch& branch, FinishedBranches finished)
         step.stop = StopReason::MetBranch;
       }
   }
-  branch.stopReason = isAtFace(context.volume.geometry(), nodes.back()) ? StopReason::LeftVolume : *step.stop;
+  branch.stopReason = isAtFace(context.volume, nodes.back()) ? StopReason::LeftVolume : *step.stop;
   if (branch.stopReason == StopReason::NoValidCylinder) dropTip(nodes);
 }
 
@@ -179,7 +188,7 @@ std::vector<TrackedNode> trackBackTo(TrackRun& run, const TrackedNode& start,
   const bool arrived =
       back.stopReason == StopReason::MetBranch || reached.distance < kArrivedRadii * reached.radius;
   const double straight = closestOnChain(goal.nodes, start.centre).distance;
-  if (!arrived || measureLength(back.nodes) > kLongestDetour * straight) back.nodes.resize(1);
+  if (!arrived || measureLength(back.nodes) > kLongestReturn * straight) back.nodes.resize(1);
   reverseTrack(back.nodes);
   return std::move(back.nodes);
 }

@@ -11,13 +11,19 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/stages/tracking/joining.h"
-#include "converters/stages/tracking/path_rules.h"
 #include "converters/stages/tracking/tip_extension.h"
 
 namespace lumen::convert {
 namespace {
 
 using formats::StopReason;
+
+/// An end that met another vessel lies within this many of its radii.
+constexpr double kAtEndRadii = 1.5;
+/// Cosine of 45 degrees, the largest angle between the direction of an end and its target.
+constexpr double kAheadCosine = 0.7;
+/// Largest radius of a root that may be joined by its tip, in radii of the other vessel.
+constexpr double kNoWiderRadii = 1.2;
 
 /// Uses of random numbers; each has a stream of its own for every branch.
 enum class Use : std::size_t { Extension = 1, Gaps, Join };
@@ -134,7 +140,7 @@ void extendTipsIf(const TrackContext& context, const Vessels& vessels,
 int metAt(const Vessels& vessels, std::size_t root, const TrackedNode& end, StopReason reason) {
   if (reason == StopReason::Unknown || reason == StopReason::LeftVolume) return -1;
   int best = -1;
-  double nearest = kEndRadii;
+  double nearest = kAtEndRadii;
   for (const std::size_t i : vessels.members()) {
     if (vessels.findRoot(i) == root) continue;
     const ChainPoint at = closestOnChain(vessels[i].nodes, end.centre);
@@ -159,7 +165,7 @@ void tieRoots(const Vessels& vessels) {
       met = metAt(vessels, i, tip, branch.stopReason);
       if (met < 0) continue;
       const auto& other = vessels[static_cast<std::size_t>(met)];
-      if (tip.radius > kWidest * closestOnChain(other.nodes, tip.centre).radius) continue;
+      if (tip.radius > kNoWiderRadii * closestOnChain(other.nodes, tip.centre).radius) continue;
       turnRound(branch);
     }
     branch.parentBranch = met;
@@ -221,6 +227,10 @@ void joinLevel(const Vessels& vessels, const std::vector<int>& levels, int level
     joinToParent(run, vessels.branches(), others[i], vessels[i]);
   });
 }
+
+}  // namespace
+
+namespace {
 
 bool isTrackedBothWays(const TrackedBranch& branch) {
   return branch.parentBranch < 0 && branch.startReason != StopReason::Unknown;

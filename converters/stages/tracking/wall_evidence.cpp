@@ -22,9 +22,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr int kEdgeDirections = 16;
 // A wall is off if its edge is farther than a voxel, or than a quarter of the radius, as sections
 // are not quite round.
-constexpr double kOffRadii = 0.25;
+constexpr double kOffVoxels = 1, kOffRadii = 0.25;
 // Cylinders fit where half of the candidates agree, so that by chance half of the wall may be off.
 constexpr double kChanceOfOutliers = 0.5;
 // Shares of chance above which a vessel is none, which is halfway between a perfect wall and one by
@@ -77,15 +78,15 @@ private:
   [[nodiscard]] double voxel() const { return m_context.volume.geometry().voxelSize(); }
   [[nodiscard]] ProfileReach reach(double radius) const { return profileReach(radius, voxel()); }
   [[nodiscard]] double offFrom(double radius) const {
-    return std::max(voxel(), kOffRadii * radius);
+    return std::max(kOffVoxels * voxel(), kOffRadii * radius);
   }
 
   void look(const TrackedNode& node, std::size_t n, std::size_t own,
             std::vector<EdgePlace>& places) const {
     const auto [across, up] = planeBasis(node.direction);
     std::vector<float> values;
-    for (int k = 0; k < kDirectionsAround; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kDirectionsAround;
+    for (int k = 0; k < kEdgeDirections; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kEdgeDirections;
       const Vector3d outward = std::cos(angle) * across + std::sin(angle) * up;
       const Vector3d wall = node.centre + node.radius * outward;
       if (std::any_of(std::begin(kClearOf), std::end(kClearOf), [&](double clear) {

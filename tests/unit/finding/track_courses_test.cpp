@@ -236,19 +236,31 @@ TEST(TrackCourses, ThePlaceOfAVolumeInSpaceDecidesNothing) {
   }
 }
 
-TEST(TrackCourses, NoRandomNumberDecides) {
+/// With cylinders drawn at random, four seeds made this tree 41.6 to 42.9 mm long.
+TEST(TrackCourses, AnotherRandomSeedMovesNoEnd) {
   Progress silent;
   const Phantom made = phantom("thick-slices");
   const std::vector<SeedBranch> courses = findVessels(made.volume, false, silent).courses;
   const auto tracked = [&](std::uint64_t seed) {
     TrackOptions options;
     options.seed = seed;
-    return trackAlongCourses(made.volume, courses, {}, options, silent).result;
+    return trackAlongCourses(made.volume, courses, {}, options, silent).result.tree;
   };
-  const formats::Case first = tracked(1), other = tracked(2);
-  EXPECT_EQ(other.tree.centre, first.tree.centre);
-  EXPECT_EQ(other.tree.radius, first.tree.radius);
-  EXPECT_EQ(other.points->position, first.points->position);
+  const formats::CenterlineTree first = tracked(1);
+  for (std::uint64_t seed = 2; seed <= 4; ++seed) {
+    const formats::CenterlineTree other = tracked(seed);
+    ASSERT_EQ(other.branches.size(), first.branches.size()) << seed;
+    for (std::size_t b = 0; b < first.branches.size(); ++b) {
+      const formats::Branch &own = other.branches[b], &its = first.branches[b];
+      ASSERT_EQ(own.nodeCount, its.nodeCount) << seed;
+      for (const std::uint32_t n : {0U, its.nodeCount - 1})
+        EXPECT_LT(
+            (toEigen(other.centre[own.firstNode + n]) - toEigen(first.centre[its.firstNode + n]))
+                .norm(),
+            0.02)
+            << seed;
+    }
+  }
 }
 
 TEST(TrackCourses, NoNodeIsPutWhereNoVesselIs) {
