@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/recorded_edits.h"
 #include "formats/view/limits.h"
 
 namespace lumen {
@@ -87,6 +87,38 @@ const formats::Step* lastStep(const formats::Metadata& metadata, const std::stri
   const auto found = std::find_if(steps.rbegin(), steps.rend(),
                                   [&](const formats::Step& step) { return step.name == name; });
   return found == steps.rend() ? nullptr : &*found;
+}
+
+namespace {
+
+constexpr std::string_view kRequest = "-request";  // behind the number of a sentence
+
+}  // namespace
+
+bool isRequestName(const std::string& parameter) {
+  return parameter.ends_with(kRequest);
+}
+
+void recordRequest(formats::Metadata& metadata, const std::string& request) {
+  if (metadata.steps.empty() || metadata.steps.back().name != kEditStep) return;
+  auto& done = metadata.steps.back().parameters;
+  const auto last = std::find_if(done.rbegin(), done.rend(),
+                                 [](const auto& one) { return !isRequestName(one.first); });
+  if (last != done.rend()) done[last->first + std::string(kRequest)] = request;
+}
+
+std::vector<RecordedEdit> recordedEdits(const formats::Metadata& metadata) {
+  std::vector<RecordedEdit> edits;
+  for (const formats::Step& step : metadata.steps) {
+    if (step.name != kEditStep) continue;
+    for (const auto& [name, value] : step.parameters) {
+      if (isRequestName(name)) continue;
+      const auto request = step.parameters.find(name + std::string(kRequest));
+      const bool isKept = request != step.parameters.end();
+      edits.push_back({parameterText(value), isKept ? parameterText(request->second) : ""});
+    }
+  }
+  return edits;
 }
 
 }  // namespace lumen

@@ -7,7 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 
 namespace lumen {
 

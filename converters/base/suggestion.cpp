@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/base/suggestion.h"
+// Declared in text.h.
 
 #include <algorithm>
 

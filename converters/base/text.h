@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace lumen {
 
@@ -25,5 +27,18 @@ inline std::string trimmed(const std::string& text) {
 inline std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
   return std::to_string(count) + " " + (count == 1 ? noun : plural);
 }
+
+// "Did you mean ...?"
+
+/// The candidate of which `word` is most likely a misspelling: fewest letters inserted, dropped,
+/// replaced or swapped with a neighbour, whatever the case, and at most a third of them; or the
+/// only one that begins with it. Empty if there is none.
+std::string closest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "; did you mean --seeds?", or empty.
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "a, b or c".
+std::string alternatives(const std::vector<std::string>& names);
 
 }  // namespace lumen

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/cli/command_completion.h"
+// Declared in commands.h.
 
 #include <map>
 #include <sstream>
 
-#include "converters/cli/command_completion.h"
 #include "converters/cli/commands.h"
 #include "converters/engine/file_format.h"
 

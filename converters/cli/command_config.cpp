@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "converters/base/error.h"
-#include "converters/base/suggestion.h"
 #include "converters/base/text.h"
 
 namespace lumen::cli {

@@ -22,7 +22,6 @@
 #include "converters/cli/parser.h"
 #include "converters/cli/terminal_progress.h"
 #include "converters/cli/usage_error.h"
-#include "converters/cli/version_text.h"
 #include "converters/engine/operation_process.h"
 
 namespace lumen::cli {

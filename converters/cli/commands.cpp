@@ -2,7 +2,6 @@
 #include "converters/cli/commands.h"
 
 #include "converters/base/option_name.h"
-#include "converters/cli/command_completion.h"
 #ifdef LUMEN_WITH_VIEWER
 #include "viewer/server/command_view.h"
 #endif

@@ -2,6 +2,7 @@
 // All commands of the program, and the options that each has.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,9 @@ struct CommonOptions {
 
 /// The row of --config, which the parser itself reads.
 OptionRow configRow();
+
+// lumen completion: the words that a shell offers when the tabulator key is pressed.
+
+std::unique_ptr<engine::Command> makeCompletionCommand();
 
 }  // namespace lumen::cli

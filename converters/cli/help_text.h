@@ -26,4 +26,17 @@ private:
   std::vector<std::string> m_hidden;
 };
 
+// The versions of the program, of libblob and of the file formats (docs/compatibility.md).
+
+/// "lumen 0.2.0" and an end of line.
+std::string versionLine();
+
+/// Answer of `lumen --version --json`, spec/answers/version.schema.json. Equal builds give equal
+/// bytes.
+std::string versionJson();
+
+/// The manual page lumen(1) in troff's man macros: every command with every option, taken from the
+/// parsers that the command line itself uses.
+std::string manPage();
+
 }  // namespace lumen::cli

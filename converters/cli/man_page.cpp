@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/cli/man_page.h"
-
+// Declared in help_text.h.
 #include <algorithm>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "converters/cli/commands.h"
+#include "converters/cli/help_text.h"
 
 namespace lumen::cli {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 #include "converters/cli/commands.h"
 
 namespace lumen::cli {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/cli/version_text.h"
-
+// Declared in help_text.h.
 #include <nlohmann/json.hpp>
 
+#include "converters/cli/help_text.h"
 #include "converters/export/shared/text_files.h"
-#include "converters/io/seeds/seeds_json.h"
+#include "converters/io/seeds/seeds_parse.h"
 #include "converters/library/json_values.h"
 #include "formats/container/container.h"
 #include "libblob/include/blob.h"

@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"
 #include "converters/export/shared/flow_inlets.h"

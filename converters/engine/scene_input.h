@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/mesh_readers.h"
 
 namespace lumen::engine {
 

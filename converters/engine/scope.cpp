@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

@@ -17,7 +17,7 @@
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/stages/fitting/fit_options.h"
 #include "converters/stages/tracking/track_options.h"
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 
 namespace lumen::engine {
 

@@ -11,7 +11,6 @@
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/io/seeds/place_seeds.h"
-#include "converters/stages/editing/find_inlets.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 

@@ -2,10 +2,36 @@
 // Areas, volumes and boxes of triangle meshes.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "converters/geometry/box.h"
-#include "converters/geometry/triangle_mesh.h"
 
 namespace lumen::convert {
+
+// Triangle mesh for algorithms: doubles and indices only.
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// An indexed triangle mesh, mm, LPS; triangles counter-clockwise seen from outside.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> position;
+  std::vector<Triangle> triangle;
+};
+
+/// A place as files of meshes hold it.
+inline Eigen::Vector3d roundedToFloats(const Eigen::Vector3d& place) {
+  return place.cast<float>().cast<double>();
+}
+
+/// Rounds all positions to floats, so that the mesh has the shape that its file will have: a
+/// triangle of a thousandth of a millimetre can be turned over by that.
+inline void roundToFloats(TriangleMesh& mesh) {
+  for (Eigen::Vector3d& place : mesh.position) place = roundedToFloats(place);
+}
 
 /// The vector area of a triangle: its normal times its area.
 inline Eigen::Vector3d vectorArea(const TriangleMesh& mesh, const Triangle& t) {

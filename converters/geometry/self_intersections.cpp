@@ -14,7 +14,6 @@
 #include <tbb/parallel_sort.h>
 
 #include "converters/geometry/box_tree.h"
-#include "converters/geometry/triangle_pair.h"
 
 namespace lumen::convert {
 namespace {

@@ -8,9 +8,18 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
+
+// Intersection test of two triangles of a mesh.
+
+/// True if the triangle's vertices do not lie on one line.
+bool hasArea(const TriangleMesh& mesh, const Triangle& triangle);
+
+/// True if two triangles with area have more in common than the vertices or the edge that they
+/// share by index. Exact.
+bool intersect(const TriangleMesh& mesh, const Triangle& one, const Triangle& other);
 
 struct SelfIntersections {
   /// Pairs of triangles that intersect, the smaller index first.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/geometry/triangle_pair.h"
-
+// Declared in self_intersections.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/geometry/exact_predicates.h"
+#include "converters/geometry/self_intersections.h"
 
 namespace lumen::convert {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 

@@ -15,13 +15,12 @@
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/recorded_edits.h"
 #include "converters/library/build_row.h"
 #include "converters/library/change.h"
 #include "converters/library/collect_rows.h"
 #include "converters/library/library_file.h"
 #include "converters/library/library_lock.h"
-#include "converters/library/row_note.h"
+#include "converters/library/row_state.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

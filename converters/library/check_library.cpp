@@ -15,7 +15,6 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/library/bag_check.h"
-#include "converters/library/case_folder.h"
 #include "converters/library/check_case.h"
 #include "converters/library/check_journal.h"
 #include "converters/library/derived.h"

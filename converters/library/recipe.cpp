@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/recipe.h"
-
+// Declared in build_row.h.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -13,6 +12,7 @@
 #include "converters/base/files.h"
 #include "converters/base/sha256.h"
 #include "converters/base/text.h"
+#include "converters/library/build_row.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

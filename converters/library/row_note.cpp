@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/row_note.h"
-
+// Declared in row_state.h.
 #include <array>
 #include <span>
 #include <system_error>
@@ -11,6 +10,7 @@
 #include "converters/base/files.h"
 #include "converters/base/json_place.h"
 #include "converters/base/sha256.h"
+#include "converters/library/row_state.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/signature_key.h"
-
+// Declared in signature.h.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/text.h"
+#include "converters/library/signature.h"
 #include "formats/case/base64.h"
 
 namespace lumen::convert {

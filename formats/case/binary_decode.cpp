@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/case/binary_decode.h"
-
+// Declared in case_encoding.h.
 #include <algorithm>
 #include <deque>
 #include <optional>
 
+#include "formats/case/case_encoding.h"
 #include "formats/case/chunk_codec.h"
 #include "formats/case/metadata_json.h"
 #include "formats/case/motion.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/case/binary_encode.h"
-
+// Declared in case_encoding.h.
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
 
 #include "formats/case/case_as_view.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/chunk_codec.h"
 #include "formats/case/metadata_json.h"
 #include "formats/case/motion.h"

@@ -9,11 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "formats/case/binary_decode.h"
-#include "formats/case/binary_encode.h"
 #include "formats/case/case.h"
-#include "formats/case/json_decode.h"
-#include "formats/case/json_encode.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/validate.h"
 #include "formats/container/expected.h"
 

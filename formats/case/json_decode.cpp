@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/case/json_decode.h"
-
+// Declared in case_encoding.h.
 #include <charconv>
 #include <cmath>
 
 #include "formats/case/base64.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/json_document.h"
 #include "formats/case/json_fields.h"
 #include "formats/case/json_motion.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/case/json_encode.h"
-
+// Declared in case_encoding.h.
 #include <variant>
 
 #include "formats/case/base64.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/json_writer.h"
 #include "formats/case/metadata_json.h"

@@ -2,11 +2,16 @@
 #include "formats/case/node_origin.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <variant>
 
 #include "formats/case/enum_names.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::formats {
+
 namespace {
 
 using Values = std::vector<std::uint32_t>;
@@ -55,6 +60,35 @@ void setNodeOrigins(Case& value, const std::vector<NodeOrigin>& origins) {
   for (const NodeOrigin origin : origins) values.push_back(static_cast<std::uint32_t>(origin));
   value.nodeArrays.push_back({kOriginArray, 1, "", std::move(values)});
   used.emplace_back(kOriginExtension);
+}
+
+namespace {
+
+bool holdsEditedWalls(const NodeArray& array) {
+  return array.name == kEditedWallArray;
+}
+
+}  // namespace
+
+std::vector<bool> readEditedWalls(const Case& value) {
+  std::vector<bool> edited(value.tree.nodeCount(), false);
+  const auto array =
+      std::find_if(value.nodeArrays.begin(), value.nodeArrays.end(), holdsEditedWalls);
+  if (array == value.nodeArrays.end()) return edited;
+  const auto* values = std::get_if<std::vector<std::uint32_t>>(&array->values);
+  if (values == nullptr || values->size() != edited.size()) return edited;
+  for (std::size_t i = 0; i < edited.size(); ++i) edited[i] = (*values)[i] != 0;
+  return edited;
+}
+
+void setEditedWalls(Case& value, const std::vector<bool>& edited) {
+  auto& used = value.metadata.extensionsUsed;
+  std::erase_if(value.nodeArrays, holdsEditedWalls);
+  std::erase(used, kEditExtension);
+  if (std::find(edited.begin(), edited.end(), true) == edited.end()) return;
+  value.nodeArrays.push_back(
+      {kEditedWallArray, 1, "", std::vector<std::uint32_t>(edited.begin(), edited.end())});
+  used.emplace_back(kEditExtension);
 }
 
 }  // namespace lumen::formats

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/message_text.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 
 namespace lumen::test {
 

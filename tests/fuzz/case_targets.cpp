@@ -6,7 +6,6 @@
 #include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
 #include "formats/case/chunk_codec.h"
-#include "formats/case/draco_points.h"
 #include "formats/case/reachability.h"
 #include "formats/view/case_view.h"
 #include "fuzz/fuzz.h"

@@ -8,9 +8,7 @@
 
 #include "converters/base/error.h"
 #include "converters/io/centerline/case_of_centerline.h"
-#include "converters/io/centerline/read_swc.h"
-#include "converters/io/centerline/read_tre.h"
-#include "converters/io/centerline/read_vtp.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "formats/case/validate.h"
 #include "formats/container/printable.h"
 #include "fuzz/fuzz.h"

@@ -21,7 +21,6 @@
 #include "formats/container/printable.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"
-#include "viewer/server/idle.h"
 #include "viewer/server/server.h"
 #include "viewer/session/source_match.h"
 

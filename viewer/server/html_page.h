@@ -2,14 +2,32 @@
 // The page and its data as one file, which opens from disk and uses no network.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "viewer/server/page_files.h"
 #include "viewer/session/session.h"
 
 namespace lumen::viewer {
+
+// The files of the page, which are built apart from the program and lie beside it.
+
+struct PageFile {
+  std::string type;  ///< media type
+  std::string bytes;
+};
+
+/// Files by the name that the page asks for; "" is the page itself.
+using PageFiles = std::map<std::string, PageFile>;
+
+/// Reads them from share/lumen/viewer of the installation that the running program is in, or from
+/// its build folder. Empty if they are in neither.
+PageFiles findPageFiles();
+
+/// A page with instructions, for a build without the page.
+extern const char* const kNoPage;
 
 struct HtmlOptions {
   bool volume = false;  ///< the volume too: around the case, with 8 bits a voxel

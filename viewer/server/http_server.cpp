@@ -3,15 +3,26 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <sys/random.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "converters/base/error.h"
 
 namespace lumen::viewer {
 
@@ -104,6 +115,80 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
   shutdown(socket, SHUT_RDWR);
   close(socket);
   return answered;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kStopLook{200};
+
+/// The descriptor of a connection. The HTTP library keeps it to itself, but of the loopback
+/// interface the other end's port is that of one connection only.
+std::optional<int> findDescriptor(int remotePort) {
+  std::error_code error;
+  for (fs::directory_iterator entry("/proc/self/fd", error), end; !error && entry != end;
+       entry.increment(error)) {
+    const int descriptor = std::atoi(entry->path().filename().c_str());
+    sockaddr_in other{};
+    socklen_t size = sizeof other;
+    if (getpeername(descriptor, reinterpret_cast<sockaddr*>(&other), &size) == 0 &&
+        other.sin_family == AF_INET && ntohs(other.sin_port) == remotePort)
+      return descriptor;
+  }
+  return std::nullopt;
+}
+
+bool isClosed(int descriptor) {
+  char byte = 0;
+  return recv(descriptor, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+}
+
+}  // namespace
+
+void whileConnected(int remotePort, const std::function<void(Progress&)>& work) {
+  Progress progress;
+  const std::optional<int> descriptor = findDescriptor(remotePort);
+  if (!descriptor) return work(progress);
+  std::mutex mutex;
+  std::condition_variable wake;
+  bool done = false;
+  std::thread watcher([&] {
+    std::unique_lock lock(mutex);
+    while (!wake.wait_for(lock, kStopLook, [&done] { return done; }))
+      if (isClosed(*descriptor)) return progress.cancel();
+  });
+  struct Join {
+    std::function<void()> end;
+    ~Join() { end(); }
+  };
+  const Join join{[&] {
+    {
+      const std::lock_guard lock(mutex);
+      done = true;
+    }
+    wake.notify_all();
+    watcher.join();
+  }};
+  work(progress);
+}
+
+std::string randomToken() {
+  std::array<unsigned char, 16> bits{};
+  if (getrandom(bits.data(), bits.size(), 0) != static_cast<ssize_t>(bits.size()))
+    throw failed(std::string("the system gives no random numbers: ") + std::strerror(errno));
+  std::string text;
+  for (const unsigned char byte : bits)
+    for (const int digit : {byte >> 4, byte & 15}) text += "0123456789abcdef"[digit];
+  return text;
+}
+
+bool sameSecret(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+  return difference == 0;
 }
 
 }  // namespace lumen::viewer

@@ -11,10 +11,8 @@
 
 #include "converters/base/error.h"
 #include "viewer/server/answers.h"
-#include "viewer/server/connection.h"
 #include "viewer/server/html_page.h"
 #include "viewer/server/http_server.h"
-#include "viewer/server/token.h"
 
 namespace lumen::viewer {
 

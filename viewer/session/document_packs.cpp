@@ -7,7 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/geometry/tube_tree_distance.h"
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 #include "viewer/session/case_pack.h"
 #include "viewer/session/mesh_deviation.h"
 #include "viewer/session/pack.h"

@@ -8,7 +8,6 @@
 #include "converters/base/error.h"
 #include "converters/base/text.h"
 #include "converters/engine/answers/check_answer.h"
-#include "converters/engine/answers/comparison_answer.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/judge/compare/compare.h"

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "converters/io/mesh/mesh_file.h"
-#include "converters/io/mesh/mesh_skin.h"
+#include "converters/io/mesh/mesh_readers.h"
 #include "converters/io/mesh/surface_mesh.h"
+#include "converters/io/mesh/write_options.h"
 #include "converters/stages/surface/closed_surface.h"
 
 namespace lumen::viewer {

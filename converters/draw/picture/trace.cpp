@@ -14,7 +14,7 @@
 #include "blob.h"
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 
 namespace lumen::convert {
 

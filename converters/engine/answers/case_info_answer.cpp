@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/answers/case_info_answer.h"
 
+#include <utility>
+
 #include "converters/base/edit_steps.h"
 #include "converters/base/shown_text.h"
-#include "converters/engine/answers/reachable_answer.h"
 #include "converters/engine/answers/volume_info.h"
 
 namespace lumen::engine {
@@ -172,6 +173,23 @@ std::string caseInfoText(const convert::CaseInfo& info) {
   addExtras(info, lines);
   for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));
   return lines.text() + "\n" + branchTable(info) + "\nLengths and radii in mm.\n";
+}
+
+Json reachJson(const std::optional<convert::Reach>& reach) {
+  if (!reach) return nullptr;
+  Json closed = Json::array();
+  for (const convert::ClosedPath& path : reach->closed)
+    closed.push_back(
+        {{"branch", path.branch},
+         {"node", path.node},
+         {"position",
+          {jsonNumber(path.position.x), jsonNumber(path.position.y), jsonNumber(path.position.z)}},
+         {"beyond_mm", jsonNumber(path.beyond)}});
+  return {{"length_mm", jsonNumber(reach->length)},
+          {"of_mm", jsonNumber(reach->of)},
+          {"trees", reach->trees},
+          {"longest_tree_mm", jsonNumber(reach->longest)},
+          {"closed", std::move(closed)}};
 }
 
 }  // namespace lumen::engine

@@ -2,10 +2,12 @@
 // The facts of a case as `lumen info` prints them.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "converters/engine/answers/answer_text.h"
 #include "converters/judge/facts/case_info.h"
+#include "converters/judge/facts/reachable.h"
 
 namespace lumen::engine {
 
@@ -13,5 +15,8 @@ namespace lumen::engine {
 /// provenance, note, node_arrays, seeds, branch_table. A value that the case does not have is null.
 Json caseInfoJson(const convert::CaseInfo& info);
 std::string caseInfoText(const convert::CaseInfo& info);
+
+/// length_mm, of_mm and closed; null for nothing.
+Json reachJson(const std::optional<convert::Reach>& reach);
 
 }  // namespace lumen::engine

@@ -7,7 +7,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/io/volume/volume_header.h"
+#include "converters/io/volume/read_volume_options.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::engine {

@@ -11,7 +11,6 @@
 #include "converters/draw/overlay/overlay.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/check_answer.h"
-#include "converters/engine/answers/gate_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "converters/engine/answers/answer_text.h"
-#include "converters/engine/answers/comparison_answer.h"
+#include "converters/engine/answers/check_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 

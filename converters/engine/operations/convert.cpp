@@ -4,7 +4,7 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/engine/answers/reachable_answer.h"
+#include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/answers/track_answer.h"
 #include "converters/engine/centerline_input.h"

@@ -4,7 +4,7 @@
 
 #include "converters/base/shown_text.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/engine/answers/reachable_answer.h"
+#include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"

@@ -7,7 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "converters/base/option_name.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"

@@ -2,7 +2,7 @@
 // lumen track: a volume and seeds to a tree with wall points.
 #include "converters/base/option_name.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/engine/answers/reachable_answer.h"
+#include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/track_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/hinted_tracking.h"

@@ -12,8 +12,8 @@
 #include "converters/base/number_text.h"
 #include "converters/base/sha256.h"
 #include "converters/base/shown_text.h"
-#include "converters/io/mesh/face_kind.h"
-#include "formats/case/binary_encode.h"
+#include "converters/io/mesh/write_options.h"
+#include "formats/case/case_encoding.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -11,7 +11,7 @@
 #include "blob.h"
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {

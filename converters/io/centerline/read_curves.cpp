@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/centerline/read_curves.h"
-
+// Declared in centerline_readers.h.
 #include <algorithm>
 #include <string>
 #include <system_error>
@@ -10,7 +9,7 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
-#include "converters/io/centerline/fill_radii.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/container/printable.h"

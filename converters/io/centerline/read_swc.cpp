@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/centerline/read_swc.h"
-
+// Declared in centerline_readers.h.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -17,7 +16,8 @@
 #include "converters/base/files.h"
 #include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
-#include "converters/io/centerline/fill_radii.h"
+#include "converters/io/centerline/centerline_readers.h"
+#include "converters/io/centerline/join_curves.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

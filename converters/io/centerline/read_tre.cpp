@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/centerline/read_tre.h"
-
+// Declared in centerline_readers.h.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,7 +20,7 @@
 #include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
-#include "converters/io/centerline/fill_radii.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
 #include "formats/container/printable.h"
 

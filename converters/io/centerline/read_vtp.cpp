@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/centerline/read_vtp.h"
-
+// Declared in centerline_readers.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/number_text.h"
-#include "converters/io/centerline/fill_radii.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
 #include "converters/io/vtk/vtk_xml.h"
 #include "formats/container/printable.h"

@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/parsed_number.h"
-#include "converters/io/mesh/gltf_words.h"
+#include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
 #include "formats/case/base64.h"

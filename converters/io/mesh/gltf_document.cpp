@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/io/mesh/gltf_words.h"
 #include "converters/io/mesh/meshopt_codec.h"
 #include "formats/case/base64.h"
 

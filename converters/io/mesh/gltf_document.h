@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,14 @@
 #include "converters/io/mesh/vertex_streams.h"
 
 namespace lumen::convert {
+
+// Words of glTF 2.0 that reading and writing share.
+
+/// The first word of a GLB, and the types of its chunks: "glTF", "JSON", "BIN" and 0.
+inline constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a,
+                               kBinaryChunk = 0x004e4942;
+
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
 /// Arrays and objects are added to `content`; buffers are added by write(). Functions that add
 /// bytes throw Error(Unsupported) beyond 2 GiB.

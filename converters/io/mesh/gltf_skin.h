@@ -7,8 +7,8 @@
 
 #include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_parts.h"
-#include "converters/io/mesh/mesh_skin.h"
 #include "converters/io/mesh/vertex_streams.h"
+#include "converters/io/mesh/write_options.h"
 
 namespace lumen::convert {
 

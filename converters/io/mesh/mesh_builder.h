@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/shown_text.h"
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/mesh_readers.h"
 
 namespace lumen::convert {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/read_draco.h"
-
+// Declared in mesh_readers.h.
 #include <cstring>
 #include <memory>
 #include <span>
@@ -9,6 +8,7 @@
 #include <draco/compression/decode.h>
 
 #include "converters/base/isolated_call.h"
+#include "converters/io/mesh/mesh_readers.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/read_gltf.h"
-
+// Declared in mesh_readers.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,10 +14,10 @@
 
 #include "converters/base/error.h"
 #include "converters/io/mesh/gltf_content.h"
-#include "converters/io/mesh/gltf_words.h"
+#include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
-#include "converters/io/mesh/read_draco.h"
+#include "converters/io/mesh/mesh_readers.h"
 
 namespace lumen::convert {
 namespace {

@@ -3,11 +3,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/io/mesh/read_gltf.h"
-#include "converters/io/mesh/read_obj.h"
-#include "converters/io/mesh/read_ply.h"
-#include "converters/io/mesh/read_stl.h"
-#include "converters/io/mesh/read_vtk.h"
+#include "converters/io/mesh/mesh_readers.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

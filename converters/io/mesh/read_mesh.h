@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/mesh_readers.h"
 
 namespace lumen::convert {
 

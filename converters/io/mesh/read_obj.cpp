@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/read_obj.h"
-
+// Declared in mesh_readers.h.
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "converters/io/mesh/mesh_builder.h"
+#include "converters/io/mesh/mesh_readers.h"
 #include "converters/io/mesh/text_cursor.h"
 
 namespace lumen::convert {

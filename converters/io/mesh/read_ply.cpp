@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/read_ply.h"
-
+// Declared in mesh_readers.h.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include "converters/base/number_text.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
+#include "converters/io/mesh/mesh_readers.h"
 #include "converters/io/mesh/ply_header.h"
 #include "converters/io/mesh/text_cursor.h"
 

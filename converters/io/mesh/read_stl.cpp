@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/read_stl.h"
-
+// Declared in mesh_readers.h.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -8,6 +7,7 @@
 #include "converters/base/text.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
+#include "converters/io/mesh/mesh_readers.h"
 #include "converters/io/mesh/text_cursor.h"
 
 namespace lumen::convert {

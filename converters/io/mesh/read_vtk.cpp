@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/read_vtk.h"
-
+// Declared in mesh_readers.h.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <string_view>
 
 #include "converters/io/mesh/mesh_builder.h"
+#include "converters/io/mesh/mesh_readers.h"
 #include "converters/io/mesh/vtk_legacy.h"
 #include "converters/io/vtk/vtk_poly_data.h"
 #include "converters/io/vtk/vtk_xml.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "formats/view/float3.h"
 
 namespace lumen::convert {

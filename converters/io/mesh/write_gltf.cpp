@@ -11,14 +11,13 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/io/mesh/draco_mesh.h"
-#include "converters/io/mesh/face_kind.h"
 #include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/gltf_skin.h"
-#include "converters/io/mesh/gltf_words.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/meshopt_codec.h"
 #include "converters/io/mesh/vertex_color.h"
 #include "converters/io/mesh/vertex_streams.h"
+#include "converters/io/mesh/write_options.h"
 
 namespace lumen::convert {
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "converters/io/mesh/mesh_skin.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/io/mesh/write_options.h"
 

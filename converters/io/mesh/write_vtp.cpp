@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "converters/io/mesh/face_kind.h"
 #include "converters/io/mesh/plain_names.h"
 #include "converters/io/mesh/vtk_array.h"
+#include "converters/io/mesh/write_options.h"
 
 namespace lumen::convert {
 namespace {

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/io/seeds/seed_rules.h"
-#include "converters/io/seeds/seeds_json.h"
+#include "converters/io/seeds/seeds_parse.h"
 #include "formats/container/container.h"
 #include "formats/container/printable.h"
 #include "formats/view/case_chunks.h"

@@ -1,20 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/seeds/seed_rules.h"
-
+// Declared in seeds_parse.h.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
+#include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
+#include "converters/base/text.h"
+#include "converters/io/seeds/seeds_parse.h"
 #include "formats/container/printable.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {
+
+double unitInMillimetres(const JsonPlace& unit) {
+  const std::string& word = unit.text();
+  if (word == "mm") return 1;
+  if (word == "m") return 1000;
+  unit.refuse("\"mm\" or \"m\"; " + kOption.seedsUnit.shown() + " states another");
+}
+
+bool setKind(const std::string& word, SeedBranch& branch) {
+  if (word != "vessel" && word != "aneurysm" && word != "root") return false;
+  branch.kind = word == "aneurysm" ? formats::BranchKind::Aneurysm : formats::BranchKind::Vessel;
+  branch.isRoot = word == "root";
+  return true;
+}
+
+std::string kindOf(const SeedBranch& branch) {
+  if (branch.isRoot) return "root";
+  return branch.kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel";
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,6 +184,34 @@ std::vector<SeedBranch> checkedSeeds(std::vector<SeedBranch> branches, const fs:
                        ", which is what a case can hold; give one for each vessel");
   const Labels index = checkBranches(branches, file, vessels);
   return parentsFirst(std::move(branches), index, file);
+}
+
+void applyDescription(const std::string& text, SeedBranch& branch,
+                      const std::function<void(const std::string&)>& refuse) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    begin = end + 1;
+    const auto equals = part.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string key = trimmed(part.substr(0, equals));
+    const std::string value = trimmed(part.substr(equals + 1));
+    if (key == "parent") {
+      branch.parent = value;
+    } else if (key == "kind" && setKind(value, branch)) {
+      continue;
+    } else if (key == "radius") {
+      const auto radius = parsedNumber(value);
+      if (!radius) return refuse("a number after \"radius=\"");
+      for (auto& point : branch.points)
+        if (!point.radius) point.radius = branch.frame.unit * *radius;
+    } else {
+      return refuse(
+          "\"parent=LABEL\", \"kind=vessel\", \"kind=aneurysm\", \"kind=root\" or "
+          "\"radius=NUMBER\" "
+          "around each \"=\"");
+    }
+  }
 }
 
 }  // namespace lumen::convert

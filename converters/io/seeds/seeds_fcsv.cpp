@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of Slicer's vtkMRMLMarkupsFiducialStorageNode: "# name = value" lines, then rows.
-#include "converters/io/seeds/seeds_fcsv.h"
+// Declared in seeds_parse.h.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
-#include "converters/io/seeds/seed_description.h"
+#include "converters/io/seeds/seeds_parse.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/seeds/seeds_json.h"
-
+// Declared in seeds_parse.h.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
 
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
+#include "converters/io/seeds/seeds_parse.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // 3D Slicer Markups as seeds (Slicer's markups-schema-v1.0.3.json).
-#include "converters/io/seeds/seeds_markups.h"
+// Declared in seeds_parse.h.
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,7 @@
 
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
-#include "converters/io/seeds/seed_description.h"
+#include "converters/io/seeds/seeds_parse.h"
 
 namespace lumen::convert {
 namespace {

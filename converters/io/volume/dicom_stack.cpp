@@ -13,7 +13,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/io/volume/stated_geometry.h"
+#include "converters/io/volume/image_header.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {

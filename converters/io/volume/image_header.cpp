@@ -1,15 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/io/volume/image_header.h"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bounds, mm, beyond which a spacing is no distance between voxels of a body, whatever its unit.
+constexpr double kLeastSpacing = 1e-6, kMostSpacing = 1e4;
+// Bounds, mm, beyond which a spacing is likely to be in another unit: 5 um is a fine micro-CT, 50
+// mm no scan.
+constexpr double kLeastUsual = 5e-3, kMostUsual = 50;
+
+Eigen::Vector3d settledSpacing(const Eigen::Vector3d& stated, double unit, const fs::path& path,
+                               std::vector<std::string>& assumptions) {
+  const auto missing = stated.array().isNaN();
+  if (missing.all()) {
+    assumptions.emplace_back(
+        "its header states no spacing, so voxels are taken to be 1 mm apart; state it with " +
+        kOption.spacing.shown());
+    return Eigen::Vector3d::Ones();
+  }
+  for (int a = 0; a < 3; ++a)
+    if (missing[a])
+      throw invalidInput(path.string() + ": its header states no spacing along axis " +
+                         std::to_string(a + 1) + ", but along others; state all three with " +
+                         kOption.spacing.shown());
+  return unit * stated;
+}
+
+void checkSpacing(const Eigen::Vector3d& spacing, const fs::path& path) {
+  for (int a = 0; a < 3; ++a)
+    if (!(spacing[a] >= kLeastSpacing && spacing[a] <= kMostSpacing))
+      throw invalidInput(path.string() + ": the spacing along axis " + std::to_string(a + 1) +
+                         " is " + longNumber(spacing[a]) + " mm; expected " +
+                         longNumber(kLeastSpacing) + " to " + longNumber(kMostSpacing) +
+                         "; state it with " + kOption.spacing.shown() +
+                         ", or the file's unit with " + kOption.unit.shown());
+}
+
+}  // namespace
+
+VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOptions& options,
+                               const fs::path& path, std::vector<std::string>& assumptions) {
+  VolumeGeometry geometry = stated.geometry;
+  const double unit = options.unit.value_or(stated.unit.value_or(1));
+  geometry.origin *= unit;
+  geometry.spacing = options.spacing
+                         ? *options.spacing
+                         : settledSpacing(stated.geometry.spacing, unit, path, assumptions);
+  checkSpacing(geometry.spacing, path);
+  const bool unusual =
+      geometry.spacing.minCoeff() < kLeastUsual || geometry.spacing.maxCoeff() > kMostUsual;
+  if (unusual && !options.spacing && !options.unit)
+    assumptions.push_back((stated.unit ? "by the unit that its header states, its spacing is "
+                                       : "its header states no unit, so its spacing is taken as ") +
+                          spacingText(geometry.spacing, kHeaderDigits) +
+                          " mm, which is unusual; state the unit with " + kOption.unit.shown());
+  else if (!stated.unit && !options.unit && !options.spacing && !stated.unitNote.empty())
+    assumptions.push_back(stated.unitNote);
+  checkGeometry(geometry, path);
+  return geometry;
+}
+
+void cropGeometry(VolumeGeometry& geometry, const CellBox& box, const fs::path& path) {
+  const Cell first = box.low, last = box.high(), end = geometry.cells().high();
+  for (int a = 0; a < 3; ++a)
+    if (first[a] < 0 || last[a] > end[a] || last[a] <= first[a])
+      throw invalidInput(path.string() + ": the crop box goes from " + std::to_string(first[a]) +
+                         " to " + std::to_string(last[a]) + " along axis " + std::to_string(a + 1) +
+                         "; expected at least two voxels within 0 to " + std::to_string(end[a]));
+  geometry.origin = geometry.position(first);
+  geometry.size = {box.size[0], box.size[1], box.size[2]};
+}
 
 namespace fs = std::filesystem;
 

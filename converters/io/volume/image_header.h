@@ -4,15 +4,64 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "converters/base/text.h"
 #include "converters/io/volume/open_volume.h"
 #include "converters/io/volume/read_volume_options.h"
-#include "converters/io/volume/stated_geometry.h"
 #include "converters/io/volume/stored_voxels.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::convert {
+
+// Names of length units in headers.
+
+/// Millimetres of the unit `name`, such as "mm", "Metres" or "um"; empty if it is unknown.
+inline std::optional<double> millimetresPer(const std::string& name) {
+  static const std::map<std::string, double> known = {
+      {"mm", 1},           {"millimeter", 1},   {"millimetre", 1},    {"cm", 10},
+      {"centimeter", 10},  {"centimetre", 10},  {"dm", 100},          {"m", 1000},
+      {"meter", 1000},     {"metre", 1000},     {"um", 1e-3},         {"\xc2\xb5m", 1e-3},
+      {"\xce\xbcm", 1e-3}, {"micron", 1e-3},    {"micrometer", 1e-3}, {"micrometre", 1e-3},
+      {"nm", 1e-6},        {"nanometer", 1e-6}, {"nanometre", 1e-6},  {"in", 25.4},
+      {"inch", 25.4}};
+  std::string word = lowerCase(trimmed(name));
+  auto found = known.find(word);
+  if (found == known.end() && word.size() > 4 && word.back() == 's') {
+    word.pop_back();
+    found = known.find(word);
+  }
+  if (found == known.end()) return {};
+  return found->second;
+}
+
+// Conversion of a header's lengths to millimetres, with the user's statements: equal for every
+// format.
+
+/// Geometry as a header states it.
+struct StatedGeometry {
+  /// Lengths are in the file's unit. A spacing is NaN along an axis whose spacing is not stated.
+  VolumeGeometry geometry;
+  std::optional<double> unit;  ///< mm of the file's unit; empty: the header states none
+  std::string unitNote;  ///< the assumption where `unit` is empty; empty: it goes without saying
+  std::string placedBy;  ///< of several transforms the one that counts; empty: there is one
+};
+
+/// The geometry in mm: spacing and unit are those of the options, else of the header, else 1 mm. An
+/// assumed spacing, or an implausible one in an assumed unit, appends a sentence to `assumptions`.
+/// Throws Error(InvalidInput), naming `path` and the option that helps, for a spacing that is
+/// stated along some axes only, or is not positive, finite and within 1e-6 to 1e4 mm, and as
+/// checkGeometry() does.
+VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOptions& options,
+                               const std::filesystem::path& path,
+                               std::vector<std::string>& assumptions);
+
+/// Crops `geometry` to `box`. Throws Error(InvalidInput), naming `path`, unless the box holds at
+/// least two voxels along each axis and lies within the volume.
+void cropGeometry(VolumeGeometry& geometry, const CellBox& box, const std::filesystem::path& path);
 
 struct ImageHeader {
   StatedGeometry stated;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "converters/io/volume/image_header.h"
 #include "converters/io/volume/nifti_header.h"
-#include "converters/io/volume/stated_geometry.h"
 
 namespace lumen::convert {
 

@@ -15,7 +15,6 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/image_header.h"
-#include "converters/io/volume/length_units.h"
 #include "converters/io/volume/volume_checks.h"
 #include "formats/container/printable.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "converters/io/volume/image_header.h"
 #include "converters/io/volume/read_volume_options.h"
-#include "converters/io/volume/stated_geometry.h"
 #include "converters/io/volume/text_header.h"
 
 namespace lumen::convert {

@@ -12,8 +12,8 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/io/volume/image_header.h"
 #include "converters/io/volume/open_volume.h"
-#include "converters/io/volume/stated_geometry.h"
 
 namespace lumen::convert {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "converters/base/progress.h"
 #include "converters/io/volume/read_volume_options.h"
-#include "converters/io/volume/volume_header.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {

@@ -2,6 +2,7 @@
 // Options for reading a volume, and the user's statements that override its header.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include "converters/voxels/cell_box.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::convert {
 
@@ -34,6 +36,20 @@ struct ReadVolumeOptions {
   /// DICOM: files that cannot be read are left out, and an assumption names each, instead of a
   /// refusal of the series.
   bool skipFaulty = false;
+};
+
+// Properties of a volume that are known before its voxels are read.
+
+struct VolumeHeader {
+  VolumeGeometry geometry;
+  std::string storedType;         ///< voxel type: int8, uint8, ... uint64, float32 or float64
+  std::string encoding;           ///< encoding in the format's words: "raw", "gzip"
+  std::uint64_t voxelBytes = 0;   ///< size of all voxels in the stored type, unpacked
+  std::uint64_t storedBytes = 0;  ///< size of the files that hold them
+  std::string placedBy;  ///< of a NIfTI's transforms the one that counts; empty for other formats
+  /// Assumptions of the reader where the header is incomplete: each a sentence that names the
+  /// assumption and the option that overrides it. They do not name the file.
+  std::vector<std::string> assumptions;
 };
 
 }  // namespace lumen::convert

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/vtk/vtk_data.h"
-
+// Declared in vtk_xml.h.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
+#include "converters/io/vtk/vtk_xml.h"
 
 namespace lumen {
 namespace {

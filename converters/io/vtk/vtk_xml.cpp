@@ -16,7 +16,6 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
-#include "converters/io/vtk/vtk_data.h"
 #include "converters/io/vtk/xml_events.h"
 #include "formats/container/printable.h"
 

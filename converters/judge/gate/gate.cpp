@@ -8,7 +8,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/json_place.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/judge/facts/check_facts.h"
 #include "formats/container/printable.h"

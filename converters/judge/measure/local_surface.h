@@ -11,7 +11,7 @@
 #include "converters/base/progress.h"
 #include "converters/geometry/box.h"
 #include "converters/geometry/marching_cubes.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "formats/case/case.h"
 #include "formats/field/blended_field.h"
 

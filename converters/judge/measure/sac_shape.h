@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/judge/measure/local_surface.h"
 #include "converters/judge/measure/neck_plane.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/stages/editing/change.h"
+#include "converters/stages/editing/selection.h"
 #include "formats/case/case.h"
 #include "formats/case/node_origin.h"
 

@@ -9,7 +9,6 @@
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
-#include "converters/base/recorded_edits.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/edit.h"
 #include "converters/stages/editing/edit_request_text.h"

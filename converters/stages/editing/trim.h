@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/stages/editing/change.h"
+#include "converters/stages/editing/selection.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

@@ -11,12 +11,8 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
-#include "converters/stages/editing/across_voids.h"
 #include "converters/stages/editing/draft.h"
-#include "converters/stages/editing/into_sides.h"
 #include "converters/stages/editing/node_graph.h"
-#include "converters/stages/editing/overlapping_ends.h"
-#include "converters/stages/editing/rungs.h"
 #include "converters/stages/editing/smooth_axes.h"
 
 namespace lumen::convert {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/stages/editing/node_graph.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -34,5 +35,44 @@ struct Surrounding {
 ///   in the order of trees by their nodes, aneurysms aneurysm-1 and so on; those stay on their nodes.
 /// Returns the places at which two ends became one vessel, mm, LPS.
 std::vector<Eigen::Vector3d> untangle(formats::Case& target, const Surrounding& around);
+
+// Vessels that go on behind a stretch without contrast (docs/method.md, section 1.14).
+
+/// Joins trees of a graph by bridges where an end of one lies ahead of an end of another, faces it and
+/// is as wide, although no lumen is seen between them: blood that swirls or flows along the slices
+/// leaves such voids in magnetic resonance, a clip or a stent beside a vessel in other volumes. Both
+/// trees must be longer than the gap. Directions of edges are stale afterwards. Returns the places of
+/// the joined ends, one for each pair, mm.
+std::vector<Eigen::Vector3d> joinAcrossVoids(NodeGraph& graph);
+
+// Vessels that end just before the side of another, which they join (docs/method.md, section 1.14).
+
+/// Joins ends of a graph to the vessel that lies ahead of them, by a bridge to its axis, or by a link
+/// behind a bridge where that closes a loop. A skeleton cuts each loop at one place; if that is near
+/// a fork, the short rest beyond the cut is taken for a bump of the wall there. `isOpen`: whether
+/// only lumen lies between two points, mm, LPS. Directions of edges are stale afterwards. Returns the
+/// places of the joined ends, mm, LPS.
+std::vector<Eigen::Vector3d> joinIntoSides(
+    NodeGraph& graph,
+    const std::function<bool(const Eigen::Vector3d&, const Eigen::Vector3d&)>& isOpen);
+
+// Two tracks that entered the same stretch of a vessel from both sides (docs/method.md, section 1.14).
+
+/// Joins pairs of tips that have passed one another within one vessel: the centre of each lies in the
+/// lumen of the other's vessel, which is of like width and leads the other way. The stretch that both
+/// have is kept of the one that has more measured nodes there; a stretch that a branch or an aneurysm
+/// leaves stays as it is. Directions of edges are stale afterwards. Returns the places of the joined
+/// ends, one for each pair, mm, LPS.
+std::vector<Eigen::Vector3d> joinOverlappingEnds(NodeGraph& graph);
+
+// Places at which two vessels only touch, found from the loops that they close (docs/method.md,
+// section 1.14).
+
+/// Cuts loops of a graph where two vessels touch instead of at the links that hold them together. A
+/// *rung* is a way between two nodes along which two lumens meet, and at both of which another vessel
+/// goes on: the vessels pass one another there. A link on a loop that has a rung becomes an edge, and
+/// the rung is cut; other links stay, as those of communicating arteries. Directions of edges are stale
+/// afterwards.
+void cutRungs(NodeGraph& graph);
 
 }  // namespace lumen::convert

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/stages/editing/change.h"
+#include "converters/stages/editing/selection.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

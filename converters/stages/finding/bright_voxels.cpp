@@ -12,8 +12,6 @@
 #include "converters/base/statistics.h"
 #include "converters/base/zeroed_array.h"
 #include "converters/stages/finding/background.h"
-#include "converters/stages/finding/faded_lumen.h"
-#include "converters/stages/finding/ridges.h"
 
 namespace lumen::convert {
 namespace {

@@ -3,12 +3,45 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "converters/base/progress.h"
+#include "converters/base/zeroed_array.h"
+#include "converters/voxels/cell_box.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
+
+// Tubular voxels by the second derivatives of a volume (Y. Sato et al., "Three-dimensional
+// multi-scale line filter", 1998; A. Frangi et al., "Multiscale vessel enhancement filtering",
+// 1998).
+
+/// Strength of the brightest ridge through each voxel over several scales: the lesser of the two
+/// curvatures across it, times the variance of the Gaussian by which the volume was smoothed, in
+/// voxel units; 0 where both ways across are not curved downward alike, or the way along is curved
+/// as well. Vessels up to about three voxels of radius answer.
+///
+/// `sign`: 1, or -1 if vessels are darker than their background. Works on bricks, so that its
+/// buffers do not grow with the volume. Throws Error(Cancelled).
+ZeroedArray<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress);
+
+// Wide vessels that fade along their course (docs/method.md, section 1.13).
+
+/// Excess of every voxel of a volume over its background, and what of it is lumen.
+struct Excess {
+  CellBox cells;
+  ZeroedArray<float> value;                   ///< for each voxel; brighter is more
+  std::function<float(const Cell&)> leastAt;  ///< the least value there that is no noise
+};
+
+/// Adds voxels of wide vessels that are less bright than those of the rest of the volume: from
+/// block to block of 16 voxels, those that are connected to lumen and are brighter than half of
+/// the lumen's median in their block, or in the brightest block beside it. A rim of vessels that
+/// are known is left out. `isLumen`: a flag for each voxel. `contrast`: excess of the wide vessels
+/// of the volume. Throws Error(Cancelled).
+void growIntoFaded(const Excess& excess, float contrast, std::vector<bool>& isLumen,
+                   const Progress& progress);
 
 /// Lumen of a volume, before anything is known of its vessels.
 struct BrightVoxels {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/finding/faded_lumen.h"
-
+// Declared in bright_voxels.h.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -11,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
+#include "converters/stages/finding/bright_voxels.h"
 
 namespace lumen::convert {
 namespace {

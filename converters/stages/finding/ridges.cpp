@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/finding/ridges.h"
-
+// Declared in bright_voxels.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/simd.h"
+#include "converters/stages/finding/bright_voxels.h"
 #include "converters/voxels/grid_geometry.h"
 
 namespace lumen::convert {

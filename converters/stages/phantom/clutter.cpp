@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
-#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
 #include "converters/stages/phantom/clutter_shapes.h"
 #include "formats/container/printable.h"
 

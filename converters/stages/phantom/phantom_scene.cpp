@@ -11,7 +11,7 @@
 #include "converters/base/sha256.h"
 #include "converters/base/shown_text.h"
 #include "converters/geometry/box.h"
-#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "converters/stages/phantom/clutter.h"
 #include "converters/stages/phantom/smooth_chain.h"
 #include "formats/container/printable.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/repair/repair.h"
 
 namespace lumen::convert {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/repair/mesh_report.h"
 
 namespace lumen::convert {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/io/mesh/surface_mesh.h"
 
 namespace lumen::convert {

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "converters/geometry/triangle_pair.h"
+#include "converters/geometry/self_intersections.h"
 
 namespace lumen::convert {
 

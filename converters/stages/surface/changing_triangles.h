@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "converters/geometry/box_tree.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 

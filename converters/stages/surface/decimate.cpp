@@ -14,7 +14,7 @@
 #include <Eigen/Geometry>
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 
-#include "converters/geometry/triangle_pair.h"
+#include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/changing_triangles.h"
 #include "converters/stages/surface/deviation.h"
 #include "converters/stages/surface/remesh_pieces.h"

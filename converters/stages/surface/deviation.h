@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/geometry/triangle_tree.h"
 
 namespace lumen::convert {

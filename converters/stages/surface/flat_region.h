@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 

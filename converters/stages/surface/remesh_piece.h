@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/surface/sheet_field.h"
 
 namespace lumen::convert {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "converters/io/mesh/mesh_skin.h"
 #include "converters/io/mesh/surface_mesh.h"
+#include "converters/io/mesh/write_options.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

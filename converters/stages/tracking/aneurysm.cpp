@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/aneurysm.h"
-
+// Declared in sac_walls.h.
 #include <algorithm>
 #include <utility>
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/stages/tracking/sac_walls.h"
 
 namespace lumen::convert {
 

@@ -12,11 +12,9 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
-#include "converters/stages/tracking/aneurysm.h"
 #include "converters/stages/tracking/branch_lumen.h"
-#include "converters/stages/tracking/nodes_along.h"
 #include "converters/stages/tracking/path_rules.h"
-#include "converters/stages/tracking/wall_evidence.h"
+#include "converters/stages/tracking/sac_walls.h"
 
 namespace lumen::convert {
 namespace {

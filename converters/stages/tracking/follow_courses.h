@@ -2,10 +2,15 @@
 // Vessels along courses that are known over their whole length (docs/method.md, section 1.13).
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "converters/stages/tracking/corrections.h"
 #include "converters/stages/tracking/track_run.h"
+#include "converters/stages/tracking/tracked_branch.h"
 #include "converters/stages/tracking/tracked_tree.h"
 
 namespace lumen::convert {
@@ -29,5 +34,36 @@ void dropUnsupported(const TrackContext& context, TrackedTree& tree);
 /// all others, and corrects their walls. The ends of vessels stay. The result does not depend on the
 /// number of threads. Throws Error(Cancelled).
 void searchBridged(const TrackContext& context, const WallShape& shape, TrackedTree& tree);
+
+// Nodes along a line that is known to lead through a vessel (docs/method.md, section 1.12).
+
+/// Nodes along a polyline (mm, LPS) strictly between its ends, half a radius apart. They are fitted
+/// where the volume shows a wall of about the expected radius, which goes from `first` to `last`
+/// mm; elsewhere, and inside of the lumen of `parent` (which may be null), they are bridged. Throws
+/// Error(Cancelled).
+std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
+                                    double first, double last, const TrackedBranch* parent);
+
+/// Nodes along a course (mm, LPS) whose expected radius is known at each of its points, mm, strictly
+/// between its ends, half a radius apart and fitted where the volume shows a wall. Nodes that are
+/// refused are tried again with the radius of the nodes around them, and then along the curve between
+/// those that fit, on which they stay if they are bridged.
+std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
+                                    std::span<const double> radii);
+
+/// The node that fits at a bridged one, of about its radius and course and between its neighbours;
+/// empty if there is none.
+std::optional<TrackedNode> nodeBetween(TrackRun& run, const TrackedNode& before,
+                                       const TrackedNode& bridged, const TrackedNode& after);
+
+// Whether the volume has edges where vessels that were found have their walls (docs/method.md,
+// section 1.13).
+
+/// Leaves of each new vessel the first stretch along which the volume has its wall, and nothing of
+/// one that has none: bone, metal and texture let cylinders fit, but their edges lie at random.
+/// Returns the further stretches of each branch, by its place. The result does not depend on the
+/// number of threads. Throws Error(Cancelled).
+std::vector<std::vector<TrackedBranch>> takeWithoutEdges(const TrackContext& context,
+                                                         TrackedTree& tree);
 
 }  // namespace lumen::convert

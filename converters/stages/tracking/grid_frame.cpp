@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/grid_frame.h"
-
+// Declared in tracking_volume.h.
 #include <utility>
 
 #include "converters/base/vectors.h"
+#include "converters/stages/tracking/tracking_volume.h"
 #include "converters/voxels/grid_geometry.h"
 
 namespace lumen::convert {

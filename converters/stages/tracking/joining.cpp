@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
+#include "converters/stages/tracking/follow_courses.h"
 #include "converters/stages/tracking/lumen_paths.h"
-#include "converters/stages/tracking/nodes_along.h"
 
 namespace lumen::convert {
 namespace {

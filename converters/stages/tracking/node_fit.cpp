@@ -10,8 +10,8 @@
 #include "converters/base/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
-#include "converters/stages/tracking/near_cylinder.h"
-#include "converters/stages/tracking/wall_support.h"
+#include "converters/stages/tracking/cylinder_equations.h"
+#include "converters/stages/tracking/wall_review.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/nodes_along.h"
-
+// Declared in follow_courses.h.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
+#include "converters/stages/tracking/follow_courses.h"
 #include "converters/stages/tracking/node_fit.h"
 
 namespace lumen::convert {

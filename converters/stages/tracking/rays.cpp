@@ -5,8 +5,6 @@
 #include <span>
 #include <utility>
 
-#include "converters/stages/tracking/steepest_fall.h"
-
 namespace lumen::convert {
 namespace {
 

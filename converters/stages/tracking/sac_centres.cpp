@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/sac_centres.h"
-
+// Declared in sac_walls.h.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "converters/stages/tracking/sac_walls.h"
 
 namespace lumen::convert {
 namespace {

@@ -11,9 +11,7 @@
 #include <utility>
 
 #include "converters/base/vectors.h"
-#include "converters/stages/tracking/aneurysm.h"
 #include "converters/stages/tracking/lumen_paths.h"
-#include "converters/stages/tracking/sac_centres.h"
 #include "converters/stages/tracking/sac_region.h"
 
 namespace lumen::convert {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/steepest_fall.h"
-
+// Declared in rays.h.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "converters/base/simd.h"
+#include "converters/stages/tracking/rays.h"
 
 namespace lumen::convert {
 namespace {

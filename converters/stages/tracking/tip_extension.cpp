@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/tip_extension.h"
-
+// Declared in track_by_depth.h.
 #include <algorithm>
 #include <iterator>
 #include <optional>
 #include <utility>
 
+#include "converters/stages/tracking/follow_courses.h"
 #include "converters/stages/tracking/node_fit.h"
-#include "converters/stages/tracking/nodes_along.h"
 #include "converters/stages/tracking/path_rules.h"
+#include "converters/stages/tracking/track_by_depth.h"
 #include "converters/stages/tracking/track_steps.h"
 
 namespace lumen::convert {

@@ -11,8 +11,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/stages/tracking/aneurysm.h"
-#include "converters/stages/tracking/track_branch.h"
+#include "converters/stages/tracking/sac_walls.h"
+#include "converters/stages/tracking/track_steps.h"
 
 namespace lumen::convert {
 namespace {

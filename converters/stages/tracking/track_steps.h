@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "converters/io/seeds/seeds.h"
 #include "converters/stages/tracking/track_run.h"
 
 namespace lumen::convert {
@@ -23,5 +24,12 @@ constexpr int kTrialSteps = 4;
 /// The number of steps, at most kTrialSteps, that a track from a node which was fitted to a guess
 /// goes on outside of the lumen of `parent`, which may be null.
 int trialSteps(TrackRun& run, const TrackedNode& start, const TrackedBranch* parent);
+
+// One vessel, from its clicks to its ends (docs/method.md, sections 1.5 to 1.7).
+
+/// Tracks one vessel. `parent` may be null; the track ends where it runs into one of `finished`.
+/// Throws Error(Cancelled).
+TrackedBranch trackBranch(TrackRun& run, const SeedBranch& seed, const TrackedBranch* parent,
+                          FinishedBranches finished);
 
 }  // namespace lumen::convert

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "converters/base/vectors.h"
-#include "formats/case/edited_walls.h"
+#include "formats/case/node_origin.h"
 
 namespace lumen::convert {
 namespace {

@@ -6,17 +6,36 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/stages/tracking/corrections.h"
-#include "converters/stages/tracking/grid_frame.h"
 #include "converters/stages/tracking/smoothing.h"
 #include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/tracked_branch.h"
 #include "converters/stages/tracking/tracked_tree.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
+
+// The frame in which vessels are tracked, so that a volume's place in space decides nothing.
+
+/// The frame of gridGeometry().
+class GridFrame {
+public:
+  explicit GridFrame(const VolumeGeometry& world);
+
+  [[nodiscard]] const VolumeGeometry& geometry() const { return m_grid; }
+  /// Seeds in this frame, at places a thousandth of a voxel apart.
+  [[nodiscard]] std::vector<SeedBranch> toGrid(std::vector<SeedBranch> seeds) const;
+  [[nodiscard]] Eigen::Vector3d toWorld(const Eigen::Vector3d& point) const;  ///< mm, LPS
+  void toWorld(TrackedBranch& branch) const;
+
+private:
+  VolumeGeometry m_world, m_grid;
+};
 
 /// The spline of a volume with the bricks that were made so far, the strength of its noise, and the
 /// displacement of its walls. Any number of threads may track in one. The volume must outlive it.

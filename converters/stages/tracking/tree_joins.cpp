@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/tree_joins.h"
-
+// Declared in track_by_depth.h.
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -11,7 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/stages/tracking/joining.h"
-#include "converters/stages/tracking/tip_extension.h"
+#include "converters/stages/tracking/track_by_depth.h"
 
 namespace lumen::convert {
 namespace {

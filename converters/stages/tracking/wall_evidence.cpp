@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/wall_evidence.h"
-
+// Declared in follow_courses.h.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +14,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/tracking/branch_lumen.h"
+#include "converters/stages/tracking/follow_courses.h"
 #include "converters/voxels/profile_edge.h"
 
 namespace lumen::convert {

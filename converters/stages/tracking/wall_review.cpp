@@ -2,19 +2,26 @@
 #include "converters/stages/tracking/wall_review.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
 #include "converters/stages/tracking/node_fit.h"
 #include "converters/stages/tracking/path_rules.h"
-#include "converters/stages/tracking/wall_section.h"
+#include "converters/stages/tracking/wall_ellipse.h"
 
 namespace lumen::convert {
+
 namespace {
 
 using Eigen::Vector3d;
@@ -110,6 +117,218 @@ void reviewWalls(const TrackContext& context, TrackedTree& tree) {
     replaceSwollen(run, tree.branches[i].nodes);
     fitSections(run, tree.branches[i].nodes);
   });
+}
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Least strength of a wall, as a share of the strength of the node's wall.
+constexpr double kLeastStrengthShare = 0.3;
+/// Shares of the distance to a wall at which a ray must be in the lumen.
+constexpr double kLumenShares[] = {0.4, 0.6, 0.8};
+/// Number of times that the section is moved to its own middle, and the largest distance of all
+/// these moves, in radii.
+constexpr int kMoves = 3;
+constexpr double kSectionAsideRadii = 0.75;
+/// Least number of points that a section must explain, relative to the cylinder.
+constexpr double kMorePoints = 1.25;
+
+/// Points that rays from a node's centre meet: in its height, at a wall, with lumen before them.
+std::vector<WallPlace> placesAround(TrackRun& run, const TrackedNode& node, const Vector3d& axis) {
+  const TrackContext& context = run.context;
+  const VolumeGeometry& geometry = context.volume.geometry();
+  const double sign = context.options.dark ? -1.0 : 1.0;
+  const auto valueAt = [&](const Vector3d& p) {
+    return sign * context.volume.sample(geometry.indexFromWorld(p));
+  };
+  std::vector<double> levels;
+  for (const formats::Vec3f& p : node.points) levels.push_back(valueAt(toEigen(p)));
+  const double level = median(std::move(levels));
+  Candidates& points = run.workspace.candidates;
+  run.workspace.caster.cast(node.centre, kRayRadii * node.radius, points);
+  std::vector<WallPlace> places;
+  for (std::size_t i = 0; i < points.count(); ++i) {
+    const Vector3d offset = points.offset(i);
+    if (std::abs(offset.dot(axis)) > 0.5 * node.height) continue;
+    if (points.strength[i] < kLeastStrengthShare * node.strength) continue;
+    const bool isLumen =
+        std::all_of(std::begin(kLumenShares), std::end(kLumenShares),
+                    [&](double share) { return valueAt(node.centre + share * offset) > level; });
+    if (!isLumen) continue;
+    places.push_back({node.centre + offset});
+  }
+  return places;
+}
+
+/// The chord from the nearest node before a node to the nearest behind it that are a radius away,
+/// or to the end: nearer nodes show where a fit leant to rather than where the vessel runs.
+Vector3d chordAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
+  const auto isFar = [&](std::size_t i) {
+    return (nodes[i].centre - nodes[n].centre).norm() >= nodes[n].radius;
+  };
+  std::size_t before = n, behind = n;
+  while (before > 0 && !isFar(before)) --before;
+  while (behind + 1 < nodes.size() && !isFar(behind)) ++behind;
+  return nodes[behind].centre - nodes[before].centre;
+}
+
+/// The number of sectors in which the node's own wall points lie.
+std::size_t countSectors(const TrackedNode& node, const Vector3d& axis) {
+  std::vector<WallPlace> places;
+  for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p)});
+  measureAbout(node.centre, axis, places);
+  return sectorsWith(places);
+}
+
+/// A node with a section about `axis` (unit) as its wall; empty where it keeps its cylinder.
+std::optional<TrackedNode> fitSection(TrackRun& run, const TrackedNode& node,
+                                      const Vector3d& axis) {
+  std::vector<WallPlace> places = placesAround(run, node, axis);
+  if (places.size() < kFewestCandidates) return std::nullopt;
+  const auto [u, v] = planeBasis(axis);
+  Vector3d centre = node.centre;
+  WallEllipse section;
+  for (int move = 0; move < kMoves; ++move) {
+    measureAbout(centre, axis, places);
+    section = fitEllipse(places, node.radius);
+    if (!section.isValid()) return std::nullopt;
+    centre += section.middle()[0] * u + section.middle()[1] * v;
+    if ((centre - node.centre).norm() > kSectionAsideRadii * node.radius) return std::nullopt;
+  }
+  std::erase_if(places, [&](const WallPlace& p) {
+    const double wall = section.wallAt(p);
+    return std::abs(p.distance - wall) > run.context.search.band * wall;
+  });
+  const std::size_t sectors = sectorsWith(places);
+  if (sectors < kLeastSectors || sectors < countSectors(node, axis) ||
+      static_cast<double>(places.size()) < kMorePoints * static_cast<double>(node.points.size()))
+    return std::nullopt;
+  TrackedNode out = node;
+  out.direction = axis;
+  out.centre = centre;
+  out.radius = section.radius();
+  out.points.clear();
+  for (const WallPlace& p : places) out.points.push_back(toVec3f(p.position));
+  return out;
+}
+
+}  // namespace
+
+void fitSections(TrackRun& run, std::vector<TrackedNode>& nodes) {
+  std::vector<TrackedNode> out = nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const TrackedNode& node = nodes[i];
+    if (node.origin != formats::NodeOrigin::Measured || node.points.empty() ||
+        node.inlierRate >= run.context.options.inlierRate)
+      continue;
+    const Vector3d chord = chordAt(nodes, i);
+    if (!(chord.norm() > 0)) continue;
+    if (auto fitted = fitSection(run, node, chord.normalized())) out[i] = std::move(*fitted);
+  }
+  nodes = std::move(out);
+}
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Extent of the sampled inside, in radii. The band of inliers ends at nine tenths.
+constexpr double kInside = 0.8;
+/// Sections along the axis, rings of a section, and samples of the first ring, by which number each
+/// ring exceeds the last: every sample represents the same area.
+constexpr int kSections = 3, kRings = 3, kOnFirstRing = 6;
+/// Place of the outer sections, in half heights. Farther out a bend leaves the cylinder.
+constexpr double kOuterSection = 0.5;
+/// Largest dark share of the inside of one vessel. A circle around the longer axis of an ellipse of
+/// axes 3:2, which is a vessel, is dark by a third; a circle that two touching discs of equal size
+/// share with the gap between them, by a half.
+constexpr double kMostDark = 0.28;
+/// The most steps to the middle of a lumen, and the reach of a sample's attraction, in radii.
+constexpr int kShifts = 8;
+constexpr double kAttraction = 0.4;
+
+struct Sample {
+  Vector3d position;
+  double value;
+};
+
+/// The level halfway down the wall, brighter being more.
+double wallLevel(const BsplineVolume& volume, const TrackedNode& node, double sign) {
+  std::vector<double> values;
+  for (const formats::Vec3f& p : node.points) {
+    const double value = sign * volume.sample(volume.geometry().indexFromWorld(toEigen(p)));
+    if (!std::isnan(value)) values.push_back(value);
+  }
+  return values.empty() ? -std::numeric_limits<double>::infinity() : median(std::move(values));
+}
+
+/// Samples spread evenly over the inside; those outside of the volume are left out.
+std::vector<Sample> sampleInside(const BsplineVolume& volume, const TrackedNode& node,
+                                 double sign) {
+  std::vector<Sample> samples;
+  const auto [u, v] = planeBasis(node.direction);
+  const auto add = [&](const Vector3d& position) {
+    const double value = sign * volume.sample(volume.geometry().indexFromWorld(position));
+    if (!std::isnan(value)) samples.push_back({position, value});
+  };
+  for (int s = 0; s < kSections; ++s) {
+    const double along = kOuterSection * 0.5 * node.height * (2.0 * s / (kSections - 1) - 1.0);
+    const Vector3d centre = node.centre + along * node.direction;
+    add(centre);
+    for (int ring = 1; ring <= kRings; ++ring) {
+      const double r = kInside * node.radius * ring / (kRings + 0.5);
+      const int count = kOnFirstRing * ring;
+      for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / count;
+        add(centre + r * (std::cos(angle) * u + std::sin(angle) * v));
+      }
+    }
+  }
+  return samples;
+}
+
+/// The middle of the bright samples around the one nearest to `guess`: where the mean of those near
+/// it stays in place (mean shift; K. Fukunaga, L. Hostetler, 1975).
+Vector3d findMiddle(const std::vector<Sample>& bright, const Vector3d& guess, double reach) {
+  const auto nearer = [&](const Sample& a, const Sample& b) {
+    return (a.position - guess).squaredNorm() < (b.position - guess).squaredNorm();
+  };
+  Vector3d at = std::min_element(bright.begin(), bright.end(), nearer)->position;
+  for (int step = 0; step < kShifts; ++step) {
+    Vector3d sum = Vector3d::Zero();
+    double weights = 0;
+    for (const Sample& sample : bright) {
+      const double weight = std::exp(-(sample.position - at).squaredNorm() / (reach * reach));
+      sum += weight * sample.position;
+      weights += weight;
+    }
+    at = sum / weights;
+  }
+  return at;
+}
+
+}  // namespace
+
+WallSupport wallSupport(const BsplineVolume& volume, const TrackedNode& node, const Vector3d& guess,
+                        bool dark) {
+  const double sign = dark ? -1.0 : 1.0;
+  WallSupport support{0, node.centre, node.radius};
+  if (node.points.empty()) return support;
+  const double level = wallLevel(volume, node, sign);
+  std::vector<Sample> samples = sampleInside(volume, node, sign);
+  const std::size_t all = samples.size();
+  std::erase_if(samples, [&](const Sample& s) { return s.value < level; });
+  if (all == 0) return support;
+  const double bright = static_cast<double>(samples.size()) / static_cast<double>(all);
+  support.dark = 1.0 - bright;
+  support.radius = node.radius * std::sqrt(bright);
+  if (!samples.empty()) support.middle = findMiddle(samples, guess, kAttraction * node.radius);
+  return support;
+}
+
+bool isSupported(const WallSupport& support) {
+  return support.dark <= kMostDark;
 }
 
 }  // namespace lumen::convert

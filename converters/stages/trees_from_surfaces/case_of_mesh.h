@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/io/centerline/centerline_file.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
 #include "formats/case/case.h"

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/progress.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/geometry/triangle_tree.h"
 #include "converters/voxels/volume.h"
 

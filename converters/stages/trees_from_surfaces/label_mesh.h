@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/io/volume/label_table.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"

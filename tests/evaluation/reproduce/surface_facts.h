@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/surface/sheet_field.h"
 #include "formats/case/case.h"
 

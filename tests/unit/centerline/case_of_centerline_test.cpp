@@ -7,9 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "converters/io/centerline/read_curves.h"
-#include "converters/io/centerline/read_swc.h"
-#include "converters/io/centerline/read_vtp.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/centerline_readers.h"
 
 namespace lumen::convert {
 namespace {

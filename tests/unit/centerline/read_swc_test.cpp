@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/centerline/read_swc.h"
-
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
+#include "converters/io/centerline/centerline_readers.h"
 
 namespace lumen::convert {
 namespace {

@@ -10,10 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/io/centerline/case_of_centerline.h"
-#include "converters/io/centerline/read_curves.h"
-#include "converters/io/centerline/read_swc.h"
-#include "converters/io/centerline/read_tre.h"
-#include "converters/io/centerline/read_vtp.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/vtk/vtk_xml.h"
 
 namespace lumen::convert {

@@ -9,7 +9,6 @@
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
-#include "converters/base/recorded_edits.h"
 #include "formats/case/validate.h"
 #include "unit/formats/beads.h"
 #include "unit/formats/sample_case.h"

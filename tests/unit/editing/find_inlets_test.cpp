@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inlets that widths show, on cases of beads.
-#include "converters/stages/editing/find_inlets.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "converters/base/random.h"
 #include "converters/base/vectors.h"
 #include "converters/io/centerline/case_of_centerline.h"
-#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "converters/stages/editing/edit.h"
 #include "converters/stages/editing/wall_edits.h"
 #include "converters/stages/phantom/phantom.h"

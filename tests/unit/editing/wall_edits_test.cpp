@@ -9,7 +9,6 @@
 
 #include "converters/base/error.h"
 #include "converters/stages/editing/edit.h"
-#include "formats/case/edited_walls.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "unit/formats/beads.h"

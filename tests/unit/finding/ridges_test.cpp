@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/finding/ridges.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
+#include "converters/stages/finding/bright_voxels.h"
 #include "tests/unit/tracking/tube_volume.h"
 
 namespace lumen::convert {

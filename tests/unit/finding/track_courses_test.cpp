@@ -7,7 +7,6 @@
 
 #include "converters/base/vectors.h"
 #include "converters/judge/compare/compare.h"
-#include "converters/stages/editing/find_inlets.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/case_file.h"
 #include "formats/case/validate.h"
 #include "tests/unit/formats/beads.h"

@@ -16,7 +16,7 @@
 #include "converters/geometry/tube_tree_distance.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/tracking/track_case.h"
-#include "formats/case/edited_walls.h"
+#include "formats/case/node_origin.h"
 
 namespace lumen::convert {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "converters/base/error.h"
 #include "converters/library/bag_check.h"
-#include "converters/library/case_folder.h"
+#include "converters/library/check_case.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

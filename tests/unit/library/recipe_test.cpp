@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/recipe.h"
-
 #include <filesystem>
 #include <string>
 
@@ -8,6 +6,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
+#include "converters/library/build_row.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/signature_key.h"
-
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
+#include "converters/library/signature.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

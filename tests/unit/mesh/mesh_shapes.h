@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::test {
 

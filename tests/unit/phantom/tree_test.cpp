@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/geometry/tube_tree_distance.h"
-#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/centerline_readers.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/phantom/render.h"
 #include "converters/stages/phantom/smooth_chain.h"

@@ -9,7 +9,7 @@
 #include <tbb/global_control.h>
 
 #include "blob.h"
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 #include "straight_vessels.h"
 
 namespace lumen::convert {

@@ -7,10 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
-#include "formats/case/binary_decode.h"
-#include "formats/case/binary_encode.h"
-#include "formats/case/json_decode.h"
-#include "formats/case/json_encode.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/validate.h"
 
 namespace lumen::convert {

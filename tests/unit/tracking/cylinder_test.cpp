@@ -8,7 +8,7 @@
 
 #include "converters/base/random.h"
 #include "converters/stages/tracking/circles.h"
-#include "converters/stages/tracking/near_cylinder.h"
+#include "converters/stages/tracking/cylinder_equations.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/steepest_fall.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
+#include "converters/stages/tracking/rays.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walls that the volume supports, and those that it does not.
-#include "converters/stages/tracking/wall_support.h"
 
 #include <cmath>
 #include <numbers>

@@ -6,7 +6,7 @@
 #include <sys/socket.h>
 
 #include "served.h"
-#include "viewer/server/token.h"
+#include "viewer/server/http_server.h"
 
 namespace lumen::test {
 

@@ -7,9 +7,8 @@
 #include "converters/base/error.h"
 #include "served.h"
 #include "viewer/server/browser.h"
-#include "viewer/server/connection.h"
-#include "viewer/server/idle.h"
-#include "viewer/session/compact_pack.h"
+#include "viewer/server/http_server.h"
+#include "viewer/session/case_pack.h"
 #include "viewer/session/pack.h"
 
 namespace lumen::test {

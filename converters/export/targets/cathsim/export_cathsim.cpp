@@ -18,7 +18,7 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/cathsim/wall_prisms.h"
 #include "converters/export/targets/targets.h"
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 
 namespace lumen::convert {
 

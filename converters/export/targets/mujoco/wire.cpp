@@ -18,7 +18,6 @@
 #include "converters/base/vectors.h"
 #include "converters/export/shared/mujoco_text.h"
 #include "converters/geometry/mesh_measures.h"
-#include "converters/geometry/triangle_mesh.h"
 #include "converters/geometry/triangle_tree.h"
 
 namespace lumen::convert {

@@ -18,7 +18,7 @@
 #include "converters/export/targets/sofa/scene.h"
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/volume/write_volume.h"
-#include "formats/case/binary_encode.h"
+#include "formats/case/case_encoding.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -17,7 +17,6 @@
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/fitting/image/section_fit.h"
-#include "formats/case/edited_walls.h"
 #include "formats/case/node_origin.h"
 
 namespace lumen::convert::fitting {

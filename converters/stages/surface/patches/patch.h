@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/geometry/triangle_mesh.h"
+#include "converters/geometry/mesh_measures.h"
 #include "formats/case/case.h"
 #include "formats/case/topology.h"
 
