@@ -45,9 +45,8 @@ ValueCheck checkAmong(std::vector<std::string> words) {
 bool isAddress(std::string_view text) {
   const std::size_t scheme = text.find("://");
   return scheme != std::string_view::npos && scheme > 0 &&
-         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(scheme), [](char c) {
-           return std::isalnum(static_cast<unsigned char>(c)) != 0;
-         });
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(scheme),
+                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
 }
 
 ValueCheck fileName() {
