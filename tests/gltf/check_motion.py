@@ -59,7 +59,7 @@ def with_motion(case):
 def distances(reader, case, points, time):
     """First-order distance of points from the wall, in radii, unsigned, and the node that answers for each."""
     questions = [{"point": p, **({} if time is None else {"time": time})} for p in points]
-    out = json.loads(run(reader, case, input=json.dumps(questions)))
+    out = json.loads(run(reader, input=json.dumps({"file": str(case), "questions": questions}) + "\n"))
     level, found = out["case"]["models"]["isoLevel"], []
     for answer in out["answers"]:
         field = answer["blended"]

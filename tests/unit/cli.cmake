@@ -5,6 +5,8 @@ lumen_compile(run_here)
 add_executable(batch_lumen ${CMAKE_CURRENT_SOURCE_DIR}/cli/batch_lumen.cpp)
 target_link_libraries(batch_lumen PRIVATE run_here nlohmann_json::nlohmann_json)
 lumen_compile(batch_lumen)
+# beside lumen, as it looks for the page of the viewer from there
+set_target_properties(batch_lumen PROPERTIES RUNTIME_OUTPUT_DIRECTORY $<TARGET_FILE_DIR:lumen>)
 
 # The commands, from outside.
 find_package(PNG REQUIRED)

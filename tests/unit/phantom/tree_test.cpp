@@ -229,16 +229,6 @@ TEST(TreePhantom, ATreeThatWouldTakeHoursIsRefused) {
   EXPECT_NE(refusal(optionsOf(file, 0.3)).find("too much to draw"), std::string::npos);
 }
 
-TEST(TreePhantom, NameAndTreeExcludeEachOtherAndSizeFollowsFromTheTree) {
-  const TreeFile file(kTrees);
-  PhantomOptions options = optionsOf(file, 0.5);
-  options.name = "tube";
-  EXPECT_NE(refusal(options).find("expected one of them"), std::string::npos);
-  options.name.clear();
-  options.size = 64;
-  EXPECT_NE(refusal(options).find("--size"), std::string::npos);
-}
-
 TEST(TreePhantom, HostileShapesGiveAValidTruth) {
   for (const char* text : {"1 0 0 0 0 1 -1\n", "1 0 0 0 0 1 -1\n2 0 3 0 0 1 1\n3 0 0 0 0 1 2\n",
                            "1 0 0 0 0 1 -1\n2 0 0 0 0 1 1\n3 0 0 0 0 1 2\n",
