@@ -17,7 +17,7 @@ TEXT
 }
 
 packages=(
-  build-essential cmake ninja-build ccache git ca-certificates
+  build-essential cmake ninja-build ccache git ca-certificates python3
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
   libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev libcsv-dev

@@ -13,7 +13,7 @@ FORBIDDEN = re.compile(r"[Jj]son::(parse|accept)\(|\bis_(number|binary)\w*\(|"
 ALLOWED = {
     "formats/case/json_value.cpp": "the reader",
     "converters/library/verified_revisions.cpp": "values that were read by the reader before",
-    "viewer/session/compact_pack.cpp": "a pack of this program",
+    "viewer/session/case_pack.cpp": "a pack of this program",
 }
 
 

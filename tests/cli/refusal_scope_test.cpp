@@ -28,6 +28,8 @@ report case.lumen out/r.html --point-spread 1
   --point-spread does nothing without --volume
 report case.lumen out/r.html --from nrrd
   --from does nothing without --volume
+phantom tube out/p.nrrd --tree truth.swc
+  tube and --tree are two phantoms, expected one
 phantom out/p.nrrd --tree truth.swc --size 40
   --size does nothing with --tree
 phantom tube out/p.nrrd --size 32 --clicks careless

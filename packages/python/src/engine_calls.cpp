@@ -124,6 +124,7 @@ std::pair<std::shared_ptr<Volume>, std::vector<std::string>> readVolume(const st
     engine::VolumeArguments arguments;
     engine::addVolumeRows(table, arguments);
     engine::setRows(table, {"", {}, options});
+    if (isAddress(file)) throw invalidInput(std::string("volume: ") + kAddressFault);
     const engine::FileFormat& format = engine::inputFormat(file, "");
     if (format.readVolume == nullptr) throw unsupported(file + ": this is not a volume");
     *volume = engine::readVolumeFile(file, format, arguments, progress);
