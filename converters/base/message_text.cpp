@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/base/message_text.h"
-
+// Declared in shown_text.h.
+#include "converters/base/shown_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen {

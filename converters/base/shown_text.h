@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -38,3 +39,14 @@ inline std::string spacingText(const Eigen::Vector3d& spacing, int digits = 6) {
 }
 
 }  // namespace lumen::convert
+
+namespace lumen {
+
+// Final clean-up of a message for a person.
+
+/// `message` for a terminal: each of its lines is printable and has no object addresses, which
+/// libraries put into their messages ("NrrdImageIO(0x55d0c0ffee00): ") and which differ from run to
+/// run.
+std::string messageText(std::string_view message);
+
+}  // namespace lumen

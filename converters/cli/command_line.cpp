@@ -14,8 +14,8 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "converters/base/message_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/cli/commands.h"
 #include "converters/cli/help_text.h"
 #include "converters/cli/interrupt.h"

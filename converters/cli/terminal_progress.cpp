@@ -8,7 +8,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "converters/base/message_text.h"
+#include "converters/base/shown_text.h"
 
 namespace lumen {
 

@@ -15,9 +15,8 @@
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/write_gltf.h"
 #include "converters/io/mesh/write_plain.h"
-#include "converters/io/mesh/write_vtp.h"
 #include "converters/io/volume/write_volume.h"
-#include "converters/stages/surface/skin.h"
+#include "converters/stages/surface/to_surface_mesh.h"
 
 namespace lumen::engine {
 

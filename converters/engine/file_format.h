@@ -13,7 +13,7 @@
 #include "converters/engine/scene_input.h"
 #include "converters/io/centerline/centerline_file.h"
 #include "converters/io/content/file_content.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/io/volume/read_volume.h"
 #include "converters/stages/surface/closed_surface.h"

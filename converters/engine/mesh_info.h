@@ -7,7 +7,7 @@
 #include "converters/base/progress.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/mesh_input.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/repair/mesh_report.h"
 
 namespace lumen::engine {

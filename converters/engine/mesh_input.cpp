@@ -12,7 +12,7 @@
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/centerline/centerline_readers.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/repair/repair.h"
 #include "formats/container/printable.h"

@@ -9,7 +9,7 @@
 #include "converters/base/progress.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_format.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/repair/unit_guess.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 

@@ -10,9 +10,9 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/json_place.h"
-#include "converters/base/message_text.h"
 #include "converters/base/relayed_progress.h"
 #include "converters/base/run_program.h"
+#include "converters/base/shown_text.h"
 #include "converters/engine/file_access.h"
 
 namespace lumen::engine {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::engine {
 

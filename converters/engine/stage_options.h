@@ -11,12 +11,14 @@
 #include <Eigen/Core>
 
 #include "converters/base/option_table.h"
+#include "converters/base/progress.h"
 #include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/stages/fitting/fit_options.h"
 #include "converters/stages/tracking/track_options.h"
+#include "formats/case/case.h"
 #include "formats/case/case_encoding.h"
 
 namespace lumen::engine {
@@ -67,5 +69,15 @@ Eigen::Vector3d placeIn(const std::string& text);
 
 /// mm of the units that --unit and --seeds-unit take.
 const std::map<std::string, double>& millimetresByUnit();
+
+// --time: a case with a motion at one time, in place of the case at rest.
+
+/// Adds --time, whose value is stored in `time`, which must outlive the table.
+OptionRow& addTimeRow(OptionTable& table, std::optional<double>& time);
+
+/// The case of a file at the time of --time, or as it is without the option. Refuses the option for
+/// a case without a motion. Throws Error(InvalidInput) with the file's name.
+formats::Case atTime(formats::Case value, const std::optional<double>& time,
+                     const std::string& file, const OptionTable& table, Progress& progress);
 
 }  // namespace lumen::engine

@@ -14,8 +14,8 @@
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"
-#include "converters/stages/tracking/click_light.h"
 #include "converters/stages/tracking/tracking_volume.h"
+#include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

@@ -13,7 +13,7 @@
 #include "converters/base/sha256.h"
 #include "converters/base/text.h"
 #include "converters/library/derived.h"
-#include "converters/library/record_faults.h"
+#include "converters/library/record_of_case.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::convert {

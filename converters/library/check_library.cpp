@@ -18,7 +18,7 @@
 #include "converters/library/check_case.h"
 #include "converters/library/check_journal.h"
 #include "converters/library/derived.h"
-#include "converters/library/record_faults.h"
+#include "converters/library/record_of_case.h"
 #include "converters/library/signature.h"
 #include "formats/case/atomic_file.h"
 

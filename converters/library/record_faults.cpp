@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/record_faults.h"
+// Declared in record_of_case.h.
 
 #include <algorithm>
 #include <cmath>

@@ -13,6 +13,19 @@
 
 namespace lumen::formats {
 
+// A tree, and what its nodes own, at poses of the nodes; see spec/lumen.md, "The posed case".
+
+/// The pose in doubles; its rotation is divided by its length.
+field::NodePose nodePoseOf(const Pose& pose);
+
+/// Carries the centres, directions, radii and heights of all nodes. `poses`: one for each node.
+void carryTree(const std::vector<field::NodePose>& poses, CenterlineTree& tree);
+
+/// Carries positions (mm, LPS), of which node i owns offset[i] to offset[i + 1] - 1: wall points, or
+/// centres of blobs. `rest`: the tree before it was carried.
+void carryOwned(const CenterlineTree& rest, const std::vector<field::NodePose>& poses,
+                const std::vector<std::uint32_t>& offset, std::vector<Vec3f>& positions);
+
 /// The motion of a case, among names of node arrays.
 inline constexpr const char* kMotionName = "motion";
 

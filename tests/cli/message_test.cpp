@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/base/message_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 
 namespace lumen::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/server/answers.h"
 
-#include "converters/base/message_text.h"
+#include "converters/base/shown_text.h"
 
 namespace lumen::viewer {
 

@@ -16,7 +16,6 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
-#include "converters/engine/time_option.h"
 #include "converters/library/change.h"
 #include "formats/container/printable.h"
 #include "viewer/server/browser.h"

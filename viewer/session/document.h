@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/base/message_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/engine/file_format.h"
 #include "converters/library/library_file.h"
 #include "formats/case/topology.h"

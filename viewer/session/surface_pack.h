@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/stages/surface/closed_surface.h"

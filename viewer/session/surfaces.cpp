@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "converters/stages/surface/skin.h"
+#include "converters/stages/surface/to_surface_mesh.h"
 #include "viewer/session/surface_pack.h"
 
 namespace lumen::viewer {

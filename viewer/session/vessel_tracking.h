@@ -13,7 +13,7 @@
 #include "converters/stages/tracking/tracking_volume.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"
-#include "viewer/session/session_options.h"
+#include "viewer/session/encoded_document.h"
 
 namespace lumen::viewer {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "converters/base/message_text.h"
+#include "converters/base/shown_text.h"
 #include "formats/case/motion.h"
 #include "viewer/session/arguments.h"
 

@@ -13,7 +13,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/draw/picture/marks.h"
 #include "converters/draw/picture/trace.h"
-#include "converters/io/mesh/vertex_color.h"
+#include "converters/io/mesh/vertex_streams.h"
 #include "converters/judge/check/check.h"
 
 namespace lumen::convert {

@@ -14,7 +14,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/time_option.h"
+#include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "formats/container/printable.h"

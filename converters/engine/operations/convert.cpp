@@ -15,7 +15,7 @@
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/time_option.h"
+#include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/editing/edit_request.h"
 #include "converters/stages/fitting/fit.h"

@@ -16,7 +16,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/time_option.h"
+#include "converters/engine/stage_options.h"
 #include "converters/export/export_case.h"
 #include "converters/judge/facts/reachable.h"
 #include "formats/case/atomic_file.h"

@@ -12,7 +12,6 @@
 #include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/prepare_case.h"
-#include "converters/engine/replaced_case.h"
 #include "converters/engine/scope.h"
 #include "converters/library/change.h"
 #include "formats/container/printable.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "converters/base/number_text.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/write_plain.h"
 
 namespace lumen::convert {

@@ -12,7 +12,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/frame.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 
 namespace lumen::convert {
 

@@ -11,7 +11,7 @@
 #include "converters/base/parsed_number.h"
 #include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_builder.h"
-#include "converters/io/mesh/mesh_bytes.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "formats/case/base64.h"
 #include "formats/case/json_document.h"
 #include "formats/container/printable.h"

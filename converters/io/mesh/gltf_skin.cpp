@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/gltf_skin.h"
-
+// Declared in gltf_document.h.
 #include <algorithm>
 #include <cstring>
 #include <string>
 
+#include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/write_gltf.h"
 
 namespace lumen::convert {

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/shown_text.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::convert {
 

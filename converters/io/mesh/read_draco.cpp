@@ -8,7 +8,7 @@
 #include <draco/compression/decode.h>
 
 #include "converters/base/isolated_call.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::convert {
 namespace {

@@ -16,8 +16,7 @@
 #include "converters/io/mesh/gltf_content.h"
 #include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_builder.h"
-#include "converters/io/mesh/mesh_bytes.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::convert {
 namespace {

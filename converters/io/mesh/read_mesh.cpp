@@ -3,7 +3,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/io/mesh/mesh_readers.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

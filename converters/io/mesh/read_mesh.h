@@ -4,13 +4,113 @@
 // read.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/geometry/mesh_measures.h"
+#include "converters/io/mesh/mesh_builder.h"
+#include "converters/io/vtk/vtk_poly_data.h"
 
 namespace lumen::convert {
+
+// Triangle mesh as stored in a file of another program.
+
+/// A mesh as stored in its file: nothing is repaired, and triangles may have any orientation.
+struct MeshFile {
+  /// The mesh has the file's unit, and the axes that the file names are turned to LPS. glTF, in
+  /// metres with +Y up by its standard, becomes mm and LPS. There is at least one triangle,
+  /// coordinates are finite and below 1e12, indices are in range. Equal points of STL are merged.
+  TriangleMesh mesh;
+  std::vector<std::string> groups;   ///< names of sets of triangles in the file
+  std::vector<std::uint32_t> group;  ///< index into `groups` of each triangle; empty: no groups
+  double unitMm = 0;                 ///< mm in one unit of `mesh`; 0: the file states none
+  bool frameStated = false;          ///< the file names its axes
+  /// Assumptions and omissions of the reader, one printable sentence each.
+  std::vector<std::string> notes;
+};
+
+// glTF 2.0 (Khronos), GLB or text.
+
+/// The triangles of the file's scene in mm, LPS: placed by their nodes, converted from glTF's
+/// metres with +Y up. Files of lumen are restored exactly. Primitives are groups, named by their
+/// extras as lumen writes them, or else by their mesh. KHR_draco_mesh_compression and
+/// KHR_mesh_quantization are read; materials, skins and animations are ignored.
+MeshFile parseGltf(std::string_view bytes, const std::filesystem::path& file);
+
+// Wavefront OBJ ("Advanced Visualizer Manual", appendix B1, 1992).
+
+/// The faces of an OBJ file as triangles, polygons as fans. Indices may be negative. A group (g) or
+/// else an object (o) of triangles is a group with its name. Lines, points, materials, normals and
+/// texture are ignored; curved surfaces are too, with a note.
+MeshFile parseObj(std::string_view bytes, const std::string& name);
+
+// PLY (Turk, "The PLY polygon file format", 1994).
+
+/// The faces of a PLY file as triangles, polygons as fans: ASCII, or binary of either byte order,
+/// with any properties and elements besides x, y, z and vertex_indices (or vertex_index).
+MeshFile parsePly(std::string_view bytes, const std::string& name);
+
+// STL, binary and ASCII (3D Systems, "StereoLithography Interface Specification", 1989).
+
+/// The triangles of an STL file, points of equal coordinates merged; a file is binary if its size
+/// matches its count, or if it does not begin with "solid". Each solid of an ASCII file is a group
+/// of its name. Normals and attributes are ignored: the order of corners gives the orientation.
+MeshFile parseStl(std::string_view bytes, const std::string& name);
+
+// Surfaces of VTK: XML (.vtp) and the legacy format (.vtk); VTK File Formats, Kitware.
+
+/// The polygons (as fans) and strips of an XML PolyData file. The integers of a cell array
+/// ModelFaceID are groups named by their numbers. Lines and points are ignored.
+MeshFile parseVtp(std::string_view bytes, const std::string& name);
+
+/// The polygons, strips and groups of a legacy file, versions 1 to 5, ASCII or binary. A file whose
+/// title has SPACE=RAS, as 3D Slicer writes it, is turned to LPS.
+MeshFile parseVtk(std::string_view bytes, const std::string& name);
+
+// Decoder of one mesh from a Draco bit stream. Draco's headers stay behind this file.
+
+struct DecodedDraco {
+  std::vector<std::array<float, 3>> position;
+  std::vector<Triangle> triangle;  ///< indices, unchecked
+};
+
+/// Decodes `bytes` into `points` and `triangles`, in a process of its own, because Draco allocates
+/// the sizes that a stream announces; the attribute whose unique id is `position` holds the points.
+/// Empty if the stream is damaged, holds other counts, or more than 64 points and triangles per
+/// byte, a density that no coded surface reaches.
+DecodedDraco decodeDracoMesh(std::string_view bytes, std::uint32_t position, std::size_t points,
+                             std::size_t triangles);
+
+// Binary numbers of mesh files.
+
+enum class Endian : bool { Little, Big };
+
+/// The number of type T at `bytes`, at any alignment.
+template <class T>
+T loadNumber(const char* bytes, Endian endian) {
+  static_assert(std::endian::native == std::endian::little);
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), bytes, sizeof(T));
+  if (endian == Endian::Big) std::reverse(raw.begin(), raw.end());
+  return std::bit_cast<T>(raw);
+}
+
+// VTK's legacy format: keywords as text, numbers as text or big-endian after a line.
+
+/// A legacy file of PolyData, versions 1 to 5.1; only the array `wanted` of its cell data is kept,
+/// and no point data. `frame` receives the frame stated in the title. Throws Error(InvalidInput)
+/// with the line or byte, the finding and the expectation, and Error(Unsupported) for other data
+/// sets.
+VtkPolyData parseVtkLegacy(std::string_view bytes, const std::string& name, std::string_view wanted,
+                           StatedFrame& frame);
 
 enum class MeshFormat : std::uint8_t { Stl, Obj, Ply, Gltf, Vtp, Vtk };
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/io/mesh/mesh_builder.h"
-#include "converters/io/mesh/mesh_readers.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/text_cursor.h"
 
 namespace lumen::convert {

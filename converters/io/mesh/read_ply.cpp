@@ -8,9 +8,8 @@
 
 #include "converters/base/number_text.h"
 #include "converters/io/mesh/mesh_builder.h"
-#include "converters/io/mesh/mesh_bytes.h"
-#include "converters/io/mesh/mesh_readers.h"
 #include "converters/io/mesh/ply_header.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/text_cursor.h"
 
 namespace lumen::convert {

@@ -8,8 +8,7 @@
 #include <string_view>
 
 #include "converters/io/mesh/mesh_builder.h"
-#include "converters/io/mesh/mesh_readers.h"
-#include "converters/io/mesh/vtk_legacy.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/vtk/vtk_poly_data.h"
 #include "converters/io/vtk/vtk_xml.h"
 

@@ -1,11 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/io/mesh/vertex_streams.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
+
+#include "converters/base/error.h"
+#include "formats/field/repeatable_math.h"
 
 namespace lumen::convert {
+
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+// clang-format off
+// Every sixteenth colour of viridis (N. Smith and S. van der Walt, 2015, for matplotlib; CC0),
+// sRGB.
+constexpr std::array<Rgb, 17> kViridis = {{
+    {68, 1, 84},    {72, 24, 106},  {71, 45, 123},  {66, 64, 134},  {59, 82, 139},   {51, 99, 141},
+    {44, 114, 142}, {38, 130, 142}, {33, 145, 140}, {31, 160, 136}, {40, 174, 128},  {63, 188, 115},
+    {94, 201, 98},  {132, 212, 75}, {173, 220, 48}, {216, 226, 25}, {253, 231, 37}}};
+// M. Okabe and K. Ito, Color Universal Design, 2008, without black, sRGB.
+constexpr std::array<Rgb, 7> kHues = {{
+    {230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0},
+    {204, 121, 167}}};
+// clang-format on
+
+/// IEC 61966-2-1: from sRGB, 0 .. 255, to linear light.
+std::uint16_t linear(double value) {
+  const double s = value / 255;
+  const double light = s <= 0.04045
+                           ? s / 12.92
+                           : field::repeatableExp(2.4 * field::repeatableLog((s + 0.055) / 1.055));
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(light, 0.0, 1.0)));
+}
+
+Color viridis(double share) {
+  const double place = 16 * std::clamp(share, 0.0, 1.0);
+  const std::size_t first = std::min<std::size_t>(15, static_cast<std::size_t>(place));
+  const double t = place - static_cast<double>(first);
+  Color color{0, 0, 0, 65535};
+  for (std::size_t i = 0; i < 3; ++i)
+    color[i] = linear((1 - t) * kViridis[first][i] + t * kViridis[first + 1][i]);
+  return color;
+}
+
+// Position of a value between the ends of a scale. Radii use their logarithm: those of one tree
+// differ by a factor of up to a hundred.
+double shareOf(double value, const ColorScale& scale) {
+  const double low = scale.low, high = scale.high;
+  if (!(high > low)) return 0;
+  if (scale.by != ColorBy::Radius || !(low > 0)) return (value - low) / (high - low);
+  return field::repeatableLog(value / low) / field::repeatableLog(high / low);
+}
+
+Color hue(std::uint32_t branch) {
+  const Rgb& rgb = kHues[branch % kHues.size()];
+  return {linear(rgb[0]), linear(rgb[1]), linear(rgb[2]), 65535};
+}
+
+}  // namespace
+
+ColorScale measureColorScale(const SurfaceMesh& surface, ColorBy by) {
+  if (by == ColorBy::Confidence && surface.confidence.empty() && !surface.position.empty())
+    throw invalidInput(
+        "color confidence: the case has no inlier rates, which come with tracking; expected branch "
+        "or radius");
+  if (by != ColorBy::Radius || surface.radius.empty()) return {by, 0, 1};
+  const auto [low, high] = std::minmax_element(surface.radius.begin(), surface.radius.end());
+  return {by, *low, *high};
+}
+
+std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& scale) {
+  std::vector<Color> colors;
+  colors.reserve(surface.position.size());
+  if (scale.by == ColorBy::Branch)
+    for (const std::uint32_t branch : surface.branch) colors.push_back(hue(branch));
+  if (scale.by == ColorBy::Branch || scale.by == ColorBy::None) return colors;
+  const std::span<const float> values =
+      scale.by == ColorBy::Radius ? surface.radius : surface.confidence;
+  for (const float value : values) colors.push_back(viridis(shareOf(double{value}, scale)));
+  return colors;
+}
+
+const char* colorMapName(ColorBy by) {
+  return by == ColorBy::Branch ? "Okabe-Ito without black, by index modulo 7" : "viridis";
+}
+
 namespace {
 
 // A micrometre is far below the resolution of a volume; normals must be of unit length within

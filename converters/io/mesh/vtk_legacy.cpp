@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/vtk_legacy.h"
+// Declared in read_mesh.h.
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
-#include "converters/io/mesh/mesh_bytes.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/text_cursor.h"
 
 namespace lumen::convert {

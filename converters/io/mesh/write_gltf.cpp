@@ -12,10 +12,8 @@
 #include "converters/base/option_name.h"
 #include "converters/io/mesh/draco_mesh.h"
 #include "converters/io/mesh/gltf_document.h"
-#include "converters/io/mesh/gltf_skin.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/meshopt_codec.h"
-#include "converters/io/mesh/vertex_color.h"
 #include "converters/io/mesh/vertex_streams.h"
 #include "converters/io/mesh/write_options.h"
 

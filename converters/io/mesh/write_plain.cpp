@@ -13,7 +13,6 @@
 
 #include "converters/base/error.h"
 #include "converters/io/mesh/mesh_parts.h"
-#include "converters/io/mesh/plain_names.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {

@@ -22,4 +22,19 @@ std::string encodeStl(const SurfaceMesh& surface, bool solids);
 /// Error(Unsupported) for more vertices or faces than PLY can count.
 std::string encodePly(const SurfaceMesh& surface);
 
+// Meshes as the bytes of VTK XML PolyData (.vtp), mm, LPS. Equal meshes give equal bytes.
+
+/// Arrays are zlib-compressed and base64-coded inline, which every VTK from 5 on reads.
+///
+/// Points: Normals, Radius (mm), Branch (index into BranchLabels) and, where known, Confidence.
+/// Cells: the number of their group, as ModelFaceID for SimVascular and as CellEntityIds for VMTK.
+/// Field data, as texts: GroupNames and GroupKinds in the order of numbers, BranchLabels, Unit
+/// (mm), Generator, and SPACE (LPS), for 3D Slicer.
+///
+/// Throws Error(Failed) if zlib refuses.
+std::string encodeVtp(const SurfaceMesh& surface);
+
+/// A VTP file of a surface whose lengths are in `unit`, which the file states.
+std::string encodeVtpIn(const SurfaceMesh& surface, const std::string& unit);
+
 }  // namespace lumen::convert

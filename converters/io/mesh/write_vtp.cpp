@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // VTK's XML format. VTK itself is too heavy to link for one writer.
-#include "converters/io/mesh/write_vtp.h"
-
+// Declared in write_plain.h.
 #include <cstdint>
 #include <vector>
 
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/vtk_array.h"
 #include "converters/io/mesh/write_options.h"
+#include "converters/io/mesh/write_plain.h"
 
 namespace lumen::convert {
 namespace {

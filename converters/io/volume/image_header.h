@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "converters/base/text.h"
+#include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/open_volume.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/io/volume/stored_voxels.h"
+#include "converters/io/volume/text_header.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -84,5 +86,31 @@ std::array<int, 3> volumeSize(const std::filesystem::path& path,
 void chooseVoxels(const std::filesystem::path& path, const std::vector<std::int64_t>& sizes,
                   const ReadVolumeOptions& options, StoredVoxels& voxels,
                   std::size_t voxelsOfVolume);
+
+// Placement of the axes of an NRRD file in space.
+
+/// The geometry of a header with these `sizes`, one for each of its axes; axes of a voxel's
+/// components or of time are dropped if they have one entry. An unknown unit appends a sentence to
+/// `assumptions`. Throws Error(InvalidInput) unless three axes with consistent fields remain.
+StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int64_t>& sizes,
+                            const ReadVolumeOptions& options,
+                            std::vector<std::string>& assumptions);
+
+// Conversion between NIfTI-1's header, in RAS, and lumen's geometry, in LPS.
+
+/// The placement of the voxels by `header`. The sform is used if its axes are orthogonal and either
+/// the qform is not stated, or the sform is the scanner's; the qform otherwise. A transform that is
+/// invalid (numbers that are not finite, no rotation) is replaced by the other, and if none is
+/// stated, the volume's own axes are used; this, transforms that disagree, and another spacing in
+/// the sform that the options do not settle, append a sentence each to `assumptions`. Throws
+/// Error(InvalidInput), naming `path`, if transforms are stated and none can be used.
+StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions& options,
+                             const std::filesystem::path& path,
+                             std::vector<std::string>& assumptions);
+
+/// The bytes before the voxels of a file of this volume: qform and sform are both written, as
+/// scanner coordinates in mm. Throws Error(Unsupported), naming `path`, for more than 32767 voxels
+/// along an axis.
+std::string niftiHeader(const Volume& volume, const std::filesystem::path& path);
 
 }  // namespace lumen::convert

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/volume/nifti_geometry.h"
-
+// Declared in image_header.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
+#include "converters/io/volume/image_header.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/volume/nrrd_geometry.h"
+// Declared in image_header.h.
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,6 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/io/volume/image_header.h"
-#include "converters/io/volume/nifti_geometry.h"
 #include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/packed_file.h"
 #include "converters/io/volume/volume_checks.h"

@@ -12,7 +12,6 @@
 #include "converters/base/text.h"
 #include "converters/io/volume/detached_data.h"
 #include "converters/io/volume/image_header.h"
-#include "converters/io/volume/nrrd_geometry.h"
 #include "converters/io/volume/text_header.h"
 #include "converters/io/volume/volume_checks.h"
 

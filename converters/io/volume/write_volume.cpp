@@ -15,7 +15,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/sha256.h"
-#include "converters/io/volume/nifti_geometry.h"
+#include "converters/io/volume/image_header.h"
 
 namespace lumen::convert {
 namespace {

@@ -2,16 +2,19 @@
 // edit_request.h: making a correction, and keeping its request.
 #include "converters/stages/editing/edit_request.h"
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include <nlohmann/json.hpp>
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/json_place.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/edit.h"
-#include "converters/stages/editing/edit_request_text.h"
 #include "converters/stages/editing/wall_edits.h"
 #include "formats/case/enum_names.h"
 
@@ -99,6 +102,96 @@ Change applyEdit(Case& target, const EditRequest& request) {
 
 bool hasEdits(const formats::Metadata& metadata) {
   return !recordedEdits(metadata).empty();
+}
+
+namespace {
+
+using formats::CenterlineTree;
+using Json = nlohmann::ordered_json;
+using Eigen::Vector3d;
+
+// A vessel is found again within this multiple of its radius: rerun tracks differ by less, and the
+// next vessel is farther away.
+constexpr double kSearchRadii = 2;
+
+/// To a tenth of a micrometre, which no volume resolves.
+double rounded(double mm) {
+  return std::round(mm * 1e4) / 1e4;
+}
+
+Json vectorJson(const Vector3d& v) {
+  return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
+}
+
+Json anchorOf(std::uint32_t node, const CenterlineTree& tree) {
+  return {{"label", tree.branches[tree.branch[node]].label},
+          {"at", vectorJson(toEigen(tree.centre[node]))},
+          {"radius", rounded(static_cast<double>(tree.radius[node]))}};
+}
+
+struct Anchor {
+  std::string label;
+  Vector3d at = Vector3d::Zero();
+  double radius = 0;
+};
+
+Anchor anchorIn(const JsonPlace& json) {
+  Anchor anchor{json.at("label").text(), json.at("at").vector(), json.at("radius").number()};
+  if (!(anchor.radius > 0)) json.at("radius").refuse("a number above 0");
+  return anchor;
+}
+
+/// The nearest node within reach of the anchor, of its label if there is one.
+std::uint32_t nodeAt(const Anchor& anchor, const CenterlineTree& tree) {
+  const double most = kSearchRadii * anchor.radius;
+  std::uint32_t best = 0, bestNamed = 0;
+  double least = std::numeric_limits<double>::infinity(), leastNamed = least;
+  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i) {
+    const double distance = (toEigen(tree.centre[i]) - anchor.at).norm();
+    if (distance < least) least = distance, best = i;
+    const bool isNamed = tree.branches[tree.branch[i]].label == anchor.label;
+    if (isNamed && distance < leastNamed) leastNamed = distance, bestNamed = i;
+  }
+  if (leastNamed <= most) return bestNamed;
+  if (least <= most) return best;
+  throw invalidInput("no vessel lies within " + fixedText(most, 1) + " mm of " +
+                     placeText(anchor.at));
+}
+
+std::uint32_t middleNode(const formats::Branch& branch) {
+  return branch.firstNode + branch.nodeCount / 2;
+}
+
+}  // namespace
+
+std::string textOfRequest(const EditRequest& request, const CenterlineTree& tree) {
+  Json json{{"op", request.op}};
+  if (request.branch)
+    json["branch"] = anchorOf(middleNode(tree.branches.at(*request.branch)), tree);
+  if (request.node && *request.node < tree.nodeCount())
+    json["node"] = anchorOf(*request.node, tree);
+  if (!request.word.empty()) json["word"] = request.word;
+  if (request.position) json["position"] = vectorJson(*request.position);
+  if (request.by) json["by"] = vectorJson(*request.by);
+  if (request.radius) json["radius"] = rounded(*request.radius);
+  if (request.reach) json["reach"] = rounded(*request.reach);
+  return json.dump();
+}
+
+EditRequest requestInTree(const std::string& text, const CenterlineTree& tree) {
+  JsonFile file(text, "correction");
+  const JsonPlace json(file);
+  json.onlyKeys({"op", "branch", "node", "word", "position", "by", "radius", "reach"});
+  EditRequest request;
+  request.op = json.at("op").text();
+  if (json.has("branch")) request.branch = tree.branch[nodeAt(anchorIn(json.at("branch")), tree)];
+  if (json.has("node")) request.node = nodeAt(anchorIn(json.at("node")), tree);
+  if (json.has("word")) request.word = json.at("word").text();
+  if (json.has("position")) request.position = json.at("position").vector();
+  if (json.has("by")) request.by = json.at("by").vector();
+  if (json.has("radius")) request.radius = json.at("radius").number();
+  if (json.has("reach")) request.reach = json.at("reach").number();
+  return request;
 }
 
 }  // namespace lumen::convert

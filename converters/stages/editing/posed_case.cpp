@@ -8,7 +8,6 @@
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/stages/fitting/fit.h"
-#include "formats/case/carried_case.h"
 #include "formats/case/motion.h"
 #include "formats/case/validate.h"
 

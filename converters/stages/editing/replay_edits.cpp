@@ -6,7 +6,6 @@
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/stages/editing/edit_request.h"
-#include "converters/stages/editing/edit_request_text.h"
 
 namespace lumen::convert {
 

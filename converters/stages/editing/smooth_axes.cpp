@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/editing/smooth_axes.h"
-
+// Declared in untangle.h.
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -9,6 +8,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
+#include "converters/stages/editing/untangle.h"
 
 namespace lumen::convert {
 namespace {

@@ -13,7 +13,6 @@
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/draft.h"
 #include "converters/stages/editing/node_graph.h"
-#include "converters/stages/editing/smooth_axes.h"
 
 namespace lumen::convert {
 namespace {

@@ -79,3 +79,15 @@ private:
 };
 
 }  // namespace lumen::convert::fitting
+
+namespace lumen::convert {
+
+// Wall points where none could be measured: on the cylinders of nodes that were bridged or given.
+
+/// A ring of points for every node that was not measured and has no points: around it at its
+/// radius, mm, LPS, without points in another branch's lumen near by along the tree. Empty for all
+/// other nodes.
+std::vector<std::vector<formats::Vec3f>> pointsOfUnmeasured(const formats::Case& value,
+                                                            const formats::Neighbours& neighbours);
+
+}  // namespace lumen::convert

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "converters/stages/fitting/fit.h"
-#include "converters/stages/fitting/unmeasured.h"
+#include "converters/stages/fitting/node_models.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"
 

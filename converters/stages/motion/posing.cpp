@@ -2,7 +2,7 @@
 #include "converters/stages/motion/posing.h"
 
 #include "converters/base/vectors.h"
-#include "formats/case/carried_case.h"
+#include "formats/case/motion.h"
 
 namespace lumen::convert {
 namespace {

@@ -13,7 +13,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include "converters/geometry/box_tree_walk.h"
+#include "converters/geometry/box_tree.h"
 #include "converters/stages/surface/remesh.h"
 
 namespace lumen::convert {

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "converters/base/progress.h"
 #include "converters/io/mesh/surface_mesh.h"
+#include "converters/io/mesh/write_options.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/sheet_field.h"
 #include "formats/case/case.h"
@@ -33,5 +35,14 @@ VesselValues vesselAt(const formats::CenterlineTree& tree, const formats::Neighb
 /// Normals are those of the field, outward; vertices within a flat end have the end's. Throws
 /// Error(Cancelled).
 SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, Progress& progress);
+
+// The motion of a case as bones of its surface, for programs that know linear blend skinning.
+
+/// Bones of the surfaces of a case with models and a motion. A joint is a moving node whose blobs
+/// take part; all resting nodes share one. A vertex hangs on the nodes whose local fields blend at
+/// its place at rest, with their weights there, on the four greatest of them if there are more: to
+/// first order it then stays on the wall of the posed case (spec/lumen.md, "The posed case"). A periodic
+/// motion ends with the poses that it begins with.
+MeshSkin skinOf(const formats::Case& source, const std::vector<SurfaceMesh>& levels);
 
 }  // namespace lumen::convert

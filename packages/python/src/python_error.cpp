@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "packages/python/src/python_error.h"
 
-#include "converters/base/message_text.h"
+#include "converters/base/shown_text.h"
 #include "formats/container/error_code.h"
 
 namespace py = pybind11;

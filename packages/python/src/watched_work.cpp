@@ -12,7 +12,7 @@
 
 #include <tbb/global_control.h>
 
-#include "converters/base/message_text.h"
+#include "converters/base/shown_text.h"
 #include "packages/python/src/python_error.h"
 
 namespace py = pybind11;

@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "converters/stages/tracking/circles.h"
+#include "converters/stages/tracking/cylinder.h"
 
 namespace lumen::reproduce {
 

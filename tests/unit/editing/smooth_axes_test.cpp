@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Axes where no wall was measured, on cases of beads, and the curve that they follow.
-#include "converters/stages/editing/smooth_axes.h"
-
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +7,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
+#include "converters/stages/editing/untangle.h"
 #include "unit/formats/beads.h"
 
 namespace lumen::convert {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/fitting/unmeasured.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "converters/stages/fitting/node_models.h"
 #include "formats/case/node_origin.h"
 #include "tests/unit/formats/beads.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/library/record_faults.h"
+#include "converters/library/record_of_case.h"
 #include "tests/unit/formats/json_samples.h"
 #include "tests/unit/library/made_library.h"
 

@@ -14,9 +14,8 @@
 #include "capped_tube.h"
 #include "converters/io/mesh/write_gltf.h"
 #include "converters/io/mesh/write_plain.h"
-#include "converters/io/mesh/write_vtp.h"
 #include "converters/stages/surface/patches/polygonise.h"
-#include "converters/stages/surface/skin.h"
+#include "converters/stages/surface/to_surface_mesh.h"
 #include "synthetic.h"
 
 namespace {

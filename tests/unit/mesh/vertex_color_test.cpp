@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/vertex_color.h"
-
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "converters/io/mesh/vertex_streams.h"
 
 namespace lumen::convert {
 namespace {

@@ -13,8 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "capped_tube.h"
-#include "converters/io/mesh/plain_names.h"
-#include "converters/io/mesh/write_vtp.h"
+#include "converters/io/mesh/mesh_parts.h"
 #include "open_mesh.h"
 
 namespace lumen::convert {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/click_light.h"
-
 #include <gtest/gtest.h>
 
 #include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/vessel_at_click.h"
 
 namespace lumen::convert {
 namespace {

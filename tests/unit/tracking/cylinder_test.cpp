@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
-#include "converters/stages/tracking/circles.h"
 #include "converters/stages/tracking/cylinder_equations.h"
 
 namespace lumen::convert {

@@ -18,7 +18,7 @@
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/surface/closed_surface.h"
 #include "formats/container/printable.h"

@@ -21,7 +21,7 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/isaac/usd.h"
 #include "converters/export/targets/targets.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -11,7 +11,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/frame.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 
 namespace lumen::convert {
 

@@ -17,7 +17,7 @@
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/text_files.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 
 namespace lumen::convert {
 

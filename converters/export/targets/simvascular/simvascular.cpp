@@ -20,9 +20,9 @@
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/vtk_array.h"
-#include "converters/io/mesh/write_vtp.h"
+#include "converters/io/mesh/write_plain.h"
 
 namespace lumen::convert {
 

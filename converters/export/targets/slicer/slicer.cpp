@@ -21,7 +21,7 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
 #include "converters/io/centerline/write_centerline.h"
-#include "converters/io/mesh/write_vtp.h"
+#include "converters/io/mesh/write_plain.h"
 
 namespace lumen::convert {
 

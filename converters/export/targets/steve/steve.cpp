@@ -13,7 +13,6 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
 #include "converters/io/mesh/write_plain.h"
-#include "converters/io/mesh/write_vtp.h"
 
 namespace lumen::convert {
 

@@ -15,7 +15,7 @@
 #include "converters/export/shared/network.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
-#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/mesh_parts.h"
 
 namespace lumen::convert {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "converters/base/vectors.h"
-#include "converters/geometry/box_tree_walk.h"
+#include "converters/geometry/box_tree.h"
 
 namespace lumen::convert::fitting {
 
