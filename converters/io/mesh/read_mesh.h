@@ -16,8 +16,6 @@
 #include <vector>
 
 #include "converters/geometry/mesh_measures.h"
-#include "converters/io/mesh/mesh_builder.h"
-#include "converters/io/vtk/vtk_poly_data.h"
 
 namespace lumen::convert {
 
@@ -102,15 +100,6 @@ T loadNumber(const char* bytes, Endian endian) {
   if (endian == Endian::Big) std::reverse(raw.begin(), raw.end());
   return std::bit_cast<T>(raw);
 }
-
-// VTK's legacy format: keywords as text, numbers as text or big-endian after a line.
-
-/// A legacy file of PolyData, versions 1 to 5.1; only the array `wanted` of its cell data is kept,
-/// and no point data. `frame` receives the frame stated in the title. Throws Error(InvalidInput)
-/// with the line or byte, the finding and the expectation, and Error(Unsupported) for other data
-/// sets.
-VtkPolyData parseVtkLegacy(std::string_view bytes, const std::string& name, std::string_view wanted,
-                           StatedFrame& frame);
 
 enum class MeshFormat : std::uint8_t { Stl, Obj, Ply, Gltf, Vtp, Vtk };
 

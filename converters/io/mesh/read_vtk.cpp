@@ -9,6 +9,7 @@
 
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/read_mesh.h"
+#include "converters/io/mesh/vtk_legacy.h"
 #include "converters/io/vtk/vtk_poly_data.h"
 #include "converters/io/vtk/vtk_xml.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declared in read_mesh.h.
+
+#include "converters/io/mesh/vtk_legacy.h"
 
 #include <array>
 #include <cmath>
