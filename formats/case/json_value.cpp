@@ -5,7 +5,11 @@
 
 namespace lumen::formats {
 
+namespace {
+
 using Json = nlohmann::json;
+
+}  // namespace
 
 JsonDocument::JsonDocument(Json root) : m_root(std::make_unique<Json>(std::move(root))) {}
 JsonDocument::JsonDocument(JsonDocument&&) noexcept = default;
