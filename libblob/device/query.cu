@@ -122,7 +122,7 @@ BLOB_DEVICE_FN uint32_t vesselOf(const Columns& c, uint64_t i) {
 template <int Phi>
 BLOB_DEVICE_FN blob_device_vessel openVessel(const Columns& c, uint64_t i) {
   blob_device_vessel v = blob_device_open(c.words, vesselOf(c, i));
-  if (Phi != kAnyKernel) v.phi = Phi;
+  if (Phi != kAnyKernel) v.phi = static_cast<blob_device_word>(Phi);
   return v;
 }
 
