@@ -4,7 +4,7 @@
 
     tests/mutants/plant.py                       # all, about a minute each after the first build of their programs
     tests/mutants/plant.py --only libblob        # those whose file or program has that in its name
-    tests/mutants/plant.py --list                # what there is, and whether each line is still there once
+    tests/mutants/plant.py --list                # what there is; ends with 1 if a line is not there once
 
 The checkout, build/mutants by default, stays there with its build. Before a fault is planted its test
 must pass. Ends with 0 if at most --survivors faults survive and none is stale.
@@ -102,11 +102,13 @@ def main():
     options = arguments()
     faults = [f for f in FAULTS if options.only in f.file or options.only in f.target]
     if options.list:
+        stale = 0
         for fault in faults:
             path = ROOT / fault.file
             isThere = path.exists() and path.read_text().count(fault.before) == 1
+            stale += not isThere
             print(f"{'there' if isThere else 'STALE':6} {fault.target:18} {fault.file}: {fault.what}")
-        return 0
+        return 1 if stale else 0
     checkout = Checkout(options.folder.resolve(), options.commit, options.preset, options.jobs)
     outcomes = []
     for fault in faults:
