@@ -25,7 +25,7 @@ void requireRange(const OptionName& option, double value, double low, double hig
                                     formats::shortText(high));
 }
 
-// What the rows of the options cannot state.
+// Rules that the rows of the options cannot state.
 void checkOptions(const PhantomOptions& options) {
   const std::vector<std::string>& names = phantomNames();
   if (options.tree.empty() && std::find(names.begin(), names.end(), options.name) == names.end())

@@ -110,7 +110,7 @@ def negative(text):
 
 
 def future(text):
-    """Of a later version of the format."""
+    """A part of a later version of the format."""
     return re.sub(r'"(version|minimumReader)": "[^"]*"', r'"\1": "2.0"', text, count=2).encode()
 
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the last run of NotingCommand found.
+/// Findings of the last run of NotingCommand.
 struct Notes {
   std::optional<RunSettings> settings;
 };
