@@ -10,6 +10,9 @@
 
 namespace lumen {
 
+/// Standard deviation of a normal distribution, in medians of absolute deviations.
+constexpr double kDeviationOfMedian = 1.4826;
+
 /// Half the sum of the two middle values, or the middle one; of a non-empty list.
 inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());

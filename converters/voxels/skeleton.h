@@ -57,9 +57,8 @@ public:
         if (reach(j, [&] { return length / m_divisor[j]; })) m_length[j] = m_length[i] + length;
       });
     };
-    std::size_t taken = 0;
     m_paths.run(root, eachStep, [&](std::uint32_t, float) {
-      if (taken++ % kCheckEvery == 0) progress.check();
+      progress.check();
       return SearchStep::GoOn;
     });
   }
@@ -79,8 +78,6 @@ public:
   }
 
 private:
-  static constexpr std::size_t kCheckEvery = 1 << 14;  // voxels: well below 100 ms
-
   const VoxelSet& m_set;
   std::span<const float> m_depths;
   std::vector<float> m_divisor;  ///< divisor of a step that ends in a voxel

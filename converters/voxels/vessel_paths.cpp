@@ -52,7 +52,7 @@ VesselPaths::VesselPaths(const VoxelSet& set, std::span<const float> depths, con
 void VesselPaths::findSteps(const Progress& progress) {
   tbb::parallel_for(
       std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()), [&](std::uint32_t i) {
-        if (i % 1024 == 0) progress.check();
+        progress.check();
         std::size_t next = kMostSteps * i;
         m_set.eachBeside(i, [&](std::uint32_t j, const Eigen::Vector3d& step) {
           if (!isOpen(std::min(i, j), std::max(i, j))) return;

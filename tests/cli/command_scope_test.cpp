@@ -42,8 +42,6 @@ seeds tube.nrrd out/s.json
   --crop 2,29,2,29,2,29 --spacing 0.21 --unit cm --dark true --inlier-rate 0.999
   --inlier-band 0.05 --rays 42 --samples 16 --noise-margin 100 --point-spread 0.4
   --smoothing 0.3 --repeat 1
-seeds noisy.nrrd out/s.json
-  --axes 21 --min-trials 3 --random-seed 2
 seeds times.nii out/s.json
   --volume-index 1
 seeds header/tube.nhdr out/s.json
@@ -230,7 +228,6 @@ protected:
     fs::copy_file("tube.nrrd", "volume");
     write("fork.swc", "1 0 0 0 0 .6 -1\n2 0 6 0 0 .6 1\n3 0 10 2 0 .5 2\n4 0 10 -3 0 .4 2\n");
     // cylinders are drawn at random only where noise leaves gaps between the others
-    make({"phantom", "bifurcation", "noisy.nrrd", "--size", "64", "--noise", "0.25"});
     write("header/vessels-only.scn",
           "<Node name=\"root\"><MeshSTLLoader filename=\"../plain.stl\"/></Node>\n");
     write("about.json", "{\"title\": \"About\", \"description\": \"A tube to try\"}");

@@ -101,7 +101,6 @@ using Eigen::Vector3d;
 /// Gap up to the axis of the other vessel, of both radii: what is left of a vessel behind its cut is
 /// a bump of a wall, and dropped, as long as it is no longer than both are wide.
 constexpr double kSideGapRadii = 2;
-constexpr double kSideAhead = 0.8;  // cosine, of an end and the way to the other vessel
 /// Way along the vessels from an end to the place ahead of it, of both radii: a shorter one is a fork
 /// that the end itself hangs on.
 constexpr double kSideLoopRadii = 8;
@@ -122,7 +121,7 @@ std::optional<std::uint32_t> nodeAhead(const NodeGraph& graph, std::uint32_t end
     if (toWall >= least || length > kSideGapRadii * wide) continue;
     const double along = outward.dot(gap);
     const double beside = (gap - along * outward).norm();
-    if (along < kSideAhead * length || beside > graph.radius(node)) continue;
+    if (along < kAheadOfEnd * length || beside > graph.radius(node)) continue;
     const auto way = graph.wayBetween(end, node);
     if ((way && *way < kSideLoopRadii * wide) || !isOpen(from, graph.position(node))) continue;
     least = toWall;
@@ -150,9 +149,6 @@ std::vector<Vector3d> joinIntoSides(NodeGraph& graph, const IsOpen& isOpen) {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kOppositeCosine = 0.7;    // of the directions out of both tips
-constexpr double kLikeOverlapRadii = 1.4;  // ratio of the radii of one vessel on both sides
 
 /// A tip, and the nodes from it on up to the first fork.
 struct Tip {
@@ -190,9 +186,8 @@ std::size_t countWithin(const NodeGraph& graph, const Tip& tip, const Tip& other
 }
 
 std::optional<Overlap> overlapOf(const NodeGraph& graph, const Tip& a, const Tip& b) {
-  if (a.outward.dot(b.outward) > -kOppositeCosine) return std::nullopt;
-  if (std::max(a.radius, b.radius) > kLikeOverlapRadii * std::min(a.radius, b.radius))
-    return std::nullopt;
+  if (a.outward.dot(b.outward) > -kFacingCosine) return std::nullopt;
+  if (std::max(a.radius, b.radius) > kLikeRadii * std::min(a.radius, b.radius)) return std::nullopt;
   const bool isOneVessel =
       std::find(a.nodes.begin(), a.nodes.end(), b.nodes.front()) != a.nodes.end();
   if (isOneVessel) return std::nullopt;

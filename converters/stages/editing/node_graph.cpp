@@ -13,8 +13,6 @@ namespace {
 using Eigen::Vector3d;
 using formats::BranchKind;
 
-// Radii: what lies nearer to a fork is its own shape, what lies farther may have turned.
-constexpr double kArmBeginRadii = 1, kArmEndRadii = 4;
 constexpr double kMostRadii = 0.75;  // share of an arm's radii that its ratio holds for
 
 }  // namespace
@@ -82,7 +80,7 @@ std::optional<Arm> NodeGraph::armAlong(std::span<const std::uint32_t> nodes) con
   for (std::size_t i = 1; i < nodes.size() && along < kArmEndRadii * width; ++i) {
     const Vector3d at = position(nodes[i]);
     along += (at - position(nodes[i - 1])).norm();
-    if (along < kArmBeginRadii * width) continue;
+    if (along < width) continue;
     if (!from) from = at;
     to = at;
     radii.push_back(m_draft.nodes[nodes[i]].radius);
@@ -192,7 +190,7 @@ std::vector<NodeGraph::Width> NodeGraph::widthsAlong(std::span<const std::uint32
   double along = 0;
   for (std::size_t i = 1; i < nodes.size() && along < kArmEndRadii * width; ++i) {
     along += (position(nodes[i]) - position(nodes[i - 1])).norm();
-    if (along >= kArmBeginRadii * width) widths.push_back({along, radius(nodes[i])});
+    if (along >= width) widths.push_back({along, radius(nodes[i])});
   }
   return widths;
 }

@@ -17,6 +17,14 @@
 
 namespace lumen::convert {
 
+/// What the two sides of a gap in one vessel have: the cosine between the directions out of one and
+/// into the other, that between each and the way to the other, and the ratio of their radii.
+constexpr double kFacingCosine = 0.7, kAheadOfEnd = 0.8, kLikeRadii = 1.4;
+
+/// Radii from an end or a fork that show where a vessel leads, from the first radius on: what lies
+/// nearer is the shape of a fork, what lies farther may have turned.
+constexpr double kArmEndRadii = 4;
+
 /// A vessel between two forks or ends, away from its root.
 struct Chain {
   std::uint32_t parent = kNoNode;  ///< node that it leaves

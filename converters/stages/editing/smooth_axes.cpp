@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kForkRadii = 2;        // of the thinner vessel, around the place that it leaves
 constexpr double kTurnOfRadius = 0.25;  // radians that a radius of distance counts as
-constexpr double kCore = 0.5;           // of the parent's radius: nodes in it belong to the parent
+constexpr double kCoreOfParent = 0.5;   // of its radius: nodes in it belong to the parent
 
 class Axes {
 public:
@@ -117,7 +117,7 @@ private:
   [[nodiscard]] bool isInCore(const std::vector<std::uint32_t>& parent, const Vector3d& at) const {
     return std::any_of(parent.begin(), parent.end(), [&](std::uint32_t node) {
       const AxisPoint axis = axisAt(node);
-      return (axis.position - at).norm() < kCore * axis.radius;
+      return (axis.position - at).norm() < kCoreOfParent * axis.radius;
     });
   }
 

@@ -20,11 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using formats::BranchKind;
 
-constexpr double kReachRadii = 4;     // of both ends together: a longer gap is no crossing
-constexpr double kAheadCosine = 0.8;  // of an end and the way to the other
-constexpr double kFacingCosine = 0.7;
 constexpr double kTouching = 1.25;   // of both radii: vessels whose axes are this near touch
-constexpr double kLikeRadii = 1.4;   // ratio of the radii of one vessel on both sides
 constexpr double kLeastShare = 0.5;  // of the widest end: an end that leaves the volume is the root
 
 /// An end of a vessel that may continue beyond it.
@@ -121,7 +117,7 @@ private:
   [[nodiscard]] std::optional<double> joinCost(const VesselEnd& a, const VesselEnd& b) const {
     const Vector3d gap = b.position - a.position;
     const double length = gap.norm(), wide = a.radius + b.radius;
-    double reach = kReachRadii * wide;
+    double reach = kArmEndRadii * wide;  // beyond, the arms of both ends show nothing
     if (a.isStart() && b.isStart()) reach = std::max(reach, 2 * (m_graph.radius(a.parent) + wide));
     const double ratio = std::max(a.radius, b.radius) / std::min(a.radius, b.radius);
     if (length > reach || ratio > kLikeRadii) return std::nullopt;
@@ -129,7 +125,7 @@ private:
     if (facing < kFacingCosine) return std::nullopt;
     double ahead = 1;
     if (length > 0.5 * wide) ahead = std::min(a.outward.dot(gap), -b.outward.dot(gap)) / length;
-    if (ahead < kAheadCosine) return std::nullopt;
+    if (ahead < kAheadOfEnd) return std::nullopt;
     if (!isOpen(a.position, b.position) && !isHidden(a, b)) return std::nullopt;
     if (a.isStart() && b.isStart() && !crosses(a, b)) return std::nullopt;
     return length / wide + 2 * (2 - facing - ahead) + 2 * std::log(ratio);

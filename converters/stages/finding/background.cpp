@@ -14,10 +14,8 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kEdge = 16;        // voxels of a block
 constexpr int kAround = 2;       // blocks on either side that a place compares
 constexpr double kQuiet = 0.25;  // quantile of the blocks that hold background alone
-constexpr float kFromDeviation = 1.4826F;
 
 /// Median of a block's voxels, and the median absolute deviation from it.
 struct BlockLevel {
@@ -45,13 +43,13 @@ BlockLevel measureLevel(const std::vector<T>& voxels, const CellBox& cells, cons
 
 Background::Background(const Volume& volume, float sign, const Progress& progress)
     : m_voxels(volume.geometry.cells()) {
-  m_blocks.size = (m_voxels.size.array() + kEdge - 1) / kEdge;
+  m_blocks.size = (m_voxels.size.array() + kBlock - 1) / kBlock;
   std::vector<float> medians(m_blocks.count()), deviations(m_blocks.count());
   std::visit(
       [&](const auto& voxels) {
         tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
           progress.check();
-          const CellBox block{m_blocks.cell(b) * kEdge, Cell::Constant(kEdge)};
+          const CellBox block{m_blocks.cell(b) * kBlock, Cell::Constant(kBlock)};
           const BlockLevel level = measureLevel(voxels, m_voxels, block.meet(m_voxels), sign);
           medians[b] = level.median;
           deviations[b] = level.deviation;
@@ -63,11 +61,11 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
   smoothOver(medians, deviations);
   for (int x = 0; x < m_voxels.size[0]; ++x) m_alongX.push_back(between(x, m_blocks.size[0]));
   std::vector<float> all = deviations;
-  m_noise = std::max(m_noise, kFromDeviation * lowerQuantile(all, kQuiet));
+  m_noise = std::max(m_noise, static_cast<float>(kDeviationOfMedian) * lowerQuantile(all, kQuiet));
 }
 
 Background::Between Background::between(int voxel, int blocks) {
-  const double at = (voxel + 0.5) / kEdge - 0.5;
+  const double at = (voxel + 0.5) / kBlock - 0.5;
   const int low = std::clamp(static_cast<int>(std::floor(at)), 0, blocks - 1);
   return {low, std::min(low + 1, blocks - 1), static_cast<float>(std::clamp(at - low, 0.0, 1.0))};
 }
@@ -85,12 +83,12 @@ void Background::smoothOver(const std::vector<float>& medians,
           spreads.push_back(deviations[m_blocks.index(cell)]);
         });
     m_level[b] = lowerQuantile(levels, kQuiet);
-    m_unevenness[b] = kFromDeviation * upperMedian(spreads);
+    m_unevenness[b] = static_cast<float>(kDeviationOfMedian) * upperMedian(spreads);
   });
 }
 
 float Background::noiseAt(const Cell& cell) const {
-  return std::max(m_noise, m_unevenness[m_blocks.index(cell / kEdge)]);
+  return std::max(m_noise, m_unevenness[m_blocks.index(cell / kBlock)]);
 }
 
 void Background::alongRow(int y, int z, std::vector<float>& row) const {

@@ -18,6 +18,8 @@ namespace lumen::convert {
 /// are dark.
 class Background {
 public:
+  static constexpr int kBlock = 16;  ///< voxels along an edge
+
   /// `sign`: 1, or -1 if vessels are darker than their background. Throws Error(Cancelled).
   Background(const Volume& volume, float sign, const Progress& progress);
 

@@ -138,7 +138,6 @@ using Tissues = std::vector<PathTissue>;
 
 constexpr double kLeastExtent = 20;  // radii: connected paths that are bone
 constexpr double kBrightest = 0.95;  // quantile of the brightness along vessels
-constexpr std::size_t kVoxelsToCheck = 1 << 14;
 
 /// Brightness that few places in the middle of vessels exceed, by the paths away from bone.
 float brightestVessel(const BrightPaths& bright, std::span<const Tissues> tissues) {
@@ -189,7 +188,7 @@ public:
   /// Gives all other voxels to the owner from whom the fewest steps lead to them.
   void takeRest() {
     for (std::size_t k = 0; k < m_taken.size(); ++k) {
-      if (k % kVoxelsToCheck == 0) m_progress.check();
+      m_progress.check();
       m_set.eachBeside(m_taken[k], [&](std::uint32_t j, const Vector3d&) {
         if (m_owner[j] != PathTissue::Unknown) return;
         m_owner[j] = m_owner[m_taken[k]];
@@ -211,7 +210,7 @@ public:
       std::size_t count = 0;
       bool touches = false;
       for (std::size_t k = 0; k < part.size(); ++k) {
-        if (k % kVoxelsToCheck == 0) m_progress.check();
+        m_progress.check();
         touches = touches || isBeside(known, part[k]);
         if (isPath[part[k]]) {
           length += m_set.geometry().voxelSize();

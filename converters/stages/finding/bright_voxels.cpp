@@ -202,7 +202,6 @@ private:
 
 /// Adds the weak ridges that are connected with the lumen.
 void growIntoWeak(const CellBox& cells, ZeroedArray<std::uint8_t>& mark, const Progress& progress) {
-  constexpr std::size_t kCheckEvery = 1 << 14;
   std::vector<std::size_t> reached;
   const auto from = [&](std::size_t i) {
     cells.forEachNeighbour(cells.cell(i), [&](const Cell& cell) {
@@ -215,7 +214,7 @@ void growIntoWeak(const CellBox& cells, ZeroedArray<std::uint8_t>& mark, const P
   for (std::size_t i = 0; i < mark.size(); ++i)
     if (mark[i] == kLumen) from(i);
   for (std::size_t k = 0; k < reached.size(); ++k) {
-    if (k % kCheckEvery == 0) progress.check();
+    progress.check();
     from(reached[k]);
   }
 }

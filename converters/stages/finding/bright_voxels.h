@@ -26,6 +26,9 @@ namespace lumen::convert {
 /// buffers do not grow with the volume. Throws Error(Cancelled).
 ZeroedArray<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress);
 
+/// Fewer voxels show nothing: a cube of three.
+constexpr std::size_t kSpeck = 27;
+
 // Wide vessels that fade along their course (docs/method.md, section 1.13).
 
 /// Excess of every voxel of a volume over its background, and what of it is lumen.

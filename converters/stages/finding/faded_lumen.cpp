@@ -10,16 +10,14 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
+#include "converters/stages/finding/background.h"
 #include "converters/stages/finding/bright_voxels.h"
 
 namespace lumen::convert {
 namespace {
 
-constexpr int kContrastBlock = 16;     // voxels along an edge
-constexpr int kWideInside = 2;         // voxels to all sides of an inner one of a wide vessel
-constexpr int kNewInside = 1;          // the same of what has grown, which is no rim then
-constexpr std::size_t kFewInner = 27;  // inner voxels that show a wide vessel
-constexpr std::size_t kCheckEveryVoxels = 1 << 14;
+constexpr int kWideInside = 2;  // voxels to all sides of an inner one of a wide vessel
+constexpr int kNewInside = 1;   // the same of what has grown, which is no rim then
 
 /// Whether all voxels near one, to six sides, are marked.
 bool isInner(const CellBox& cells, const std::vector<bool>& isMarked, const Cell& cell,
@@ -39,7 +37,7 @@ class LocalContrast {
 public:
   LocalContrast(const Excess& excess, const std::vector<bool>& isLumen)
       : m_excess(excess), m_isLumen(isLumen) {
-    m_blocks.size = (excess.cells.size.array() + kContrastBlock - 1) / kContrastBlock;
+    m_blocks.size = (excess.cells.size.array() + Background::kBlock - 1) / Background::kBlock;
     m_contrast.assign(m_blocks.count(), 0);
   }
 
@@ -49,7 +47,8 @@ public:
     tbb::parallel_for(std::size_t{0}, m_contrast.size(), [&](std::size_t b) {
       if (m_contrast[b] > 0) return;
       progress.check();
-      const CellBox block{m_blocks.cell(b) * kContrastBlock, Cell::Constant(kContrastBlock)};
+      const CellBox block{m_blocks.cell(b) * Background::kBlock,
+                          Cell::Constant(Background::kBlock)};
       m_contrast[b] = contrastIn(block.meet(m_excess.cells));
       if (m_contrast[b] > 0) isNew = true;
     });
@@ -59,7 +58,7 @@ public:
   /// The contrast of the block around a voxel, or the greatest of those beside it; 0 if none is
   /// known.
   [[nodiscard]] float at(const Cell& cell) const {
-    const Cell block = cell / kContrastBlock;
+    const Cell block = cell / Background::kBlock;
     float contrast = m_contrast[m_blocks.index(block)];
     if (contrast > 0) return contrast;
     m_blocks.forEachNeighbour(block, [&](const Cell& other) {
@@ -76,7 +75,7 @@ private:
       if (m_isLumen[i] && isInner(m_excess.cells, m_isLumen, cell, kWideInside))
         values.push_back(m_excess.value[i]);
     });
-    return values.size() < kFewInner ? 0 : upperMedian(values);
+    return values.size() < kSpeck ? 0 : upperMedian(values);
   }
 
   const Excess& m_excess;
@@ -103,7 +102,7 @@ std::vector<bool> grown(const Excess& excess, float contrast, const std::vector<
     if (all[i]) front.push_back(i);
   while (local.measure(progress))
     for (std::size_t k = 0; k < front.size(); ++k) {
-      if (k % kCheckEveryVoxels == 0) progress.check();
+      progress.check();
       eachBeside(excess.cells, front[k], [&](std::size_t i) {
         const Cell cell = excess.cells.cell(i);
         const float half = all[i] ? 0 : 0.5F * local.at(cell);
@@ -133,7 +132,7 @@ std::vector<GrownPart> findGrownParts(const CellBox& cells, const std::vector<bo
     isSeen[first] = true;
     std::size_t inner = 0;
     for (std::size_t k = 0; k < part.voxels.size(); ++k) {
-      if (k % kCheckEveryVoxels == 0) progress.check();
+      progress.check();
       inner += isInner(cells, isNew, cells.cell(part.voxels[k]), kNewInside) ? 1 : 0;
       eachBeside(cells, part.voxels[k], [&](std::size_t i) {
         part.isHole = part.isHole && (isNew[i] || isLumen[i]);
@@ -141,7 +140,7 @@ std::vector<GrownPart> findGrownParts(const CellBox& cells, const std::vector<bo
         if (isNew[i]) isSeen[i] = true;
       });
     }
-    part.isWide = inner >= kFewInner;
+    part.isWide = inner >= kSpeck;
     parts.push_back(std::move(part));
   }
   return parts;
@@ -156,7 +155,7 @@ void growIntoFaded(const Excess& excess, float contrast, std::vector<bool>& isLu
   const std::vector<GrownPart> parts = findGrownParts(excess.cells, isNew, isLumen, progress);
   std::set<std::array<int, 3>> blocks;  // those in which a vessel fades, which noise perforates
   const auto blockOf = [&](std::size_t voxel) {
-    const Cell block = excess.cells.cell(voxel) / kContrastBlock;
+    const Cell block = excess.cells.cell(voxel) / Background::kBlock;
     return std::array{block[0], block[1], block[2]};
   };
   for (const bool wide : {true, false})

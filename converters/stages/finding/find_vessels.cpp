@@ -26,13 +26,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kLeastPart = 27;  // voxels: fewer are a speck
-constexpr double kLeastLength = 10;     // voxels of the longest vessel of a tree
-constexpr double kLeastOfParent = 1;    // of the parent's depth: less is a bump on its wall
-constexpr int kMostPasses = 10;         // of which each takes bone away
-constexpr int kSmoothing = 6;           // passes of (1, 2, 1)/4 over a course
-constexpr double kSacStep = 0.5;        // radii from one point of an aneurysm to the next
-constexpr double kRimVoxels = 1;        // of a vessel: half for its wall, half for its section
+constexpr double kLeastLength = 10;   // voxels of the longest vessel of a tree
+constexpr double kLeastOfParent = 1;  // of the parent's depth: less is a bump on its wall
+constexpr int kSmoothing = 6;         // passes of (1, 2, 1)/4 over a course
+constexpr double kSacStep = 0.5;      // radii from one point of an aneurysm to the next
 
 /// From voxels of the lumen to courses.
 class CourseFinder {
@@ -49,7 +46,7 @@ public:
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
       const std::vector<std::uint32_t> part = connectedPart(i, isSeen);
-      if (part.size() < kLeastPart) continue;
+      if (part.size() < kSpeck) continue;
       m_trees.push_back(m_paths.find(m_paths.widestTip(i, m_progress), m_progress));
     }
   }
@@ -80,7 +77,7 @@ private:
     std::vector<std::uint32_t> part(1, first);
     isSeen[first] = true;
     for (std::size_t k = 0; k < part.size(); ++k) {
-      if (k % 4096 == 0) m_progress.check();
+      m_progress.check();
       m_set.eachBeside(part[k], [&](std::uint32_t j, const Vector3d&) {
         if (!isSeen[j]) part.push_back(j);
         isSeen[j] = true;
@@ -212,7 +209,7 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   FoundVessels found;
   found.geometry = volume.geometry;
   found.lumen = std::move(bright.indices);
-  for (int pass = 0;; ++pass) {
+  for (bool isMore = true; isMore;) {  // each pass takes bone away
     const VoxelSet set(grid, std::move(found.lumen));
     CourseFinder finder(set, progress);
     finder.findPaths();
@@ -221,9 +218,8 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
     for (std::uint32_t i = 0; i < set.size(); ++i)
       (!isBone.empty() && isBone[i] ? found.bone : found.lumen).push_back(set.index(i));
     std::sort(found.bone.begin(), found.bone.end());
-    if (!isBone.empty() && pass < kMostPasses) continue;
-    found.courses = finder.courses();
-    break;
+    isMore = !isBone.empty();
+    if (!isMore) found.courses = finder.courses();
   }
   toWorld(grid, volume.geometry, found.courses);
   if (!found.bone.empty())
@@ -237,7 +233,8 @@ std::vector<SeedBranch> coursesBeside(const FoundVessels& found, std::span<const
                                       Progress& progress) {
   const VolumeGeometry grid = gridGeometry(found.geometry);
   std::vector<WorldBall> balls(vessels.begin(), vessels.end());
-  for (WorldBall& ball : balls) ball.radius += kRimVoxels * grid.voxelSize();
+  // the rim of a vessel: half a voxel for its wall, half a voxel for its section
+  for (WorldBall& ball : balls) ball.radius += grid.voxelSize();
   const VoxelSet set(grid, outside(grid, found.lumen, balls, progress));
   CourseFinder finder(set, progress);
   finder.findPaths();

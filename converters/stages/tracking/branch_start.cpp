@@ -31,8 +31,6 @@ constexpr double kBelowBound[] = {1.0, 0.7, 0.5, 0.35, 0.25};
 /// Voxels of path around a click, by turns, and the shares of it at which places are tried.
 constexpr double kAroundVoxels[] = {6, 12};
 constexpr double kPlaceShares[] = {1.0 / 3, 2.0 / 3, 1};
-/// The wall's level, as a share of the contrast.
-constexpr double kHalfContrast = 0.5;
 
 bool isInLumen(const TrackedBranch& parent, const TrackedNode& node) {
   const ChainPoint nearest = closestOnChain(parent.nodes, node.centre);
@@ -87,7 +85,7 @@ LumenLevels levelsAtClick(const TrackContext& context, const Vector3d& click) {
   const double contrast =
       contrastAtClicks(context.volume, {seed}, context.options, context.progress);
   const double value = context.volume.sample(context.volume.geometry().indexFromWorld(click));
-  return {value, value - (context.options.dark ? -kHalfContrast : kHalfContrast) * contrast};
+  return {value, value - (context.options.dark ? -0.5 : 0.5) * contrast};
 }
 
 /// A place near a click at which nothing fits, and the direction of the lumen there (unit, away

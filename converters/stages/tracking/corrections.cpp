@@ -21,9 +21,9 @@ using Eigen::Vector3d;
 
 /// The most nodes that are measured, to bound the time, and the fewest for a meaningful median.
 constexpr std::size_t kMostNodes = 256, kFewestNodes = 8;
-/// Radii whose walls are measured, the second if there are too few of the first. Wider walls are
-/// flatter, and less of the far wall shows in their profiles.
-constexpr double kDrawnVoxels = 3.0, kDrawnEnoughVoxels = 1.0;
+/// Least radius whose walls are measured; a voxel if there are too few. Wider walls are flatter, and
+/// less of the far wall shows in their profiles.
+constexpr double kDrawnVoxels = 3.0;
 /// The fewest wall points of a node that is measured: with fewer, its profile is mostly noise.
 constexpr std::size_t kFewestPoints = 32;
 /// Reach of a profile to either side of the wall, and the spacing of its samples.
@@ -45,8 +45,6 @@ constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // width of the Gauss
 constexpr int kLastDenominator = 120;
 /// (seen/sigma)^2 beyond which two terms of the expansion for flat walls are exact to 1e-5.
 constexpr double kNearlyFlat = 50;
-/// Halvings of the interval that holds the radius: to the last bit.
-constexpr int kBisections = 50;
 /// The least radius to which a ball is corrected, as a share of the radius seen, as for the
 /// cylinder.
 constexpr double kLeastShare = 0.5;
@@ -207,7 +205,7 @@ std::vector<double> blurredDisc(double seen, double sigma, double step) {
 std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const> vessels,
                                             double voxel) {
   std::vector<const TrackedNode*> wide;
-  for (const double voxels : {kDrawnVoxels, kDrawnEnoughVoxels}) {
+  for (const double voxels : {kDrawnVoxels, 1.0}) {
     wide.clear();
     for (const TrackedBranch* branch : vessels)
       for (const TrackedNode& node : branch->nodes)
@@ -247,10 +245,9 @@ double cylinderRadius(double seen, double sigma) {
   const double q = seen * seen / (sigma * sigma);
   if (q > kNearlyFlat) return seen * (1.0 + (0.5 - 0.375 / q) / q);
   double low = 0.25 * q * q, high = (q + 1) * (q + 1);
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = 0.5 * (low + high);
+  for (double middle = 0.5 * (low + high); low < middle && middle < high;
+       middle = 0.5 * (low + high))
     (besselTerm(middle) < q - 1 ? low : high) = middle;
-  }
   return seen * std::sqrt(high) / q;
 }
 

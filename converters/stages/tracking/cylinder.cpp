@@ -11,6 +11,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/icosphere.h"
+#include "converters/stages/tracking/cylinder_equations.h"
 
 namespace lumen::convert {
 
@@ -83,11 +84,9 @@ namespace {
 
 using Eigen::Vector3d;
 using Vector5d = Eigen::Matrix<double, 5, 1>;
-using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-/// Bounds on the radius, in expected radii: a vessel's width does not change by more from one step
-/// to the next.
-constexpr double kLeastRadius = 0.5, kMostRadius = 1.5;
+/// Least radius, in expected ones.
+constexpr double kLeastRadius = 0.5;
 
 /// RANSAC trials after which an axis may be given up: three of four good points in ten are drawn
 /// with 98 %.
@@ -97,8 +96,6 @@ constexpr int kFirstLook = 64;
 constexpr double kPromising = 0.75;
 /// Chance that three inliers of the best circle were never drawn together when trials end.
 constexpr double kMissed = 1e-4;
-/// The least chance of a draw that counts: below it, trials continue to their bound.
-constexpr double kLeastChance = 1e-6;
 
 /// Least squares: rounds that choose inliers anew, and Gauss-Newton steps in each; both converge
 /// sooner on all but degenerate sets.
@@ -108,17 +105,15 @@ constexpr double kConverged = 1e-6;
 /// Bounds on the refined radius, in radii of the start: a fit that leaves them has moved to another
 /// wall.
 constexpr double kLeastRefined = 0.5, kMostRefined = 2.0;
-/// Levenberg damping, of the normal matrix' trace: a short set of points leaves the tilt free, and
-/// this keeps it where it is.
-constexpr double kDamping = 1e-9;
 
 /// One Gauss-Newton step for (shift in the plane, tilt, radius), and the mean squared residual
 /// before it.
 double stepToLeastSquares(const Candidates& points, const std::vector<std::size_t>& inliers,
                           Cylinder& cylinder) {
   const auto [e1, e2] = planeBasis(cylinder.axis);
-  Matrix5d normal = Matrix5d::Zero();
-  Vector5d right = Vector5d::Zero();
+  CylinderEquations equations;
+  equations.normal.setZero();
+  equations.right.setZero();
   double squares = 0;
   for (const std::size_t i : inliers) {
     const Vector3d p = points.origin + points.offset(i) - cylinder.centre;
@@ -128,25 +123,24 @@ double stepToLeastSquares(const Candidates& points, const std::vector<std::size_
     const double residual = distance - cylinder.radius;
     Vector5d row;
     row << -u / distance, -v / distance, -w * u / distance, -w * v / distance, -1.0;
-    normal += row * row.transpose();
-    right -= residual * row;
+    equations.normal += row * row.transpose();
+    equations.right -= residual * row;
     squares += residual * residual;
   }
-  normal.diagonal().array() += kDamping * normal.trace();
-  const Vector5d step = normal.ldlt().solve(right);
-  if (step.allFinite()) {
-    cylinder.centre += step[0] * e1 + step[1] * e2;
-    cylinder.axis = (cylinder.axis + step[2] * e1 + step[3] * e2).normalized();
-    cylinder.radius += step[4];
+  if (const auto step = equations.solve()) {
+    cylinder.centre += (*step)[0] * e1 + (*step)[1] * e2;
+    cylinder.axis = (cylinder.axis + (*step)[2] * e1 + (*step)[3] * e2).normalized();
+    cylinder.radius += (*step)[4];
   }
   return squares / static_cast<double>(inliers.size());
 }
 
-/// Trials after which an event of that probability has almost certainly happened.
-int trialsFor(double probability) {
+/// Trials after which an event of that probability has almost certainly happened; at most `most`.
+int trialsFor(double probability, int most) {
   if (probability >= 1) return 1;
-  const double trials = std::log(kMissed) / std::log1p(-std::max(probability, kLeastChance));
-  return static_cast<int>(std::ceil(trials));
+  if (probability <= 0) return most;
+  const double trials = std::ceil(std::log(kMissed) / std::log1p(-probability));
+  return static_cast<int>(std::min<double>(trials, most));
 }
 
 /// The candidates' coordinates along e1 and e2, relative to their origin.
@@ -190,7 +184,7 @@ Circle bestCircle(const CylinderSearch& search, const CylinderWorkspace& points,
   const auto accepted = static_cast<int>(std::ceil(search.acceptedRate * count));
   const auto band = static_cast<float>(search.band);
   const auto low = static_cast<float>(kLeastRadius * rho);
-  const auto high = static_cast<float>(kMostRadius * rho);
+  const auto high = static_cast<float>(kWidest * rho);
   Circle best;
   int enough = search.maxTrials;
   CircleBlock block;
@@ -201,7 +195,7 @@ Circle bestCircle(const CylinderSearch& search, const CylinderWorkspace& points,
     circlesThrough(block, low, high);
     best = betterCircle(block, points, band, best);
     const double share = best.inliers / static_cast<double>(count);
-    enough = std::clamp(trialsFor(share * share * share), search.minTrials, search.maxTrials);
+    enough = std::max(trialsFor(share * share * share, search.maxTrials), search.minTrials);
   }
   return best;
 }
@@ -253,7 +247,7 @@ Cylinder estimateCylinder(const CylinderSearch& search, const Candidates& points
   }
   if (best.inlierRate == 0) return best;
   const Cylinder refined = refineCylinder(points, best, search.band, workspace);
-  const bool valid = refined.radius >= kLeastRadius * rho && refined.radius <= kMostRadius * rho &&
+  const bool valid = refined.radius >= kLeastRadius * rho && refined.radius <= kWidest * rho &&
                      (points.origin - refined.centre).cross(refined.axis).norm() <= refined.radius;
   return valid ? refined : best;
 }

@@ -47,6 +47,9 @@ int countInBandReference(const float* u, const float* v, std::size_t count, floa
 /// Fewer candidates or inliers than this decide about no cylinder: it has five unknowns.
 constexpr std::size_t kFewestCandidates = 8;
 
+/// Width of one vessel from one place to the next, in radii there. Narrowing is usual, growing is not.
+constexpr double kNarrowest = 0.6, kWidest = 1.5;
+
 /// An infinite circular cylinder and the share of the candidates that lie in its band.
 struct Cylinder {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< a point on the axis, mm, LPS

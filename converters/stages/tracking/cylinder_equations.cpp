@@ -185,8 +185,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Bounds on the radius, in expected ones: those of a depth among voxels.
-constexpr double kNearLeast = 0.5, kNearMost = 1.8;
 /// Radii that least squares start from, in expected ones: each finds what lies within the first
 /// reach of it.
 constexpr std::array kStartRadii = {1.0, 0.75, 1.3};
@@ -245,7 +243,7 @@ Cylinder nearCylinder(const CylinderSearch& search, const Candidates& points,
     const auto found = converged(points, search.band, {points.origin, direction, start * rho, 0});
     if (!found) continue;
     const Cylinder at = refineCylinder(points, *found, search.band, workspace);
-    if (at.radius < kNearLeast * rho || at.radius > kNearMost * rho) continue;
+    if (at.radius < kLeastOfDepth * rho || at.radius > kMostOfDepth * rho) continue;
     if ((points.origin - at.centre).cross(at.axis).norm() > at.radius) continue;
     const double course = 0.5 * (1.0 + std::abs(at.axis.dot(direction)));
     const double score = at.inlierRate * (smooth ? course * radiusLikeness(at.radius, rho) : 1.0);

@@ -32,6 +32,9 @@ CylinderEquations robustEquations(const Candidates& points, double reach, const 
 // A cylinder through wall candidates next to an expected one, without random numbers
 // (docs/method.md, section 1.13).
 
+/// Least and largest radius where the expected one is a depth among voxels, in that one.
+constexpr double kLeastOfDepth = 0.5, kMostOfDepth = 1.8;
+
 /// The best cylinder through `points` that holds their origin, of those to which robust least
 /// squares lead from the expected axis and a few radii around the expected one, or the first whose
 /// rate is accepted: candidates count the less the farther they are off, in a band that narrows to

@@ -22,7 +22,6 @@ namespace {
 using Eigen::Vector3d;
 using formats::StopReason;
 
-constexpr double kThinnestVoxels = 1;  // voxels: what is thinner is blurred to that
 constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall that it leaves
 /// First stream of random numbers of the search at bridged nodes, far from those of tracking and
 /// of the review of walls.
@@ -92,13 +91,9 @@ void dropInside(std::span<const BranchLumen> before, double voxel, double apart,
   keepStretch(branch, out.first, out.end);
 }
 
-bool isAtFace(const VolumeGeometry& geometry, const TrackedNode& node, double sign) {
-  return !geometry.containsWorld(node.centre + sign * kAtFaceRadii * node.radius * node.direction);
-}
-
 TrackedBranch follow(TrackRun& run, const SeedBranch& seed) {
   const VolumeGeometry& geometry = run.context.volume.geometry();
-  const double least = kThinnestVoxels * geometry.voxelSize();
+  const double least = geometry.voxelSize();  // what is thinner is blurred to that
   std::vector<Vector3d> line;
   std::vector<double> radii;
   for (const SeedPoint& point : seed.points) {

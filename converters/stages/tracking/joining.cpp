@@ -17,18 +17,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// An edge longer than the first share of the mean height and the second of the lesser radius is a
-/// gap.
-constexpr double kGapHeights = 1.25, kGapRadii = 1.0;
-/// A path longer than this many straight distances leads along other vessels.
-constexpr double kLongestDetour = 2.5;
+/// An edge longer than this share of the mean height, and than the lesser radius, is a gap.
+constexpr double kGapHeights = 1.25;
 /// Distance around the ends in which a path is searched for, in straight distances and at least in
 /// radii.
 constexpr double kReachDistances = 1.5, kLeastReachRadii = 6;
 /// Largest share of a path outside of the lumen; beyond it a straight line is as good.
 constexpr double kOutsideShare = 0.5;
-/// A path has arrived within this share of the parent's radius from its axis.
-constexpr double kCoreShare = 0.5;
 /// The longest bridge to a parent's wall where the volume shows no lumen, in radii of the child.
 constexpr double kLongestBridgeRadii = 12;
 /// Radii of the child that its named parent may be farther away than another branch of that tree.
@@ -62,27 +57,13 @@ void cutInCore(const TrackedBranch& parent, TrackedBranch& branch) {
   for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
     const ChainPoint at = closestOnChain(parent.nodes, branch.nodes[i].centre);
     if (at.distance > at.radius) break;
-    if (at.distance > kCoreShare * at.radius) continue;
+    if (at.distance > kCore * at.radius) continue;
     cut = i + 1;
     branch.parentNode = static_cast<int>(at.node);
   }
   cut = std::min(cut, branch.nodes.size() - 1);
   branch.nodes.erase(branch.nodes.begin(), branch.nodes.begin() + static_cast<std::ptrdiff_t>(cut));
   branch.clickNode -= std::min(branch.clickNode, cut);
-}
-
-/// A link to a parent that meets the branch behind its first node would lead back along the branch:
-/// cuts off the link from there on, and the branch up to there.
-void cutDetour(std::vector<TrackedNode>& link, TrackedBranch& branch) {
-  for (std::size_t n = 0; n < link.size(); ++n) {
-    const ChainPoint at = closestOnChain(branch.nodes, link[n].centre);
-    if (at.node == 0 || at.distance > kCoreShare * at.radius) continue;
-    link.resize(n);
-    branch.nodes.erase(branch.nodes.begin(),
-                       branch.nodes.begin() + static_cast<std::ptrdiff_t>(at.node));
-    branch.clickNode -= std::min(branch.clickNode, at.node);
-    return;
-  }
 }
 
 /// Makes a child a root, and records the reason.
@@ -101,7 +82,7 @@ LumenLevels levelsAtStart(const TrackContext& context, const TrackedBranch& bran
 bool isGap(const TrackedNode& a, const TrackedNode& b) {
   const double distance = (b.centre - a.centre).norm();
   return distance > kGapHeights * 0.5 * (a.height + b.height) &&
-         distance > kGapRadii * std::min(a.radius, b.radius);
+         distance > std::min(a.radius, b.radius);
 }
 
 }  // namespace
@@ -183,7 +164,6 @@ void joinToParent(TrackRun& run, std::span<const TrackedBranch> all, std::span<c
   branch.parentNode = static_cast<int>(root.node);
   outward.front() = parent.nodes[root.node].centre;
   auto link = nodesAlong(run, outward, std::min(first.radius, root.radius), first.radius, &parent);
-  cutDetour(link, branch);
   branch.clickNode += link.size();
   branch.nodes.insert(branch.nodes.begin(), std::make_move_iterator(link.begin()),
                       std::make_move_iterator(link.end()));

@@ -104,7 +104,7 @@ NodeFit fitToWall(TrackRun& run, const NodeGuess& guess, double minRate) {
   if (points.count() < kFewestCandidates) return tooFew(points.count());
   const ExpectedCylinder expected{guess.direction, guess.radius, guess.smooth};
   Cylinder cylinder =
-      run.context.isCourseKnown
+      run.context.points == SeedPoints::Courses
           ? nearCylinder(run.context.search, points, expected, run.workspace.cylinder)
           : estimateCylinder(run.context.search, points, expected, run.random,
                              run.workspace.cylinder);

@@ -17,15 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Distance from one node of a bridge to the next, in radii.
-constexpr double kSpacingRadii = 0.5;
-/// Largest distance of a fitted node from the line, and its least and largest radius, in
-/// interpolated radii.
-constexpr double kAsideRadii = 0.7, kNarrowRadii = 0.6, kWideRadii = 1.5;
-/// Least and largest radius where the expected one is as coarse as the voxels.
-constexpr double kCoarseNarrow = 0.5, kCoarseWide = 1.8;
-/// Coarsest edges of the voxels by which a depth among voxels may be less than the radius.
-constexpr double kUnsureEdges = 0.5;
+/// Largest distance of a fitted node from the line, in interpolated radii.
+constexpr double kAsideRadii = 0.7;
 
 using Station = AxisPoint;
 
@@ -229,7 +222,7 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
   std::vector<TrackedNode> nodes;
   for (const Station& station : Stations(line).between(first, last)) {
     std::optional<TrackedNode> node;
-    if (!inLumen(parent, station.position)) node = nodeAt(run, station, kNarrowRadii, kWideRadii);
+    if (!inLumen(parent, station.position)) node = nodeAt(run, station, kNarrowest, kWidest);
     nodes.push_back(node ? std::move(*node) : bridgedNode(station));
   }
   return nodes;
@@ -238,28 +231,29 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> line,
                                     std::span<const double> radii) {
   const VolumeGeometry& geometry = run.context.volume.geometry();
-  const double unsure = kUnsureEdges * geometry.spacing.maxCoeff();
+  // a depth among voxels may be less than the radius by half a voxel
+  const double unsure = 0.5 * geometry.spacing.maxCoeff();
   std::vector<Station> stations =
       Stations(line).by(radii, [&](const Vector3d& end) { return liesAtFace(geometry, end); });
   Fits found;
   for (const Station& station : stations) {
     run.context.progress.check();
-    found.push_back(nodeAt(run, station, kCoarseNarrow, kCoarseWide));
-    if (found.back() || unsure <= (kCoarseWide - 1) * station.radius) continue;
+    found.push_back(nodeAt(run, station, kLeastOfDepth, kMostOfDepth));
+    if (found.back() || unsure <= (kMostOfDepth - 1) * station.radius) continue;
     Station wider = station;
     wider.radius += unsure;
-    found.back() = nodeAt(run, wider, kCoarseNarrow, kCoarseWide);
+    found.back() = nodeAt(run, wider, kLeastOfDepth, kMostOfDepth);
   }
   const Fits before = found;
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double around = radiusAround(before, i);
     if (around == 0) continue;
     stations[i].radius = around;
-    if (!found[i]) found[i] = nodeAt(run, stations[i], kNarrowRadii, kWideRadii);
+    if (!found[i]) found[i] = nodeAt(run, stations[i], kNarrowest, kWidest);
   }
   dropTurnedBack(found);
   bridge(stations, found,
-         [&](const Station& station) { return nodeAt(run, station, kNarrowRadii, kWideRadii); });
+         [&](const Station& station) { return nodeAt(run, station, kNarrowest, kWidest); });
   dropTurnedBack(found);
   bridge(stations, found, [](const Station&) { return std::nullopt; });
   std::vector<TrackedNode> nodes;
@@ -270,7 +264,7 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
 
 std::optional<TrackedNode> nodeBetween(TrackRun& run, const TrackedNode& before,
                                        const TrackedNode& bridged, const TrackedNode& after) {
-  std::optional<TrackedNode> node = nodeAt(run, axisAt(bridged), kNarrowRadii, kWideRadii);
+  std::optional<TrackedNode> node = nodeAt(run, axisAt(bridged), kNarrowest, kWidest);
   if (node && !(isAhead(before, *node) && isAhead(*node, after))) node.reset();
   return node;
 }

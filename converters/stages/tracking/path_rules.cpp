@@ -11,8 +11,6 @@ using Eigen::Vector3d;
 /// Nodes of about two radii of track, over which a vessel hardly changes.
 constexpr std::size_t kRecentNodes = 8;
 
-/// The least step, in radii. Few wall points make a short height, and a track must advance.
-constexpr double kLeastStepRadii = 0.25;
 /// The length that a fit may move the centre along the axis, in steps; more would be another step.
 constexpr double kSlackSteps = 0.5;
 
@@ -35,6 +33,10 @@ constexpr double kTipRadii = 1.4;
 
 }  // namespace
 
+bool isAtFace(const VolumeGeometry& geometry, const TrackedNode& node, double sign) {
+  return !geometry.containsWorld(node.centre + sign * kEndRadii * node.radius * node.direction);
+}
+
 RecentMeans recentMeans(std::span<const TrackedNode> nodes) {
   const std::size_t count = std::min(nodes.size(), kRecentNodes);
   RecentMeans mean;
@@ -48,7 +50,8 @@ RecentMeans recentMeans(std::span<const TrackedNode> nodes) {
 
 NodeGuess predictNode(const TrackOptions& options, const TrackedNode& from, double steps,
                       const Vector3d& direction) {
-  const double step = std::max(options.step * from.height, kLeastStepRadii * from.radius);
+  // few wall points make a short height, and a track must advance
+  const double step = std::max(options.step * from.height, 0.5 * kSpacingRadii * from.radius);
   return {from.centre + steps * step * direction, direction, from.radius, true, kSlackSteps * step};
 }
 
@@ -64,8 +67,7 @@ Vector3d courseDirection(std::span<const TrackedNode> nodes) {
 
 bool isSwollen(const TrackOptions& options, std::span<const TrackedNode> nodes,
                const TrackedNode& next) {
-  return next.inlierRate < options.inlierRate &&
-         next.radius > kSwollenRadii * recentMeans(nodes).radius;
+  return next.inlierRate < options.inlierRate && next.radius > kWidest * recentMeans(nodes).radius;
 }
 
 std::optional<std::size_t> findTurningPoint(std::span<const TrackedNode> nodes,

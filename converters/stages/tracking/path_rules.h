@@ -13,15 +13,13 @@
 
 namespace lumen::convert {
 
-/// A poor fit wider than this many radii of the vessel beside it holds two vessels.
-constexpr double kSwollenRadii = 1.5;
-/// Radii before a face of the volume within which a track is at it: the rays see half of the wall,
-/// and the centre stalls there.
-constexpr double kAtFaceRadii = 1.5;
+/// Radii beyond an end that it reaches: of a face of the volume, before which the rays see half of
+/// the wall and the centre stalls, and of another vessel, in those of that one.
+constexpr double kEndRadii = 1.5;
+/// True if a vessel leaves the volume at a node, along its direction times `sign`.
+bool isAtFace(const VolumeGeometry& geometry, const TrackedNode& node, double sign = 1);
 /// Least strength of a vessel beyond a gap or a tip, as a share of the recent mean.
 constexpr double kLikeStrength = 0.5;
-/// Width of a vessel beyond a gap or a tip, in last radii. Narrowing is usual, growing is not.
-constexpr double kNarrowestBeyond = 0.6, kWidestBeyond = 1.5;
 
 /// Means over the last nodes of a track.
 struct RecentMeans {

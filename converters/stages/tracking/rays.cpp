@@ -12,9 +12,6 @@ namespace {
 /// 0.8 of it, as farther ones are most likely another vessel's.
 constexpr double kLengthOverNearest = 12.0, kFarthestShare = 0.8;
 
-/// Samples of the shortest ray.
-constexpr double kFewestSamples = 16.0;
-
 }  // namespace
 
 void Candidates::clear() {
@@ -31,7 +28,7 @@ RayCaster::RayCaster(const BsplineVolume& volume, std::vector<Eigen::Vector3d> d
       m_values(static_cast<std::size_t>(samples)),
       m_sign(dark ? -1.0F : 1.0F) {
   const VolumeGeometry& geometry = volume.geometry();
-  m_mostPerLength = mostPerEdge / geometry.spacing.minCoeff();
+  m_mostPerEdge = mostPerEdge;
   for (const auto& direction : m_directions)
     m_indexDirections.emplace_back(
         (geometry.direction.transpose() * direction).cwiseQuotient(geometry.spacing));
@@ -41,7 +38,8 @@ void RayCaster::cast(const Eigen::Vector3d& centre, double length, Candidates& o
   out.clear();
   out.origin = centre;
   const Eigen::Vector3d start = m_volume.geometry().indexFromWorld(centre);
-  const double most = std::max(kFewestSamples, m_mostPerLength * length);
+  const double edges = length / m_volume.geometry().spacing.minCoeff();
+  const double most = m_mostPerEdge * std::max(1.0, edges);
   const auto count = std::min<double>(most, static_cast<double>(m_values.size()));
   const std::span values = std::span(m_values).first(static_cast<std::size_t>(count));
   const double step = length / static_cast<double>(values.size() - 1);

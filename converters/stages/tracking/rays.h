@@ -45,7 +45,7 @@ struct Candidates {
 class RayCaster {
 public:
   /// `directions`: unit, LPS. `dark`: vessels are darker than their background. A ray has `samples`,
-  /// but no more than `mostPerEdge` for each finest edge of a voxel, and at least 16 even so.
+  /// but no more than `mostPerEdge` for each finest edge of a voxel, of which it has one at least.
   RayCaster(const BsplineVolume& volume, std::vector<Eigen::Vector3d> directions, int samples,
             bool dark, double mostPerEdge = std::numeric_limits<double>::infinity());
 
@@ -58,7 +58,7 @@ private:
   const BsplineVolume& m_volume;
   std::vector<Eigen::Vector3d> m_directions, m_indexDirections;
   std::vector<float> m_values;
-  double m_mostPerLength = 0;  ///< samples per mm
+  double m_mostPerEdge = 0;  ///< samples for each finest edge of a voxel
   float m_sign;
 };
 

@@ -20,8 +20,6 @@ constexpr double kCover = 2, kNearby = 1.25;
 constexpr std::size_t kMostCentres = 32, kFewestOwned = 20;
 /// The most places that are examined, to bound the time.
 constexpr std::size_t kMostTurns = 128;
-/// Voxels: from the nearest voxel outside to the wall.
-constexpr double kRim = 0.5;
 
 constexpr double kUnseen = std::numeric_limits<double>::infinity();
 
@@ -37,8 +35,9 @@ public:
       if (region.isSac[i]) m_inside.push_back(i);
   }
 
+  /// The wall lies half a voxel before the nearest voxel outside.
   [[nodiscard]] double radiusOf(float depth) const {
-    return static_cast<double>(depth) - kRim * m_geometry.voxelSize();
+    return static_cast<double>(depth) - 0.5 * m_geometry.voxelSize();
   }
 
   /// The greatest ball that reaches a place on the wall.

@@ -27,9 +27,6 @@ constexpr auto kProfile = static_cast<std::size_t>((kInward + kOutward) / kProfi
 /// Samples before and behind a place whose difference is the fall there: half a voxel apart.
 constexpr std::size_t kHalfFall = 2;
 
-/// Voxels between two checks for cancelling, less one.
-constexpr std::size_t kOften = 4095;
-
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
 /// Marks with `reached` the voxels that are joined to the places in `queue` by faces of voxels
@@ -181,7 +178,7 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
   const double half = std::max(leastPassage(balls), coarsest);
   std::vector<std::uint8_t> core(region.isSac.size(), kNone);
   for (std::size_t i = 0; i < core.size(); ++i) {
-    if ((i & kOften) == 0) context.progress.check();
+    context.progress.check();
     if (!region.isSac[i]) continue;
     const Vector3d p = geometry.position(region.box.cell(i));
     region.isSac[i] = isInReach(balls, p) && !inVessel(p);
@@ -202,7 +199,7 @@ SacWall measureSacWall(const TrackContext& context, const SacRegion& region) {
   SacWall wall;
   std::vector<float> values(kProfile);
   for (std::size_t i = 0; i < region.isSac.size(); ++i) {
-    if ((i & kOften) == 0) context.progress.check();
+    context.progress.check();
     if (!region.isSac[i]) continue;
     const Cell cell = region.box.cell(i);
     const Vector3d outside = sumOutward(region, cell);

@@ -28,9 +28,9 @@ constexpr double kOpenShare = 1.0 / 3.0;
 constexpr int kDirections = 24;
 /// Depth in the lumen beyond which a point is on no wall, in voxels.
 constexpr double kWithinVoxels = 1.75;
-/// Distance between the wall points of a sac, in voxels, as nearer ones add nothing; and about the
-/// most of them: points of a large sac are farther apart.
-constexpr double kApartVoxels = 1, kMostPoints = 4000;
+/// About the most wall points of a sac. They are a voxel apart, as nearer ones add nothing; those of
+/// a large sac are farther apart.
+constexpr double kMostPoints = 4000;
 
 /// One sac: the aneurysms that make it up, and the vessels that open into it, as positions in the
 /// seeds' order.
@@ -145,7 +145,7 @@ std::vector<Vector3d> chooseWallPoints(const TrackContext& context, const SacReg
       strong.push_back(wall.points[i]);
   const double voxel = context.volume.geometry().voxelSize();
   const double even = std::sqrt(static_cast<double>(strong.size()) / kMostPoints);
-  return thinnedOut(strong, std::max(kApartVoxels, even) * voxel);
+  return thinnedOut(strong, std::max(1.0, even) * voxel);
 }
 
 /// Drops points that are deeper in a region's lumen than any wall.

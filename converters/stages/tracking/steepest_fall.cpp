@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declared in rays.h.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -75,8 +74,7 @@ SteepestFall steepestFall(std::span<const float> values, float sign) {
   const double after = static_cast<double>(sign * (values[best] - values[best + 2]));
   const double bend = before - 2.0 * static_cast<double>(strongest) + after;
   const double shift = bend < 0 ? 0.5 * (before - after) / bend : 0.0;
-  constexpr double kMostShift = 1.0;  // samples: the maximum is between the best one's neighbours
-  return {static_cast<double>(best) + std::clamp(shift, -kMostShift, kMostShift), strongest};
+  return {static_cast<double>(best) + shift, strongest};
 }
 
 }  // namespace lumen::convert

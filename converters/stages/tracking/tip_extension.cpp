@@ -21,10 +21,9 @@ using formats::StopReason;
 /// Lengths of the paths beyond a tip in radii, by turns, as far as a hairpin takes to turn; and
 /// their least length in voxels.
 constexpr double kBeyondRadii[] = {7, 14}, kBeyondVoxels = 6;
-/// Radii before the tip within which the track's lumen is closed only behind the tip.
+/// Radii around the tip within which the track's lumen is closed only behind the tip, and within
+/// which a path may enter another vessel.
 constexpr double kNearTipRadii = 3;
-/// Radii beyond the tip within which a path may enter another vessel.
-constexpr double kThroughRadii = 3;
 /// Share of the nodes along a path that must have been fitted, and the number of last ones.
 constexpr double kFittedShare = 0.3;
 constexpr std::size_t kLastFittedNodes = 3;
@@ -37,7 +36,7 @@ constexpr std::size_t kStrayedNodes = 12;
 PathStart pathStartAtTip(const TrackContext& context, std::span<const TrackedNode> nodes,
                          std::span<const WorldBall> others) {
   const TrackedNode& tip = nodes.back();
-  PathStart start{tip.centre, courseDirection(nodes), {}, {}, {}, kThroughRadii * tip.radius};
+  PathStart start{tip.centre, courseDirection(nodes), {}, {}, {}, kNearTipRadii * tip.radius};
   start.others.assign(others.begin(), others.end());
   std::vector<WorldBall> own;
   addLumen(nodes, context.volume.geometry(), own);
@@ -98,10 +97,10 @@ void sortStraightestFirst(std::vector<Path>& paths, const Vector3d& course) {
 bool appendAlongPath(TrackRun& run, std::vector<TrackedNode>& nodes, std::span<const Path> paths) {
   const double radius = nodes.back().radius;
   for (const Path& path : paths) {
-    const double end = std::clamp(path.breadth, kNarrowestBeyond * radius, kWidestBeyond * radius);
+    const double end = std::clamp(path.breadth, kNarrowest * radius, kWidest * radius);
     auto found = nodesAlong(run, path.points, radius, end, nullptr);
     if (!isSameVessel(nodes, found)) {
-      if (path.breadth < kWidestBeyond * radius) continue;
+      if (path.breadth < kWidest * radius) continue;
       auto last = fitEnd(run, path);
       if (!last) continue;
       found.push_back(std::move(*last));

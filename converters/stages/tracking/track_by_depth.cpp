@@ -19,8 +19,6 @@ namespace {
 
 using formats::StopReason;
 
-/// A click nearer to a vessel's axis than this share of its radius is on that vessel.
-constexpr double kOnAxis = 0.5;
 /// A click that states less than this share of the vessel's radius is on one of its branches.
 constexpr double kOwnRadius = 0.6;
 /// Nodes that a tail needs beyond the clicks of the vessel from which it is taken.
@@ -69,7 +67,7 @@ int trackedAncestor(const SeedTree& seeds, const std::vector<TrackedBranch>& bra
 std::optional<std::size_t> nodeAtClick(const TrackedBranch& vessel, const SeedBranch& seed,
                                        const Eigen::Vector3d& click) {
   const ChainPoint at = closestOnChain(vessel.nodes, click);
-  if (at.distance > kOnAxis * at.radius) return std::nullopt;
+  if (at.distance > kCore * at.radius) return std::nullopt;
   if (seed.points[0].radius && *seed.points[0].radius < kOwnRadius * at.radius) return std::nullopt;
   return at.node;
 }

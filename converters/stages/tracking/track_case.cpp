@@ -50,12 +50,9 @@ void correctAdded(TrackedBranch& branch, const TrackedBranch& before, BranchKind
   }
 }
 
-/// The first nodes of all branches: trackByDepth() or followCourses().
-using TrackBranches = void (*)(const TrackContext&, TrackedTree&, Progress&);
-
 /// Conditions under which a tree is tracked.
 struct TrackPlan {
-  TrackBranches trackBranches;
+  SeedPoints points;
   PlaceTest isNoVessel;
   std::optional<WallShape> shape;  ///< by which walls are corrected; measured if empty
   CourseRules rules = {};
@@ -68,15 +65,15 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
                     Progress& progress) {
   TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
                        plan.isNoVessel);
-  const bool isFound = plan.trackBranches == followCourses;
   context.rules = plan.rules;
-  context.isCourseKnown = isFound;
+  context.points = plan.points;
+  const bool areCourses = plan.points == SeedPoints::Courses;
   progress.begin("track", tree.seeds.size() - tree.known);
-  plan.trackBranches(context, tree, progress);
-  isFound ? trimTips(context, tree) : extendTips(context, tree);
+  areCourses ? followCourses(context, tree, progress) : trackByDepth(context, tree, progress);
+  areCourses ? trimTips(context, tree) : extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
-  if (isFound) dropUnsupported(context, tree);
+  if (areCourses) dropUnsupported(context, tree);
   progress.end();
   const WallShape shape = plan.shape ? *plan.shape : measureWallShape(volume, tree);
   const std::vector<TrackedBranch> before(
@@ -94,7 +91,7 @@ WallShape trackTree(const TrackingVolume& volume, const TrackPlan& plan, Tracked
 /// Searches at random for cylinders where courses left bridged nodes, once all vessels are tracked.
 void fillBridges(const TrackingVolume& volume, const TrackPlan& plan, TrackedTree& tree,
                  const Progress& progress) {
-  if (plan.trackBranches != followCourses) return;
+  if (plan.points != SeedPoints::Courses) return;
   const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
                              plan.isNoVessel);
   searchBridged(context, *plan.shape, tree);
@@ -179,19 +176,15 @@ void dropOtherArrays(AddedTracks& out) {
   out.result.motion.reset();
 }
 
-}  // namespace
-
-namespace {
-
-/// Vessels beside others need more, as no skeleton of a whole lumen bears them out.
+/// A vessel beside others needs more evidence, as no skeleton of the whole lumen supports it.
 constexpr CourseRules kRulesBeside{0.5, true, 0.5};
 
-/// Adds balls from one place to another, a step of a quarter of the lesser radius apart, so that
-/// what lies between two of them is within their rim. `from` itself is left out unless it is `to`.
+/// Adds balls from one place to another, half as far apart as nodes: the rim of each holds what lies
+/// between it and the next. `from` itself is left out unless it is `to`.
 void addBalls(const WorldBall& from, const WorldBall& to, std::vector<WorldBall>& balls) {
-  constexpr double kStepRadii = 0.25;
+  const double step = 0.5 * kSpacingRadii * std::min(from.radius, to.radius);
   const Eigen::Vector3d way = to.centre - from.centre;
-  const double count = 1 + std::floor(way.norm() / (kStepRadii * std::min(from.radius, to.radius)));
+  const double count = 1 + std::floor(way.norm() / step);
   for (double k = 1; k <= count; ++k)
     balls.push_back(
         {from.centre + k / count * way, from.radius + k / count * (to.radius - from.radius)});
@@ -204,7 +197,7 @@ std::vector<WorldBall> ballsIn(const TrackedTree& tree, const VolumeGeometry& ge
   std::vector<WorldBall> balls;
   const auto ballOf = [](const TrackedNode& node) { return WorldBall{node.centre, node.radius}; };
   const auto addBeyond = [&](const TrackedNode& end, double sign) {
-    const Eigen::Vector3d on = end.centre + sign * kAtFaceRadii * end.radius * end.direction;
+    const Eigen::Vector3d on = end.centre + sign * kEndRadii * end.radius * end.direction;
     if (!geometry.containsWorld(on)) addBalls(ballOf(end), {on, end.radius}, balls);
   };
   for (std::size_t i = 0; i < tree.branches.size(); ++i) {
@@ -239,20 +232,21 @@ void addBeside(const TrackingVolume& volume, const GridFrame& frame, const Cours
     labels.insert(course.label);
     if (course.parent && !labels.contains(*course.parent)) course.parent.reset();
   }
-  tree.known = tree.seeds.size();
+  TrackedTree all{std::move(tree.seeds), std::move(tree.branches)};
+  all.known = all.seeds.size();
   for (SeedBranch& course : courses) {
     for (std::string* name : {&course.label, course.parent ? &*course.parent : nullptr})
       if (name) *name = "beside-" + *name;
-    tree.seeds.push_back(std::move(course));
+    all.seeds.push_back(std::move(course));
   }
-  trackTree(volume, {followCourses, isNoVessel, shape, kRulesBeside}, tree, progress);
-  tree.known = 0;
+  trackTree(volume, {SeedPoints::Courses, isNoVessel, shape, kRulesBeside}, all, progress);
+  tree.seeds = std::move(all.seeds);
+  tree.branches = std::move(all.branches);
 }
 
 TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                    const TrackOptions& options, TrackBranches trackBranches,
-                    const PlaceTest& isNoVessel, Progress& progress,
-                    const CoursesBeside& beside = {}) {
+                    const TrackOptions& options, SeedPoints points, const PlaceTest& isNoVessel,
+                    Progress& progress, const CoursesBeside& beside = {}) {
   const GridFrame frame(volume.geometry);
   const TrackingVolume tracking(volume, frame, seeds, options, progress);
   TrackedTree tree{frame.toGrid(seeds)};
@@ -261,10 +255,10 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   if (isNoVessel)
     inGrid = [&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); };
   const WallShape shape =
-      trackTree(tracking, {trackBranches, inGrid, tracking.wallShape()}, tree, progress);
+      trackTree(tracking, {points, inGrid, tracking.wallShape()}, tree, progress);
   used.pointSpread = shape.pointSpread;
   if (beside) addBeside(tracking, frame, beside, inGrid, shape, tree, progress);
-  fillBridges(tracking, {trackBranches, inGrid, shape}, tree, progress);
+  fillBridges(tracking, {points, inGrid, shape}, tree, progress);
   for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
 
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
@@ -276,24 +270,9 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   return out;
 }
 
-}  // namespace
-
-TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                           const TrackOptions& options, Progress& progress) {
-  return newCase(volume, seeds, options, trackByDepth, {}, progress);
-}
-
-TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
-                              const PlaceTest& isNoVessel, const TrackOptions& options,
-                              Progress& progress, const CoursesBeside& beside) {
-  return newCase(volume, courses, options, followCourses, isNoVessel, progress, beside);
-}
-
-namespace {
-
 /// Tracks the seeds behind the known ones of `tree` into a case of the known ones.
 AddedTracks intoCase(const TrackingVolume& volume, const formats::Case& known, TrackedTree& tree,
-                     TrackBranches trackBranches, const PlaceTest& isNoVessel, Progress& progress) {
+                     SeedPoints points, const PlaceTest& isNoVessel, Progress& progress) {
   AddedTracks out;
   out.result = known;
   out.firstNewNode = static_cast<std::uint32_t>(known.tree.nodeCount());
@@ -301,8 +280,8 @@ AddedTracks intoCase(const TrackingVolume& volume, const formats::Case& known, T
   const std::size_t added = tree.seeds.size() - tree.known;
   if (added == 0) return out;
   const WallShape shape =
-      trackTree(volume, {trackBranches, isNoVessel, volume.wallShape()}, tree, progress);
-  fillBridges(volume, {trackBranches, isNoVessel, shape}, tree, progress);
+      trackTree(volume, {points, isNoVessel, volume.wallShape()}, tree, progress);
+  fillBridges(volume, {points, isNoVessel, shape}, tree, progress);
   static_cast<TrackRemarks&>(out) = remarksOn(tree);
   if (out.failures.size() == added) return out;
   out.changed = replacePoints(tree, out.result);
@@ -335,12 +314,23 @@ void nameAnew(const formats::Case& known, std::vector<SeedBranch>& seeds) {
 
 }  // namespace
 
+TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                           const TrackOptions& options, Progress& progress) {
+  return newCase(volume, seeds, options, SeedPoints::Clicks, {}, progress);
+}
+
+TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
+                              const PlaceTest& isNoVessel, const TrackOptions& options,
+                              Progress& progress, const CoursesBeside& beside) {
+  return newCase(volume, courses, options, SeedPoints::Courses, isNoVessel, progress, beside);
+}
+
 AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
                                const std::vector<SeedBranch>& seeds, Progress& progress) {
   requireNewLabels(known, seeds);
   TrackedTree tree = makeTrackedTree(known);
   appendParentsFirst(seeds, tree.seeds);
-  AddedTracks out = intoCase(volume, known, tree, trackByDepth, {}, progress);
+  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Clicks, {}, progress);
   for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
     if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));
   requireValid(out.result);
@@ -354,7 +344,7 @@ AddedTracks addTracksAlongCourses(const TrackingVolume& volume, const formats::C
   std::vector<SeedBranch> stretches = stretchesOutside(courses, tree);
   nameAnew(known, stretches);
   tree.seeds.insert(tree.seeds.end(), stretches.begin(), stretches.end());
-  AddedTracks out = intoCase(volume, known, tree, followCourses, isNoVessel, progress);
+  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Courses, isNoVessel, progress);
   const std::size_t found = out.result.tree.branches.size() - known.tree.branches.size();
   if (found > 0)
     recordEdit(out.result.metadata,

@@ -24,26 +24,29 @@ void addSearchRows(TrackOptions& o, OptionTable& table) {
   table.add("rays", &o.rays, "N", "Rays of a node: 12, 42, 162 or 642")
       .among({12, 42, 162, 642})
       .recorded();
-  table.add("axes", &o.axes, "N", "Candidate axes of a node: 6, 21, 81 or 321")
-      .among({6, 21, 81, 321})
-      .recorded();
   table
       .add("samples", &o.samples, "N",
            "Samples on a ray; without clicks at most 16 for each edge of a voxel")
       .in(WholeRange{8, 4096})
       .recorded();
-  table.add("min-trials", &o.minTrials, "N", "Fewest random circles for each axis")
-      .in(WholeRange{1, kMostTrials})
-      .recorded();
-  table.add("max-trials", &o.maxTrials, "N", "Most random circles for each axis")
-      .in(WholeRange{1, kMostTrials})
-      .recorded();
 }
 
-/// Rows of tracks that advance from a seed. A vessel that is found has its course, and takes no
-/// steps.
+/// Rows of tracks that advance from a seed by random search. A vessel that is found has its course:
+/// it takes no steps, and nothing of it is drawn at random.
 void addAdvanceRows(TrackOptions& o, OptionTable& table) {
   const char* const seeds = kOption.seeds.name;
+  table.add("axes", &o.axes, "N", "Candidate axes of a node from a seed on: 6, 21, 81 or 321")
+      .among({6, 21, 81, 321})
+      .recorded()
+      .onlyWith(seeds);
+  table.add("min-trials", &o.minTrials, "N", "Fewest random circles for each axis, from a seed on")
+      .in(WholeRange{1, kMostTrials})
+      .recorded()
+      .onlyWith(seeds);
+  table.add("max-trials", &o.maxTrials, "N", "Most random circles for each axis, from a seed on")
+      .in(WholeRange{1, kMostTrials})
+      .recorded()
+      .onlyWith(seeds);
   table.add("step", &o.step, "S", "Prediction step from a seed on, in cylinder heights")
       .in(NumberRange{0, 2, true})
       .recorded()
@@ -64,6 +67,13 @@ void addAdvanceRows(TrackOptions& o, OptionTable& table) {
       .in(WholeRange{2})
       .recorded()
       .onlyWith(seeds);
+  table
+      .add("random-seed", &o.seed, "K",
+           "Seed of the random numbers from a seed on, and of --repeat")
+      .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
+      .recorded()
+      .onlyWith(seeds)
+      .onlyWith("repeat");
 }
 
 void addWallRows(TrackOptions& o, OptionTable& table) {
@@ -113,9 +123,6 @@ void TrackOptions::addFoundRows(OptionTable& table) {
   addSearchRows(*this, table);
   addWallRows(*this, table);
   addVolumeRows(*this, table);
-  table.add("random-seed", &seed, "K", "Seed of the random numbers")
-      .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
-      .recorded();
 }
 
 void TrackOptions::check(double smallestEdge) const {

@@ -2,6 +2,7 @@
 // Data and buffers that the steps of tracking hand on to one another.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
@@ -31,6 +32,12 @@ struct CourseRules {
   double apart = 0;              ///< radii between its axis and the wall of a known vessel
 };
 
+/// Meaning of a seed's points.
+enum class SeedPoints : std::uint8_t {
+  Clicks,  ///< places in a vessel, from which a track advances by random search
+  Courses  ///< points with radii along the whole vessel: cylinders lie next to them
+};
+
 /// Data that all tracks of one volume share. Any number of threads may read one. The referenced
 /// objects must outlive it.
 struct TrackContext {
@@ -50,7 +57,7 @@ struct TrackContext {
   const Progress& progress;
   PlaceTest isNoVessel;
   CourseRules rules;
-  bool isCourseKnown = false;  ///< cylinders lie next to their guesses; none is drawn at random
+  SeedPoints points = SeedPoints::Clicks;
   CylinderSearch search;
   std::vector<Eigen::Vector3d> rays;  ///< unit directions
 };
@@ -63,7 +70,8 @@ constexpr double kSamplesPerEdge = 16.0;
 struct TrackWorkspace {
   explicit TrackWorkspace(const TrackContext& context)
       : caster(context.volume, context.rays, context.options.samples, context.options.dark,
-               context.isCourseKnown ? kSamplesPerEdge : std::numeric_limits<double>::infinity()) {}
+               context.points == SeedPoints::Courses ? kSamplesPerEdge
+                                                     : std::numeric_limits<double>::infinity()) {}
 
   RayCaster caster;
   Candidates candidates;

@@ -25,6 +25,7 @@ using formats::StopReason;
 
 /// Radii from the goal's axis at which a track back has arrived: in its lumen, or at its wall.
 constexpr double kArrivedRadii = 2.0;
+
 /// A track back that is longer than this many straight distances leads along other vessels.
 constexpr double kLongestReturn = 3.0;
 
@@ -42,11 +43,6 @@ constexpr double kTiltTangent = 0.5;
 /// Nodes that are given up, by turns. A track goes astray for a node or a few.
 constexpr std::array<std::size_t, 3> kGivenUpNodes = {0, 3, 6};
 
-bool isAtFace(const BsplineVolume& volume, const TrackedNode& last) {
-  return !volume.geometry().containsWorld(last.centre +
-                                          kAtFaceRadii * last.radius * last.direction);
-}
-
 /// Limits on nodes beyond a gap, by the vessel so far.
 struct Likeness {
   const TrackedNode& last;
@@ -54,8 +50,7 @@ struct Likeness {
 
   [[nodiscard]] bool holds(const TrackedNode& node) const {
     return node.strength >= kLikeStrength * mean.strength &&
-           node.radius >= kNarrowestBeyond * last.radius &&
-           node.radius <= kWidestBeyond * last.radius;
+           node.radius >= kNarrowest * last.radius && node.radius <= kWidest * last.radius;
   }
   [[nodiscard]] bool onCourse(const TrackedNode& node) const {
     const Vector3d bridge = node.centre - last.centre;
@@ -148,7 +143,7 @@ Step trackOneStep(TrackRun& run, std::vector<TrackedNode>& nodes, std::size_t& l
   }
   if (turn) nodes.resize(std::max<std::size_t>(*turn, 1));
   const StopReason reason = node ? StopReason::TurnedBack : StopReason::NoValidCylinder;
-  if (isAtFace(context.volume, nodes.back())) return {reason};
+  if (isAtFace(context.volume.geometry(), nodes.back())) return {reason};
   // a track that turned back has given up nodes, and would turn back for ever if it might do so
   // again at the same place
   const bool isLonger = before > longest;
@@ -177,7 +172,8 @@ void trackToEnd(TrackRun& run, TrackedBranch& branch, FinishedBranches finished)
         step.stop = StopReason::MetBranch;
       }
   }
-  branch.stopReason = isAtFace(context.volume, nodes.back()) ? StopReason::LeftVolume : *step.stop;
+  branch.stopReason =
+      isAtFace(context.volume.geometry(), nodes.back()) ? StopReason::LeftVolume : *step.stop;
   if (branch.stopReason == StopReason::NoValidCylinder) dropTip(nodes);
 }
 
@@ -215,11 +211,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A branch that starts farther from its parent's axis than this many of the parent's radii may
-/// point in the wrong direction.
-constexpr double kBesideRadii = 2.5;
-/// A tip nearer to the parent than this share of the first node's distance is the branch's start.
-constexpr double kWrongEndShare = 0.5;
 /// A track that stays within this many radii of its click has died where it began.
 constexpr double kStuntedRadii = 4;
 
@@ -266,14 +257,6 @@ void trackFromFirstNode(TrackRun& run, TrackedBranch& branch, FinishedBranches f
   turnRound(branch);
 }
 
-/// True if a branch that began away from its parent has run towards it.
-bool looksBack(const TrackedBranch& parent, const TrackedBranch& branch) {
-  const ChainPoint first = closestOnChain(parent.nodes, branch.nodes.front().centre);
-  const ChainPoint last = closestOnChain(parent.nodes, branch.nodes.back().centre);
-  return first.distance > kBesideRadii * first.radius &&
-         last.distance < kWrongEndShare * first.distance;
-}
-
 /// The track from one start, in both directions where it has no parent.
 TrackedBranch trackFromStart(TrackRun& run, const SeedBranch& seed, const TrackedBranch* parent,
                              BranchStart start, FinishedBranches finished) {
@@ -285,10 +268,6 @@ TrackedBranch trackFromStart(TrackRun& run, const SeedBranch& seed, const Tracke
   branch.clickNode = branch.nodes.size() - 1;
   if (!parent && !seed.direction) trackFromFirstNode(run, branch, finished);
   trackToEnd(run, branch, finished);
-  if (parent && looksBack(*parent, branch)) {
-    turnRound(branch);
-    trackToEnd(run, branch, finished);
-  }
   return branch;
 }
 

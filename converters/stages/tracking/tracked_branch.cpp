@@ -5,19 +5,28 @@
 #include <limits>
 #include <utility>
 
+#include "converters/stages/tracking/cylinder.h"
+
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
 
-/// A centre nearer to another vessel's axis than this share of its radius is in that vessel; so is
-/// this share of a narrower vessel's own radius.
-constexpr double kInsideShare = 0.5;
-
 /// The point closest to `p` on the segment a-b, as a fraction of it.
 double fractionOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
   const double length2 = (b - a).squaredNorm();
   return length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
+}
+
+void drop(const std::vector<bool>& isDropped, TrackedBranch& branch) {
+  std::vector<TrackedNode> kept;
+  std::size_t click = 0;
+  for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
+    if (i == branch.clickNode) click = kept.size();
+    if (!isDropped[i]) kept.push_back(std::move(branch.nodes[i]));
+  }
+  branch.nodes = std::move(kept);
+  branch.clickNode = branch.nodes.empty() ? 0 : std::min(click, branch.nodes.size() - 1);
 }
 
 }  // namespace
@@ -62,21 +71,6 @@ std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes) {
   return out;
 }
 
-namespace {
-
-void drop(const std::vector<bool>& isDropped, TrackedBranch& branch) {
-  std::vector<TrackedNode> kept;
-  std::size_t click = 0;
-  for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
-    if (i == branch.clickNode) click = kept.size();
-    if (!isDropped[i]) kept.push_back(std::move(branch.nodes[i]));
-  }
-  branch.nodes = std::move(kept);
-  branch.clickNode = branch.nodes.empty() ? 0 : std::min(click, branch.nodes.size() - 1);
-}
-
-}  // namespace
-
 void dropTurnedBack(TrackedBranch& branch) {
   std::vector<const TrackedNode*> nodes;
   for (const TrackedNode& node : branch.nodes) nodes.push_back(&node);
@@ -84,12 +78,12 @@ void dropTurnedBack(TrackedBranch& branch) {
 }
 
 void dropCrowded(TrackedBranch& branch) {
-  constexpr double kCrowdedRadii = 0.25;  // half of the distance of nodes along courses
+  constexpr double kLeastSpacing = 0.5 * kSpacingRadii;
   const std::vector<TrackedNode>& nodes = branch.nodes;
   std::vector<bool> isCrowded(nodes.size(), false);
   std::size_t kept = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
-    if ((nodes[i].centre - nodes[kept].centre).norm() < kCrowdedRadii * nodes[i].radius) {
+    if ((nodes[i].centre - nodes[kept].centre).norm() < kLeastSpacing * nodes[i].radius) {
       const bool isBetter = nodes[i].inlierRate > nodes[kept].inlierRate;
       isCrowded[isBetter ? kept : i] = true;
       if (!isBetter) continue;
@@ -100,12 +94,11 @@ void dropCrowded(TrackedBranch& branch) {
 }
 
 void dropDome(TrackedBranch& branch) {
-  constexpr double kNarrow = 0.6;
   std::vector<TrackedNode>& nodes = branch.nodes;
   const auto isNarrow = [&] {
     const TrackedNode& last = nodes.back();
     return std::any_of(nodes.rbegin(), nodes.rend(), [&](const TrackedNode& node) {
-      return last.radius < kNarrow * node.radius &&
+      return last.radius < kNarrowest * node.radius &&
              (last.centre - node.centre).norm() < node.radius;
     });
   };
@@ -151,8 +144,7 @@ bool inCore(std::span<const TrackedBranch* const> branches, const TrackedNode& n
   return std::any_of(branches.begin(), branches.end(), [&](const TrackedBranch* branch) {
     if (branch->nodes.empty()) return false;
     const ChainPoint closest = closestOnChain(branch->nodes, node.centre);
-    const double core =
-        std::max(kInsideShare * closest.radius, closest.radius - kInsideShare * node.radius);
+    const double core = std::max(kCore * closest.radius, closest.radius - kCore * node.radius);
     return closest.distance < core;
   });
 }

@@ -14,6 +14,17 @@
 
 namespace lumen::convert {
 
+/// A place nearer to a vessel's axis than this share of its radius is in the vessel's core: it
+/// belongs to that vessel.
+constexpr double kCore = 0.5;
+/// Distance from one node along a course to the next, in radii.
+constexpr double kSpacingRadii = 0.5;
+/// Cosine of 45 degrees, the largest angle between the directions of one vessel at neighbouring
+/// places, and between the direction of an end and the way to what it leads to.
+constexpr double kAheadCosine = 0.7;
+/// Straight distances: a longer way leads along other vessels.
+constexpr double kLongestDetour = 2.5;
+
 /// A node with its wall points (mm, LPS).
 struct TrackedNode {
   formats::NodeOrigin origin = formats::NodeOrigin::Measured;

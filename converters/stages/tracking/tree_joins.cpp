@@ -17,10 +17,6 @@ namespace {
 
 using formats::StopReason;
 
-/// An end that met another vessel lies within this many of its radii.
-constexpr double kAtEndRadii = 1.5;
-/// Cosine of 45 degrees, the largest angle between the direction of an end and its target.
-constexpr double kAheadCosine = 0.7;
 /// Largest radius of a root that may be joined by its tip, in radii of the other vessel.
 constexpr double kNoWiderRadii = 1.2;
 
@@ -139,7 +135,7 @@ void extendTipsIf(const TrackContext& context, const Vessels& vessels,
 int metAt(const Vessels& vessels, std::size_t root, const TrackedNode& end, StopReason reason) {
   if (reason == StopReason::Unknown || reason == StopReason::LeftVolume) return -1;
   int best = -1;
-  double nearest = kAtEndRadii;
+  double nearest = kEndRadii;
   for (const std::size_t i : vessels.members()) {
     if (vessels.findRoot(i) == root) continue;
     const ChainPoint at = closestOnChain(vessels[i].nodes, end.centre);
@@ -226,10 +222,6 @@ void joinLevel(const Vessels& vessels, const std::vector<int>& levels, int level
     joinToParent(run, vessels.branches(), others[i], vessels[i]);
   });
 }
-
-}  // namespace
-
-namespace {
 
 bool isTrackedBothWays(const TrackedBranch& branch) {
   return branch.parentBranch < 0 && branch.startReason != StopReason::Unknown;

@@ -20,9 +20,8 @@ using Eigen::Vector3d;
 /// The most rounds of reweighting, and the relative change of the unknowns below which they end.
 constexpr int kReweightings = 12;
 constexpr double kEllipseConverged = 1e-3;
-/// Standard deviations beyond which a point has no weight (J. Tukey's biweight), and the ratio of a
-/// standard deviation to the median of absolute residuals.
-constexpr double kBiweightDeviations = 4.685, kDeviationOfMedian = 1.4826;
+/// Standard deviations beyond which a point has no weight (J. Tukey's biweight).
+constexpr double kBiweightDeviations = 4.685;
 /// The largest ratio of a section's axes: a longer one is two vessels. Rays of kRayRadii show it in
 /// full around a circle that fits between its sides.
 constexpr double kLargestAxisRatio = 2.5;

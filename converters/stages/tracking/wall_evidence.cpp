@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 constexpr int kEdgeDirections = 16;
 // A wall is off if its edge is farther than a voxel, or than a quarter of the radius, as sections
 // are not quite round.
-constexpr double kOffVoxels = 1, kOffRadii = 0.25;
+constexpr double kOffRadii = 0.25;
 // Cylinders fit where half of the candidates agree, so that by chance half of the wall may be off.
 constexpr double kChanceOfOutliers = 0.5;
 // Shares of chance above which a vessel is none, which is halfway between a perfect wall and one by
@@ -78,7 +78,7 @@ private:
   [[nodiscard]] double voxel() const { return m_context.volume.geometry().voxelSize(); }
   [[nodiscard]] ProfileReach reach(double radius) const { return profileReach(radius, voxel()); }
   [[nodiscard]] double offFrom(double radius) const {
-    return std::max(kOffVoxels * voxel(), kOffRadii * radius);
+    return std::max(voxel(), kOffRadii * radius);
   }
 
   void look(const TrackedNode& node, std::size_t n, std::size_t own,

@@ -31,8 +31,6 @@ using Eigen::Vector3d;
 constexpr double kSideRadii = 4;
 /// The fewest nodes on a side.
 constexpr std::size_t kFewestNodesBeside = 3;
-/// Largest distance of a new fit from its place, in expected radii.
-constexpr double kOffLineRadii = 1.0;
 /// First stream of random numbers, far from those of tracking.
 constexpr std::uint64_t kFirstStream = std::uint64_t{1} << 32;
 
@@ -61,8 +59,7 @@ std::optional<double> expectedRadius(const TrackContext& context,
     return std::nullopt;
   const auto before = radiusBeside(nodes, n, false, kSideRadii * node.radius);
   const auto after = radiusBeside(nodes, n, true, kSideRadii * node.radius);
-  if (!before || !after || node.radius <= kSwollenRadii * std::max(*before, *after))
-    return std::nullopt;
+  if (!before || !after || node.radius <= kWidest * std::max(*before, *after)) return std::nullopt;
   return 0.5 * (*before + *after);
 }
 
@@ -80,8 +77,8 @@ void replaceRun(TrackRun& run, std::vector<TrackedNode>& nodes, std::size_t firs
     const double radius = expected[n];
     NodeFit fit = fitNode(run, {place, direction, radius, true, 0.5 * step},
                           leastInlierRate(run.context.options));
-    if (fit.node && fit.node->radius <= kSwollenRadii * radius &&
-        (fit.node->centre - place).norm() <= kOffLineRadii * radius) {
+    if (fit.node && fit.node->radius <= kWidest * radius &&
+        (fit.node->centre - place).norm() <= radius) {
       nodes[n] = std::move(*fit.node);
       continue;
     }

@@ -12,11 +12,11 @@ def work(values, progress):
     with tempfile.TemporaryDirectory(prefix="lumen-") as folder:
         case = values["case"] or str(pathlib.Path(folder) / "case.lumen")
         seeds = joined_markups(values["seeds"], pathlib.Path(folder) / "seeds.mrk.json")
-        options = ["--seeds", seeds] if seeds else []
+        options = ["--seeds", seeds, "--random-seed", values["randomSeed"]] if seeds else []
         for flag in ("seedsOnly", "onlyConnected", "dark"):
             if values[flag]: options.append({"seedsOnly": "--seeds-only", "onlyConnected": "--only-connected", "dark": "--dark"}[flag])
         if values["seedsOnly"] and not seeds: raise lumen_cli.Failure("tracking from seeds alone needs seeds")
-        lumen_cli.run(progress, "convert", values["volume"], case, "--random-seed", values["randomSeed"], *options)
+        lumen_cli.run(progress, "convert", values["volume"], case, *options)
         write_results(case, values, progress)
 
 

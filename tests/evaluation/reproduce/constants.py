@@ -13,6 +13,7 @@ without a truth: the constants that decide most are tried on it, too.
 What is measured stays in FOLDER/runs.jsonl, so that a run that was stopped goes on there; each phantom that is complete renews the table
 FOLDER/constants.md. Its figures depend on SOURCE: another one wants another FOLDER.
 """
+import copy
 import hashlib
 import json
 import os
@@ -33,7 +34,7 @@ PLACES = [STAGES + "finding/*", STAGES + "tracking/*", STAGES + "editing/smooth_
           STAGES + "editing/overlapping_ends.*", STAGES + "editing/into_sides.*", STAGES + "editing/rungs.*", STAGES + "editing/across_voids.*",
           STAGES + "editing/inlets.*", STAGES + "editing/node_graph.*", "converters/voxels/vessel_paths.*", "converters/voxels/skeleton.h"]
 LESS, MORE = 0.8, 1.25
-SEEDS = (2, 3, 4)  # random seeds of runs with every constant as it is: how much chance alone changes
+SEEDS = (2, 3, 4)  # of other drawings of a phantom, with every constant as it is: how much chance alone changes
 PHANTOMS = [(name, [name, "--size", 64]) for name in ("right-angle", "aneurysm", "kissing", "fading", "bifurcation", "companion")]
 PHANTOMS += [("willis", ["willis", "--size", 96])]
 PHANTOMS += [(name, [name, "--size", 64]) for name in ("dropout", "hairpin", "sac-lobes", "stenosis", "helix")]
@@ -41,10 +42,9 @@ PHANTOMS += [(name, [name, "--size", 64]) for name in ("dropout", "hairpin", "sa
 CLICKED = [("bifurcation-clicks", ["bifurcation", "--size", 64]), ("aneurysm-clicks", ["aneurysm", "--size", 64]),
            ("right-angle-clicks", ["right-angle", "--size", 64, "--clicks", "careless"])]
 LARGE = [("patient-1", ["patient", "--size", 128, "--voxel", 0.4])]
-# facts of mathematics and of memory, or how often a run looks whether it was cancelled
-FACTS = {"finding/background.cpp:kFromDeviation", "finding/bright_voxels.cpp:kCheckEvery", "tracking/corrections.cpp:kWidthAtHalfHeight",
-         "tracking/tracking_volume.cpp:kEdgesToVariance", "tracking/wall_section.cpp:kUnknowns", "tracking/wall_section.cpp:kDeviationOfMedian",
-         "voxels/skeleton.h:kCheckEvery", "voxels/vessel_paths.h:kMostSteps", "voxels/vessel_paths.h:kAxesShift"}
+# facts of mathematics and of memory
+FACTS = {"tracking/corrections.cpp:kWidthAtHalfHeight", "tracking/tracking_volume.cpp:kEdgesToVariance",
+         "tracking/wall_ellipse.h:kEllipseUnknowns", "voxels/vessel_paths.h:kMostSteps", "voxels/vessel_paths.h:kAxesShift"}
 ON_REAL = 30  # constants that are tried on the real volume
 JOBS = 2
 LONGEST = 20  # times the processor time of the unchanged run: more counts as a failure
@@ -196,16 +196,16 @@ class Runs:
         if key in self.kept: return self.kept[key]
         record = {"volume": volume.name, "constant": constant, "factor": factor}
         case = self.folder / f"{volume.name}.{threading.get_ident()}.lumen"
-        more = ["--random-seed", int(factor)] if constant == "seed" else []
+        drawn = volume.drawn(self, int(factor)) if constant == "seed" else volume
         before = os.times()
-        found = self.answer(*volume.command, volume.file, case, *more, constants=self.setting(constant, factor), seconds=volume.seconds)
+        found = self.answer(*drawn.command, drawn.file, case, constants=self.setting(constant, factor), seconds=volume.seconds)
         after = os.times()
         if found is None: record["failed"] = True
         else:
             digest = hashlib.sha256(case.read_bytes()).hexdigest()
             whole = self.kept.get((volume.name, "", 1.0))
             if whole and whole["digest"] == digest: record["same"] = True
-            else: record |= {"digest": digest, "branches": found["branches"], "length": found["length_mm"], **volume.measures(self, case)}
+            else: record |= {"digest": digest, "branches": found["branches"], "length": found["length_mm"], **drawn.measures(self, case)}
         if not constant:
             record["seconds"] = after.children_user - before.children_user
             case.replace(self.folder / f"{volume.name}.lumen")
@@ -220,19 +220,25 @@ class Phantom:
     """A synthetic volume; its measures against the truth."""
 
     def __init__(self, runs, name, options):
-        self.name, self.file, self.truth = name, runs.folder / f"{name}.nrrd", runs.folder / f"{name}.truth.lumen"
-        self.seeds, self.command = runs.folder / f"{name}.json", ["track"]
-        if name.endswith("-clicks"): self.command += ["--seeds-only", "--seeds", self.seeds]
-        made = self.folder_of(runs, options)
-        self.voxel, self.length, self.seconds = made["voxel_size_mm"], made["length_mm"], 600
+        self.name, self.options, self.seconds = name, options, 600
+        self.draw(runs, name)
         self.seconds = int(LONGEST * runs.of(self).get("seconds", 1)) + 2
 
-    def folder_of(self, runs, options):
-        kept = runs.folder / f"{self.name}.made.json"
+    def draw(self, runs, stem, *more):
+        self.file, self.truth, seeds = (runs.folder / f"{stem}{end}" for end in (".nrrd", ".truth.lumen", ".json"))
+        self.command = ["track"] + (["--seeds-only", "--seeds", seeds] if self.name.endswith("-clicks") else [])
+        kept = runs.folder / f"{stem}.made.json"
         if not kept.exists():
-            made = runs.answer("phantom", *options, self.file, "--truth", self.truth, "--seeds", self.seeds)
+            made = runs.answer("phantom", *self.options, *more, self.file, "--truth", self.truth, "--seeds", seeds)
             kept.write_text(json.dumps(made))
-        return json.loads(kept.read_text())
+        made = json.loads(kept.read_text())
+        self.voxel, self.length = made["voxel_size_mm"], made["length_mm"]
+
+    def drawn(self, runs, seed):
+        """The phantom with other noise."""
+        other = copy.copy(self)
+        other.draw(runs, f"{self.name}-{seed}", "--seed", seed)
+        return other
 
     def measures(self, runs, case):
         score = runs.answer("compare", case, self.truth)
@@ -326,12 +332,12 @@ def report(sources, effects, real_rows):
     lines = ["# Constants", "", f"`constants.py SOURCE FOLDER [VOLUME]`: each named number of finding and tracking without a click times {LESS} and times {MORE}, alone.",
              f"Whole numbers change by one at least; the numbers of a list change together. Phantoms ({len(effects.phantoms)}): {names}.",
              "Each cell has the largest loss over all phantoms: overlap in points, false length in mm, right forks (forks.py), the root mean square",
-             "error of radii in voxels, each with the phantom that shows it, and the change of the number of branches. Three other random seeds,",
-             "with every constant as it is, show what chance does.", "",
+             "error of radii in voxels, each with the phantom that shows it, and the change of the number of branches. Three other drawings of the",
+             "noise, with every constant as it is, show what chance does.", "",
              f"The sources name {len(sources.values)} numbers, of which {len(constants)} are changed here. **{len(none)}** of these leave the case of every phantom as it was to the byte.",
-             f"**{len(rest)}** change cases, but cost no phantom more than any other random seed does and more than 0.5 points (of overlap, or of false length in the",
+             f"**{len(rest)}** change cases, but cost no phantom more than any other noise does and more than 0.5 points (of overlap, or of false length in the",
              f"true one), nor a fork that no seed costs. **{len(decide)}** cost more.", ""]
-    lines += ["| seed | effect |", "|--:|---|"] + [f"| {seed} | {effects.cell('seed', seed)} |" for seed in SEEDS]
+    lines += ["| noise | effect |", "|--:|---|"] + [f"| {seed} | {effects.cell('seed', seed)} |" for seed in SEEDS]
     head = ["", "| constant | file | value | effect of less | effect of more |", "|---|---|---|---|---|"]
     lines += ["", "## More than chance", *head, *map(both, decide), "", "## No more than chance", *head, *map(both, rest)]
     if real_rows: lines += ["", "## A real volume", "", *real_rows]
@@ -345,7 +351,7 @@ def report(sources, effects, real_rows):
 def real_table(runs, real, constants, pool):
     """Rows of the constants that decide most, on a real volume."""
     whole = runs.of(real)
-    jobs = [("seed", seed) for seed in SEEDS] + [(c, factor) for c in constants for factor in (LESS, MORE)]
+    jobs = [(c, factor) for c in constants for factor in (LESS, MORE)]
     done = dict(zip(jobs, pool.map(lambda job: runs.of(real, *job), jobs)))
 
     def cell(record):
@@ -355,8 +361,7 @@ def real_table(runs, real, constants, pool):
 
     rows = [f"The {len(constants)} first constants on a real volume ({whole['length']:.0f} mm in {whole['branches']} branches, {whole['held']:.1f} % held by `lumen check`): change of the length, of the share that is held, in points, and of branches.",
             "", "| constant | file | effect of less | effect of more |", "|---|---|---|---|"]
-    rows += [f"| `{c.split(':')[1]}` | {c.split(':')[0]} | {cell(done[c, LESS])} | {cell(done[c, MORE])} |" for c in constants]
-    return rows + [f"| random seed {seed} | | {cell(done['seed', seed])} | |" for seed in SEEDS]
+    return rows + [f"| `{c.split(':')[1]}` | {c.split(':')[0]} | {cell(done[c, LESS])} | {cell(done[c, MORE])} |" for c in constants]
 
 
 def main():

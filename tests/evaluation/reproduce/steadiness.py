@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether results hang on nothing: random seeds, containers, an origin or clicks that move a little, and careless clicks.
+"""Whether results hang on nothing: containers, an origin or clicks that move a little, and careless clicks.
 
   steadiness.py DATA FOLDER LUMEN [NAME ...]
 
-Phantoms and the volumes of DATA are converted by default options, again with ten random seeds, from other containers of the same voxels
+Phantoms and the volumes of DATA are converted by default options, again from other containers of the same voxels
 (MetaImage, NIfTI, DICOM where voxels are whole numbers), with the origin moved by a nanometre, and with the vessels that were found
 as clicks, which move by 1 nm, 1 um and 0.1 voxel. A vessel *comes or goes* if it is longer than 5 mm and more than half of it lies
 outside of all vessels of the other case. Then the trees of DATA/arteries and ten patients are clicked carelessly in ten drawings, with
@@ -25,7 +25,6 @@ from volumes import read, write_dicom, write_metaimage, write_nifti, write_nrrd
 PHANTOMS = [("bifurcation", ["bifurcation"]), ("kissing", ["kissing"]), ("willis", ["willis"]), ("patient-1", ["patient", "--seed", "1"])]
 VOLUMES = [("3DRA", "aneurism-3dra.nrrd"), ("aorta", "aorta/aorta.mha"), ("fistula", "avf/avf.nii"),
            ("carotid, speed of blood", "more/carotid-pcmr.nrrd")]
-RANDOM_SEEDS = range(1, 11)
 DRAWINGS = range(1, 11)
 LONG = 5.0  # mm
 MOVES = [("1 nm", 1e-6), ("1 um", 1e-3)]  # mm
@@ -72,7 +71,6 @@ def moved_clicks(folder, seeds, by):
 def steady_row(lumen, folder, name, file):
     volume, case = read(file), folder / "steady.lumen"
     first = convert(lumen, file, case)
-    seeds = [convert(lumen, file, case, "--random-seed", seed) for seed in RANDOM_SEEDS]
     containers = []
     for written, write in (("v.mha", write_metaimage), ("v.nii", write_nifti), ("v.nrrd", write_nrrd)):
         write(volume, folder / written)
@@ -92,7 +90,7 @@ def steady_row(lumen, folder, name, file):
     hinted = convert(lumen, file, case, "--seeds", clicks)
     voxel = float(numpy.linalg.norm(volume.affine[:3, :3], axis=0).min())
     moves = [compared(hinted, [convert(lumen, file, case, "--seeds", moved_clicks(folder, clicks, by))]) for _, by in (*MOVES, ("voxel", 0.1 * voxel))]
-    return f"| {name} | {first[0]:.0f} | {compared(first, seeds)} | {compared(first, containers)} | {compared(first, origin)} | {' | '.join(moves)} |"
+    return f"| {name} | {first[0]:.0f} | {compared(first, containers)} | {compared(first, origin)} | {' | '.join(moves)} |"
 
 
 def careless_row(lumen, folder, name, options):
@@ -129,7 +127,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     wanted = lambda name: not names or name in names
     lines = ["# Steadiness", "", "Greatest change of the total length, and the most vessels of over 5 mm that come or go.", "",
-             "| volume | mm | ten random seeds | containers | origin by 1 nm | clicks by 1 nm | 1 um | 0.1 voxel |", "|---|--:|---|---|---|---|---|---|"]
+             "| volume | mm | containers | origin by 1 nm | clicks by 1 nm | 1 um | 0.1 voxel |", "|---|--:|---|---|---|---|---|"]
     for name, options in PHANTOMS:
         if not wanted(name): continue
         subprocess.run([str(lumen), "phantom", *options, str(folder / "p.nrrd"), "--quiet"], check=True, capture_output=True)

@@ -5,8 +5,7 @@
   without_clicks.py DATA FOLDER LUMEN [NAME ...]
 
 Phantoms, with clutter and without, ten patients, the arterial trees of DATA drawn in voxels of 0.3 mm, and its volumes; NAMEs choose some. Each is
-converted with default options; a real volume three times, with the random seeds 1 to 3, whose lengths show the spread. Volumes
-are deleted again; cases stay in FOLDER, and so does without_clicks.md, which is printed too.
+converted with default options. Volumes are deleted again; cases stay in FOLDER, and so does without_clicks.md, which is printed too.
 """
 import heapq
 import json
@@ -26,7 +25,6 @@ CLUTTERED = [("bifurcation", ["bifurcation"]), ("kissing", ["kissing"]), ("willi
 CLUTTER = ["bone", "vein", "streaks", "stent", "void", "bone,vein,streaks,stent,void"]
 VOLUMES = [("3DRA", "aneurism-3dra.nrrd"), ("aorta", "aorta/aorta.mha"), ("fistula", "avf/avf.nii"),
            ("carotid, speed of blood", "more/carotid-pcmr.nrrd")]
-SEEDS = (1, 2, 3)
 apart = math.dist
 
 
@@ -123,18 +121,12 @@ def cluttered(lumen, folder, name, options):
 
 def real(lumen, folder, name, file):
     """A row of the table of real volumes."""
-    lengths = []
-    for seed in SEEDS:
-        case = folder / f"{name.split(',')[0]}-{seed}.lumen"
-        found, wall, processor = run(lumen, "convert", file, case, "--random-seed", seed)
-        lengths.append(found["length_mm"])
-        if seed == SEEDS[0]: first, times, kept = found, (wall, processor), case
-    check, _, _ = run(lumen, "check", file, kept)
+    case = folder / f"{name.split(',')[0]}.lumen"
+    found, wall, processor = run(lumen, "convert", file, case)
+    check, _, _ = run(lumen, "check", file, case)
     walls = check["wall"]
-    spread = (max(lengths) - min(lengths)) / (sum(lengths) / len(lengths))
-    return (f"| {name} | {first['branches']} | {lengths[0]:.0f} | {100 * check['coverage_share']:.1f} % | "
-            f"{walls['offset_voxels']['p90_absolute']:.2f} | {100 * walls['beyond_voxel_share']:.1f} % | {100 * spread:.1f} % | "
-            f"{times[0]:.1f} | {times[1]:.1f} |")
+    return (f"| {name} | {found['branches']} | {found['length_mm']:.0f} | {100 * check['coverage_share']:.1f} % | "
+            f"{walls['offset_voxels']['p90_absolute']:.2f} | {100 * walls['beyond_voxel_share']:.1f} % | {wall:.1f} | {processor:.1f} |")
 
 
 def main():
@@ -158,10 +150,9 @@ def main():
     for name, options in CLUTTERED:
         if not names or f"clutter-{name}" in names: lines += cluttered(lumen, folder, name, options)
     lines += ["", "## Real volumes", "",
-              "*Held* is the share of the vessels that are connected to the case in the volume, by `lumen check`; *spread* that of",
-              "the lengths of three random seeds.", "",
-              "| volume | vessels | mm | held | wall, 90 % | beyond a voxel | spread | wall clock | processor |",
-              "|---|--:|--:|--:|--:|--:|--:|--:|--:|"]
+              "*Held* is the share of the vessels that are connected to the case in the volume, by `lumen check`.", "",
+              "| volume | vessels | mm | held | wall, 90 % | beyond a voxel | wall clock | processor |",
+              "|---|--:|--:|--:|--:|--:|--:|--:|"]
     for name, file in VOLUMES:
         if wanted(name) and (data / file).exists(): lines.append(real(lumen, folder, name, data / file))
     text = "\n".join(lines) + "\n"
