@@ -171,10 +171,11 @@ private:
     const auto value = session.now().document.value;
     if (value && value->motion) return;
     const std::string file = formats::printable(value ? caseFile() : filesText());
-    engine::refuseIdle(*around.table->find("time"),
-                       isFolderOfCases() ? "is for one case, and " + file + " is a folder of them"
-                                         : "is for cases with a motion, and " + file + " has none",
-                       around.progress);
+    engine::refuseUnused(*around.table->find("time"),
+                         isFolderOfCases()
+                             ? "is for one case, and " + file + " is a folder of them"
+                             : "is for cases with a motion, and " + file + " has none",
+                         around.progress);
   }
 
   /// The first case among the files.
@@ -264,8 +265,8 @@ private:
     const auto refuse = [&](const char* option, const std::string& needed) {
       const OptionRow& row = *around.table->find(option);
       if (row.isGiven)
-        engine::refuseIdle(row, "is for " + needed + ", and " + filesText() + " has none",
-                           around.progress);
+        engine::refuseUnused(row, "is for " + needed + ", and " + filesText() + " has none",
+                             around.progress);
     };
     if (!document.volume) refuse("html-volume", "a volume beside the case");
     if (!document.value || !document.value->points) refuse("html-points", "cases with wall points");
@@ -302,7 +303,7 @@ private:
   /// Until Ctrl-C, or until the last page has been gone for long enough.
   void waitForEnd(Session& session, const engine::Surroundings& around) const {
     Clock::time_point lastLook = Clock::now(), lastKept = lastLook;
-    IdleEnd idle(kWithoutPages, lastLook);
+    IdleTimeout idle(kWithoutPages, lastLook);
     bool kept = true;
     while (!around.progress.cancelled()) {
       std::this_thread::sleep_for(kTick);

@@ -167,18 +167,18 @@ private:
   void requirePoints(const formats::Case& value, const Surroundings& around) const {
     const OptionRow& row = *around.table->find("point-bits");
     if (row.isGiven && (!value.points || value.points->position.empty()))
-      refuseIdle(row,
-                 "is for cases with wall points, and " + formats::printable(m_input) + " has none",
-                 around.progress);
+      refuseUnused(
+          row, "is for cases with wall points, and " + formats::printable(m_input) + " has none",
+          around.progress);
   }
 
   /// Refuses to leave out a motion that a case does not have.
   void requireMotion(const formats::Case& value, const Surroundings& around) const {
     const OptionRow& row = *around.table->find("skin");
     if (row.isGiven && !value.motion)
-      refuseIdle(row,
-                 "is for cases with a motion, and " + formats::printable(m_input) + " has none",
-                 around.progress);
+      refuseUnused(row,
+                   "is for cases with a motion, and " + formats::printable(m_input) + " has none",
+                   around.progress);
   }
 
   [[nodiscard]] MeshArguments meshArguments() const {
@@ -211,10 +211,10 @@ private:
       options.cohesionWeight = m_fit.cohesionWeight;
     const OptionRow& scale = *around.table->find("cohesion-scale");
     if (scale.isGiven && !(options.cohesionWeight > 0))
-      refuseIdle(scale,
-                 "does nothing without " + kOption.cohesionWeight.shown() +
-                     ", which is 0 for a case without voxels",
-                 around.progress);
+      refuseUnused(scale,
+                   "does nothing without " + kOption.cohesionWeight.shown() +
+                       ", which is 0 for a case without voxels",
+                   around.progress);
     convert::fit(value, options, around.progress);
   }
 

@@ -90,9 +90,9 @@ private:
   [[nodiscard]] Answer describeWithSurface(const formats::Case& value,
                                            const Surroundings& around) const {
     if (m_surface && !value.models)
-      refuseIdle(*around.table->find("surface"),
-                 "is for cases with models, and " + formats::printable(m_input) + " has none",
-                 around.progress);
+      refuseUnused(*around.table->find("surface"),
+                   "is for cases with models, and " + formats::printable(m_input) + " has none",
+                   around.progress);
     const convert::CaseInfo info = convert::describeCase(value, around.progress);
     const SurfaceFindings found =
         m_surface ? examineSurface(value, around.progress) : SurfaceFindings{};

@@ -104,9 +104,9 @@ public:
     ReportFacts facts = factsOfCase(around);
     const OptionRow& spread = *around.table->find("point-spread");
     if (spread.isGiven && !facts.value.models)
-      refuseIdle(spread,
-                 "is for cases with models, and " + formats::printable(m_case) + " has none",
-                 around.progress);
+      refuseUnused(spread,
+                   "is for cases with models, and " + formats::printable(m_case) + " has none",
+                   around.progress);
     if (!m_input.empty()) addVolume(facts, around.progress);
     if (const std::size_t count = facts.warnings(); count > 0)
       around.progress.warn(m_case + ": " + counted(count, "warning", "warnings") +
