@@ -59,13 +59,13 @@ bool isMet(const OptionTable& table, const OptionNeed& need) {
 
 /// The reason why an option would do nothing, as the end of a sentence; empty if it counts.
 std::string unusedReason(const OptionTable& table, const OptionRow& row,
-                         const Situation& situation) {
-  if ((row.inputs & situation.input) == 0)
+                         const FileContents& contents) {
+  if ((row.inputs & contents.input) == 0)
     return "is for " + namesIn(row.inputs, kInputNames) + ", and " +
-           formats::printable(situation.inputName) + " is none of these";
-  if ((row.outputs & situation.output) == 0)
+           formats::printable(contents.inputName) + " is none of these";
+  if ((row.outputs & contents.output) == 0)
     return "is for writing " + namesIn(row.outputs, kOutputNames) + ", and " +
-           formats::printable(situation.outputName) + " is none of these";
+           formats::printable(contents.outputName) + " is none of these";
   for (const std::string& other : row.unusedWith)
     if (const OptionRow* const found = table.find(other); found != nullptr && found->isOn())
       return "does nothing with " + found->shownName();
@@ -111,10 +111,10 @@ void refuseUnused(const OptionRow& row, const std::string& reason, Progress& pro
   progress.warn(row.shownName() + " of the configuration file is left out: it " + reason);
 }
 
-void requireInScope(const OptionTable& table, const Situation& situation, Progress& progress) {
+void requireInScope(const OptionTable& table, const FileContents& contents, Progress& progress) {
   for (const OptionRow& row : table.rows()) {
     if (!row.isGiven || row.isArgument) continue;
-    const std::string reason = unusedReason(table, row, situation);
+    const std::string reason = unusedReason(table, row, contents);
     if (!reason.empty()) refuseUnused(row, reason, progress);
   }
 }

@@ -76,9 +76,8 @@ public:
     const FileFormat& to = outputFormat(m_output, m_to);
     requireInput(m_input, "input");
     const FileFormat& from = inputFormat(m_input, m_from);
-    m_situation = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
-    if (from.kind != FormatKind::Case)
-      requireInScope(*context.table, m_situation, context.progress);
+    m_contents = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
+    if (from.kind != FormatKind::Case) requireInScope(*context.table, m_contents, context.progress);
     if (from.kind == FormatKind::Volume && !m_track.seeds.empty()) m_seeds = loadSeeds(m_track);
     if (!m_corrected.empty()) requireInput(m_corrected, "corrected case");
     requireWritable(m_output, contentKind(to));
@@ -121,8 +120,8 @@ private:
     if (m_mask.isGiven()) return caseOfLabels(volume, progress);
     if (m_seeds.empty() && convert::holdsLabels(volume)) {
       progress.detail(m_input + ": its voxels are labels, and all but 0 are taken for vessels");
-      m_situation.input = inputContent(from, true);
-      requireInScope(*context.table, m_situation, progress);
+      m_contents.input = inputContent(from, true);
+      requireInScope(*context.table, m_contents, progress);
       return caseOfLabels(volume, progress);
     }
     if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
@@ -200,8 +199,8 @@ private:
                          "so there is no surface to make a mesh of");
     const bool isNew = from.kind != FormatKind::Case;
     if (!isNew) {
-      if (meshNeedsModels) m_situation.input = kUnfittedCase;
-      requireInScope(*context.table, m_situation, context.progress);
+      if (meshNeedsModels) m_contents.input = kUnfittedCase;
+      requireInScope(*context.table, m_contents, context.progress);
     }
     if (isNew || meshNeedsModels) fit(value, context);
   }
@@ -245,7 +244,7 @@ private:
   std::optional<MeshFrame> m_meshFrame;  ///< none for other inputs
   MaskArguments m_mask;
   OutputOptions m_outputOptions;
-  Situation m_situation;
+  FileContents m_contents;
   std::vector<convert::SeedBranch> m_seeds;
   convert::TrackRemarks m_remarks;
   std::optional<convert::Repetition> m_repetition;
