@@ -30,10 +30,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTick{100};    // most delay of Ctrl-C
-constexpr std::chrono::seconds kLook{1};           // between two looks at the files on disk
-constexpr std::chrono::seconds kKeep{5};           // between two copies of unsaved work
-constexpr std::chrono::seconds kWithoutPages{60};  // a page that is loaded again takes seconds
+constexpr std::chrono::milliseconds kCancelCheckInterval{100};  // most delay of Ctrl-C
+constexpr std::chrono::seconds kFileCheckInterval{1};  // between two looks at the files on disk
+constexpr std::chrono::seconds kBackupInterval{5};     // between two copies of unsaved work
+constexpr std::chrono::seconds kIdleTimeout{60};       // a page that is loaded again takes seconds
 
 class ViewCommand : public engine::Command {
 public:
@@ -303,17 +303,17 @@ private:
   /// Until Ctrl-C, or until the last page has been gone for long enough.
   void waitForEnd(Session& session, const engine::RunContext& context) const {
     Clock::time_point lastLook = Clock::now(), lastKept = lastLook;
-    IdleTimeout idle(kWithoutPages, lastLook);
+    IdleTimeout idle(kIdleTimeout, lastLook);
     bool kept = true;
     while (!context.progress.cancelled()) {
-      std::this_thread::sleep_for(kTick);
+      std::this_thread::sleep_for(kCancelCheckInterval);
       const auto now = Clock::now();
       const bool isOver = idle.isOver(session.events().count(), session.isBusy(), now);
       if (isOver && !m_keep) return;
-      if (now - lastLook < kLook) continue;
+      if (now - lastLook < kFileCheckInterval) continue;
       lastLook = now;
       session.lookAtFiles();
-      if (now - lastKept < kKeep) continue;
+      if (now - lastKept < kBackupInterval) continue;
       lastKept = now;
       kept = keep(session, context, kept);
     }

@@ -75,13 +75,13 @@ Json Operations::acceptVolume(const Moment& from) {
 
 Json Operations::decide(const std::string& op, const Arguments& request, const Moment& from) {
   if (!from.document.value) refuse("there is no case whose places could be ignored");
-  constexpr std::size_t kMost = 1U << 20U;  // limit: of any number in a request
+  constexpr std::size_t kMaxIndex = 1U << 20U;  // limit: of any number in a request
   if (op == "heed") {
     m_workspace.commit("heed a place", from,
-                       withHeeded(from.document, request.index("ignored", kMost)));
+                       withHeeded(from.document, request.index("ignored", kMaxIndex)));
     return m_workspace.revision();
   }
-  const WorkItem item = m_workspace.findings.workItem(request.index("item", kMost));
+  const WorkItem item = m_workspace.findings.workItem(request.index("item", kMaxIndex));
   m_workspace.commit("ignore a place", from,
                      withIgnored(from.document, item, request.text("reason")));
   return m_workspace.revision();
