@@ -41,7 +41,7 @@ struct RunSettings {
   std::filesystem::path program;
 };
 
-/// Environment of a command that runs.
+/// Engine, progress, settings and rows of a command that runs.
 struct RunContext : RunSettings {
   RunContext(const Engine& ownEngine, Progress& ownProgress, RunSettings settings = {})
       : RunSettings(std::move(settings)), engine(ownEngine), progress(ownProgress) {}

@@ -11,8 +11,8 @@
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
-#include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "converters/stages/tracking/vessel_at_click.h"
@@ -159,10 +159,10 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
                                  });
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
-  const convert::Surrounding around{
+  const convert::LumenInVolume around{
       [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
       [&](const Eigen::Vector3d& point) { return volume.geometry.containsWorld(point); }};
-  for (const Eigen::Vector3d& place : convert::untangle(result.result, around))
+  for (const Eigen::Vector3d& place : convert::correctTopology(result.result, around))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
   const std::vector<Eigen::Vector3d> inlets =
       convert::furtherInlets(result.result.tree, around.isInside);

@@ -31,8 +31,9 @@ struct ExtractionReport {
 /// local radii. Two sheets that are inside at the ends of one edge and not joined along it both
 /// have their walls on it, so vessels that touch share no vertex. The genus of each surface is the
 /// number of loops that links close. A union (SeparationOptions::isUnion) has one surface around all
-/// vessels that are joined, of any genus, and none around hollows between them. Vertices are within a few per cent of a radius of the field's
-/// surface; ends bulge as the field does. All triangles are in group 0.
+/// vessels that are joined, of any genus, and none around hollows between them. Vertices are within a
+/// few per cent of a radius of the field's surface; ends bulge as the field does. All triangles are
+/// in group 0.
 CaseSurface extractSurface(const SeparatedField& field, double share, ExtractionReport& report,
                            Progress& progress);
 

@@ -52,8 +52,8 @@ void keepSupported(std::vector<TrackedNode>& nodes, double leastFitted) {
 /// The longest stretch of a vessel that no vessel before it holds.
 struct OutsideStretch {
   std::size_t first = 0, end = 0;
-  double length = 0;   ///< mm
-  double besides = 0;  ///< greatest radius of the vessels beside it, mm
+  double length = 0;           ///< mm
+  double neighbourRadius = 0;  ///< greatest radius of the vessels beside it, mm
 };
 
 OutsideStretch findOutside(std::span<const BranchLumen> before,
@@ -70,7 +70,7 @@ OutsideStretch findOutside(std::span<const BranchLumen> before,
     if (here.length > best.length) best = here;
     here.first = i + 1;
   }
-  best.besides = widest;
+  best.neighbourRadius = widest;
   return best;
 }
 
@@ -83,7 +83,7 @@ void dropInside(std::span<const BranchLumen> before, double voxel, double apart,
   std::vector<double> radii;
   for (std::size_t i = out.first; i < out.end; ++i) radii.push_back(branch.nodes[i].radius);
   const double own = radii.empty() ? 0 : upperMedian(radii);
-  if (out.length < std::max({out.besides, 2 * own, kShortestVoxels * voxel})) {
+  if (out.length < std::max({out.neighbourRadius, 2 * own, kShortestVoxels * voxel})) {
     branch.nodes.clear();
     branch.failure = "it is a bump on the wall of the vessel that it leaves";
     return;

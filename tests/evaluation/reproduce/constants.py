@@ -29,7 +29,7 @@ from pathlib import Path
 from forks import right_forks
 
 STAGES = "converters/stages/"
-PLACES = [STAGES + "finding/*", STAGES + "tracking/*", STAGES + "editing/smooth_axes.*", STAGES + "editing/untangle.*",
+PLACES = [STAGES + "finding/*", STAGES + "tracking/*", STAGES + "editing/smooth_axes.*", STAGES + "editing/correct_topology.*",
           STAGES + "editing/overlapping_ends.*", STAGES + "editing/into_sides.*", STAGES + "editing/rungs.*", STAGES + "editing/across_voids.*",
           STAGES + "editing/inlets.*", STAGES + "editing/node_graph.*", "converters/voxels/vessel_paths.*", "converters/voxels/skeleton.h"]
 LESS, MORE = 0.8, 1.25
