@@ -66,7 +66,7 @@ void dropPoints(const Case& value, const Place& place, const std::array<Section,
 }
 
 /// The direction between a node's neighbours in its branch; its own if they lie in one place.
-formats::Vec3f courseAt(const EditableCase& edited, const Place& place) {
+formats::Vec3f directionAlong(const EditableCase& edited, const Place& place) {
   const std::uint32_t from = place.hasPrevious() ? place.node - 1 : place.node;
   const std::uint32_t to = place.hasNext() ? place.node + 1 : place.node;
   const Vector3d chord = toEigen(edited.nodes[to].centre) - toEigen(edited.nodes[from].centre);
@@ -93,7 +93,7 @@ Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, doub
   EditableNode& moved = edited.nodes[node];
   moved.centre = toVec3f(position);
   moved.radius = static_cast<float>(radius);
-  moved.direction = courseAt(edited, place);
+  moved.direction = directionAlong(edited, place);
   if (branch.kind == formats::BranchKind::Vessel) {
     moved.origin = formats::NodeOrigin::Given;
     moved.inlierRate = 0;
