@@ -45,7 +45,7 @@ struct RunSettings {
 struct RunContext : RunSettings {
   RunContext(const Engine& ownEngine, Progress& ownProgress, RunSettings settings = {})
       : RunSettings(std::move(settings)), engine(ownEngine), progress(ownProgress) {}
-  /// Those of an operation within this command, whose progress is another.
+  /// The context of an operation within this command, with a progress of its own.
   [[nodiscard]] RunContext within(Progress& other) const { return {engine, other, *this}; }
 
   const Engine& engine;
@@ -86,8 +86,8 @@ public:
   [[nodiscard]] std::vector<BoundCommand> commands() const;
   /// The command of that name, new; null where there is none.
   [[nodiscard]] BoundCommand find(const std::string& name) const;
-  /// Runs the command. Throws Error(Usage) for a command, an argument or an option that there is
-  /// not, or whose value is not allowed, and as the command.
+  /// Runs the command. Throws Error(Usage) for an unknown command, argument or option, or
+  /// a value that is not allowed, and as the command.
   [[nodiscard]] Answer run(const Operation& operation, const RunContext& context) const;
   /// Runs a command whose rows are set. Throws as the command.
   [[nodiscard]] Answer run(const BoundCommand& bound, const RunContext& context) const;

@@ -194,8 +194,7 @@ bool isOfImage(const BuildRow& row) {
          FormatKind::Volume;
 }
 
-/// Throws Error(Usage) for a profile that there is not, Error(InvalidInput) for a file that is
-/// none.
+/// Throws Error(Usage) for an unknown profile, Error(InvalidInput) for a file that is no profile.
 void setGate(const BuildArguments& arguments, const Engine& engine,
              convert::BuildOptions& options) {
   options.accepted.insert(arguments.accepted.begin(), arguments.accepted.end());

@@ -77,7 +77,7 @@ NodePose between(const NodePose& from, const NodePose& to, double fraction) noex
           (1.0 - share) * from.factor + share * to.factor};
 }
 
-// The same for a node, whose centre is kept as floats.
+// A pose of a node between two, whose centre is kept as floats.
 NodePose nodeBetween(const NodePose& from, const NodePose& to, double fraction) noexcept {
   NodePose pose = between(from, to, fraction);
   for (double* x : {&pose.centre.x, &pose.centre.y, &pose.centre.z}) *x = static_cast<float>(*x);

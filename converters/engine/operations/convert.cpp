@@ -59,9 +59,8 @@ public:
     addTrackRows(table, m_track);
     table
         .file("corrections", m_corrected,
-              "Make the corrections again that were made by hand in this case of the same volume, "
-              "each "
-              "at its place; those that no longer fit are reported, and the case keeps them")
+              "Repeat the manual corrections of this case of the same volume, each at its place; "
+              "corrections that no longer fit are reported, and the case keeps them")
         .forInputs(kImage);
     addMeshRows(table, m_mesh);
     addMaskRows(table, m_mask);

@@ -60,7 +60,7 @@ public:
         .notBeside(kOption.volumeIndex.name);
     table
         .add("reach", &m_options.reach, "MM",
-             "Longest way of a vessel from one phase to the next along each axis")
+             "Longest displacement of a vessel from one phase to the next along each axis")
         .in(NumberRange{0.1, 100});
     addFormatRow(table, "from", m_from, "the phases");
     addVolumeRows(table, m_volume);

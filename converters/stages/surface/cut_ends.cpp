@@ -110,7 +110,7 @@ private:
     return vertices;
   }
 
-  // The cuts of all surfaces by one plane; nothing if one is not possible, or not around another.
+  // The cuts of all surfaces by one plane; nothing if a cut is impossible, or two are not nested.
   std::optional<Cuts> cutAll(const EndPlane& plane) {
     Cuts cuts;
     cuts.plane = plane;

@@ -41,8 +41,8 @@ EndsReport cutEnds(std::span<const FieldSurface> surfaces, const std::vector<End
 EndsReport cutEnds(CaseSurface& surface, const SeparatedField& field, Progress& progress);
 
 /// Cuts `outer`, a surface that lies around `inner` and follows `field`, in the planes of its flat
-/// ends: groups and ends become the same. Where a plane meets no simple opening of it, the end of
-/// both becomes one that is not flat; returns a sentence for each.
+/// ends: groups and ends become the same. Where a plane meets no simple opening of `outer`, the
+/// end of both surfaces no longer counts as flat; returns a sentence for each.
 std::vector<std::string> cutLike(CaseSurface& outer, const SeparatedField& field,
                                  CaseSurface& inner, Progress& progress);
 

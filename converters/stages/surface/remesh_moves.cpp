@@ -248,8 +248,7 @@ void refineSlits(RemeshMesh& mesh) {
       continue;
     const SeparatedSample middle =
         field.at(0.5 * (mesh.point(from) + mesh.point(to)), mesh.data(from).node);
-    // A surface that lies before the edge is no nearer to the other vessel, and one as far away as
-    // this is none that the edge could follow.
+    // Splitting helps only where the surface lies behind the edge and is near enough.
     const double sag = middle.distance, length = mesh.lengthOf(edge);
     if (!(sag > allowed) || sag > kLargestSag * length) continue;
     // The sag of a chord grows with the square of its length.

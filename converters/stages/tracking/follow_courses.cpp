@@ -28,8 +28,9 @@ constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall tha
 /// of the review of walls.
 constexpr std::uint64_t kSearchStream = std::uint64_t{1} << 33;
 
-/// Leaves the longest stretch that begins and ends with a cylinder and has the least share of them, `leastFitted`; the
-/// first of several. A course that follows a vessel and then something else is a vessel as far as cylinders bear it out.
+/// Keeps the longest stretch that begins and ends with a cylinder and has cylinders at a share of
+/// `leastFitted` of its nodes or more; the first of several. So a course that follows a vessel, and
+/// then something else, keeps the vessel alone.
 void keepSupported(std::vector<TrackedNode>& nodes, double leastFitted) {
   struct Stretch {
     std::size_t first = 0, end = 0;

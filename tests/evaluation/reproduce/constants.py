@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a change of each named constant by a fifth does to the trees that are found without a click.
+"""The effect of a change of each named constant by a fifth on the trees that are found without a click.
 
   constants.py SOURCE FOLDER [VOLUME [NAME ...]]
 
@@ -255,7 +255,7 @@ class Real:
 
 
 def change(record, whole, phantom):
-    """What a run differs in from the unchanged one: points of overlap lost, false mm more, right forks lost, branches, radius."""
+    """The differences of a run from the unchanged one: points of overlap lost, false mm more, right forks lost, branches, radius."""
     if record.get("failed"): return {"failed": True, "worse": 100.0}
     if record.get("same"): return {"worse": 0.0, "same": True}
     loss = {"overlap": whole["overlap"] - record["overlap"], "false": record["false"] - whole["false"], "forks": whole["right"] - record["right"],

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether results hang on nothing: random seeds, containers, an origin or clicks that move a little, and careless clicks.
+"""Whether results depend on none of these: random seeds, containers, an origin or clicks that move a little, and careless clicks.
 
   steadiness.py DATA FOLDER LUMEN [NAME ...]
 
