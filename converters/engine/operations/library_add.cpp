@@ -69,7 +69,7 @@ public:
         m_case, statedAbout(m_about, known, before.licence), m_wishes, library, context);
     convert::LibraryChange change(library, context.progress);
     if (!m_wishes.replace) convert::requireNewId(change.library(), incoming.record.id);
-    change.put(incoming.record, incoming.folder());
+    change.addOrReplace(incoming.record, incoming.folder());
     change.commit(day);
     return report(incoming.record, change);
   }

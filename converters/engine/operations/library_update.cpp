@@ -60,7 +60,7 @@ public:
       const bool isTitled = about.title != record.about.title;
       record.about = about;
       kept.push_back(withFiles(record, library, isTitled, context));
-      change.put(kept.back().record, kept.back().folder());
+      change.addOrReplace(kept.back().record, kept.back().folder());
       updated.push_back(id);
     }
     if (!updated.empty()) change.commit(day);

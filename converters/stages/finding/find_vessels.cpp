@@ -233,8 +233,9 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   return found;
 }
 
-std::vector<SeedBranch> coursesBeside(const FoundVessels& found, std::span<const WorldBall> vessels,
-                                      Progress& progress) {
+std::vector<SeedBranch> coursesInRemainingLumen(const FoundVessels& found,
+                                                std::span<const WorldBall> vessels,
+                                                Progress& progress) {
   const VolumeGeometry grid = gridGeometry(found.geometry);
   std::vector<WorldBall> balls(vessels.begin(), vessels.end());
   for (WorldBall& ball : balls) ball.radius += kRimVoxels * grid.voxelSize();

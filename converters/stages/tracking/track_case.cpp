@@ -183,11 +183,11 @@ void dropOtherArrays(AddedTracks& out) {
 
 namespace {
 
-/// Vessels beside others need more, as no skeleton of a whole lumen bears them out.
-constexpr CourseRules kRulesBeside{0.5, true, 0.5};
+/// Stricter rules in the remaining lumen: its courses may follow the rim of a known vessel.
+constexpr CourseRules kRemainingLumenRules{0.5, true, 0.5};
 
-/// Adds balls from one place to another, a step of a quarter of the lesser radius apart, so that
-/// what lies between two of them is within their rim. `from` itself is left out unless it is `to`.
+/// Adds balls from one place to another, a quarter of the lesser radius apart, so that they cover
+/// the cone between both. `from` itself is left out unless it is `to`.
 void addBalls(const WorldBall& from, const WorldBall& to, std::vector<WorldBall>& balls) {
   constexpr double kStepRadii = 0.25;
   const Eigen::Vector3d way = to.centre - from.centre;
@@ -227,11 +227,12 @@ std::vector<WorldBall> ballsIn(const TrackedTree& tree, const VolumeGeometry& ge
   return balls;
 }
 
-/// Adds the vessels along the courses beside those of a tree to it.
-void addBeside(const TrackingVolume& volume, const GridFrame& frame, const CoursesBeside& beside,
-               const PlaceTest& isNoVessel, const WallShape& shape, TrackedTree& tree,
-               Progress& progress) {
-  std::vector<SeedBranch> courses = frame.toGrid(beside(ballsIn(tree, frame.geometry())));
+/// Adds the vessels along the courses in the lumen that a tree leaves to it.
+void addVesselsInRemainingLumen(const TrackingVolume& volume, const GridFrame& frame,
+                                const CoursesInRemainingLumen& remaining,
+                                const PlaceTest& isNoVessel, const WallShape& shape,
+                                TrackedTree& tree, Progress& progress) {
+  std::vector<SeedBranch> courses = frame.toGrid(remaining(ballsIn(tree, frame.geometry())));
   std::erase_if(courses, [](const SeedBranch& c) { return c.kind != BranchKind::Vessel; });
   if (courses.empty()) return;
   std::set<std::string> labels;
@@ -245,14 +246,14 @@ void addBeside(const TrackingVolume& volume, const GridFrame& frame, const Cours
       if (name) *name = "beside-" + *name;
     tree.seeds.push_back(std::move(course));
   }
-  trackTree(volume, {followCourses, isNoVessel, shape, kRulesBeside}, tree, progress);
+  trackTree(volume, {followCourses, isNoVessel, shape, kRemainingLumenRules}, tree, progress);
   tree.known = 0;
 }
 
 TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
                     const TrackOptions& options, TrackBranches trackBranches,
                     const PlaceTest& isNoVessel, Progress& progress,
-                    const CoursesBeside& beside = {}) {
+                    const CoursesInRemainingLumen& remaining = {}) {
   const GridFrame frame(volume.geometry);
   const TrackingVolume tracking(volume, frame, seeds, options, progress);
   TrackedTree tree{frame.toGrid(seeds)};
@@ -263,7 +264,8 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   const WallShape shape =
       trackTree(tracking, {trackBranches, inGrid, tracking.wallShape()}, tree, progress);
   used.pointSpread = shape.pointSpread;
-  if (beside) addBeside(tracking, frame, beside, inGrid, shape, tree, progress);
+  if (remaining)
+    addVesselsInRemainingLumen(tracking, frame, remaining, inGrid, shape, tree, progress);
   fillBridges(tracking, {trackBranches, inGrid, shape}, tree, progress);
   for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
 
@@ -285,8 +287,8 @@ TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& 
 
 TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
                               const PlaceTest& isNoVessel, const TrackOptions& options,
-                              Progress& progress, const CoursesBeside& beside) {
-  return newCase(volume, courses, options, followCourses, isNoVessel, progress, beside);
+                              Progress& progress, const CoursesInRemainingLumen& remaining) {
+  return newCase(volume, courses, options, followCourses, isNoVessel, progress, remaining);
 }
 
 namespace {
@@ -318,7 +320,7 @@ void requireValid(const formats::Case& result) {
 }
 
 /// Gives seeds names that no branch of a case has.
-void nameAnew(const formats::Case& known, std::vector<SeedBranch>& seeds) {
+void giveNewLabels(const formats::Case& known, std::vector<SeedBranch>& seeds) {
   std::set<std::string> used;
   for (const formats::Branch& branch : known.tree.branches) used.insert(branch.label);
   std::map<std::string, std::string> names;
@@ -352,7 +354,7 @@ AddedTracks addTracksAlongCourses(const TrackingVolume& volume, const formats::C
                                   const PlaceTest& isNoVessel, Progress& progress) {
   TrackedTree tree = makeTrackedTree(known);
   std::vector<SeedBranch> stretches = stretchesOutside(courses, tree);
-  nameAnew(known, stretches);
+  giveNewLabels(known, stretches);
   tree.seeds.insert(tree.seeds.end(), stretches.begin(), stretches.end());
   AddedTracks out = intoCase(volume, known, tree, followCourses, isNoVessel, progress);
   const std::size_t found = out.result.tree.branches.size() - known.tree.branches.size();
