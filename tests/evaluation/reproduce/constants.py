@@ -30,8 +30,7 @@ from forks import right_forks
 
 STAGES = "converters/stages/"
 PLACES = [STAGES + "finding/*", STAGES + "tracking/*", STAGES + "editing/smooth_axes.*", STAGES + "editing/correct_topology.*",
-          STAGES + "editing/overlapping_ends.*", STAGES + "editing/into_sides.*", STAGES + "editing/rungs.*", STAGES + "editing/across_voids.*",
-          STAGES + "editing/inlets.*", STAGES + "editing/node_graph.*", "converters/voxels/vessel_paths.*", "converters/voxels/skeleton.h"]
+          STAGES + "editing/joined_ends.*", STAGES + "editing/inlets.*", STAGES + "editing/node_graph.*", "converters/voxels/vessel_paths.*", "converters/voxels/skeleton.h"]
 LESS, MORE = 0.8, 1.25
 SEEDS = (2, 3, 4)  # random seeds of runs with every constant as it is: how much chance alone changes
 PHANTOMS = [(name, [name, "--size", 64]) for name in ("right-angle", "aneurysm", "kissing", "fading", "bifurcation", "companion")]
