@@ -103,7 +103,7 @@ run_demo() {
   say "A picture of it, and a report to print"
   $lumen picture demo/vessels.lumen demo/vessels.png --volume demo/angiogram.nrrd --view anterior
   $lumen report demo/vessels.lumen demo/report.html --volume demo/angiogram.nrrd
-  say "What the case holds, and how close it is to the truth"
+  say "Contents of the case, and its agreement with the truth"
   $lumen info demo/vessels.lumen >demo/info.txt
   $lumen info demo/vessels.lumen --json --quiet >demo/info.json
   $lumen compare demo/vessels.lumen demo/truth.lumen >demo/compare.txt

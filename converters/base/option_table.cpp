@@ -245,11 +245,11 @@ OptionRow& OptionRow::onlyWith(std::string other, std::string value) {
   return *this;
 }
 OptionRow& OptionRow::notBeside(std::string other) {
-  idleWith.push_back(std::move(other));
+  unusedWith.push_back(std::move(other));
   return *this;
 }
-OptionRow& OptionRow::idleIf(std::function<std::string()> reason) {
-  idle = std::move(reason);
+OptionRow& OptionRow::unusedIf(std::function<std::string()> reason) {
+  unused = std::move(reason);
   return *this;
 }
 OptionRow& OptionRow::forInputs(ContentMask mask) {

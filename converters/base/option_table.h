@@ -61,13 +61,13 @@ struct OptionRow {
   ValueCheck check;                   ///< check of any other text
   std::function<std::string()> word;  ///< the word of a choice's current value
 
-  ContentMask inputs = kAnyContent;   ///< inputs for which it counts
-  ContentMask outputs = kAnyContent;  ///< outputs for which it counts
-  std::vector<OptionNeed> needs;      ///< without any of these options it does nothing
-  std::vector<std::string> idleWith;  ///< names of options beside which it does nothing
+  ContentMask inputs = kAnyContent;     ///< inputs for which it counts
+  ContentMask outputs = kAnyContent;    ///< outputs for which it counts
+  std::vector<OptionNeed> needs;        ///< without any of these options it does nothing
+  std::vector<std::string> unusedWith;  ///< names of options beside which it does nothing
   /// The reason why its value does nothing beside the values of other rows, as the end of a
   /// sentence; empty if it counts.
-  std::function<std::string()> idle;
+  std::function<std::string()> unused;
 
   bool isGiven = false;                  ///< set() was called
   bool isPreference = false;             ///< a configuration file states the value
@@ -104,7 +104,7 @@ struct OptionRow {
   /// Where it is called several times, one of the options is enough.
   OptionRow& onlyWith(std::string other, std::string value = {});
   OptionRow& notBeside(std::string other);
-  OptionRow& idleIf(std::function<std::string()> reason);
+  OptionRow& unusedIf(std::function<std::string()> reason);
   OptionRow& forInputs(ContentMask mask);
   OptionRow& forOutputs(ContentMask mask);
 };

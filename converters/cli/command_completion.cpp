@@ -83,8 +83,8 @@ public:
     table.argument("SHELL", &m_shell, "bash", checkAmong({"bash"}));
   }
 
-  engine::Answer run(const engine::Surroundings& around) override {
-    std::string script = bashScript(around.engine);
+  engine::Answer run(const engine::RunContext& context) override {
+    std::string script = bashScript(context.engine);
     return {{{"script", script}}, std::move(script), 0, true};
   }
 

@@ -130,7 +130,8 @@ void CommandConfig::checkLine(const Line& line, const engine::BoundCommand& comm
                            ", expected true or false");
 }
 
-/// Sections of other commands do not matter to this one, but a misspelt one would never matter.
+/// Checks a line for another command: its values do not matter here, but its names must exist, as a
+/// misspelt section would be ignored by every command.
 void CommandConfig::checkOtherLine(const Line& line) const {
   if (const engine::BoundCommand other = m_commands.find(line.section); other.command) {
     if (!line.key.empty()) checkLine(line, other);

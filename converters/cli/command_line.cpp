@@ -82,12 +82,12 @@ int atTerminal(const engine::Engine& commands, const CommonOptions& common, cons
   const int available = tbb::this_task_arena::max_concurrency();
   progress.detail(
       std::string("lumen " LUMEN_VERSION ", threads: ").append(std::to_string(available)));
-  engine::Surroundings around(commands, progress);
-  around.program = thisProgram();
-  around.threads = common.threads;
-  around.strict = common.strict;
-  around.answerEarly = [&](const engine::Answer& answer) { print(answer, common); };
-  return work(around);
+  engine::RunContext context(commands, progress);
+  context.program = thisProgram();
+  context.threads = common.threads;
+  context.strict = common.strict;
+  context.answerEarly = [&](const engine::Answer& answer) { print(answer, common); };
+  return work(context);
 }
 
 int runCommand(const engine::Engine& commands, const engine::BoundCommand& bound, int argc,
@@ -102,8 +102,8 @@ int runCommand(const engine::Engine& commands, const engine::BoundCommand& bound
     print(parser.help("Example:\n" + bound.command->example() + "\n\n" + kExitCodes));
     return 0;
   }
-  return atTerminal(commands, common, [&](const engine::Surroundings& around) {
-    const engine::Answer answer = commands.run(bound, around);
+  return atTerminal(commands, common, [&](const engine::RunContext& context) {
+    const engine::Answer answer = commands.run(bound, context);
     print(answer, common);
     return answer.code;
   });
@@ -115,8 +115,8 @@ int runOperation(const engine::Engine& commands, const char* file) {
   CommonOptions common;
   common.threads = settings.threads;
   common.strict = settings.strict;
-  return atTerminal(commands, common, [&](const engine::Surroundings& around) {
-    return engine::runOperationFile(file, around);
+  return atTerminal(commands, common, [&](const engine::RunContext& context) {
+    return engine::runOperationFile(file, context);
   });
 }
 

@@ -67,17 +67,17 @@ BoundCommand Engine::find(const std::string& name) const {
   return {};
 }
 
-Answer Engine::run(const BoundCommand& bound, const Surroundings& around) const {
-  Surroundings own = around;
+Answer Engine::run(const BoundCommand& bound, const RunContext& context) const {
+  RunContext own = context;
   own.table = bound.table.get();
   return bound.command->run(own);
 }
 
-Answer Engine::run(const Operation& operation, const Surroundings& around) const {
+Answer Engine::run(const Operation& operation, const RunContext& context) const {
   const BoundCommand found = find(operation.name);
   if (!found.command) throw Error(ErrorKind::Usage, operation.name + ": there is no such command");
   setRows(*found.table, operation);
-  return run(found, around);
+  return run(found, context);
 }
 
 }  // namespace lumen::engine

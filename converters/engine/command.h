@@ -41,12 +41,12 @@ struct RunSettings {
   std::filesystem::path program;
 };
 
-/// Environment of a command that runs.
-struct Surroundings : RunSettings {
-  Surroundings(const Engine& ownEngine, Progress& ownProgress, RunSettings settings = {})
+/// Engine, progress, settings and rows of a command that runs.
+struct RunContext : RunSettings {
+  RunContext(const Engine& ownEngine, Progress& ownProgress, RunSettings settings = {})
       : RunSettings(std::move(settings)), engine(ownEngine), progress(ownProgress) {}
-  /// Those of an operation within this command, whose progress is another.
-  [[nodiscard]] Surroundings within(Progress& other) const { return {engine, other, *this}; }
+  /// The context of an operation within this command, with a progress of its own.
+  [[nodiscard]] RunContext within(Progress& other) const { return {engine, other, *this}; }
 
   const Engine& engine;
   Progress& progress;
@@ -67,7 +67,7 @@ public:
   /// Adds the rows of the command's own options, whose values are stored in this object.
   virtual void addRows(OptionTable& table) = 0;
   /// Does the work after the rows are set. Throws lumen::Error.
-  virtual Answer run(const Surroundings& around) = 0;
+  virtual Answer run(const RunContext& context) = 0;
 };
 
 /// A command with its rows, which are stored in it.
@@ -86,11 +86,11 @@ public:
   [[nodiscard]] std::vector<BoundCommand> commands() const;
   /// The command of that name, new; null where there is none.
   [[nodiscard]] BoundCommand find(const std::string& name) const;
-  /// Runs the command. Throws Error(Usage) for a command, an argument or an option that there is
-  /// not, or whose value is not allowed, and as the command.
-  [[nodiscard]] Answer run(const Operation& operation, const Surroundings& around) const;
+  /// Runs the command. Throws Error(Usage) for an unknown command, argument or option, or
+  /// a value that is not allowed, and as the command.
+  [[nodiscard]] Answer run(const Operation& operation, const RunContext& context) const;
   /// Runs a command whose rows are set. Throws as the command.
-  [[nodiscard]] Answer run(const BoundCommand& bound, const Surroundings& around) const;
+  [[nodiscard]] Answer run(const BoundCommand& bound, const RunContext& context) const;
 
 private:
   std::vector<Maker> m_makers;

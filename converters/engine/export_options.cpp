@@ -145,8 +145,8 @@ const convert::TakenOption* takenBy(const convert::ExportTarget& target, const O
 }
 
 /// The reason why the target does nothing with an option that others take; empty if it counts.
-std::string idleReason(const OptionTable& table, const OptionRow& row,
-                       const convert::ExportTarget& target) {
+std::string unusedReason(const OptionTable& table, const OptionRow& row,
+                         const convert::ExportTarget& target) {
   if (const convert::TakenOption* const taken = takenBy(target, row))
     return missingNeed(table, taken->needs);
   std::string takers;
@@ -190,8 +190,8 @@ void requireTargetOptions(const OptionTable& table, const convert::ExportTarget&
                           Progress& progress) {
   for (const OptionRow& row : table.rows()) {
     if (!row.isGiven || row.isArgument) continue;
-    const std::string reason = idleReason(table, row, target);
-    if (!reason.empty()) refuseIdle(row, reason, progress);
+    const std::string reason = unusedReason(table, row, target);
+    if (!reason.empty()) refuseUnused(row, reason, progress);
   }
   requireInScope(table, {}, progress);
 }

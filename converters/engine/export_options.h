@@ -19,7 +19,7 @@ void addExportRows(OptionTable& table, convert::ExportOptions& options);
 convert::OptionTexts exportOptionTexts(const OptionTable& table,
                                        const convert::ExportTarget& target);
 
-/// Refuses, as refuseIdle(), an option that is given and does nothing for this target: the target
+/// Refuses, as refuseUnused(), an option that is given and does nothing for this target: the target
 /// does not take it, or takes it beside another that is missing.
 void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target,
                           Progress& progress);

@@ -27,7 +27,7 @@ namespace {
 std::string errorText(const fs::path& file, formats::Issue error) {
   const std::string prefix = file.string() + ": ";
   if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
-  // nothing of a file that cannot be read or written has a place
+  // a fault with a byte or a pointer lies in the content: the file could be read
   if (error.offset || error.pointer) return prefix + error.text();
   const bool isLimit = error.message.ends_with(formats::systemErrorText(EFBIG));
   return prefix + error.message + (isLimit ? " (ulimit -f prints the shell's limit)" : "");

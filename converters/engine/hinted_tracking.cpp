@@ -28,7 +28,8 @@ namespace {
 using convert::SeedFailure;
 
 /// Noise that a repeated run adds to the voxels, in deviations of their own: a second scan differs by
-/// far more. Found vessels hang on no random number, so that other numbers alone would show nothing.
+/// far more. Vessels that are found without a click depend on no random number, so other random
+/// numbers alone would give equal vessels.
 constexpr double kNoiseShare = 0.1;
 constexpr std::uint64_t kNoiseStream = 1;  // of random numbers; that of moved clicks is 0
 

@@ -194,8 +194,7 @@ bool isOfImage(const BuildRow& row) {
          FormatKind::Volume;
 }
 
-/// Throws Error(Usage) for a profile that there is not, Error(InvalidInput) for a file that is
-/// none.
+/// Throws Error(Usage) for an unknown profile, Error(InvalidInput) for a file that is no profile.
 void setGate(const BuildArguments& arguments, const Engine& engine,
              convert::BuildOptions& options) {
   options.accepted.insert(arguments.accepted.begin(), arguments.accepted.end());
@@ -234,10 +233,10 @@ convert::BuildList loadBuildList(const std::string& file, const std::set<std::si
 }
 
 convert::BuildOptions buildOptions(const std::string& library, const BuildArguments& arguments,
-                                   const Surroundings& around) {
+                                   const RunContext& context) {
   const auto cores = std::max(1U, std::thread::hardware_concurrency());
-  const int all = around.threads > 0 ? around.threads : static_cast<int>(cores);
-  Surroundings ofRow = around;
+  const int all = context.threads > 0 ? context.threads : static_cast<int>(cores);
+  RunContext ofRow = context;
   ofRow.threads = std::max(1, all / arguments.jobs);
   convert::BuildOptions options;
   options.run = [ofRow](const Operation& operation, const fs::path& log) {
@@ -251,21 +250,21 @@ convert::BuildOptions buildOptions(const std::string& library, const BuildArgume
   options.phase = arguments.phase;
   options.isResumed = arguments.isResumed;
   options.place = placeOfProcess();
-  setGate(arguments, around.engine, options);
+  setGate(arguments, context.engine, options);
   return options;
 }
 
 Answer buildLibrary(convert::BuildList rows, const std::string& list, const std::string& library,
-                    const BuildArguments& arguments, const Surroundings& around) {
-  judgeRows(rows, list, library, arguments, around.engine);
-  const convert::BuildOptions options = buildOptions(library, arguments, around);
+                    const BuildArguments& arguments, const RunContext& context) {
+  judgeRows(rows, list, library, arguments, context.engine);
+  const convert::BuildOptions options = buildOptions(library, arguments, context);
   std::vector<RowResult> results;
   for (const convert::RowFault& fault : rows.faults) {
     results.push_back(resultOf(fault));
-    around.progress.warn("line " + std::to_string(fault.line) + ": " + fault.why);
+    context.progress.warn("line " + std::to_string(fault.line) + ": " + fault.why);
   }
   const fs::path folder = (fs::absolute(library) / "").parent_path();
-  for (RowResult& result : convert::buildLibrary(rows.rows, folder, options, around.progress))
+  for (RowResult& result : convert::buildLibrary(rows.rows, folder, options, context.progress))
     results.push_back(std::move(result));
   std::sort(results.begin(), results.end(),
             [](const RowResult& a, const RowResult& b) { return a.line < b.line; });

@@ -29,13 +29,13 @@ void addBuildRows(OptionTable& table, BuildArguments& arguments);
 convert::BuildList loadBuildList(const std::string& file, const std::set<std::size_t>& lines = {});
 
 convert::BuildOptions buildOptions(const std::string& library, const BuildArguments& arguments,
-                                   const Surroundings& around);
+                                   const RunContext& context);
 
 /// Makes the rows and answers with a table of the rows that failed and why. Throws
 /// Error(InvalidInput) for rows that cannot succeed, as far as that is seen before any work, unless
 /// the arguments keep it going: then these rows have failed. Returns the exit code: 0 if every row
 /// is in the library, 3 if the inputs alone are to blame for those that are not, else 1.
 Answer buildLibrary(convert::BuildList rows, const std::string& list, const std::string& library,
-                    const BuildArguments& arguments, const Surroundings& around);
+                    const BuildArguments& arguments, const RunContext& context);
 
 }  // namespace lumen::engine

@@ -40,7 +40,7 @@ OptionRow& addBound(OptionTable& table, const std::string& name, convert::EdgeLe
   const auto store = [&edge, &bound](const std::vector<std::string>& texts) {
     if (edge.share > 0) bound = parsedNumber(texts.back()).value_or(bound);
   };
-  return table.add(name, OptionTarget(store), "MM", help).without("patches").idleIf([&edge] {
+  return table.add(name, OptionTarget(store), "MM", help).without("patches").unusedIf([&edge] {
     return edge.share > 0 ? "" : "does nothing with " + kOption.edge.shown() + " in mm";
   });
 }

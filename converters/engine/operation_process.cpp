@@ -96,11 +96,11 @@ private:
 };
 
 /// Runs the operation in this process. An Error is an end, too.
-OperationEnd runHere(const Operation& operation, const Surroundings& around) {
-  CountingProgress counting(around.progress);
+OperationEnd runHere(const Operation& operation, const RunContext& context) {
+  CountingProgress counting(context.progress);
   OperationEnd end;
   try {
-    const Answer answer = around.engine.run(operation, around.within(counting));
+    const Answer answer = context.engine.run(operation, context.within(counting));
     end.code = answer.code;
     if (!answer.json.is_null()) end.answer = dumped(answer.json);
   } catch (const Error& error) {
@@ -111,13 +111,12 @@ OperationEnd runHere(const Operation& operation, const Surroundings& around) {
   return end;
 }
 
-OperationEnd runLogged(const Operation& operation, const Surroundings& around,
-                       const fs::path& log) {
-  LogProgress logged(around.progress, log, around.strict);
+OperationEnd runLogged(const Operation& operation, const RunContext& context, const fs::path& log) {
+  LogProgress logged(context.progress, log, context.strict);
   OperationEnd end;
-  const int most = around.threads > 0 ? around.threads : tbb::this_task_arena::max_concurrency();
-  tbb::task_arena(most).execute([&] { end = runHere(operation, around.within(logged)); });
-  around.progress.check();
+  const int most = context.threads > 0 ? context.threads : tbb::this_task_arena::max_concurrency();
+  tbb::task_arena(most).execute([&] { end = runHere(operation, context.within(logged)); });
+  context.progress.check();
   end.isDone = end.code == 0;
   if (!end.error.empty()) logged.write("error: " + end.error);
   if (!end.isDone && end.error.empty())
@@ -138,19 +137,19 @@ void takeLeft(const fs::path& file, OperationEnd& end) {
 
 }  // namespace
 
-OperationEnd runApart(const Operation& operation, const Surroundings& around, const fs::path& log) {
-  if (around.program.empty()) return runLogged(operation, around, log);
+OperationEnd runApart(const Operation& operation, const RunContext& context, const fs::path& log) {
+  if (context.program.empty()) return runLogged(operation, context, log);
   const fs::path file = log.string() + ".operation.json";
-  writeText(dumped(encoded(operation, around)), file);
+  writeText(dumped(encoded(operation, context)), file);
   std::error_code ignored;
   fs::remove(endFile(file), ignored);
   convert::ProgramCall call;
-  call.program = around.program;
+  call.program = context.program;
   call.arguments = {kOperationWord, file.string()};
   call.folder = fs::current_path();
   call.seconds = kLongestRun;
   call.log = log;
-  const convert::ProgramResult result = convert::runProgram(call, around.progress);
+  const convert::ProgramResult result = convert::runProgram(call, context.progress);
   OperationEnd end;
   end.isDone = result.end == convert::ProgramEnd::Done;
   end.code = result.code;
@@ -170,9 +169,9 @@ RunSettings operationSettings(const fs::path& file) {
   return settings;
 }
 
-int runOperationFile(const fs::path& file, const Surroundings& around) {
+int runOperationFile(const fs::path& file, const RunContext& context) {
   convert::JsonFile given = operationJson(file);
-  const OperationEnd end = runHere(decoded(convert::JsonPlace(given)), around);
+  const OperationEnd end = runHere(decoded(convert::JsonPlace(given)), context);
   writeText(dumped({{"error", end.error}, {"warnings", end.warnings}, {"answer", end.answer}}),
             endFile(file));
   if (!end.error.empty()) throw Error(static_cast<ErrorKind>(end.code), end.error);

@@ -220,28 +220,28 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
 /// A page that another command makes of the case, which it sees under its id.
 void addPage(const std::string& name, const std::string& role, std::string_view caseBytes,
              const std::function<Operation(const std::string& file, const std::string& page)>& made,
-             IncomingCase& incoming, const Surroundings& around) {
+             IncomingCase& incoming, const RunContext& context) {
   const convert::PrivateFolder folder;
   const fs::path file = folder.path() / (incoming.record.id + ".lumen");
   const fs::path page = folder.path() / name;
   writeText(caseBytes, file);
-  QuietProgress quiet(around.progress);
-  (void)around.engine.run(made(file.string(), page.string()), around.within(quiet));
+  QuietProgress quiet(context.progress);
+  (void)context.engine.run(made(file.string(), page.string()), context.within(quiet));
   incoming.addFile(name, role, page);
 }
 
-void addReport(std::string_view caseBytes, IncomingCase& incoming, const Surroundings& around) {
+void addReport(std::string_view caseBytes, IncomingCase& incoming, const RunContext& context) {
   const auto made = [&](const std::string& file, const std::string& page) {
     return Operation{"report", {file, page}, {}}.with("title", incoming.record.about.title);
   };
-  addPage("report.html", "report", caseBytes, made, incoming, around);
+  addPage("report.html", "report", caseBytes, made, incoming, context);
 }
 
-void addViewer(std::string_view caseBytes, IncomingCase& incoming, const Surroundings& around) {
+void addViewer(std::string_view caseBytes, IncomingCase& incoming, const RunContext& context) {
   const auto made = [](const std::string& file, const std::string& page) {
     return Operation{"view", {file}, {}}.with("html", page);
   };
-  addPage("view.html", "other", caseBytes, made, incoming, around);
+  addPage("view.html", "other", caseBytes, made, incoming, context);
 }
 
 }  // namespace
@@ -268,14 +268,14 @@ void warnOfPersonsIn(const convert::CaseAbout& about, Progress& progress) {
     warnOfFindings("the description of the case", scanText(*text, pointer), progress);
 }
 
-void addReportPage(const fs::path& caseFile, IncomingCase& incoming, const Surroundings& around) {
-  addReport(readWholeFile(caseFile, "case"), incoming, around);
+void addReportPage(const fs::path& caseFile, IncomingCase& incoming, const RunContext& context) {
+  addReport(readWholeFile(caseFile, "case"), incoming, context);
 }
 
 IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
                          const CaseWishes& wishes, const fs::path& library,
-                         const Surroundings& around) {
-  Progress& progress = around.progress;
+                         const RunContext& context) {
+  Progress& progress = context.progress;
   const std::string file = caseFile.string();
   checkWishes(wishes);
   if (const std::string fault = convert::missingStatement(about); !fault.empty())
@@ -306,8 +306,8 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   if (value.models) addPictures(value, wishes, incoming, progress);
   for (const std::string& target : wishes.targets)
     addExport(target, value, file, incoming, progress);
-  if (wishes.report) addReport(asText(bytes), incoming, around);
-  if (wishes.viewer) addViewer(asText(bytes), incoming, around);
+  if (wishes.report) addReport(asText(bytes), incoming, context);
+  if (wishes.viewer) addViewer(asText(bytes), incoming, context);
   return incoming;
 }
 

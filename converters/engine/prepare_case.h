@@ -41,7 +41,7 @@ void warnOfPersonsIn(const convert::CaseAbout& about, Progress& progress);
 /// Adds the page of `lumen report`, under the title of the record. The page sees the case under its
 /// id, as the name of a file may identify a patient.
 void addReportPage(const std::filesystem::path& caseFile, convert::IncomingCase& incoming,
-                   const Surroundings& around);
+                   const RunContext& context);
 
 /// Makes everything in `wishes` beside `library`. Everything that can be refused is refused before
 /// long work: Error(InvalidInput) for a case that cannot be read, for a missing statement
@@ -50,7 +50,7 @@ void addReportPage(const std::filesystem::path& caseFile, convert::IncomingCase&
 /// that look like a person's, and as exports and surfaces do. `about` gets a title if it has none.
 convert::IncomingCase prepareCase(const std::filesystem::path& caseFile, convert::CaseAbout about,
                                   const CaseWishes& wishes, const std::filesystem::path& library,
-                                  const Surroundings& around);
+                                  const RunContext& context);
 
 // The version of a case that a new one replaces: its parts stay without being named again.
 

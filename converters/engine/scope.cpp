@@ -58,18 +58,19 @@ bool isMet(const OptionTable& table, const OptionNeed& need) {
 }
 
 /// The reason why an option would do nothing, as the end of a sentence; empty if it counts.
-std::string idleReason(const OptionTable& table, const OptionRow& row, const Situation& situation) {
-  if ((row.inputs & situation.input) == 0)
+std::string unusedReason(const OptionTable& table, const OptionRow& row,
+                         const FileContents& contents) {
+  if ((row.inputs & contents.input) == 0)
     return "is for " + namesIn(row.inputs, kInputNames) + ", and " +
-           formats::printable(situation.inputName) + " is none of these";
-  if ((row.outputs & situation.output) == 0)
+           formats::printable(contents.inputName) + " is none of these";
+  if ((row.outputs & contents.output) == 0)
     return "is for writing " + namesIn(row.outputs, kOutputNames) + ", and " +
-           formats::printable(situation.outputName) + " is none of these";
-  for (const std::string& other : row.idleWith)
+           formats::printable(contents.outputName) + " is none of these";
+  for (const std::string& other : row.unusedWith)
     if (const OptionRow* const found = table.find(other); found != nullptr && found->isOn())
       return "does nothing with " + found->shownName();
   if (std::string reason = missingNeed(table, row.needs); !reason.empty()) return reason;
-  return row.idle ? row.idle() : std::string();
+  return row.unused ? row.unused() : std::string();
 }
 
 }  // namespace
@@ -105,16 +106,16 @@ std::string missingNeed(const OptionTable& table, const std::vector<OptionNeed>&
   return names.empty() ? "" : "does nothing without " + alternatives(names);
 }
 
-void refuseIdle(const OptionRow& row, const std::string& reason, Progress& progress) {
+void refuseUnused(const OptionRow& row, const std::string& reason, Progress& progress) {
   if (!row.isPreference) throw Error(ErrorKind::Usage, row.shownName() + " " + reason);
   progress.warn(row.shownName() + " of the configuration file is left out: it " + reason);
 }
 
-void requireInScope(const OptionTable& table, const Situation& situation, Progress& progress) {
+void requireInScope(const OptionTable& table, const FileContents& contents, Progress& progress) {
   for (const OptionRow& row : table.rows()) {
     if (!row.isGiven || row.isArgument) continue;
-    const std::string reason = idleReason(table, row, situation);
-    if (!reason.empty()) refuseIdle(row, reason, progress);
+    const std::string reason = unusedReason(table, row, contents);
+    if (!reason.empty()) refuseUnused(row, reason, progress);
   }
 }
 

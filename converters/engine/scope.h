@@ -41,7 +41,7 @@ constexpr ContentMask kTree = 1 << 5;                                    ///< a 
 constexpr ContentMask kModelled = kBinaryCase | kJsonCase | kAllMeshes;  ///< models show in them
 
 /// Contents of the files that are read and written; any where they do not matter.
-struct Situation {
+struct FileContents {
   ContentMask input = kAnyContent;
   ContentMask output = kAnyContent;
   std::string inputName, outputName;  ///< names of the files, for messages
@@ -58,11 +58,11 @@ std::string missingNeed(const OptionTable& table, const std::vector<OptionNeed>&
 
 /// Throws Error(Usage) for the option of a row that would do nothing; `reason` ends the sentence. A
 /// preference of a configuration file is warned of instead, as such a file serves several runs.
-void refuseIdle(const OptionRow& row, const std::string& reason, Progress& progress);
+void refuseUnused(const OptionRow& row, const std::string& reason, Progress& progress);
 
-/// Refuses, as refuseIdle(), an option that is given and would do nothing: --stl-solids when a .glb
-/// is written. The message states for which inputs or outputs the option is, which other option it
+/// Refuses, as refuseUnused(), an option that is given and would do nothing: --stl-solids when a
+/// .glb is written. The message states for which inputs or outputs the option is, which other option it
 /// needs, or beside which one it does nothing.
-void requireInScope(const OptionTable& table, const Situation& situation, Progress& progress);
+void requireInScope(const OptionTable& table, const FileContents& contents, Progress& progress);
 
 }  // namespace lumen::engine

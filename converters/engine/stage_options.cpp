@@ -318,9 +318,9 @@ formats::Case atTime(formats::Case value, const std::optional<double>& time,
                      const std::string& file, const OptionTable& table, Progress& progress) {
   if (!time) return value;
   if (!value.motion) {
-    refuseIdle(*table.find(kTime),
-               "is for cases with a motion, and " + formats::printable(file) + " has none",
-               progress);
+    refuseUnused(*table.find(kTime),
+                 "is for cases with a motion, and " + formats::printable(file) + " has none",
+                 progress);
     return value;
   }
   try {

@@ -40,8 +40,8 @@ struct TrackArguments {
   std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
   std::vector<std::string> roots;     ///< texts "X,Y,Z", mm, LPS
   bool isOnlyConnected = false;       ///< without trees in which no seed and no root lies
-  std::uint64_t repeats = 0;          ///< further runs that show what the result hangs on
-  bool isSeedsOnly = false;  ///< seeds start all tracks; else they are hints on what is found
+  std::uint64_t repeats = 0;  ///< further runs that show how far the result depends on chance
+  bool isSeedsOnly = false;   ///< seeds start all tracks; else they are hints on what is found
   convert::TrackOptions options;
   [[nodiscard]] convert::SeedReading reading() const;
   [[nodiscard]] std::vector<Eigen::Vector3d> rootPlaces() const;

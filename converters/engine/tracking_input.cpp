@@ -11,8 +11,8 @@
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
-#include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "converters/stages/tracking/vessel_at_click.h"
@@ -152,20 +152,20 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
   candidates = found.courses.size();
   if (found.courses.empty()) return {};
-  convert::TrackResult result =
-      convert::trackAlongCourses(volume, found.courses, placesOfBone(found), options, progress,
-                                 [&](std::span<const convert::WorldBall> vessels) {
-                                   return convert::coursesBeside(found, vessels, progress);
-                                 });
+  convert::TrackResult result = convert::trackAlongCourses(
+      volume, found.courses, placesOfBone(found), options, progress,
+      [&](std::span<const convert::WorldBall> vessels) {
+        return convert::coursesInRemainingLumen(found, vessels, progress);
+      });
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
-  const convert::Surrounding around{
+  const convert::LumenInVolume lumen{
       [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
       [&](const Eigen::Vector3d& point) { return volume.geometry.containsWorld(point); }};
-  for (const Eigen::Vector3d& place : convert::untangle(result.result, around))
+  for (const Eigen::Vector3d& place : convert::correctTopology(result.result, lumen))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
   const std::vector<Eigen::Vector3d> inlets =
-      convert::furtherInlets(result.result.tree, around.isInside);
+      convert::furtherInlets(result.result.tree, lumen.isInside);
   convert::beginAt(result.result, inlets);
   for (const Eigen::Vector3d& place : inlets)
     progress.detail("blood comes in at " + convert::vectorText(place) + " mm, too");

@@ -16,12 +16,12 @@ struct AxisPoint {
 };
 
 /// `count` places between two, which are left out, on the cubic Hermite curve along their
-/// directions, at even steps of its parameter. `length`: that of the way between both as far as it
-/// is known, mm; more than a half circle is taken as that. Radii are interpolated.
+/// directions, at even steps of its parameter. `length`: that of the path between both as far as it
+/// is known, mm; at most that of a half circle counts. Radii are interpolated.
 std::vector<AxisPoint> curveBetween(const AxisPoint& from, const AxisPoint& to, std::size_t count,
                                     double length);
 
-/// Turn between the ways at two places and the straight way from one to the other, in sum, radians.
+/// Sum of the angles of the directions at two places with the line from one to the other, radians.
 /// The axis of the first place may be followed in either direction. Infinite for equal places.
 double turnBetween(const AxisPoint& from, const AxisPoint& to);
 

@@ -13,8 +13,8 @@ namespace lumen::convert {
 
 /// The triangles of the convex hull of points, counter-clockwise seen from outside, as indices of
 /// the points; none if all points lie in one plane. Exact: no point lies outside of it, as
-/// orientation() of exact_predicates.h decides; points must be within its range. Of points in the
-/// plane of a face, only those that a triangle needs are its corners. C. B. Barber, D. P. Dobkin and
+/// orientation() of exact_predicates.h decides; points must be within its range. Points in the
+/// plane of a face are corners only where a triangle needs them. C. B. Barber, D. P. Dobkin and
 /// H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996.
 std::vector<Triangle> convexHull(std::span<const Eigen::Vector3d> points);
 

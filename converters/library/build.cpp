@@ -206,7 +206,7 @@ private:
   void put(const std::vector<PlannedRow>& batch) {
     LibraryChange change(m_folder, m_progress);
     for (const PlannedRow& plan : batch)
-      change.put(recordIn(plan.staged, plan.id), plan.staged / kPayload / plan.id);
+      change.addOrReplace(recordIn(plan.staged, plan.id), plan.staged / kPayload / plan.id);
     change.commit(m_options.day);
     std::error_code ignored;
     for (const PlannedRow& plan : batch) fs::remove_all(plan.folder, ignored);

@@ -36,7 +36,7 @@ fs::path existingFolder(const fs::path& folder) {
 }
 
 /// Whether a file is true of one revision alone: it does not come along into the next.
-bool lapses(const std::string& name) {
+bool isOfOneRevision(const std::string& name) {
   constexpr std::array<std::string_view, 4> kNames = {"library.json.minisig", "library.json.sig",
                                                       "index.html", "site"};
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
@@ -85,7 +85,7 @@ LibraryChange::LibraryChange(const fs::path& library, Progress& progress)
                          "sorted, or one is there twice; lumen library check reports more");
 }
 
-void LibraryChange::put(CaseRecord record, fs::path files) {
+void LibraryChange::addOrReplace(CaseRecord record, fs::path files) {
   const std::string id = record.id;
   if (const std::string fault = missingStatement(record.about); !fault.empty())
     throw invalidInput("case " + id + ": " + fault);
@@ -98,8 +98,8 @@ void LibraryChange::remove(const std::string& id) {
   m_removed.insert(id);
 }
 
-LibraryEntry LibraryChange::bringIn(Incoming& incoming, const fs::path& data,
-                                    const std::string& date) const {
+LibraryEntry LibraryChange::writeCase(Incoming& incoming, const fs::path& data,
+                                      const std::string& date) const {
   CaseRecord& record = incoming.record;
   const LibraryEntry* const before = findCase(m_library, record.id);
   record.version = before == nullptr ? 1 : before->version + 1;
@@ -136,8 +136,8 @@ void LibraryChange::commit(const std::string& date) {
   PendingFolder pending = pendingFolder(m_folder, PendingFolder::Existing::Replace);
   const fs::path data = pending.path() / kPayload;
   linkAll(m_folder, pending.path(), [this](const std::string& name) {
-    if (lapses(name)) m_gone.push_back(name);
-    return lapses(name) || isWritten(name);
+    if (isOfOneRevision(name)) m_gone.push_back(name);
+    return isOfOneRevision(name) || isWritten(name);
   });
   std::sort(m_gone.begin(), m_gone.end());
   makeFolderLike(m_folder / kPayload, data);
@@ -145,7 +145,7 @@ void LibraryChange::commit(const std::string& date) {
     return name == kCrateFile || findCase(m_library, name) != nullptr;
   });
   for (auto& [id, incoming] : m_incoming) {
-    next.cases.push_back(bringIn(incoming, data, date));
+    next.cases.push_back(writeCase(incoming, data, date));
     if (const LibraryEntry* const before = findCase(m_library, id); before != nullptr)
       for (std::string& file : missingFrom(incoming.record, openRecord(m_folder, *before)))
         m_gone.push_back(std::move(file));
@@ -166,7 +166,7 @@ void LibraryChange::commit(const std::string& date) {
   }
   writer.finish();
   makeFolderLike(m_folder, pending.path());  // may others look into it as they might before
-  putInPlace(pending);
+  commitFolder(pending);
   m_library = std::move(next);
   m_incoming.clear();
   m_removed.clear();
@@ -208,7 +208,7 @@ void makeLibrary(const fs::path& folder, LibraryFile library) {
   PendingFolder pending = newLibraryFolder(folder, library);
   RevisionWriter writer(pending.path(), library);
   writer.finish();
-  putInPlace(pending);
+  commitFolder(pending);
 }
 
 CaseRecord openRecord(const fs::path& library, const LibraryEntry& entry) {
@@ -252,7 +252,7 @@ LibraryFile extractCases(const fs::path& from, const fs::path& to,
     writer.add(record, crate);
   }
   writer.finish();
-  putInPlace(pending);
+  commitFolder(pending);
   return library;
 }
 

@@ -31,7 +31,7 @@ public:
   /// record.files in it, as they are recorded, which stays until commit() and is not changed.
   /// Throws Error(InvalidInput) for a missing statement (missingStatement()) and for two cases of
   /// one id.
-  void put(CaseRecord record, std::filesystem::path files);
+  void addOrReplace(CaseRecord record, std::filesystem::path files);
   /// Throws Error(Usage) if there is none of this id.
   void remove(const std::string& id);
 
@@ -50,8 +50,8 @@ private:
     CaseRecord record;
     std::filesystem::path files;
   };
-  LibraryEntry bringIn(Incoming& incoming, const std::filesystem::path& data,
-                       const std::string& date) const;
+  LibraryEntry writeCase(Incoming& incoming, const std::filesystem::path& data,
+                         const std::string& date) const;
 
   std::filesystem::path m_folder;
   Progress& m_progress;

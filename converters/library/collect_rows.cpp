@@ -86,7 +86,7 @@ private:
     LibraryChange change(m_folder, m_progress);
     for (const auto& [id, staged] : m_staged) {
       const fs::path library = staged.folder / staged.name;
-      change.put(recordIn(library, id), library / kPayload / id);
+      change.addOrReplace(recordIn(library, id), library / kPayload / id);
     }
     change.commit(m_options.day);
     std::error_code ignored;

@@ -32,7 +32,7 @@ PendingFolder pendingFolder(const fs::path& folder, PendingFolder::Existing exis
   return *std::move(pending);
 }
 
-void putInPlace(PendingFolder& pending) {
+void commitFolder(PendingFolder& pending) {
   const auto done = pending.commit(PendingFolder::Flush::System);
   if (!done) throw failed(formats::printable(done.error().message));
 }

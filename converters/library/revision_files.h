@@ -20,7 +20,7 @@ inline constexpr const char* kGenerator = "lumen " LUMEN_VERSION;
 formats::PendingFolder pendingFolder(const std::filesystem::path& folder,
                                      formats::PendingFolder::Existing existing);
 /// Puts it in place. Throws Error(Failed).
-void putInPlace(formats::PendingFolder& pending);
+void commitFolder(formats::PendingFolder& pending);
 
 /// Gives a file a second name, or copies it where the file system has no links. Throws
 /// Error(Failed).

@@ -24,7 +24,7 @@ constexpr double kLeastVoxels = 3;
 // Depths from a tip: the stretch that shows the width of its vessel.
 constexpr double kTip = 4;
 // Multiple of the depth in the neck: a path that gets deeper behind it leads into a sac.
-constexpr double kSac = 1.25;
+constexpr double kSacDepthRatio = 1.25;
 // Path along the tree over the distance across: beyond this ratio a tip has closed a loop.
 constexpr double kLoop = 4;
 
@@ -134,8 +134,8 @@ bool VesselPaths::isVessel(VesselPath& path) const {
   }
   const double parent = depthAt(0);
   // both depths are known to half a voxel
-  path.isSac = deepest > kSac * neckThere + m_set.geometry().voxelSize() && length < 6 * deepest &&
-               !leavesVolume(path.voxels.back());
+  path.isSac = deepest > kSacDepthRatio * neckThere + m_set.geometry().voxelSize() &&
+               length < 6 * deepest && !leavesVolume(path.voxels.back());
   const double least = std::max({path.isSac ? deepest : 2 * deepest, m_leastOfParent * parent,
                                  kLeastVoxels * m_set.geometry().voxelSize()});
   return length > least;

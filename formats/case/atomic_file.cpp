@@ -132,7 +132,8 @@ bool isUnsupported(int code) {
   return code == EINVAL || code == ENOSYS || code == ENOTSUP || code == EOPNOTSUPP;
 }
 
-// Sets the mode of an open file. Where none can be set, succeeds if its mode grants nothing more.
+// Sets the mode of an open file. Where modes cannot be set, succeeds if the file's mode grants no
+// more than `mode`.
 bool setMode(int descriptor, mode_t mode, const FileCalls& calls) {
   if (calls.permit(descriptor, mode) == 0) return true;
   const int error = errno;

@@ -92,7 +92,7 @@ typedef struct blob_pose_change {
 
 /* Sets the transforms of nodes.
  * The caller provides `count` indices, or null for the nodes 0 to count - 1; a transform for each;
- * and room for a report, or null. Of an index that occurs twice, the last counts.
+ * and room for a report, or null. The last transform of an index that occurs twice counts.
  * Fails with BLOB_ERROR_TOPOLOGY (an index that is no node), _RANGE (a number that is not finite or
  * out of its range) or, with def.renew alone, _MEMORY; the pose is then as it was, but for _MEMORY,
  * after which it is posed and stale.

@@ -9,7 +9,7 @@
 
 namespace lumen::blob {
 
-/// Appends blocks with the neighbours of all nodes, and tells each node's record where they are.
+/// Appends blocks with the neighbours of all nodes, and stores their place in each node's record.
 /// `spacing`: see field::measureSpacings(), mm^2.
 void addNeighbours(const field::TreeView& tree, const field::Neighbourhood& around,
                    const std::vector<double>& spacing, std::vector<NodeRecord>& nodes,

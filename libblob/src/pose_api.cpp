@@ -77,7 +77,7 @@ NodePose between(const NodePose& from, const NodePose& to, double fraction) noex
           (1.0 - share) * from.factor + share * to.factor};
 }
 
-// The same for a node, whose centre is kept as floats.
+// A pose of a node between two, whose centre is kept as floats.
 NodePose nodeBetween(const NodePose& from, const NodePose& to, double fraction) noexcept {
   NodePose pose = between(from, to, fraction);
   for (double* x : {&pose.centre.x, &pose.centre.y, &pose.centre.z}) *x = static_cast<float>(*x);
@@ -197,12 +197,12 @@ blob_transform blob_pose_node(const blob_pose* pose, uint32_t node) noexcept {
 
 double blob_pose_strain(const blob_pose* pose) noexcept {
   BLOB_REQUIRE(pose != nullptr);
-  constexpr std::uint32_t kMost = 64;
+  constexpr std::uint32_t kMaxEdges = 64;
   float greatest = 0;
-  std::uint32_t edges[kMost];
+  std::uint32_t edges[kMaxEdges];
   const std::uint32_t count = static_cast<std::uint32_t>(pose->edgeReference.size());
-  for (std::uint32_t first = 0; first < count; first += kMost) {
-    const std::uint32_t most = std::min(kMost, count - first);
+  for (std::uint32_t first = 0; first < count; first += kMaxEdges) {
+    const std::uint32_t most = std::min(kMaxEdges, count - first);
     std::iota(edges, edges + most, first);
     greatest = std::max(greatest, pose->model.backend->greatestStrain(*pose, edges, most));
   }

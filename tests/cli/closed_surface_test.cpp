@@ -97,7 +97,7 @@ protected:
 private:
   void expectOnField(const std::string& name, const reproduce::WrittenSurface& surface) {
     const field::BlendedField blended = formats::caseField(m_source);
-    const convert::SheetField field(m_source, blended, {m_said["gap_mm"].get<double>(), 0, 0});
+    const convert::SeparatedField field(m_source, blended, {m_said["gap_mm"].get<double>(), 0, 0});
     m_facts = reproduce::distanceFrom(field, surface);
     EXPECT_GT(m_facts.rays, 0U) << name;
     // The answer counts vertices that lie off since models disagree; the factor is for those moved with them.

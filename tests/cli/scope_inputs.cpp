@@ -14,7 +14,7 @@
 namespace lumen::test {
 
 namespace fs = std::filesystem;
-using engine::Surroundings;
+using engine::RunContext;
 
 namespace {
 
@@ -271,7 +271,7 @@ Effect ScopeTest::effectOf(const Operation& operation,
   Progress progress;
   Effect effect;
   try {
-    const engine::Answer answer = m_engine.run(operation, Surroundings{m_engine, progress});
+    const engine::Answer answer = m_engine.run(operation, RunContext{m_engine, progress});
     effect.answer = answer.json.dump() + answer.text + std::to_string(answer.code);
   } catch (const std::exception& error) {
     effect.error = error.what();

@@ -37,8 +37,8 @@ def solved(rows):
 
 
 def steady(model):
-    """Of each vessel its flow and pressures, as the solver has them when the walls have taken up what they can: unknown are
-    pressures at its two ends and its flow."""
+    """The flow and pressures of each vessel, as the solver has them when the walls have taken up what they can: the unknowns are
+    the pressures at its two ends and its flow."""
     vessels, conditions = model["vessels"], {b["bc_name"]: b for b in model["boundary_conditions"]}
     column = lambda vessel, what: 3 * vessel + ("pressure_in", "pressure_out", "flow").index(what)
     def equation(right, *terms):

@@ -10,8 +10,8 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 
 def broadest(mesh):
-    """The direction from which a surface looks broadest, and the one that is up then: its axes of inertia. Of both directions the
-    one from the front of the patient (LPS: -y), and up the one towards the head, or to the left where it lies flat."""
+    """The direction from which a surface looks broadest, and the one that is up then: its axes of inertia. The
+    first points to the front of the patient (LPS: -y), and up to the head, or to the left where the surface lies flat."""
     _, axes = numpy.linalg.eigh(numpy.cov(vtk_to_numpy(mesh.GetPoints().GetData()).T))
     to_eye, up = axes[:, 0], axes[:, 2]
     if abs(axes[2, 1]) > abs(up[2]): up = axes[:, 1]

@@ -12,7 +12,7 @@ lumen_test(editing_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/smooth_axes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/touching_vessels_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/trim_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/untangle_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/correct_topology_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/wall_edits_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)
 target_include_directories(editing_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -23,7 +23,7 @@ lumen_test(random_surface_test
 lumen_test(ends_test
   LIBS lumen_surface
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/bare_stretches_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/stretches_without_wall_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/crossing_search_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp

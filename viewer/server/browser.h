@@ -15,11 +15,11 @@ bool openBrowser(const std::string& address);
 
 /// Decides by the number of open pages, which it gets at intervals. The viewer is over when there
 /// was a page, and then neither a page nor work for long enough: reloading a page takes seconds.
-class IdleEnd {
+class IdleTimeout {
 public:
   using Clock = std::chrono::steady_clock;
 
-  IdleEnd(Clock::duration longEnough, Clock::time_point now)
+  IdleTimeout(Clock::duration longEnough, Clock::time_point now)
       : m_longEnough(longEnough), m_last(now) {}
 
   bool isOver(std::size_t pages, bool isBusy, Clock::time_point now) {

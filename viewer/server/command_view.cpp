@@ -30,10 +30,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTick{100};    // most delay of Ctrl-C
-constexpr std::chrono::seconds kLook{1};           // between two looks at the files on disk
-constexpr std::chrono::seconds kKeep{5};           // between two copies of unsaved work
-constexpr std::chrono::seconds kWithoutPages{60};  // a page that is loaded again takes seconds
+constexpr std::chrono::milliseconds kCancelCheckInterval{100};  // most delay of Ctrl-C
+constexpr std::chrono::seconds kFileCheckInterval{1};  // between two looks at the files on disk
+constexpr std::chrono::seconds kBackupInterval{5};     // between two copies of unsaved work
+constexpr std::chrono::seconds kIdleTimeout{60};       // a page that is loaded again takes seconds
 
 class ViewCommand : public engine::Command {
 public:
@@ -96,19 +96,19 @@ public:
     engine::addVolumeRows(table, m_options.volume);
   }
 
-  engine::Answer run(const engine::Surroundings& around) override {
+  engine::Answer run(const engine::RunContext& context) override {
     findCaseOfLibrary();
-    engine::requireInScope(*around.table, {contentOfFiles(), kAnyContent, filesText(), {}},
-                           around.progress);
+    engine::requireInScope(*context.table, {contentOfFiles(), kAnyContent, filesText(), {}},
+                           context.progress);
     if (!m_html.empty()) engine::requireWritable(m_html, convert::ContentKind::Other);
     if (const auto folder = stateFolder()) m_options.unnamed = *folder / "lumen";
     if (!m_at.empty()) m_options.look = engine::placeIn(m_at);
     Session session(m_options);
-    if (!openFolder(session)) openFiles(session, around);
-    requireMotion(session, around);
-    warnOfUnsaved(session, around);
-    if (!m_html.empty()) return writeHtml(session, around);
-    return serve(session, around);
+    if (!openFolder(session)) openFiles(session, context);
+    requireMotion(session, context);
+    warnOfUnsaved(session, context);
+    if (!m_html.empty()) return writeHtml(session, context);
+    return serve(session, context);
   }
 
 private:
@@ -166,15 +166,16 @@ private:
   }
 
   /// Refuses a time for a case that does not move.
-  void requireMotion(const Session& session, const engine::Surroundings& around) const {
+  void requireMotion(const Session& session, const engine::RunContext& context) const {
     if (!m_options.time) return;
     const auto value = session.now().document.value;
     if (value && value->motion) return;
     const std::string file = formats::printable(value ? caseFile() : filesText());
-    engine::refuseIdle(*around.table->find("time"),
-                       isFolderOfCases() ? "is for one case, and " + file + " is a folder of them"
-                                         : "is for cases with a motion, and " + file + " has none",
-                       around.progress);
+    engine::refuseUnused(*context.table->find("time"),
+                         isFolderOfCases()
+                             ? "is for one case, and " + file + " is a folder of them"
+                             : "is for cases with a motion, and " + file + " has none",
+                         context.progress);
   }
 
   /// The first case among the files.
@@ -186,38 +187,38 @@ private:
   }
 
   /// Warns of unsaved work of an earlier program.
-  void warnOfUnsaved(Session& session, const engine::Surroundings& around) const {
+  void warnOfUnsaved(Session& session, const engine::RunContext& context) const {
     if (!m_html.empty()) return;
     for (const std::string& file : session.findUnsaved())
-      around.progress.warn(formats::printable(file) +
-                           " holds work that was not saved; the page offers it under \"Files\"");
+      context.progress.warn(formats::printable(file) +
+                            " holds work that was not saved; the page offers it under \"Files\"");
   }
 
   /// Volumes first, which seeds in voxels need, then cases.
-  void openFiles(Session& session, const engine::Surroundings& around) {
+  void openFiles(Session& session, const engine::RunContext& context) {
     const std::optional<std::string> output = newCase();
     for (const FileRole wanted :
          {FileRole::Volume, FileRole::Case, FileRole::Mesh, FileRole::Seeds})
       for (const std::string& file : m_files)
         if (file != output && openingRole({file, file}) == wanted &&
-            !offerSeries(session, file, wanted, around))
-          openOne(session, file, wanted, around);
+            !offerSeries(session, file, wanted, context))
+          openOne(session, file, wanted, context);
     if (output) session.saveTo(*output);
-    if (const auto doubt = secondDoubt(session.now().document)) around.progress.warn(*doubt);
+    if (const auto doubt = secondDoubt(session.now().document)) context.progress.warn(*doubt);
   }
 
   /// A folder of several series of DICOM, among which the page chooses.
   bool offerSeries(Session& session, const std::string& file, FileRole role,
-                   const engine::Surroundings& around) const {
+                   const engine::RunContext& context) const {
     std::error_code ignored;
     return role == FileRole::Volume && m_html.empty() && m_options.volume.series.empty() &&
-           fs::is_directory(file, ignored) && session.offerSeries(file, around.progress);
+           fs::is_directory(file, ignored) && session.offerSeries(file, context.progress);
   }
 
   void openOne(Session& session, const std::string& file, FileRole role,
-               const engine::Surroundings& around) const {
+               const engine::RunContext& context) const {
     const OpenAs as = roleOfFurther(session.now().document, file, role);
-    session.open({file, labelOf(file), false, as}, around.progress);
+    session.open({file, labelOf(file), false, as}, context.progress);
     const engine::FileFormat* format =
         role == FileRole::Case ? &engine::inputFormat(file, "") : nullptr;
     if (format != nullptr && engine::canWriteCase(*format) && as == OpenAs::Auto &&
@@ -259,72 +260,73 @@ private:
     return output;
   }
 
-  engine::Answer writeHtml(Session& session, const engine::Surroundings& around) {
+  engine::Answer writeHtml(Session& session, const engine::RunContext& context) {
     const Document document = session.now().document;
     const auto refuse = [&](const char* option, const std::string& needed) {
-      const OptionRow& row = *around.table->find(option);
+      const OptionRow& row = *context.table->find(option);
       if (row.isGiven)
-        engine::refuseIdle(row, "is for " + needed + ", and " + filesText() + " has none",
-                           around.progress);
+        engine::refuseUnused(row, "is for " + needed + ", and " + filesText() + " has none",
+                             context.progress);
     };
     if (!document.volume) refuse("html-volume", "a volume beside the case");
     if (!document.value || !document.value->points) refuse("html-points", "cases with wall points");
     HtmlOptions options;
     options.volume = m_htmlVolume;
     options.points = m_htmlPoints;
-    const std::string page = htmlPage(session, findPageFiles(), options, around.progress);
+    const std::string page = htmlPage(session, findPageFiles(), options, context.progress);
     engine::writeText(page, m_html);
     return {{{"html", m_html}, {"bytes", page.size()}},
             m_html + ": " + std::to_string(page.size()) + " bytes\n"};
   }
 
-  engine::Answer serve(Session& session, const engine::Surroundings& around) {
+  engine::Answer serve(Session& session, const engine::RunContext& context) {
     PageFiles page = findPageFiles();
     if (page.empty())
-      around.progress.warn(
+      context.progress.warn(
           "the page of the viewer was not built, so there is nothing to see; ./bootstrap.sh demo "
           "builds it, with npm");
     Server server(session, std::move(page), {m_port});
-    around.answerEarly({{{"address", server.address()}}, server.address() + "\n", 0, true});
+    context.answerEarly({{{"address", server.address()}}, server.address() + "\n", 0, true});
     if (!m_noBrowser && !openBrowser(server.address()))
-      around.progress.warn("no browser could be opened; open the address in one");
-    waitForEnd(session, around);
+      context.progress.warn("no browser could be opened; open the address in one");
+    waitForEnd(session, context);
     // first: a job that cannot be cancelled may outlast the grace of an interrupt
     session.keepUnsaved();
     session.cancelAll();
     session.wait();
     server.stop();
     for (const std::string& file : session.keepUnsaved())
-      around.progress.warn("unsaved work is in " + formats::printable(file));
+      context.progress.warn("unsaved work is in " + formats::printable(file));
     return {};
   }
 
   /// Until Ctrl-C, or until the last page has been gone for long enough.
-  void waitForEnd(Session& session, const engine::Surroundings& around) const {
+  void waitForEnd(Session& session, const engine::RunContext& context) const {
     Clock::time_point lastLook = Clock::now(), lastKept = lastLook;
-    IdleEnd idle(kWithoutPages, lastLook);
+    IdleTimeout idle(kIdleTimeout, lastLook);
     bool kept = true;
-    while (!around.progress.cancelled()) {
-      std::this_thread::sleep_for(kTick);
+    while (!context.progress.cancelled()) {
+      std::this_thread::sleep_for(kCancelCheckInterval);
       const auto now = Clock::now();
       const bool isOver = idle.isOver(session.events().count(), session.isBusy(), now);
       if (isOver && !m_keep) return;
-      if (now - lastLook < kLook) continue;
+      if (now - lastLook < kFileCheckInterval) continue;
       lastLook = now;
       session.lookAtFiles();
-      if (now - lastKept < kKeep) continue;
+      if (now - lastKept < kBackupInterval) continue;
       lastKept = now;
-      kept = keep(session, around, kept);
+      kept = keep(session, context, kept);
     }
   }
 
   /// Writes copies of unsaved work; false if that failed, which is reported once.
-  static bool keep(Session& session, const engine::Surroundings& around, bool before) {
+  static bool keep(Session& session, const engine::RunContext& context, bool before) {
     try {
       session.keepUnsaved();
       return true;
     } catch (const std::exception& error) {
-      if (before) around.progress.warn("unsaved work cannot be kept: " + std::string(error.what()));
+      if (before)
+        context.progress.warn("unsaved work cannot be kept: " + std::string(error.what()));
       return false;
     }
   }

@@ -42,7 +42,7 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
   if (op == "recover") return m_files.recover(request, from);
   if (op == "closeFile") return m_files.close(request, from);
   if (op == "acceptVolume") return acceptVolume(from);
-  if (op == "ignore" || op == "heed") return decide(op, request, from);
+  if (op == "ignore" || op == "unignore") return decide(op, request, from);
   if (op == "track" || op == "trackFrom" || op == "find" || op == "accept") {
     requireOneSource(from.document);
     if (op == "track") return m_stages.track(request, from);
@@ -75,13 +75,13 @@ Json Operations::acceptVolume(const Moment& from) {
 
 Json Operations::decide(const std::string& op, const Arguments& request, const Moment& from) {
   if (!from.document.value) refuse("there is no case whose places could be ignored");
-  constexpr std::size_t kMost = 1U << 20U;  // limit: of any number in a request
-  if (op == "heed") {
-    m_workspace.commit("heed a place", from,
-                       withHeeded(from.document, request.index("ignored", kMost)));
+  constexpr std::size_t kMaxIndex = 1U << 20U;  // limit: of any number in a request
+  if (op == "unignore") {
+    m_workspace.commit("stop ignoring a place", from,
+                       withoutIgnored(from.document, request.index("ignored", kMaxIndex)));
     return m_workspace.revision();
   }
-  const WorkItem item = m_workspace.findings.workItem(request.index("item", kMost));
+  const WorkItem item = m_workspace.findings.workItem(request.index("item", kMaxIndex));
   m_workspace.commit("ignore a place", from,
                      withIgnored(from.document, item, request.text("reason")));
   return m_workspace.revision();

@@ -28,7 +28,7 @@ public:
 private:
   Json change(const std::string& op, const Arguments& request, const Moment& from);
   Json acceptVolume(const Moment& from);
-  /// Ignores a place of the check, or heeds one again.
+  /// Ignores a place of the check, or stops ignoring one.
   Json decide(const std::string& op, const Arguments& request, const Moment& from);
   Json reject(const Arguments& request, const Moment& from);
   Json step(bool forward);

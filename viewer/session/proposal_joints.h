@@ -26,7 +26,7 @@ class Joints {
 public:
   /// No node is joined.
   explicit Joints(std::size_t nodes) : m_at(nodes) {}
-  /// Those that the array of a case states; none if it has no such array of four floats.
+  /// The joints that the array of a case states; none if it has no such array of four floats.
   explicit Joints(const formats::Case& proposals);
 
   void set(std::uint32_t node, const formats::Vec3f& position) { m_at[node] = position; }

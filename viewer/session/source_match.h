@@ -31,8 +31,8 @@ double sharedPart(const convert::VolumeGeometry& first, const convert::VolumeGeo
 
 /// A sentence on what speaks against both volumes being seen at one place: they do not overlap or
 /// hardly do, they have the same voxels at other places, or the open case was made from the second
-/// and not from the first. None without a second volume and where nothing does. No file states that
-/// two volumes are of one patient, so no answer does not state it either.
+/// and not from the first. None without a second volume and where nothing does. Files do
+/// not state the patient, so an empty answer does not prove that both are of one.
 std::optional<std::string> secondDoubt(const Document& document);
 
 }  // namespace lumen::viewer

@@ -119,8 +119,8 @@ Json overlapsJson(const convert::SurfaceReport& report) {
 
 using convert::Triangle;
 
-constexpr double kMostError = 1.0 / 3;  // share of the mean radius by which a wall may move
-constexpr std::size_t kLeast = 16;      // triangles of a run, where it has as many
+constexpr double kMostError = 1.0 / 3;     // share of the mean radius by which a wall may move
+constexpr std::size_t kMinTriangles = 16;  // triangles of a run, where it has as many
 
 /// The triangles of one run, between vertices that are numbered as they come.
 struct RunMesh {
@@ -150,7 +150,7 @@ RunMesh runMesh(std::span<const convert::Float3> position, std::span<const float
 std::vector<Triangle> simplified(const RunMesh& mesh, double share) {
   const std::size_t count = mesh.index.size() / 3,
                     wanted = std::max(static_cast<std::size_t>(share * static_cast<double>(count)),
-                                      std::min(count, kLeast));
+                                      std::min(count, kMinTriangles));
   const float* const place = mesh.position.empty() ? nullptr : mesh.position[0].data();
   constexpr std::size_t kStride = sizeof(convert::Float3);
   const double extent{meshopt_simplifyScale(place, mesh.position.size(), kStride)};

@@ -14,7 +14,8 @@ namespace lumen::viewer {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};  // between two looks whether somebody still waits
+constexpr std::chrono::milliseconds kCancelCheckInterval{
+    100};  // between two looks whether somebody still waits
 
 constexpr std::size_t kMostJoints = 65536;  // that a vertex can name, the resting one included
 
@@ -89,7 +90,7 @@ void Surfaces::waitFor(int level, const Progress& progress) {
   std::unique_lock lock(m_mutex);
   m_isAsked = true;
   m_wake.notify_all();
-  while (!m_wake.wait_for(lock, kLook, [&] {
+  while (!m_wake.wait_for(lock, kCancelCheckInterval, [&] {
     return !hasSurface(m_case) || !m_allowed || m_ended || m_levels[l] || m_failed[l];
   }))
     progress.check();

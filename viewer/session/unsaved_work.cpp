@@ -82,18 +82,18 @@ bool holdsProposals(const fs::path& file) {
 }
 
 template <class Part, class Write>
-void UnsavedWork::keepPart(fs::path& file, std::shared_ptr<const Part>& kept,
-                           const std::shared_ptr<const Part>& part, const char* ending,
-                           const Write& write) {
+void UnsavedWork::writePart(fs::path& file, std::shared_ptr<const Part>& written,
+                            const std::shared_ptr<const Part>& part, const char* ending,
+                            const Write& write) {
   if (!part) removeFile(file);
-  if (part && part != kept) {
+  if (part && part != written) {
     if (file.empty()) {
       makeFolder(m_place.parent_path());
       file = freeName(m_place, ending);
     }
     write(part, file);
   }
-  kept = part;
+  written = part;
 }
 
 void UnsavedWork::forgetPlace(const fs::path& place) {
@@ -107,10 +107,10 @@ void UnsavedWork::forgetPlace(const fs::path& place) {
   m_proposals = nullptr;
 }
 
-void UnsavedWork::keepCase(const std::shared_ptr<const formats::Case>& value,
-                           const std::shared_ptr<const Seeds>& seeds) {
+void UnsavedWork::writeCasePart(const std::shared_ptr<const formats::Case>& value,
+                                const std::shared_ptr<const Seeds>& seeds) {
   if (seeds != m_caseSeeds) m_case = nullptr;  // written anew
-  keepPart(m_caseFile, m_case, value, kCase, [&seeds](const auto& part, const fs::path& file) {
+  writePart(m_caseFile, m_case, value, kCase, [&seeds](const auto& part, const fs::path& file) {
     Document document;
     document.value = part;
     document.seeds = seeds;
@@ -123,13 +123,13 @@ std::vector<fs::path> UnsavedWork::keep(const fs::path& place, const Document& d
                                         const UnsavedParts& parts) {
   const std::lock_guard lock(m_keepMutex);
   if (place != m_place) forgetPlace(place);
-  keepCase(parts.hasCase ? document.value : nullptr, document.seeds);
-  keepPart(m_proposalsFile, m_proposals, parts.hasProposals ? document.proposals : nullptr,
-           kProposals, [](const auto& part, const fs::path& file) {
-             engine::writeCase(*part, file, formats::CaseEncoding::Binary, {});
-           });
-  keepPart(m_seedsFile, m_seeds, parts.hasSeeds ? document.seeds : nullptr, kSeeds,
-           [](const auto& part, const fs::path& file) { convert::writeSeeds(*part, file); });
+  writeCasePart(parts.hasCase ? document.value : nullptr, document.seeds);
+  writePart(m_proposalsFile, m_proposals, parts.hasProposals ? document.proposals : nullptr,
+            kProposals, [](const auto& part, const fs::path& file) {
+              engine::writeCase(*part, file, formats::CaseEncoding::Binary, {});
+            });
+  writePart(m_seedsFile, m_seeds, parts.hasSeeds ? document.seeds : nullptr, kSeeds,
+            [](const auto& part, const fs::path& file) { convert::writeSeeds(*part, file); });
   std::vector<fs::path> copies;
   for (const fs::path& file : {m_caseFile, m_seedsFile, m_proposalsFile})
     if (!file.empty()) copies.push_back(file);

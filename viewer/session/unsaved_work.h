@@ -41,11 +41,11 @@ public:
 
 private:
   void forgetPlace(const std::filesystem::path& place);
-  void keepCase(const std::shared_ptr<const formats::Case>& value,
-                const std::shared_ptr<const Seeds>& seeds);
+  void writeCasePart(const std::shared_ptr<const formats::Case>& value,
+                     const std::shared_ptr<const Seeds>& seeds);
   template <class Part, class Write>
-  void keepPart(std::filesystem::path& file, std::shared_ptr<const Part>& kept,
-                const std::shared_ptr<const Part>& part, const char* ending, const Write& write);
+  void writePart(std::filesystem::path& file, std::shared_ptr<const Part>& written,
+                 const std::shared_ptr<const Part>& part, const char* ending, const Write& write);
 
   std::mutex m_keepMutex;  ///< guards the next eight; never held with the other mutex
   std::filesystem::path m_place, m_caseFile, m_seedsFile, m_proposalsFile;

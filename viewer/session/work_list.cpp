@@ -238,7 +238,7 @@ Document withIgnored(const Document& document, const WorkItem& item, const std::
   return ignoring;
 }
 
-Document withHeeded(const Document& document, std::size_t number) {
+Document withoutIgnored(const Document& document, std::size_t number) {
   if (!document.value) refuse("there is no case");
   const std::vector<IgnoredPlace> ignored = listIgnored(document.value->metadata);
   if (number >= ignored.size()) refuse("no place with that number is ignored");
@@ -247,9 +247,9 @@ Document withHeeded(const Document& document, std::size_t number) {
   const auto step = steps.begin() + static_cast<std::ptrdiff_t>(ignored[number].step);
   step->parameters.erase(ignored[number].parameter);
   if (step->parameters.empty()) steps.erase(step);
-  Document heeding = document;
-  heeding.value = std::move(value);
-  return heeding;
+  Document changed = document;
+  changed.value = std::move(value);
+  return changed;
 }
 
 }  // namespace lumen::viewer

@@ -57,6 +57,6 @@ Document withIgnored(const Document& document, const WorkItem& item, const std::
 
 /// The document whose case does not ignore the place of that number among "ignored" any longer. Throws
 /// Error(Usage) if there is none.
-Document withHeeded(const Document& document, std::size_t ignored);
+Document withoutIgnored(const Document& document, std::size_t ignored);
 
 }  // namespace lumen::viewer

@@ -54,8 +54,9 @@ struct Workspace {
   [[nodiscard]] Moment momentFor(const Arguments& request) const;
   /// Throws Conflict if the document has changed since `from`.
   void requireNow(const Moment& from) const;
-  /// The same; `hold` is handed the document once it is the present one, and notes what files hold
-  /// of it.
+  /// Makes `document` the present one, as the change `name`. `hold` is then handed the document,
+  /// and notes which parts of it files hold. Throws Conflict if the document has changed since
+  /// `from`.
   void commit(const std::string& name, const Moment& from, Document document,
               const std::function<void(const Document&)>& hold = {});
   Json startJob(const std::string& name, bool changes, JobRunner::Work work);

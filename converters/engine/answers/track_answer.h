@@ -14,7 +14,7 @@ namespace lumen::engine {
 /// The agreement of repeated runs; null without any.
 Json repetitionJson(const std::optional<convert::Repetition>& repetition,
                     const formats::Case& value);
-/// The same in sentences, each ends a line.
+/// The agreement of repeated runs in sentences, one per line; empty without any.
 std::string repetitionLines(const std::optional<convert::Repetition>& repetition);
 
 /// An answer with the members failed_seeds, missed_points, unjoined and ends.

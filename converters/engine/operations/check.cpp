@@ -155,7 +155,7 @@ public:
     addFormatRow(table, "from", m_from, "VOLUME");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     if (!m_profile.empty()) m_gate = convert::gateProfile(m_profile);
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
@@ -164,26 +164,26 @@ public:
                         (from.kind == FormatKind::Mesh ? "mesh" : "case") +
                         "; lumen check takes the volume first, then the case");
     const FileFormat* mask = m_mask.empty() ? nullptr : &volumeOutputFormat(m_mask, "the mask");
-    requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
-                   around.progress);
+    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, {}},
+                   context.progress);
     checkOutputs();
     const formats::Case value =
-        atTime(readCase(m_case), m_time, m_case, *around.table, around.progress);
+        atTime(readCase(m_case), m_time, m_case, *context.table, context.progress);
     if (!value.models || value.tree.nodeCount() == 0)
       throw invalidInput(
           m_case +
           ": has no models, so it has no wall to check; lumen fit makes them of wall points, "
           "lumen convert of the volume and its seeds");
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
     const convert::SourceRelation source =
         convert::sourceRelation(convert::describeSource(volume), value.metadata);
-    if (const auto text = source.warning(m_input)) around.progress.warn(m_case + ": " + *text);
+    if (const auto text = source.warning(m_input)) context.progress.warn(m_case + ": " + *text);
 
     convert::EdgeOptions options = convert::recordedEdgeOptions(value);
     if (m_pointSpread) options.pointSpread = *m_pointSpread;
-    const convert::CheckResult result = checked(volume, value, options, around);
+    const convert::CheckResult result = checked(volume, value, options, context);
     if (const auto text = convert::outsideWarning(result.report, m_input))
-      around.progress.warn(m_case + ": " + *text);
+      context.progress.warn(m_case + ": " + *text);
     if (mask != nullptr)
       mask->writeVolume(convert::labelVolume(volume.geometry, value.tree, result.lumen), m_mask);
     if (!m_overlay.empty())
@@ -192,7 +192,7 @@ public:
     Answer answer{checkJson(result.report, value.tree, source.word()),
                   checkText(result.report, value.tree), 0, true};
     answer.json["verdict"] = nullptr;
-    if (m_gate) addVerdict(value, result.report, answer, around.progress);
+    if (m_gate) addVerdict(value, result.report, answer, context.progress);
     return answer;
   }
 
@@ -233,9 +233,9 @@ private:
 
   convert::CheckResult checked(const convert::Volume& volume, const formats::Case& value,
                                const convert::EdgeOptions& options,
-                               const Surroundings& around) const {
+                               const RunContext& context) const {
     try {
-      return convert::checkCase(volume, value, options, around.progress);
+      return convert::checkCase(volume, value, options, context.progress);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::InvalidInput) throw;
       throw invalidInput(m_case + " and " + m_input + ": " + error.what());

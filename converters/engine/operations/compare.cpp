@@ -59,10 +59,10 @@ public:
     table.argument("TRUTH", &m_truth, "The true case");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     const formats::Case found = readCase(m_case);
     const formats::Case truth = readCase(m_truth);
-    const auto comparison = convert::compareCases(found, truth, around.progress);
+    const auto comparison = convert::compareCases(found, truth, context.progress);
     return {comparisonJson(comparison), comparisonText(comparison), 0, true};
   }
 

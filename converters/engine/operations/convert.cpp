@@ -59,9 +59,8 @@ public:
     addTrackRows(table, m_track);
     table
         .file("corrections", m_corrected,
-              "Make the corrections again that were made by hand in this case of the same volume, "
-              "each "
-              "at its place; those that no longer fit are reported, and the case keeps them")
+              "Repeat the manual corrections of this case of the same volume, each at its place; "
+              "corrections that no longer fit are reported, and the case keeps them")
         .forInputs(kImage);
     addMeshRows(table, m_mesh);
     addMaskRows(table, m_mask);
@@ -71,31 +70,31 @@ public:
     addTimeRow(table, m_time).forInputs(kCases).inGroup("");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = outputFormat(m_output, m_to);
     requireInput(m_input, "input");
     const FileFormat& from = inputFormat(m_input, m_from);
-    m_situation = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
-    if (from.kind != FormatKind::Case) requireInScope(*around.table, m_situation, around.progress);
+    m_contents = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
+    if (from.kind != FormatKind::Case) requireInScope(*context.table, m_contents, context.progress);
     if (from.kind == FormatKind::Volume && !m_track.seeds.empty()) m_seeds = loadSeeds(m_track);
     if (!m_corrected.empty()) requireInput(m_corrected, "corrected case");
     requireWritable(m_output, contentKind(to));
 
-    formats::Case value = load(from, around);
-    requirePoints(value, around);
-    if (from.kind == FormatKind::Case) requireMotion(value, around);
-    complete(value, from, to, around);
-    around.progress.check();
-    const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
-    convert::warnOfClosed(reach, around.progress);
-    const auto surface = to.writeCase(value, m_output, m_outputOptions, around.progress);
+    formats::Case value = load(from, context);
+    requirePoints(value, context);
+    if (from.kind == FormatKind::Case) requireMotion(value, context);
+    complete(value, from, to, context);
+    context.progress.check();
+    const std::optional<convert::Reach> reach = convert::measureReach(value, context.progress);
+    convert::warnOfClosed(reach, context.progress);
+    const auto surface = to.writeCase(value, m_output, m_outputOptions, context.progress);
     return report(value, reach, surface);
   }
 
 private:
-  formats::Case load(const FileFormat& from, const Surroundings& around) {
-    Progress& progress = around.progress;
+  formats::Case load(const FileFormat& from, const RunContext& context) {
+    Progress& progress = context.progress;
     if (from.kind == FormatKind::Mesh) {
       CaseOfMeshFile made = caseOfMeshFile(m_input, from, meshArguments(), progress);
       m_meshFrame = std::move(made.frame);
@@ -106,7 +105,7 @@ private:
       // rounding and motion make another case; another encoding does not
       const bool isOther = m_time || m_outputOptions.encoding.pointBits != 0;
       return atTime(isOther ? readParentCase(m_input) : from.readCase(m_input), m_time, m_input,
-                    *around.table, progress);
+                    *context.table, progress);
     }
     if (from.kind == FormatKind::Centerline) {
       const auto loaded = loadCenterline(m_input, from, m_volume, m_centerline, progress);
@@ -120,8 +119,8 @@ private:
     if (m_mask.isGiven()) return caseOfLabels(volume, progress);
     if (m_seeds.empty() && convert::holdsLabels(volume)) {
       progress.detail(m_input + ": its voxels are labels, and all but 0 are taken for vessels");
-      m_situation.input = inputContent(from, true);
-      requireInScope(*around.table, m_situation, progress);
+      m_contents.input = inputContent(from, true);
+      requireInScope(*context.table, m_contents, progress);
       return caseOfLabels(volume, progress);
     }
     if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
@@ -164,21 +163,21 @@ private:
   }
 
   /// Refuses to round wall points that a case does not have.
-  void requirePoints(const formats::Case& value, const Surroundings& around) const {
-    const OptionRow& row = *around.table->find("point-bits");
+  void requirePoints(const formats::Case& value, const RunContext& context) const {
+    const OptionRow& row = *context.table->find("point-bits");
     if (row.isGiven && (!value.points || value.points->position.empty()))
-      refuseIdle(row,
-                 "is for cases with wall points, and " + formats::printable(m_input) + " has none",
-                 around.progress);
+      refuseUnused(
+          row, "is for cases with wall points, and " + formats::printable(m_input) + " has none",
+          context.progress);
   }
 
   /// Refuses to leave out a motion that a case does not have.
-  void requireMotion(const formats::Case& value, const Surroundings& around) const {
-    const OptionRow& row = *around.table->find("skin");
+  void requireMotion(const formats::Case& value, const RunContext& context) const {
+    const OptionRow& row = *context.table->find("skin");
     if (row.isGiven && !value.motion)
-      refuseIdle(row,
-                 "is for cases with a motion, and " + formats::printable(m_input) + " has none",
-                 around.progress);
+      refuseUnused(row,
+                   "is for cases with a motion, and " + formats::printable(m_input) + " has none",
+                   context.progress);
   }
 
   [[nodiscard]] MeshArguments meshArguments() const {
@@ -191,7 +190,7 @@ private:
   /// A tracked volume gets its models, and so does a mesh; so does a case that has none when they
   /// are needed for a mesh.
   void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
-                const Surroundings& around) {
+                const RunContext& context) {
     const bool meshNeedsModels = to.kind == FormatKind::Mesh && !value.models;
     if (meshNeedsModels && !value.points)
       throw invalidInput(m_input +
@@ -199,23 +198,23 @@ private:
                          "so there is no surface to make a mesh of");
     const bool isNew = from.kind != FormatKind::Case;
     if (!isNew) {
-      if (meshNeedsModels) m_situation.input = kUnfittedCase;
-      requireInScope(*around.table, m_situation, around.progress);
+      if (meshNeedsModels) m_contents.input = kUnfittedCase;
+      requireInScope(*context.table, m_contents, context.progress);
     }
-    if (isNew || meshNeedsModels) fit(value, around);
+    if (isNew || meshNeedsModels) fit(value, context);
   }
 
-  void fit(formats::Case& value, const Surroundings& around) const {
+  void fit(formats::Case& value, const RunContext& context) const {
     convert::FitOptions options = fitOptionsFor(value, m_fit);
-    if (around.table->find(kOption.cohesionWeight.name)->isGiven)
+    if (context.table->find(kOption.cohesionWeight.name)->isGiven)
       options.cohesionWeight = m_fit.cohesionWeight;
-    const OptionRow& scale = *around.table->find("cohesion-scale");
+    const OptionRow& scale = *context.table->find("cohesion-scale");
     if (scale.isGiven && !(options.cohesionWeight > 0))
-      refuseIdle(scale,
-                 "does nothing without " + kOption.cohesionWeight.shown() +
-                     ", which is 0 for a case without voxels",
-                 around.progress);
-    convert::fit(value, options, around.progress);
+      refuseUnused(scale,
+                   "does nothing without " + kOption.cohesionWeight.shown() +
+                       ", which is 0 for a case without voxels",
+                   context.progress);
+    convert::fit(value, options, context.progress);
   }
 
   [[nodiscard]] Answer report(const formats::Case& value,
@@ -244,7 +243,7 @@ private:
   std::optional<MeshFrame> m_meshFrame;  ///< none for other inputs
   MaskArguments m_mask;
   OutputOptions m_outputOptions;
-  Situation m_situation;
+  FileContents m_contents;
   std::vector<convert::SeedBranch> m_seeds;
   convert::TrackRemarks m_remarks;
   std::optional<convert::Repetition> m_repetition;

@@ -93,9 +93,9 @@ public:
       if (!row.isArgument && row.name != "list") row.notBeside("list");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     if (m_list) {
-      requireInScope(*around.table, {}, around.progress);
+      requireInScope(*context.table, {}, context.progress);
       return list();
     }
     if (m_output.empty())
@@ -104,17 +104,17 @@ public:
                                                                   : "FOLDER") +
                                         " is missing; usage: lumen export TARGET CASE FOLDER");
     const ExportTarget& target = exportTarget(m_target);
-    requireTargetOptions(*around.table, target, around.progress);
+    requireTargetOptions(*context.table, target, context.progress);
     requireRoom();
     const formats::Case value =
-        atTime(readCase(m_input), m_time, m_input, *around.table, around.progress);
+        atTime(readCase(m_input), m_time, m_input, *context.table, context.progress);
     auto folder =
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
-    convert::warnOfClosed(convert::measureReach(value, around.progress), around.progress);
-    const ExportResult result = made(target, value, around);
-    warnOfLosses(result, around.progress);
-    around.progress.check();
+    convert::warnOfClosed(convert::measureReach(value, context.progress), context.progress);
+    const ExportResult result = made(target, value, context);
+    warnOfLosses(result, context.progress);
+    context.progress.check();
     writeFolder(result.files, *folder);
     return report(result, value);
   }
@@ -122,10 +122,10 @@ public:
 private:
   /// Adds the file's name to the error of a target about a case.
   [[nodiscard]] ExportResult made(const ExportTarget& target, const formats::Case& value,
-                                  const Surroundings& around) const {
+                                  const RunContext& context) const {
     try {
-      return convert::exportCase(target, value, m_options, exportOptionTexts(*around.table, target),
-                                 around.progress);
+      return convert::exportCase(target, value, m_options,
+                                 exportOptionTexts(*context.table, target), context.progress);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::InvalidInput) throw;
       throw invalidInput(m_input + ": " + error.what());

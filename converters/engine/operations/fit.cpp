@@ -44,11 +44,11 @@ public:
     addVolumeRows(table, m_volume, "image");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the fitted tree");
     requireInput(m_input, "case file");
-    requireInScope(*around.table, {}, around.progress);
+    requireInScope(*context.table, {}, context.progress);
     requireWritable(m_output, convert::ContentKind::Case);
 
     const FileFormat* from = m_image.empty() ? nullptr : &imageFormat();
@@ -58,11 +58,11 @@ public:
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
     std::optional<convert::ImageFitReport> image;
-    if (from != nullptr) image = fitToImage(value, *from, around.progress);
-    convert::fit(value, m_fit, around.progress);
-    const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
-    convert::warnOfClosed(reach, around.progress);
-    to.writeCase(value, m_output, {}, around.progress);
+    if (from != nullptr) image = fitToImage(value, *from, context.progress);
+    convert::fit(value, m_fit, context.progress);
+    const std::optional<convert::Reach> reach = convert::measureReach(value, context.progress);
+    convert::warnOfClosed(reach, context.progress);
+    to.writeCase(value, m_output, {}, context.progress);
     Json json = caseSummary(value);
     json["reachable"] = reachJson(reach);
     json["image"] = nullptr;

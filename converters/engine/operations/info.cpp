@@ -49,29 +49,29 @@ public:
       if (!row.isArgument && row.name != "chunks") row.notBeside("chunks");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     requireInput(m_input, "case, volume, mesh or centerline");
     if (m_chunks) {
-      requireInScope(*around.table, {kFittedCase, kAnyContent, m_input, {}}, around.progress);
+      requireInScope(*context.table, {kFittedCase, kAnyContent, m_input, {}}, context.progress);
       const FileInfo info = describeChunks(m_input);
       return {chunkInfoJson(info), chunkInfoText(info), 0, true};
     }
     const FileFormat& from = inputFormat(m_input, m_from);
-    requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
-                   around.progress);
+    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, {}},
+                   context.progress);
     if (from.kind == FormatKind::Volume) {
-      const VolumeInfo info = describe(from, around.progress);
+      const VolumeInfo info = describe(from, context.progress);
       return {volumeInfoJson(info), volumeInfoText(info), 0, true};
     }
     if (from.kind == FormatKind::Mesh) {
-      const MeshInfo info = describeMesh(readMesh(from), m_input, m_volume.unit, around.progress);
+      const MeshInfo info = describeMesh(readMesh(from), m_input, m_volume.unit, context.progress);
       return {meshInfoJson(info), meshInfoText(info), 0, true};
     }
     if (from.kind == FormatKind::Centerline) {
-      const LoadedCenterline loaded = loadCenterline(m_input, from, m_volume, {}, around.progress);
+      const LoadedCenterline loaded = loadCenterline(m_input, from, m_volume, {}, context.progress);
       return {centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true};
     }
-    return describeWithSurface(from.readCase(m_input), around);
+    return describeWithSurface(from.readCase(m_input), context);
   }
 
 private:
@@ -88,14 +88,14 @@ private:
   }
 
   [[nodiscard]] Answer describeWithSurface(const formats::Case& value,
-                                           const Surroundings& around) const {
+                                           const RunContext& context) const {
     if (m_surface && !value.models)
-      refuseIdle(*around.table->find("surface"),
-                 "is for cases with models, and " + formats::printable(m_input) + " has none",
-                 around.progress);
-    const convert::CaseInfo info = convert::describeCase(value, around.progress);
+      refuseUnused(*context.table->find("surface"),
+                   "is for cases with models, and " + formats::printable(m_input) + " has none",
+                   context.progress);
+    const convert::CaseInfo info = convert::describeCase(value, context.progress);
     const SurfaceFindings found =
-        m_surface ? examineSurface(value, around.progress) : SurfaceFindings{};
+        m_surface ? examineSurface(value, context.progress) : SurfaceFindings{};
     Json json = caseInfoJson(info);
     json["surface"] = surfaceJson(found.report, value);
     json["surface_warnings"] = found.warnings;

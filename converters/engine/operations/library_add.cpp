@@ -58,18 +58,18 @@ public:
     addFileRows(table);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     const convert::LibraryFile before = convert::openLibrary(m_library);
     const std::string day = revisionDay(m_day);
     if (!m_wishes.id.empty() && !m_wishes.replace) convert::requireNewId(before, m_wishes.id);
     const std::filesystem::path library = std::filesystem::canonical(m_library);
-    requireInScope(*around.table, {}, around.progress);
-    const convert::CaseAbout known = completeWishes(library, *around.table);
-    const convert::IncomingCase incoming =
-        prepareCase(m_case, statedAbout(m_about, known, before.licence), m_wishes, library, around);
-    convert::LibraryChange change(library, around.progress);
+    requireInScope(*context.table, {}, context.progress);
+    const convert::CaseAbout known = completeWishes(library, *context.table);
+    const convert::IncomingCase incoming = prepareCase(
+        m_case, statedAbout(m_about, known, before.licence), m_wishes, library, context);
+    convert::LibraryChange change(library, context.progress);
     if (!m_wishes.replace) convert::requireNewId(change.library(), incoming.record.id);
-    change.put(incoming.record, incoming.folder());
+    change.addOrReplace(incoming.record, incoming.folder());
     change.commit(day);
     return report(incoming.record, change);
   }

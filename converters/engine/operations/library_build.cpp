@@ -98,8 +98,8 @@ std::string linesOf(const std::vector<RowState>& states) {
 /// The state of every row, by notes and the library, without reading an input. Throws
 /// Error(InvalidInput) for a folder that is no library.
 Answer buildStatus(const convert::BuildList& rows, const std::string& library,
-                   const BuildArguments& arguments, const Surroundings& around) {
-  const convert::BuildOptions options = buildOptions(library, arguments, around);
+                   const BuildArguments& arguments, const RunContext& context) {
+  const convert::BuildOptions options = buildOptions(library, arguments, context);
   const std::vector<RowState> states = rowStates(rows.rows, library, options);
   Json json = Json::object();
   std::string counts;
@@ -178,14 +178,14 @@ public:
         .without("collect");
   }
 
-  Answer run(const Surroundings& around) override {
-    requireInScope(*around.table, {}, around.progress);
+  Answer run(const RunContext& context) override {
+    requireInScope(*context.table, {}, context.progress);
     convert::BuildList rows =
         loadBuildList(m_list, linesIn(m_lines).value_or(std::set<std::size_t>{}));
-    if (m_reports) return buildStatus(rows, m_library, m_options, around);
+    if (m_reports) return buildStatus(rows, m_library, m_options, context);
     if (m_makesOnly) m_options.phase = convert::BuildPhase::Make;
     if (m_collects) m_options.phase = convert::BuildPhase::Collect;
-    return buildLibrary(std::move(rows), m_list, m_library, m_options, around);
+    return buildLibrary(std::move(rows), m_list, m_library, m_options, context);
   }
 
 private:

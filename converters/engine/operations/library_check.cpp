@@ -32,15 +32,15 @@ public:
     addFaultsRow(table, m_options.mostFaults);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     using convert::LibraryLock;
-    const LibraryLock lock(m_folder, around.progress, LibraryLock::Use::Read);
+    const LibraryLock lock(m_folder, context.progress, LibraryLock::Use::Read);
     const convert::PlainFolder folder(m_folder);
     convert::LibraryCheck check{convert::FaultList(m_options.mostFaults), {}, 0, 0, 0, 0};
-    if (const auto text = convert::readLibraryText(folder, check.faults, around.progress))
+    if (const auto text = convert::readLibraryText(folder, check.faults, context.progress))
       check = convert::checkLibrary(folder, *text, {m_options.mostFaults, m_options.journal},
-                                    around.progress);
-    const bool isRefused = around.strict && check.faults.counts().warnings > 0;
+                                    context.progress);
+    const bool isRefused = context.strict && check.faults.counts().warnings > 0;
     const bool isWhole = check.faults.counts().errors == 0 && !isRefused;
     Json json = libraryCheckJson(m_folder, check);
     json["whole"] = isWhole;

@@ -33,13 +33,13 @@ public:
     addDayRow(table, m_day);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     convert::LibraryFile library = convert::openLibrary(m_source);
     library.id = m_id.empty() ? convert::newLibraryId() : m_id;
     if (!m_title.empty()) library.title = m_title;
     library.date = revisionDay(m_day);
     const convert::LibraryFile made =
-        convert::extractCases(m_source, m_target, m_cases, library, around.progress);
+        convert::extractCases(m_source, m_target, m_cases, library, context.progress);
     Json json = librarySummary(made);
     json["gone"] = Json::array();
     json["origin"] = {{"id", made.origin->id},

@@ -27,9 +27,9 @@ public:
     table.argument("LIBRARY", &m_library,
                    "Folder of the library, in which index.html and site/ are made anew");
   }
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     const std::filesystem::path first = std::filesystem::path(m_library) / "index.html";
-    const convert::SiteReport site = convert::writeSite(m_library, around.progress);
+    const convert::SiteReport site = convert::writeSite(m_library, context.progress);
     return {Json{{"cases", site.cases}, {"pages", site.pages}, {"bytes", site.bytes}},
             formats::printable(first.string()) + ": " + counted(site.cases, "case", "cases") +
                 ", " + counted(site.pages, "page", "pages") + "\n"};

@@ -38,7 +38,7 @@ public:
     addDayRow(table, m_library.date);
   }
 
-  Answer run(const Surroundings& /*around*/) override {
+  Answer run(const RunContext& /*context*/) override {
     if (m_library.id.empty()) m_library.id = convert::newLibraryId();
     m_library.date = revisionDay(m_library.date);
     convert::makeLibrary(m_folder, m_library);

@@ -20,13 +20,13 @@ public:
 
   void addRows(OptionTable& table) override { table.argument("LIBRARY", &m_folder, "Library"); }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     const convert::LibraryFile library = convert::openLibrary(m_folder);
     std::vector<std::vector<std::string>> rows = {
         {"id", "version", "vessels", "mm", "bytes", "licence", "title"}};
     Json cases = Json::array();
     for (const convert::LibraryEntry& entry : library.cases) {
-      around.progress.check();
+      context.progress.check();
       const convert::CaseRecord record = convert::openRecord(m_folder, entry);
       cases.push_back(caseLineJson(record, entry.bytes));
       rows.push_back({record.id, std::to_string(record.version),

@@ -24,11 +24,11 @@ public:
     addDayRow(table, m_day);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     const std::string day = revisionDay(m_day);
     convert::openLibrary(m_library);
     const std::filesystem::path library = std::filesystem::canonical(m_library);
-    convert::LibraryChange change(library, around.progress);
+    convert::LibraryChange change(library, context.progress);
     for (const std::string& id : m_ids) change.remove(id);
     change.commit(day);
     Json json = librarySummary(change.library());

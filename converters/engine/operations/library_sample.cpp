@@ -42,16 +42,16 @@ public:
     addBuildRows(table, m_options);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     if (m_options.work.empty())
       m_options.work = (fs::path(m_library) / "").parent_path().string() + ".build";
-    makeLibrary(around);
-    const fs::path list = makeList(around);
-    return buildLibrary(loadBuildList(list.string()), list.string(), m_library, m_options, around);
+    makeLibrary(context);
+    const fs::path list = makeList(context);
+    return buildLibrary(loadBuildList(list.string()), list.string(), m_library, m_options, context);
   }
 
 private:
-  void makeLibrary(const Surroundings& around) const {
+  void makeLibrary(const RunContext& context) const {
     if (fs::exists(fs::path(m_library) / convert::kLibraryFile)) return;
     Operation init{"library init", {m_library}, {}};
     init.with("title", "Synthetic patients")
@@ -59,31 +59,31 @@ private:
               "Arteries that a program grew and drew into volumes: nobody's. Made by lumen library "
               "sample.")
         .with("licence", "CC0-1.0");
-    (void)around.engine.run(init, around);
+    (void)context.engine.run(init, context);
   }
 
   /// The volumes and the list of them, in the folder for work.
-  [[nodiscard]] fs::path makeList(const Surroundings& around) const {
+  [[nodiscard]] fs::path makeList(const RunContext& context) const {
     const fs::path work = fs::absolute(m_options.work);
     convert::claimWorkFolder(work);
     std::string text = "input,seeds,id,targets,title,description,anatomy,modality,synthetic\n";
-    around.progress.begin("drawing patients", static_cast<std::size_t>(m_patients));
+    context.progress.begin("drawing patients", static_cast<std::size_t>(m_patients));
     for (int k = 1; k <= m_patients; ++k) {
       const std::string name = patientName(k),
                         volume = name + "-" + std::to_string(m_size) + ".nrrd",
                         seeds = name + "-" + std::to_string(m_size) + ".json";
       if (!fs::exists(work / volume) || !fs::exists(work / seeds))
-        (void)around.engine.run(Operation{"phantom", {"patient", (work / volume).string()}, {}}
-                                    .with("seeds", (work / seeds).string())
-                                    .with(kOption.size.name, std::to_string(m_size))
-                                    .with("seed", std::to_string(k)),
-                                around);
+        (void)context.engine.run(Operation{"phantom", {"patient", (work / volume).string()}, {}}
+                                     .with("seeds", (work / seeds).string())
+                                     .with(kOption.size.name, std::to_string(m_size))
+                                     .with("seed", std::to_string(k)),
+                                 context);
       text += volume + "," + seeds + "," + name + ",sofa;svzerod,Arteries grown from seed " +
               std::to_string(k) + ",\"A program grew them and drew the volume: nobody's\"" +
               ",synthetic arterial tree,synthetic,yes\n";
-      around.progress.advance();
+      context.progress.advance();
     }
-    around.progress.end();
+    context.progress.end();
     writeText(text, work / "list.csv");
     return work / "list.csv";
   }

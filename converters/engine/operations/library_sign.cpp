@@ -40,20 +40,21 @@ public:
                    " FILE found whole");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     const convert::KeyFile key = convert::readKeyFile(m_key);
     convert::requireSigningKey(key);
     convert::LibraryCheckOptions options;
     options.journal = m_journal;
     convert::LibraryCheck check{convert::FaultList(options.mostFaults), {}, 0, 0, 0, 0};
-    const std::optional<std::string> text = checkAll(options, check, around);
+    const std::optional<std::string> text = checkAll(options, check, context);
     const bool isFaulty =
-        check.faults.counts().errors > 0 || (around.strict && check.faults.counts().warnings > 0);
+        check.faults.counts().errors > 0 || (context.strict && check.faults.counts().warnings > 0);
     if (isFaulty) {
       return report(check, nullptr);
     }
-    const convert::Signature signature = convert::sign(*text, *check.library, key, around.progress);
-    write(signature, *text, around);
+    const convert::Signature signature =
+        convert::sign(*text, *check.library, key, context.progress);
+    write(signature, *text, context);
     return report(check, &signature);
   }
 
@@ -61,24 +62,24 @@ private:
   /// The text of library.json that is to be signed; nothing if it cannot be read.
   std::optional<std::string> checkAll(const convert::LibraryCheckOptions& options,
                                       convert::LibraryCheck& check,
-                                      const Surroundings& around) const {
+                                      const RunContext& context) const {
     using convert::LibraryLock;
-    const LibraryLock lock(m_folder, around.progress, LibraryLock::Use::Read);
+    const LibraryLock lock(m_folder, context.progress, LibraryLock::Use::Read);
     const convert::PlainFolder folder(m_folder);
-    auto text = convert::readLibraryText(folder, check.faults, around.progress);
-    if (text) check = convert::checkLibrary(folder, *text, options, around.progress);
+    auto text = convert::readLibraryText(folder, check.faults, context.progress);
+    if (text) check = convert::checkLibrary(folder, *text, options, context.progress);
     return text;
   }
 
   void write(const convert::Signature& signature, const std::string& text,
-             const Surroundings& around) const {
+             const RunContext& context) const {
     const std::filesystem::path file = std::filesystem::path(m_folder) / signature.file;
     const auto unchanged = [&] {
       convert::FaultList ignored(0);
       const convert::PlainFolder folder(m_folder);  // it may be another by now
-      return convert::readLibraryText(folder, ignored, around.progress) == text;
+      return convert::readLibraryText(folder, ignored, context.progress) == text;
     };
-    const convert::LibraryLock lock(m_folder, around.progress);
+    const convert::LibraryLock lock(m_folder, context.progress);
     if (!unchanged())
       throw failed(m_folder + ": library.json was changed while it was signed; nothing is written");
     const auto done = formats::writeFileAtomically(std::as_bytes(std::span(signature.bytes)), file);

@@ -42,25 +42,25 @@ public:
     addAboutRows(table, m_about);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     const std::string day = revisionDay(m_day);
     convert::openLibrary(m_library);
-    requireStatements(*around.table);
+    requireStatements(*context.table);
     const fs::path library = fs::canonical(m_library);
-    convert::LibraryChange change(library, around.progress);
+    convert::LibraryChange change(library, context.progress);
     std::vector<convert::IncomingCase> kept;  // until the change is committed
     kept.reserve(m_ids.size());
     std::vector<std::string> updated;
     for (const std::string& id : std::set(m_ids.begin(), m_ids.end())) {
       convert::CaseRecord record =
           convert::openRecord(library, convert::requireCase(change.library(), id));
-      const convert::CaseAbout about = newAbout(record, *around.table);
+      const convert::CaseAbout about = newAbout(record, *context.table);
       if (about == record.about) continue;
-      warnOfPersonsIn(about, around.progress);
+      warnOfPersonsIn(about, context.progress);
       const bool isTitled = about.title != record.about.title;
       record.about = about;
-      kept.push_back(withFiles(record, library, isTitled, around));
-      change.put(kept.back().record, kept.back().folder());
+      kept.push_back(withFiles(record, library, isTitled, context));
+      change.addOrReplace(kept.back().record, kept.back().folder());
       updated.push_back(id);
     }
     if (!updated.empty()) change.commit(day);
@@ -90,7 +90,7 @@ private:
   /// The case with its files as they are; a report, which shows the title, is made anew for another
   /// one.
   static convert::IncomingCase withFiles(const convert::CaseRecord& record, const fs::path& library,
-                                         bool isTitled, const Surroundings& around) {
+                                         bool isTitled, const RunContext& context) {
     const fs::path data = library / convert::kPayload / record.id;
     convert::IncomingCase incoming(library);
     incoming.record = record;
@@ -106,7 +106,7 @@ private:
       convert::linkFile(data / file.path, target);
       incoming.record.files.push_back(file);
     }
-    if (hasReport) addReportPage(data / convert::kCaseFile, incoming, around);
+    if (hasReport) addReportPage(data / convert::kCaseFile, incoming, context);
     return incoming;
   }
 

@@ -51,9 +51,9 @@ public:
     addFaultsRow(table, m_mostFaults);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     using convert::LibraryLock;
-    const LibraryLock lock(m_folder, around.progress, LibraryLock::Use::Read);
+    const LibraryLock lock(m_folder, context.progress, LibraryLock::Use::Read);
     const convert::PlainFolder folder(m_folder);
     convert::VerifyOptions options;
     options.trusted = convert::readKeyFile(m_key);
@@ -67,9 +67,9 @@ public:
                                         convert::keyKindText(options.trusted.kind) +
                                         "; only a list of allowed signers has names");
     const convert::LibraryVerdict verdict =
-        convert::verifyLibrary(folder, options, around.progress);
+        convert::verifyLibrary(folder, options, context.progress);
     const bool isTrusted =
-        verdict.isTrusted() && !(around.strict && verdict.check.faults.counts().warnings > 0);
+        verdict.isTrusted() && !(context.strict && verdict.check.faults.counts().warnings > 0);
     return report(verdict, isTrusted);
   }
 

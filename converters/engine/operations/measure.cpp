@@ -105,8 +105,8 @@ public:
                "vessels that lie at the same place");
   }
 
-  Answer run(const Surroundings& around) override {
-    requireInScope(*around.table, {}, around.progress);
+  Answer run(const RunContext& context) override {
+    requireInScope(*context.table, {}, context.progress);
     if (!m_before.empty() && m_cases.size() != 1)
       throw Error(ErrorKind::Usage, kAgainst.shown() + ": found " + std::to_string(m_cases.size()) +
                                         " cases beside it, expected one");
@@ -115,12 +115,12 @@ public:
     std::string text;
     for (const std::string& file : m_cases) {
       const formats::Case source =
-          atTime(readCase(file), m_time, file, *around.table, around.progress);
-      const CaseMeasures measures = measure(file, source, around.progress);
+          atTime(readCase(file), m_time, file, *context.table, context.progress);
+      const CaseMeasures measures = measure(file, source, context.progress);
       measured.push_back({file, convert::measureTables(source, measures)});
       text += formats::printable(file) + ": " + countText(measured.back().tables) + "\n\n" +
               vesselText(source, measures) + sacText(source, measures) + "\n";
-      if (!m_before.empty()) addChanges(source, measures, measured.back(), text, around.progress);
+      if (!m_before.empty()) addChanges(source, measures, measured.back(), text, context.progress);
     }
     Json json = answer(measured);
     json["files"] = Json::array();

@@ -60,14 +60,14 @@ public:
         .notBeside(kOption.volumeIndex.name);
     table
         .add("reach", &m_options.reach, "MM",
-             "Longest way of a vessel from one phase to the next along each axis")
+             "Longest displacement of a vessel from one phase to the next along each axis")
         .in(NumberRange{0.1, 100});
     addFormatRow(table, "from", m_from, "the phases");
     addVolumeRows(table, m_volume);
   }
 
-  Answer run(const Surroundings& around) override {
-    requireInScope(*around.table, {}, around.progress);
+  Answer run(const RunContext& context) override {
+    requireInScope(*context.table, {}, context.progress);
     const FileFormat& to = caseOutputFormat(m_output, "", "the motion");
     requireInput(m_rest, "case file");
     for (const std::string& file : m_phases) requireInput(file, "volume");
@@ -79,14 +79,14 @@ public:
     requireWritable(m_output, convert::ContentKind::Case);
 
     formats::Case value = readParentCase(m_rest);
-    const convert::TrackedMotion tracked = track(value, times, around.progress);
+    const convert::TrackedMotion tracked = track(value, times, context.progress);
     value.motion = tracked.motion;
     value.metadata.steps.push_back({"motion",
                                     "lumen " LUMEN_VERSION,
                                     {{"phases", static_cast<std::int64_t>(times.size())},
                                      {"reach", m_options.reach},
                                      {kOption.dark.name, m_options.dark}}});
-    to.writeCase(value, m_output, {}, around.progress);
+    to.writeCase(value, m_output, {}, context.progress);
     return report(value, tracked);
   }
 

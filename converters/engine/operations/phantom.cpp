@@ -49,22 +49,22 @@ public:
     m_options.addRows(table);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     sortArguments();
-    requireInScope(*around.table, {}, around.progress);
+    requireInScope(*context.table, {}, context.progress);
     const Outputs outputs = checkOutputs();
     const convert::Phantom phantom = convert::makePhantom(
         m_options,
         [&](int phase, const convert::Volume& volume) {
           outputs.volume.writeVolume(volume, volumeName(outputs.volume, phase));
         },
-        around.progress);
-    around.progress.begin("writing", 0);
+        context.progress);
+    context.progress.begin("writing", 0);
     outputs.volume.writeVolume(phantom.volume, volumeName(outputs.volume, 0));
     if (outputs.truth != nullptr)
-      outputs.truth->writeCase(phantom.truth, m_truth, {}, around.progress);
+      outputs.truth->writeCase(phantom.truth, m_truth, {}, context.progress);
     if (!m_seeds.empty()) convert::writeSeeds(phantom.seeds, m_seeds);
-    around.progress.end();
+    context.progress.end();
     return report(phantom);
   }
 

@@ -104,37 +104,37 @@ public:
     addVolumeRows(table, m_volumeOptions, kOption.volume.name);
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     if (!m_output.ends_with(".png"))
       throw Error(ErrorKind::Usage,
                   formats::printable(m_output) +
                       ": found a name without .png, expected one with it, after that of the case");
-    requireInScope(*around.table, {}, around.progress);
+    requireInScope(*context.table, {}, context.progress);
     requireInput(m_input, "case");
     requireWritable(m_frames > 0 ? frameName(m_output, 0) : m_output, convert::ContentKind::Other);
     const formats::Case value =
-        atTime(readCase(m_input), m_time, m_input, *around.table, around.progress);
+        atTime(readCase(m_input), m_time, m_input, *context.table, context.progress);
     std::optional<convert::Volume> volume;
-    if (!m_volume.empty()) volume = volumeBehind(around);
+    if (!m_volume.empty()) volume = volumeBehind(context);
     PendingPictures pictures;
-    draw(value, volume ? &*volume : nullptr, pictures, around.progress);
-    if (m_frames > 0) warnOfOlder(around.progress);
-    around.progress.check();
+    draw(value, volume ? &*volume : nullptr, pictures, context.progress);
+    if (m_frames > 0) warnOfOlder(context.progress);
+    context.progress.check();
     pictures.commit();
     return report(pictures.names());
   }
 
 private:
-  [[nodiscard]] convert::Volume volumeBehind(const Surroundings& around) const {
+  [[nodiscard]] convert::Volume volumeBehind(const RunContext& context) const {
     requireInput(m_volume, "volume");
     const FileFormat& format = inputFormat(m_volume, "");
     if (format.kind != FormatKind::Volume)
       throw unsupported(
           m_volume + ": found a " + (format.kind == FormatKind::Mesh ? "mesh" : "case") +
           ", expected a volume: " + kOption.volume.shown() + " is drawn behind the vessels");
-    requireInScope(*around.table, {inputContent(format, false), kAnyContent, m_volume, {}},
-                   around.progress);
-    return loadVolume(m_volume, format, m_volumeOptions, around.progress);
+    requireInScope(*context.table, {inputContent(format, false), kAnyContent, m_volume, {}},
+                   context.progress);
+    return loadVolume(m_volume, format, m_volumeOptions, context.progress);
   }
 
   void draw(const formats::Case& value, const convert::Volume* volume, PendingPictures& pictures,

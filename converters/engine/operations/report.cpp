@@ -99,18 +99,18 @@ public:
     addVolumeRows(table, m_volume, kOption.volume.name);
   }
 
-  Answer run(const Surroundings& around) override {
-    checkNames(around);
-    ReportFacts facts = factsOfCase(around);
-    const OptionRow& spread = *around.table->find("point-spread");
+  Answer run(const RunContext& context) override {
+    checkNames(context);
+    ReportFacts facts = factsOfCase(context);
+    const OptionRow& spread = *context.table->find("point-spread");
     if (spread.isGiven && !facts.value.models)
-      refuseIdle(spread,
-                 "is for cases with models, and " + formats::printable(m_case) + " has none",
-                 around.progress);
-    if (!m_input.empty()) addVolume(facts, around.progress);
+      refuseUnused(spread,
+                   "is for cases with models, and " + formats::printable(m_case) + " has none",
+                   context.progress);
+    if (!m_input.empty()) addVolume(facts, context.progress);
     if (const std::size_t count = facts.warnings(); count > 0)
-      around.progress.warn(m_case + ": " + counted(count, "warning", "warnings") +
-                           ", which the page lists");
+      context.progress.warn(m_case + ": " + counted(count, "warning", "warnings") +
+                            ", which the page lists");
     const std::string page = convert::reportPage(facts);
     writeText(page, m_output);
     return report(facts, page.size());
@@ -118,13 +118,13 @@ public:
 
 private:
   /// Refuses outputs that could not be written in the end, or would be lost.
-  void checkNames(const Surroundings& around) const {
+  void checkNames(const RunContext& context) const {
     if (!m_output.ends_with(".html") && !m_output.ends_with(".htm"))
       throw Error(ErrorKind::Usage,
                   formats::printable(m_output) +
                       ": found a name without .html, expected one with it; a browser "
                       "prints the page as PDF");
-    requireInScope(*around.table, {}, around.progress);
+    requireInScope(*context.table, {}, context.progress);
     if (!m_input.empty()) {
       requireInput(m_input, "volume");
       const FileFormat& from = inputFormat(m_input, m_from);
@@ -132,14 +132,14 @@ private:
         throw unsupported(m_input + ": this is a " +
                           (from.kind == FormatKind::Mesh ? "mesh" : "case") + "; " +
                           kOption.volume.shown() + " takes the volume that the case was made from");
-      requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
-                     around.progress);
+      requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, {}},
+                     context.progress);
     }
     requireWritable(m_output, convert::ContentKind::Other);
   }
 
-  [[nodiscard]] ReportFacts factsOfCase(const Surroundings& around) const {
-    Progress& progress = around.progress;
+  [[nodiscard]] ReportFacts factsOfCase(const RunContext& context) const {
+    Progress& progress = context.progress;
     ReportFacts facts;
     auto [bytes, value] = readCaseAndBytes(m_case);
     facts.caseName = nameOf(m_case);
@@ -147,7 +147,7 @@ private:
     facts.bytes = bytes.size();
     facts.sha256 = sha256(bytes);
     facts.examination = convert::examineBytes(bytes, m_case, kRemarksListed, true, progress);
-    facts.value = atTime(std::move(value), m_time, m_case, *around.table, progress);
+    facts.value = atTime(std::move(value), m_time, m_case, *context.table, progress);
     facts.info = convert::describeCase(facts.value, progress);
     facts.measures = convert::measureCase(facts.value, {}, progress);
     addNames(facts);

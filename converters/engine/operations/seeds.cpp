@@ -73,7 +73,7 @@ public:
     addFormatRow(table, "from", m_from, "INPUT");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     requireOrder(m_input, m_output);
     requireInput(m_input, "volume or case");
     const FileFormat& from = inputFormat(m_input, m_from);
@@ -83,11 +83,11 @@ public:
           m_input + ": " +
           (other.empty() ? "this is no volume and no case, which lumen seeds reads" : other));
     }
-    requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, m_output},
-                   around.progress);
+    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, m_output},
+                   context.progress);
     requireWritable(m_output, convert::ContentKind::Seeds);
     return from.kind == FormatKind::Case ? writeKept(from.readCase(m_input))
-                                         : writeFound(from, around.progress);
+                                         : writeFound(from, context.progress);
   }
 
 private:

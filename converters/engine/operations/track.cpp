@@ -35,7 +35,7 @@ public:
     addFormatRow(table, "to", m_to, "OUT");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the tracked tree");
     requireInput(m_input, "volume");
@@ -45,19 +45,20 @@ public:
       throw unsupported(m_input + ": " +
                         (other.empty() ? "this is not a volume, which lumen track reads" : other));
     }
-    requireInScope(*around.table, {inputContent(from, false), outputContent(to), m_input, m_output},
-                   around.progress);
+    requireInScope(*context.table,
+                   {inputContent(from, false), outputContent(to), m_input, m_output},
+                   context.progress);
     std::vector<convert::SeedBranch> seeds;
     if (!m_track.seeds.empty()) seeds = loadSeeds(m_track);
     requireWritable(m_output, convert::ContentKind::Case);
 
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    convert::TrackResult tracked = trackVessels(volume, m_input, seeds, m_track, around.progress);
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
+    convert::TrackResult tracked = trackVessels(volume, m_input, seeds, m_track, context.progress);
     if (!m_labels.labelMap.empty())
-      nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, around.progress);
+      nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, context.progress);
     const auto repetition =
-        repeatTracks(volume, m_input, seeds, m_track, tracked.result, around.progress);
-    to.writeCase(tracked.result, m_output, {}, around.progress);
+        repeatTracks(volume, m_input, seeds, m_track, tracked.result, context.progress);
+    to.writeCase(tracked.result, m_output, {}, context.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);
     json["repeats"] = repetitionJson(repetition, tracked.result);

@@ -57,11 +57,11 @@ public:
     addFormatRow(table, "to", m_to, "OUT");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the trimmed tree");
     requireInput(m_input, "case file");
-    requireInScope(*around.table, {}, around.progress);
+    requireInScope(*context.table, {}, context.progress);
     if (!m_minRadius && !m_minLength)
       throw Error(ErrorKind::Usage,
                   "nothing to trim by; expected --min-radius, --min-length or both");
@@ -71,10 +71,10 @@ public:
     const convert::TrimResult trimmed = made(value);
     if (!trimmed.change.stale.empty() && value.points)
       convert::refit(value, trimmed.change.stale, convert::recordedFitOptions(value),
-                     around.progress);
-    const std::optional<convert::Reach> reach = convert::measureReach(value, around.progress);
-    convert::warnOfClosed(reach, around.progress);
-    to.writeCase(value, m_output, {}, around.progress);
+                     context.progress);
+    const std::optional<convert::Reach> reach = convert::measureReach(value, context.progress);
+    convert::warnOfClosed(reach, context.progress);
+    to.writeCase(value, m_output, {}, context.progress);
     Json json = caseSummary(value);
     json["trimmed"] = trimmedJson(trimmed.ends);
     json["reachable"] = reachJson(reach);

@@ -104,22 +104,22 @@ public:
                "the mesh: seconds for most cases");
   }
 
-  Answer run(const Surroundings& around) override {
+  Answer run(const RunContext& context) override {
     bool valid = true, personal = false, warned = false;
     Json files = Json::array();
     for (const std::string& file : m_files) {
-      around.progress.check();
-      convert::FileReport report = convert::examine(file, m_maxIssues, m_privacy, around.progress);
-      if (m_surface && report.valid) addSurface(file, report, around.progress);
-      report.refusedByStrict = around.strict && report.valid && report.counts.warnings > 0;
+      context.progress.check();
+      convert::FileReport report = convert::examine(file, m_maxIssues, m_privacy, context.progress);
+      if (m_surface && report.valid) addSurface(file, report, context.progress);
+      report.refusedByStrict = context.strict && report.valid && report.counts.warnings > 0;
       if (report.refusedByStrict) report.valid = false;
       valid = valid && report.valid;
       personal = personal || report.personal;
       warned = warned || report.counts.warnings > 0;
       files.push_back(reportJson(file, report));
-      around.answerEarly({{}, reportText(file, report), 0, !report.valid || report.personal});
+      context.answerEarly({{}, reportText(file, report), 0, !report.valid || report.personal});
     }
-    const bool passes = valid && !personal && !(warned && around.strict);
+    const bool passes = valid && !personal && !(warned && context.strict);
     return {{{"valid", valid}, {"files", std::move(files)}}, "", passes ? 0 : kInvalidCode};
   }
 

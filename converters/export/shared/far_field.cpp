@@ -23,7 +23,7 @@ constexpr double kFarDiagonals = 1.2;
 constexpr int kRounds = 2;  // of taking feet from neighbours and moving them to their own places
 constexpr int kMostEvaluations = 8, kMostMoves = 24;  // for a point, and for a corner
 /// Shares of the radius at the wall: a foot is done if it lies this near to the wall, and if a step
-/// along it would gain no more. What is left is of third order.
+/// along it would gain no more. The remaining error is of third order.
 constexpr double kOffWall = 1e-3, kGain = 1e-4;
 constexpr double kLongestStep = 1;  // of the radius at the wall
 constexpr double kFlat = 0.02;      // least eigenvalue that a step is divided by

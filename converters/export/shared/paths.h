@@ -40,8 +40,8 @@ namespace lumen {
 
 // Sentences on the parts of a tree that a file of lines of points cannot hold.
 
-/// Sentences without a full stop about links that close loops and aneurysms; none if there is
-/// neither.
+/// Sentences without a full stop about links that close loops and about aneurysms; empty for a
+/// tree that has neither.
 std::vector<std::string> treeLosses(const formats::CenterlineTree& tree);
 
 }  // namespace lumen

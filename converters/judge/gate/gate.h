@@ -47,7 +47,7 @@ const std::vector<GateProfile>& gateProfiles();
 
 /// The profile of that name, or the one in a file whose name ends in .json: {"name": TEXT, "least":
 /// {MEASURE: NUMBER}, "most": {MEASURE: NUMBER}}. Throws Error(Usage) for an unknown name,
-/// Error(InvalidInput) for a file that is none.
+/// Error(InvalidInput) for a file that is no profile.
 GateProfile gateProfile(const std::string& nameOrFile);
 
 /// A measure that does not keep its threshold.

@@ -180,10 +180,10 @@ MeasureTable pathTable(const Labels& labels, const CaseMeasures& measures) {
   addNames(kPathValues, table.values);
   for (const PathMeasures& m : measures.paths) {
     MeasureRow& row = table.rows.emplace_back();
-    std::string way;
+    std::string path;
     for (const std::uint32_t branch : m.branches)
-      way += (way.empty() ? "" : " > ") + labels[branch];
-    row.labels = {labels[m.inlet], labels[m.end], way};
+      path += (path.empty() ? "" : " > ") + labels[branch];
+    row.labels = {labels[m.inlet], labels[m.end], path};
     addPlaces(m, kCoursePlaces, row);
     addPlaces(m, kPathPlaces, row);
     addValues(m, kCourseValues, row);

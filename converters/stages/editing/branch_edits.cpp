@@ -5,8 +5,8 @@
 
 #include "converters/base/error.h"
 #include "converters/stages/editing/checks.h"
-#include "converters/stages/editing/draft.h"
 #include "converters/stages/editing/edit.h"
+#include "converters/stages/editing/editable_case.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/enum_names.h"
 
@@ -54,21 +54,21 @@ Change cutBefore(Case& target, std::uint32_t node, Rest rest, const std::string&
     throw invalidInput("a cut before " + nodeText(target, node) +
                        " leaves nothing of it; expected one of its further nodes");
   if (!label.empty()) requireLabel(target, label, UINT32_MAX);
-  Draft draft(target);
-  DraftBranch& front = draft.branches[branch];
-  DraftBranch back = front;
+  EditableCase edited(target);
+  EditableBranch& front = edited.branches[branch];
+  EditableBranch back = front;
   const auto at = static_cast<std::ptrdiff_t>(node - target.tree.branches[branch].firstNode);
   back.nodes.erase(back.nodes.begin(), back.nodes.begin() + at);
   front.nodes.erase(front.nodes.begin() + at, front.nodes.end());
   front.record.stopReason = StopReason::Unknown;
   front.isOther = back.isOther = true;
   back.parent = rest == Rest::Child ? node - 1 : kNoNode;
-  back.record.label = label.empty() ? draft.freeLabel(front.record.label) : label;
+  back.record.label = label.empty() ? edited.freeLabel(front.record.label) : label;
   const std::string sentence = "cut " + quoted(target, branch) + " before its node " +
                                std::to_string(at + 1) + "; the rest is " +
                                quoted(back.record.label);
-  draft.branches.insert(draft.branches.begin() + branch + 1, std::move(back));
-  return draft.finish(target, sentence);
+  edited.branches.insert(edited.branches.begin() + branch + 1, std::move(back));
+  return edited.finish(target, sentence);
 }
 
 Change mergeIntoParent(Case& target, std::uint32_t branch) {
@@ -88,16 +88,16 @@ Change mergeIntoParent(Case& target, std::uint32_t branch) {
   if (child.kind != parent.kind)
     throw invalidInput(quoted(target, branch) + " and " + quoted(target, above) +
                        " are a vessel and an aneurysm; expected two of a kind: change one first");
-  Draft draft(target);
-  DraftBranch& whole = draft.branches[above];
-  DraftBranch& rest = draft.branches[branch];
+  EditableCase edited(target);
+  EditableBranch& whole = edited.branches[above];
+  EditableBranch& rest = edited.branches[branch];
   whole.nodes.insert(whole.nodes.end(), rest.nodes.begin(), rest.nodes.end());
   whole.record.stopReason = rest.record.stopReason;
   whole.isOther = true;
   const std::string sentence =
       "merged " + quoted(target, branch) + " into " + quoted(target, above);
-  draft.branches.erase(draft.branches.begin() + branch);
-  return draft.finish(target, sentence);
+  edited.branches.erase(edited.branches.begin() + branch);
+  return edited.finish(target, sentence);
 }
 
 Change setKind(Case& target, std::uint32_t branch, formats::BranchKind kind) {
@@ -107,17 +107,17 @@ Change setKind(Case& target, std::uint32_t branch, formats::BranchKind kind) {
   if (name.empty())
     throw invalidInput("found kind " + std::to_string(static_cast<int>(kind)) +
                        ", expected 0 for a vessel or 1 for an aneurysm");
-  Draft draft(target);
-  draft.branches[branch].record.kind = kind;
-  return draft.finish(target, "made " + quoted(target, branch) + " of kind " + std::string(name));
+  EditableCase edited(target);
+  edited.branches[branch].record.kind = kind;
+  return edited.finish(target, "made " + quoted(target, branch) + " of kind " + std::string(name));
 }
 
 Change renameBranch(Case& target, std::uint32_t branch, const std::string& label) {
   requireBranch(target, branch);
   requireLabel(target, label, branch);
-  Draft draft(target);
-  draft.branches[branch].record.label = label;
-  return draft.finish(target, "renamed " + quoted(target, branch) + " to " + quoted(label));
+  EditableCase edited(target);
+  edited.branches[branch].record.label = label;
+  return edited.finish(target, "renamed " + quoted(target, branch) + " to " + quoted(label));
 }
 
 }  // namespace lumen::convert

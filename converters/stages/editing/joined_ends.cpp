@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/geometry/disjoint_sets.h"
-#include "converters/stages/editing/untangle.h"
+#include "converters/stages/editing/correct_topology.h"
 
 namespace lumen::convert {
 
@@ -122,8 +122,8 @@ std::optional<std::uint32_t> nodeAhead(const NodeGraph& graph, std::uint32_t end
     const double along = outward.dot(gap);
     const double beside = (gap - along * outward).norm();
     if (along < kAheadOfEnd * length || beside > graph.radius(node)) continue;
-    const auto way = graph.wayBetween(end, node);
-    if ((way && *way < kSideLoopRadii * wide) || !isOpen(from, graph.position(node))) continue;
+    const auto path = graph.pathLength(end, node);
+    if ((path && *path < kSideLoopRadii * wide) || !isOpen(from, graph.position(node))) continue;
     least = toWall;
     best = node;
   }
@@ -231,13 +231,13 @@ namespace {
 /// by a tenth.
 constexpr double kMeeting = 1.1;
 
-/// Whether a vessel goes on through a node, besides the way to a neighbour: two of its arms lead away
-/// from one another by more than a right angle, as those of a fork seldom do. Its width shows nothing,
-/// as cylinders are too wide where another vessel touches.
-bool goesOn(const NodeGraph& graph, std::uint32_t node, std::uint32_t besides) {
+/// Whether a vessel goes on through a node, not counting the neighbour `excluded`: two of its arms
+/// lead away from one another by more than a right angle, as those of a fork seldom do. Its width
+/// shows nothing, as cylinders are too wide where another vessel touches.
+bool goesOn(const NodeGraph& graph, std::uint32_t node, std::uint32_t excluded) {
   std::vector<Eigen::Vector3d> arms;
-  for (const std::uint32_t next : graph.beside(node))
-    if (next != besides)
+  for (const std::uint32_t next : graph.neighbours(node))
+    if (next != excluded)
       if (const auto arm = graph.armInto(node, next)) arms.push_back(arm->direction);
   for (std::size_t i = 0; i < arms.size(); ++i)
     for (std::size_t k = i + 1; k < arms.size(); ++k)
@@ -245,12 +245,12 @@ bool goesOn(const NodeGraph& graph, std::uint32_t node, std::uint32_t besides) {
   return false;
 }
 
-/// The nodes of a way from one place to another, both included.
+/// The nodes of a path from one place to another, both included.
 using Stretch = std::span<const std::uint32_t>;
 
 /// Whether all nodes of a stretch touch the vessel that goes on through its first.
 bool touchesAlong(const NodeGraph& graph, Stretch stretch) {
-  const std::vector<std::uint32_t> vessel = graph.throughBesides(stretch[0], stretch[1]);
+  const std::vector<std::uint32_t> vessel = graph.throughAllBut(stretch[0], stretch[1]);
   const double wide = graph.radius(stretch.back());
   return std::all_of(stretch.begin(), stretch.end(), [&](std::uint32_t node) {
     return std::any_of(vessel.begin(), vessel.end(), [&](std::uint32_t near) {
@@ -261,7 +261,7 @@ bool touchesAlong(const NodeGraph& graph, Stretch stretch) {
 }
 
 /// A stretch that an aneurysm hangs on is none, as it would lose its place.
-bool isRung(const NodeGraph& graph, Stretch stretch) {
+bool isFalseConnection(const NodeGraph& graph, Stretch stretch) {
   if (std::any_of(stretch.begin(), stretch.end(),
                   [&](std::uint32_t node) { return graph.hasAneurysm(node); }))
     return false;
@@ -270,38 +270,38 @@ bool isRung(const NodeGraph& graph, Stretch stretch) {
          (touchesAlong(graph, stretch) || touchesAlong(graph, back));
 }
 
-/// The shortest rung on a way; empty if it has none.
-Stretch rungOn(const NodeGraph& graph, Stretch way) {
+/// The shortest false connection on a path; empty if it has none.
+Stretch falseConnectionOn(const NodeGraph& graph, Stretch path) {
   Stretch best;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    if (!graph.isFork(way[i])) continue;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (!graph.isFork(path[i])) continue;
     std::size_t k = i + 1;
-    while (k + 1 < way.size() && !graph.isFork(way[k])) ++k;
-    const Stretch stretch = way.subspan(i, k - i + 1);
+    while (k + 1 < path.size() && !graph.isFork(path[k])) ++k;
+    const Stretch stretch = path.subspan(i, k - i + 1);
     const bool isShorter = best.empty() || stretch.size() < best.size();
-    if (isShorter && graph.isFork(way[k]) && isRung(graph, stretch)) best = stretch;
+    if (isShorter && graph.isFork(path[k]) && isFalseConnection(graph, stretch)) best = stretch;
   }
   return best;
 }
 
 }  // namespace
 
-void cutRungs(NodeGraph& graph) {
+void cutFalseConnections(NodeGraph& graph) {
   for (const auto& [a, b] : graph.takeLinks()) {
-    const std::vector<std::uint32_t> way = graph.way(a, b);
-    if (way.size() < 3) {  // no loop, or an edge already
+    const std::vector<std::uint32_t> path = graph.pathBetween(a, b);
+    if (path.size() < 3) {  // no loop, or an edge already
       graph.link(a, b);
       continue;
     }
     graph.connect(a, b);
-    const Stretch rung = rungOn(graph, way);
-    if (rung.empty()) {
+    const Stretch contact = falseConnectionOn(graph, path);
+    if (contact.empty()) {
       graph.cut(a, b);
       graph.link(a, b);
-    } else if (rung.size() == 2) {
-      graph.cut(rung[0], rung[1]);
+    } else if (contact.size() == 2) {
+      graph.cut(contact[0], contact[1]);
     } else {
-      graph.drop(rung.subspan(1, rung.size() - 2));
+      graph.drop(contact.subspan(1, contact.size() - 2));
     }
   }
 }

@@ -8,8 +8,8 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/checks.h"
-#include "converters/stages/editing/draft.h"
 #include "converters/stages/editing/edit.h"
+#include "converters/stages/editing/editable_case.h"
 
 namespace lumen::convert {
 namespace {
@@ -39,12 +39,12 @@ struct Place {
   [[nodiscard]] bool hasNext() const { return node + 1 < end; }
 };
 
-Section measureSection(const Draft& draft, const Place& place) {
-  const DraftNode& node = draft.nodes[place.node];
+Section measureSection(const EditableCase& edited, const Place& place) {
+  const EditableNode& node = edited.nodes[place.node];
   const Vector3d centre = toEigen(node.centre), axis = toEigen(node.direction);
   const auto half = [&](bool isThere, std::uint32_t other) {
     if (!isThere) return 0.5 * double{node.height};
-    return 0.5 * (toEigen(draft.nodes[other].centre) - centre).norm();
+    return 0.5 * (toEigen(edited.nodes[other].centre) - centre).norm();
   };
   return {centre, axis, half(place.hasPrevious(), place.node - 1),
           half(place.hasNext(), place.node + 1)};
@@ -52,25 +52,25 @@ Section measureSection(const Draft& draft, const Place& place) {
 
 /// Drops the wall points of a node, and those of its neighbours in one of two sections.
 void dropPoints(const Case& value, const Place& place, const std::array<Section, 2>& sections,
-                Draft& draft) {
+                EditableCase& edited) {
   if (!value.points) return;
   const formats::PointSets& points = *value.points;
-  draft.isGone.assign(points.position.size(), false);
+  edited.isGone.assign(points.position.size(), false);
   const std::uint32_t low = std::max(place.first + kBeside, place.node) - kBeside;
   const std::uint32_t high = std::min(place.end, place.node + kBeside + 1);
   for (std::uint32_t node = low; node < high; ++node)
     for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k) {
       const Vector3d p = toEigen(points.position[k]);
-      draft.isGone[k] = node == place.node || sections[0].holds(p) || sections[1].holds(p);
+      edited.isGone[k] = node == place.node || sections[0].holds(p) || sections[1].holds(p);
     }
 }
 
 /// The direction between a node's neighbours in its branch; its own if they lie in one place.
-formats::Vec3f courseAt(const Draft& draft, const Place& place) {
+formats::Vec3f directionAlong(const EditableCase& edited, const Place& place) {
   const std::uint32_t from = place.hasPrevious() ? place.node - 1 : place.node;
   const std::uint32_t to = place.hasNext() ? place.node + 1 : place.node;
-  const Vector3d chord = toEigen(draft.nodes[to].centre) - toEigen(draft.nodes[from].centre);
-  return chord.norm() > 0 ? toVec3f(chord.normalized()) : draft.nodes[place.node].direction;
+  const Vector3d chord = toEigen(edited.nodes[to].centre) - toEigen(edited.nodes[from].centre);
+  return chord.norm() > 0 ? toVec3f(chord.normalized()) : edited.nodes[place.node].direction;
 }
 
 std::string placeAndRadius(const Vector3d& p, double radius) {
@@ -88,19 +88,19 @@ Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, doub
                        ", expected a position within a kilometre and a radius above 0");
   const formats::Branch& branch = target.tree.branches[target.tree.branch[node]];
   const Place place{node, branch.firstNode, branch.firstNode + branch.nodeCount};
-  Draft draft(target);
-  const Section before = measureSection(draft, place);
-  DraftNode& moved = draft.nodes[node];
+  EditableCase edited(target);
+  const Section before = measureSection(edited, place);
+  EditableNode& moved = edited.nodes[node];
   moved.centre = toVec3f(position);
   moved.radius = static_cast<float>(radius);
-  moved.direction = courseAt(draft, place);
+  moved.direction = directionAlong(edited, place);
   if (branch.kind == formats::BranchKind::Vessel) {
     moved.origin = formats::NodeOrigin::Given;
     moved.inlierRate = 0;
-    draft.branches[target.tree.branch[node]].isOther = true;
-    dropPoints(target, place, {before, measureSection(draft, place)}, draft);
+    edited.branches[target.tree.branch[node]].isOther = true;
+    dropPoints(target, place, {before, measureSection(edited, place)}, edited);
   }
-  return draft.finish(
+  return edited.finish(
       target, "moved " + nodeText(target, node) + " to " + placeAndRadius(position, radius));
 }
 

@@ -8,7 +8,7 @@
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/checks.h"
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 #include "converters/stages/editing/wall_edits.h"
 
 namespace lumen::convert {
@@ -30,10 +30,10 @@ std::vector<std::uint32_t> ownersOf(const formats::PointSets& points) {
   return owner;
 }
 
-DraftNode between(const DraftNode& a, const DraftNode& b) {
+EditableNode between(const EditableNode& a, const EditableNode& b) {
   const Vector3d from = toEigen(a.centre), to = toEigen(b.centre);
   const Vector3d course = toEigen(a.direction) + toEigen(b.direction);
-  DraftNode node;
+  EditableNode node;
   node.centre = toVec3f(0.5 * (from + to));
   node.direction = course.norm() > 0 ? toVec3f(course.normalized()) : a.direction;
   node.radius = 0.5F * (a.radius + b.radius);
@@ -45,19 +45,19 @@ DraftNode between(const DraftNode& a, const DraftNode& b) {
 
 /// The number of wall points of `from` and `to` that the node between them, `made`, takes.
 std::size_t takePoints(const Case& value, std::uint32_t from, std::uint32_t to, std::uint32_t made,
-                       Draft& draft) {
+                       EditableCase& edited) {
   if (!value.points) return 0;
   const formats::PointSets& points = *value.points;
   const Vector3d start = toEigen(value.tree.centre[from]),
                  chord = toEigen(value.tree.centre[to]) - start;
   const double length = chord.squaredNorm();
-  draft.pointOwner = ownersOf(points);
+  edited.pointOwner = ownersOf(points);
   std::size_t taken = 0;
   for (const std::uint32_t node : {from, to})
     for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k) {
       const double share = (toEigen(points.position[k]) - start).dot(chord) / length;
       if (!(std::abs(share - 0.5) <= kQuarter)) continue;
-      draft.pointOwner[k] = made;
+      edited.pointOwner[k] = made;
       ++taken;
     }
   return taken;
@@ -91,15 +91,15 @@ Change addNodeBehind(Case& target, std::uint32_t node) {
   if (node + 1 == branch.firstNode + branch.nodeCount)
     throw invalidInput(nodeText(target, node) +
                        " is the last of its vessel; expected one with a node behind it");
-  Draft draft(target);
-  const auto made = static_cast<std::uint32_t>(draft.nodes.size());
-  draft.nodes.push_back(between(draft.nodes[node], draft.nodes[node + 1]));
-  if (takePoints(target, node, node + 1, made, draft) == 0)
-    draft.nodes[made].origin = formats::NodeOrigin::Bridged;
-  auto& chain = draft.branches[b].nodes;
+  EditableCase edited(target);
+  const auto made = static_cast<std::uint32_t>(edited.nodes.size());
+  edited.nodes.push_back(between(edited.nodes[node], edited.nodes[node + 1]));
+  if (takePoints(target, node, node + 1, made, edited) == 0)
+    edited.nodes[made].origin = formats::NodeOrigin::Bridged;
+  auto& chain = edited.branches[b].nodes;
   chain.insert(chain.begin() + (node - branch.firstNode) + 1, made);
-  draft.branches[b].isOther = true;
-  return draft.finish(target, "put a node behind " + nodeText(target, node));
+  edited.branches[b].isOther = true;
+  return edited.finish(target, "put a node behind " + nodeText(target, node));
 }
 
 Change deleteNode(Case& target, std::uint32_t node) {
@@ -113,18 +113,18 @@ Change deleteNode(Case& target, std::uint32_t node) {
   std::vector<std::uint32_t> beside;
   if (node > branch.firstNode) beside.push_back(node - 1);
   if (node + 1 < branch.firstNode + branch.nodeCount) beside.push_back(node + 1);
-  Draft draft(target);
-  std::erase(draft.branches[b].nodes, node);
-  draft.branches[b].isOther = true;
-  for (DraftBranch& other : draft.branches)
+  EditableCase edited(target);
+  std::erase(edited.branches[b].nodes, node);
+  edited.branches[b].isOther = true;
+  for (EditableBranch& other : edited.branches)
     if (other.parent == node) other.parent = beside.front();
   if (target.points) {
     const formats::PointSets& points = *target.points;
-    draft.pointOwner = ownersOf(points);
+    edited.pointOwner = ownersOf(points);
     for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k)
-      draft.pointOwner[k] = nearer(target.tree, beside, points.position[k]);
+      edited.pointOwner[k] = nearer(target.tree, beside, points.position[k]);
   }
-  return draft.finish(target, "deleted " + nodeText(target, node));
+  return edited.finish(target, "deleted " + nodeText(target, node));
 }
 
 }  // namespace lumen::convert

@@ -17,9 +17,9 @@ constexpr double kMostRadii = 0.75;  // share of an arm's radii that its ratio h
 
 }  // namespace
 
-NodeGraph::NodeGraph(Draft& draft)
-    : m_draft(draft), m_isVessel(draft.nodes.size(), false), m_beside(draft.nodes.size()) {
-  for (const DraftBranch& branch : draft.branches) {
+NodeGraph::NodeGraph(EditableCase& edited)
+    : m_edited(edited), m_isVessel(edited.nodes.size(), false), m_neighbours(edited.nodes.size()) {
+  for (const EditableBranch& branch : edited.branches) {
     if (branch.record.kind != BranchKind::Vessel) continue;
     for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
       m_isVessel[branch.nodes[i]] = true;
@@ -30,13 +30,13 @@ NodeGraph::NodeGraph(Draft& draft)
 }
 
 void NodeGraph::connect(std::uint32_t a, std::uint32_t b) {
-  m_beside[a].push_back(b);
-  m_beside[b].push_back(a);
+  m_neighbours[a].push_back(b);
+  m_neighbours[b].push_back(a);
 }
 
 std::vector<std::uint32_t> NodeGraph::formerRoots() const {
   std::vector<std::uint32_t> roots;
-  for (const DraftBranch& branch : m_draft.branches)
+  for (const EditableBranch& branch : m_edited.branches)
     if (branch.record.kind == BranchKind::Vessel && branch.parent == kNoNode)
       roots.push_back(branch.nodes.front());
   return roots;
@@ -44,12 +44,12 @@ std::vector<std::uint32_t> NodeGraph::formerRoots() const {
 
 void NodeGraph::orient(const std::vector<std::uint32_t>& roots) {
   m_order.clear();
-  m_parent.assign(m_beside.size(), kNoNode);
-  m_main.assign(m_beside.size(), kNoNode);
+  m_parent.assign(m_neighbours.size(), kNoNode);
+  m_main.assign(m_neighbours.size(), kNoNode);
   for (const std::uint32_t root : roots) {
     std::size_t next = m_order.size();
     for (m_order.push_back(root); next < m_order.size(); ++next)
-      for (const std::uint32_t j : m_beside[m_order[next]]) {
+      for (const std::uint32_t j : m_neighbours[m_order[next]]) {
         if (j == m_parent[m_order[next]]) continue;
         m_parent[j] = m_order[next];
         m_order.push_back(j);
@@ -60,17 +60,17 @@ void NodeGraph::orient(const std::vector<std::uint32_t>& roots) {
 }
 
 Vector3d NodeGraph::position(std::uint32_t node) const {
-  return toEigen(m_draft.nodes[node].centre);
+  return toEigen(m_edited.nodes[node].centre);
 }
 
 double NodeGraph::radius(std::uint32_t node) const {
-  return double{m_draft.nodes[node].radius};
+  return double{m_edited.nodes[node].radius};
 }
 
-std::optional<Arm> NodeGraph::armAlong(std::span<const std::uint32_t> nodes) const {
+std::optional<Arm> NodeGraph::armOf(std::span<const std::uint32_t> nodes) const {
   std::vector<float> all;
   for (std::size_t i = 0; i < std::min<std::size_t>(nodes.size(), 9); ++i)
-    all.push_back(m_draft.nodes[nodes[i]].radius);
+    all.push_back(m_edited.nodes[nodes[i]].radius);
   if (all.size() < 3) return std::nullopt;
   const double width = double{upperMedian(all)};
   std::vector<float> radii;
@@ -83,7 +83,7 @@ std::optional<Arm> NodeGraph::armAlong(std::span<const std::uint32_t> nodes) con
     if (along < width) continue;
     if (!from) from = at;
     to = at;
-    radii.push_back(m_draft.nodes[nodes[i]].radius);
+    radii.push_back(m_edited.nodes[nodes[i]].radius);
   }
   if (!from || (to - *from).norm() < 0.5 * width) return std::nullopt;
   const double median = double{upperMedian(radii)};
@@ -114,14 +114,14 @@ std::vector<std::uint32_t> NodeGraph::stretchAround(std::uint32_t node) const {
 
 // Children have their own main neighbours already.
 std::uint32_t NodeGraph::findMain(std::uint32_t node) const {
-  const auto into = armAlong(follow(node, m_parent));  // against the stream
+  const auto into = armOf(follow(node, m_parent));  // against the stream
   std::uint32_t best = kNoNode, any = kNoNode;
   double most = -1;
-  for (const std::uint32_t child : m_beside[node]) {
+  for (const std::uint32_t child : m_neighbours[node]) {
     if (child == m_parent[node] || m_parent[child] != node) continue;
     any = child;
-    if (m_beside[node].size() == 2 && m_parent[node] != kNoNode) return child;
-    const auto arm = armAlong(follow(child, m_main));
+    if (m_neighbours[node].size() == 2 && m_parent[node] != kNoNode) return child;
+    const auto arm = armOf(follow(child, m_main));
     if (!arm) continue;
     // a vessel that is wider than the one before it is another one that passes by
     const double width =
@@ -143,9 +143,9 @@ std::vector<std::uint32_t> NodeGraph::inwardFrom(std::uint32_t node, double reac
     nodes.push_back(i);
     std::uint32_t next = kNoNode;
     float widest = -1;
-    for (const std::uint32_t j : m_beside[i]) {
-      if (j == before || m_draft.nodes[j].radius <= widest) continue;
-      widest = m_draft.nodes[j].radius;
+    for (const std::uint32_t j : m_neighbours[i]) {
+      if (j == before || m_edited.nodes[j].radius <= widest) continue;
+      widest = m_edited.nodes[j].radius;
       next = j;
     }
     before = i;
@@ -155,18 +155,18 @@ std::vector<std::uint32_t> NodeGraph::inwardFrom(std::uint32_t node, double reac
 }
 
 std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
-  return armAlong(inwardFrom(end, 2 * kArmEndRadii * radius(end)));
+  return armOf(inwardFrom(end, 2 * kArmEndRadii * radius(end)));
 }
 
 std::optional<Arm> NodeGraph::armInto(std::uint32_t node, std::uint32_t next) const {
-  return armAlong(inwardFrom(next, 2 * kArmEndRadii * radius(next), node));
+  return armOf(inwardFrom(next, 2 * kArmEndRadii * radius(next), node));
 }
 
-std::vector<std::uint32_t> NodeGraph::throughBesides(std::uint32_t node,
-                                                     std::uint32_t besides) const {
+std::vector<std::uint32_t> NodeGraph::throughAllBut(std::uint32_t node,
+                                                    std::uint32_t excluded) const {
   std::vector<std::uint32_t> nodes{node};
-  for (const std::uint32_t next : m_beside[node]) {
-    if (next == besides) continue;
+  for (const std::uint32_t next : m_neighbours[node]) {
+    if (next == excluded) continue;
     const auto arm = inwardFrom(next, 2 * kArmEndRadii * radius(node), node);
     nodes.insert(nodes.end(), arm.begin(), arm.end());
   }
@@ -178,7 +178,7 @@ Vector3d NodeGraph::outwardAt(std::uint32_t end) const {
   const std::vector<std::uint32_t> nodes = inwardFrom(end, 2 * radius(end));
   const Vector3d away = position(end) - position(nodes.back());
   for (const std::uint32_t node : nodes) {
-    const Vector3d direction = toEigen(m_draft.nodes[node].direction);
+    const Vector3d direction = toEigen(m_edited.nodes[node].direction);
     sum += direction.dot(away) < 0 ? -direction : direction;
   }
   return sum.normalized();
@@ -222,8 +222,8 @@ std::optional<std::pair<double, double>> NodeGraph::widthsAround(std::uint32_t a
 }
 
 void NodeGraph::cut(std::uint32_t a, std::uint32_t b) {
-  std::erase(m_beside[a], b);
-  std::erase(m_beside[b], a);
+  std::erase(m_neighbours[a], b);
+  std::erase(m_neighbours[b], a);
 }
 
 void NodeGraph::detach(std::uint32_t node, std::span<const std::uint32_t> stem) {
@@ -234,33 +234,34 @@ void NodeGraph::detach(std::uint32_t node, std::span<const std::uint32_t> stem) 
 
 void NodeGraph::drop(std::span<const std::uint32_t> nodes) {
   for (const std::uint32_t gone : nodes) {
-    for (const std::uint32_t other : std::vector<std::uint32_t>(m_beside[gone])) cut(gone, other);
+    for (const std::uint32_t other : std::vector<std::uint32_t>(m_neighbours[gone]))
+      cut(gone, other);
     m_isVessel[gone] = false;
   }
 }
 
 void NodeGraph::join(std::uint32_t a, std::uint32_t b) {
-  const bool isLoop = wayBetween(a, b).has_value();
+  const bool isLoop = pathLength(a, b).has_value();
   std::uint32_t last = a;
-  const std::vector<DraftNode> between = bridge(m_draft.nodes[a], m_draft.nodes[b]);
-  for (const DraftNode& node : between) {
-    const auto next = static_cast<std::uint32_t>(m_draft.nodes.size());
-    m_draft.nodes.push_back(node);
-    m_beside.emplace_back();
+  const std::vector<EditableNode> between = bridge(m_edited.nodes[a], m_edited.nodes[b]);
+  for (const EditableNode& node : between) {
+    const auto next = static_cast<std::uint32_t>(m_edited.nodes.size());
+    m_edited.nodes.push_back(node);
+    m_neighbours.emplace_back();
     m_isVessel.push_back(true);
     m_parent.push_back(kNoNode);
     connect(last, next);
     last = next;
   }
   if (isLoop)
-    m_draft.links.push_back({last, b});
+    m_edited.links.push_back({last, b});
   else
     connect(last, b);
 }
 
 std::vector<formats::StopReason> NodeGraph::reasonsAtEnds() const {
-  std::vector<formats::StopReason> reasons(m_beside.size(), formats::StopReason::Unknown);
-  for (const DraftBranch& branch : m_draft.branches)
+  std::vector<formats::StopReason> reasons(m_neighbours.size(), formats::StopReason::Unknown);
+  for (const EditableBranch& branch : m_edited.branches)
     reasons[branch.nodes.back()] = branch.record.stopReason;
   return reasons;
 }
@@ -279,7 +280,7 @@ std::vector<Chain> NodeGraph::chains() const {
     for (std::size_t c = 0; c < tree.size(); ++c)
       for (std::size_t k = 0; k < tree[c].nodes.size(); ++k) {
         const std::uint32_t node = tree[c].nodes[k];
-        for (const std::uint32_t child : m_beside[node])
+        for (const std::uint32_t child : m_neighbours[node])
           if (m_parent[child] == node && child != m_main[node])
             tree.push_back({node, branchFrom(child)});
       }
@@ -303,7 +304,7 @@ void NodeGraph::turnDirections() {
     const std::uint32_t to = m_main[node], from = m_parent[node];
     const Vector3d ahead = (to == kNoNode ? position(node) : position(to)) -
                            (from == kNoNode ? position(node) : position(from));
-    formats::Vec3f& direction = m_draft.nodes[node].direction;
+    formats::Vec3f& direction = m_edited.nodes[node].direction;
     if (toEigen(direction).dot(ahead) < 0) direction = toVec3f(-toEigen(direction));
   }
 }

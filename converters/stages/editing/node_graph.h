@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of the vessels of a draft as a graph without directions, and the branches that follow
-// from its roots.
+// The nodes of the vessels of an editable case as a graph without directions, and the branches that
+// follow from its roots.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 
 namespace lumen::convert {
 
@@ -41,10 +41,10 @@ struct Arm {
 
 class NodeGraph {
 public:
-  /// Takes the edges of the vessels of a draft, which must stay; aneurysms are left out.
-  explicit NodeGraph(Draft& draft);
+  /// Takes the edges of the vessels of an editable case, which must stay; aneurysms are left out.
+  explicit NodeGraph(EditableCase& edited);
 
-  /// First nodes of the draft's branches that have no parent.
+  /// First nodes of the editable case's branches that have no parent.
   [[nodiscard]] std::vector<std::uint32_t> formerRoots() const;
   /// Directs all edges away from the roots, of which each tree has one.
   void orient(const std::vector<std::uint32_t>& roots);
@@ -53,7 +53,7 @@ public:
   [[nodiscard]] std::vector<Chain> chains() const;
 
   /// The stretch along nodes from their first on; empty if they are shorter than their width.
-  [[nodiscard]] std::optional<Arm> armAlong(std::span<const std::uint32_t> nodes) const;
+  [[nodiscard]] std::optional<Arm> armOf(std::span<const std::uint32_t> nodes) const;
   /// The stretch from an end of the graph on, as far as there is no fork, or through forks ahead;
   /// empty if it is shorter than its width.
   [[nodiscard]] std::optional<Arm> armFrom(std::uint32_t end) const;
@@ -65,7 +65,7 @@ public:
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t node) const;
   [[nodiscard]] double radius(std::uint32_t node) const;  ///< mm
   /// Whether more than one vessel leads on from a node.
-  [[nodiscard]] bool isFork(std::uint32_t node) const { return m_beside[node].size() > 2; }
+  [[nodiscard]] bool isFork(std::uint32_t node) const { return m_neighbours[node].size() > 2; }
   /// Radii of a vessel just before and behind two of its nodes, mm; empty if they are not of one.
   /// Both are extrapolated by the usual taper of both sides (H. Theil, "A rank-invariant method of
   /// linear and polynomial regression analysis", 1950), so that a step remains alone.
@@ -80,15 +80,15 @@ public:
   void join(std::uint32_t a, std::uint32_t b);
   void connect(std::uint32_t a, std::uint32_t b);
   void cut(std::uint32_t a, std::uint32_t b);
-  void link(std::uint32_t a, std::uint32_t b) { m_draft.links.push_back({a, b}); }
+  void link(std::uint32_t a, std::uint32_t b) { m_edited.links.push_back({a, b}); }
   /// Whether a link holds a node.
   [[nodiscard]] bool isLinked(std::uint32_t node) const {
-    return std::any_of(m_draft.links.begin(), m_draft.links.end(),
+    return std::any_of(m_edited.links.begin(), m_edited.links.end(),
                        [&](const auto& link) { return link[0] == node || link[1] == node; });
   }
   /// Removes all links, and returns them.
   [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> takeLinks() {
-    return std::exchange(m_draft.links, {});
+    return std::exchange(m_edited.links, {});
   }
   /// The ends of each tree; of a tree of one node, that.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> endsOfTrees() const;
@@ -101,21 +101,21 @@ public:
   /// Number of nodes that were measured in a volume.
   [[nodiscard]] std::size_t countMeasured(std::span<const std::uint32_t> nodes) const;
   /// The neighbours of a node.
-  [[nodiscard]] const std::vector<std::uint32_t>& beside(std::uint32_t node) const {
-    return m_beside[node];
+  [[nodiscard]] const std::vector<std::uint32_t>& neighbours(std::uint32_t node) const {
+    return m_neighbours[node];
   }
   /// The stretch from a node on through one of its neighbours; empty if it is shorter than its width.
   [[nodiscard]] std::optional<Arm> armInto(std::uint32_t node, std::uint32_t next) const;
-  /// Nodes up to eight radii from one on, through all of its neighbours but `besides`.
-  [[nodiscard]] std::vector<std::uint32_t> throughBesides(std::uint32_t node,
-                                                          std::uint32_t besides) const;
+  /// Nodes up to eight radii from one on, through all of its neighbours but `excluded`.
+  [[nodiscard]] std::vector<std::uint32_t> throughAllBut(std::uint32_t node,
+                                                         std::uint32_t excluded) const;
   /// The nodes along the edges from one to another, with both; empty if none lead there.
-  [[nodiscard]] std::vector<std::uint32_t> way(std::uint32_t a, std::uint32_t b) const;
-  /// Length of the way along the edges from one node to another, mm; empty if none leads there.
-  [[nodiscard]] std::optional<double> wayBetween(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] std::vector<std::uint32_t> pathBetween(std::uint32_t a, std::uint32_t b) const;
+  /// Length of the path along the edges from one node to another, mm; empty if none leads there.
+  [[nodiscard]] std::optional<double> pathLength(std::uint32_t a, std::uint32_t b) const;
   /// Length of all edges of the tree that a node belongs to, mm.
   [[nodiscard]] double treeLength(std::uint32_t node) const;
-  /// For each node the reason why a branch of the draft ended at it.
+  /// For each node the reason why a branch of the editable case ended at it.
   [[nodiscard]] std::vector<formats::StopReason> reasonsAtEnds() const;
   /// Lets the directions of all nodes point away from the roots.
   void turnDirections();
@@ -136,9 +136,9 @@ private:
   [[nodiscard]] std::vector<std::uint32_t> inwardFrom(std::uint32_t node, double reach,
                                                       std::uint32_t before = kNoNode) const;
 
-  Draft& m_draft;
+  EditableCase& m_edited;
   std::vector<bool> m_isVessel;
-  std::vector<std::vector<std::uint32_t>> m_beside;
+  std::vector<std::vector<std::uint32_t>> m_neighbours;
   std::vector<std::uint32_t> m_order;   ///< from the roots on
   std::vector<std::uint32_t> m_parent;  ///< kNoNode for a root
   std::vector<std::uint32_t> m_main;    ///< the neighbour with which the branch goes on, or kNoNode

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "converters/base/text.h"
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 
 namespace lumen::convert {
 
@@ -22,15 +22,15 @@ std::uint32_t above(const formats::CenterlineTree& tree, std::uint32_t branch) {
 
 Change deleteBranches(formats::Case& target, const std::vector<bool>& goes,
                       const std::string& sentence) {
-  Draft draft(target);
-  std::vector<DraftBranch> kept;
-  for (std::uint32_t b = 0; b < draft.branches.size(); ++b) {
-    DraftBranch& branch = draft.branches[b];
-    if (branch.parent != kNoNode && goes[draft.branchOf(branch.parent)]) branch.parent = kNoNode;
+  EditableCase edited(target);
+  std::vector<EditableBranch> kept;
+  for (std::uint32_t b = 0; b < edited.branches.size(); ++b) {
+    EditableBranch& branch = edited.branches[b];
+    if (branch.parent != kNoNode && goes[edited.branchOf(branch.parent)]) branch.parent = kNoNode;
     if (!goes[b]) kept.push_back(std::move(branch));
   }
-  draft.branches = std::move(kept);
-  return draft.finish(target, sentence);
+  edited.branches = std::move(kept);
+  return edited.finish(target, sentence);
 }
 
 void leaveOutBranches(formats::Case& target, const std::vector<bool>& goes) {

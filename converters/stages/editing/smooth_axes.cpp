@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declared in untangle.h.
+// Declared in correct_topology.h.
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -8,7 +8,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
-#include "converters/stages/editing/untangle.h"
+#include "converters/stages/editing/correct_topology.h"
 
 namespace lumen::convert {
 namespace {
@@ -21,31 +21,31 @@ constexpr double kCoreOfParent = 0.5;   // of its radius: nodes in it belong to 
 
 class Axes {
 public:
-  explicit Axes(Draft& draft) : m_draft(draft), m_owner(draft.nodes.size(), kNoNode) {
-    for (std::uint32_t b = 0; b < draft.branches.size(); ++b)
-      for (const std::uint32_t node : draft.branches[b].nodes) m_owner[node] = b;
+  explicit Axes(EditableCase& edited) : m_edited(edited), m_owner(edited.nodes.size(), kNoNode) {
+    for (std::uint32_t b = 0; b < edited.branches.size(); ++b)
+      for (const std::uint32_t node : edited.branches[b].nodes) m_owner[node] = b;
   }
 
   void smooth() {
-    for (DraftBranch& branch : m_draft.branches)
+    for (EditableBranch& branch : m_edited.branches)
       if (isVessel(branch)) smoothRuns(branch.nodes);
-    for (DraftBranch& branch : m_draft.branches)
+    for (EditableBranch& branch : m_edited.branches)
       if (isVessel(branch) && branch.parent != kNoNode) leaveSmoothly(branch);
   }
 
 private:
-  static bool isVessel(const DraftBranch& branch) {
+  static bool isVessel(const EditableBranch& branch) {
     return branch.record.kind == formats::BranchKind::Vessel;
   }
   [[nodiscard]] bool isBridged(std::uint32_t node) const {
-    return m_draft.nodes[node].origin == formats::NodeOrigin::Bridged;
+    return m_edited.nodes[node].origin == formats::NodeOrigin::Bridged;
   }
   [[nodiscard]] AxisPoint axisAt(std::uint32_t node) const {
-    const DraftNode& at = m_draft.nodes[node];
+    const EditableNode& at = m_edited.nodes[node];
     return {toEigen(at.centre), toEigen(at.direction), static_cast<double>(at.radius)};
   }
   void move(std::uint32_t node, const AxisPoint& to) {
-    DraftNode& moved = m_draft.nodes[node];
+    EditableNode& moved = m_edited.nodes[node];
     moved.centre = toVec3f(to.position);
     moved.direction = toVec3f(to.direction);
     moved.radius = static_cast<float>(to.radius);
@@ -64,19 +64,19 @@ private:
   void smoothRun(std::span<const std::uint32_t> run) {
     const std::vector<std::uint32_t> stretch(run.begin(), run.end());
     const std::vector<AxisPoint> curve = curveBetween(
-        axisAt(run.front()), axisAt(run.back()), run.size() - 2, m_draft.measureLength(stretch));
+        axisAt(run.front()), axisAt(run.back()), run.size() - 2, m_edited.measureLength(stretch));
     for (std::size_t i = 0; i < curve.size(); ++i)
       if ((curve[i].position - axisAt(run[i + 1]).position).norm() > curve[i].radius) return;
     for (std::size_t i = 0; i < curve.size(); ++i) move(run[i + 1], curve[i]);
   }
 
-  void leaveSmoothly(DraftBranch& branch) {
+  void leaveSmoothly(EditableBranch& branch) {
     std::vector<std::uint32_t>& nodes = branch.nodes;
     const auto measured = std::find_if(nodes.begin(), nodes.end(),
                                        [this](std::uint32_t node) { return !isBridged(node); });
     if (measured == nodes.end()) return;
     const AxisPoint first = axisAt(*measured);
-    const std::vector<std::uint32_t>& parent = m_draft.branches[m_owner[branch.parent]].nodes;
+    const std::vector<std::uint32_t>& parent = m_edited.branches[m_owner[branch.parent]].nodes;
     branch.parent = bestParent(parent, branch.parent, first);
     AxisPoint from = axisAt(branch.parent);
     from.direction = (first.position - from.position).normalized();
@@ -123,20 +123,20 @@ private:
 
   /// Whether a vessel or a link hangs on a node.
   [[nodiscard]] bool isUsed(std::uint32_t node) const {
-    return std::any_of(m_draft.branches.begin(), m_draft.branches.end(),
-                       [&](const DraftBranch& branch) { return branch.parent == node; }) ||
-           std::any_of(m_draft.links.begin(), m_draft.links.end(),
+    return std::any_of(m_edited.branches.begin(), m_edited.branches.end(),
+                       [&](const EditableBranch& branch) { return branch.parent == node; }) ||
+           std::any_of(m_edited.links.begin(), m_edited.links.end(),
                        [&](const auto& link) { return link[0] == node || link[1] == node; });
   }
 
-  Draft& m_draft;
+  EditableCase& m_edited;
   std::vector<std::uint32_t> m_owner;  ///< the branch of each node, or kNoNode
 };
 
 }  // namespace
 
-void smoothAxes(Draft& draft) {
-  Axes(draft).smooth();
+void smoothAxes(EditableCase& edited) {
+  Axes(edited).smooth();
 }
 
 }  // namespace lumen::convert

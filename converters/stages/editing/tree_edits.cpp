@@ -7,8 +7,8 @@
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/checks.h"
-#include "converters/stages/editing/draft.h"
 #include "converters/stages/editing/edit.h"
+#include "converters/stages/editing/editable_case.h"
 
 namespace lumen::convert {
 namespace {
@@ -25,7 +25,7 @@ constexpr double kLongestBridge = 20000;
 
 }  // namespace
 
-std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
+std::vector<EditableNode> bridge(const EditableNode& from, const EditableNode& to) {
   const Vector3d start = toEigen(from.centre), chord = toEigen(to.centre) - start;
   const double first = std::min(from.radius, to.radius), last = to.radius;
   const double count = std::floor(chord.norm() / (kSpacing * first));
@@ -33,9 +33,9 @@ std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
     throw invalidInput(
         "the way there is " + std::to_string(std::lround(count * kSpacing)) +
         " radii long, which would take more than 20000 nodes; expected a nearer node");
-  std::vector<DraftNode> nodes;
+  std::vector<EditableNode> nodes;
   for (double n = 1; n < count; ++n) {
-    DraftNode node;
+    EditableNode node;
     node.origin = NodeOrigin::Bridged;
     node.centre = toVec3f(start + n / count * chord);
     node.direction = toVec3f(chord.normalized());
@@ -50,15 +50,15 @@ namespace {
 
 /// Drops the bridge from a branch to the node it was joined to. Nodes that carry something else, or
 /// that close a loop, stay, and so does the last.
-void dropBridge(const Draft& draft, DraftBranch& branch) {
+void dropBridge(const EditableCase& edited, EditableBranch& branch) {
   const auto isUsed = [&](std::uint32_t node) {
-    return std::any_of(draft.branches.begin(), draft.branches.end(),
-                       [&](const DraftBranch& b) { return b.parent == node; }) ||
-           std::any_of(draft.links.begin(), draft.links.end(),
+    return std::any_of(edited.branches.begin(), edited.branches.end(),
+                       [&](const EditableBranch& b) { return b.parent == node; }) ||
+           std::any_of(edited.links.begin(), edited.links.end(),
                        [&](const auto& link) { return link[0] == node || link[1] == node; });
   };
   auto first = branch.nodes.begin();
-  while (first + 1 != branch.nodes.end() && draft.nodes[*first].origin == NodeOrigin::Bridged &&
+  while (first + 1 != branch.nodes.end() && edited.nodes[*first].origin == NodeOrigin::Bridged &&
          !isUsed(*first))
     ++first;
   branch.nodes.erase(branch.nodes.begin(), first);
@@ -84,31 +84,32 @@ Change joinBranch(Case& target, std::uint32_t branch, std::uint32_t node) {
   if (target.tree.branches[branch].parentNode == static_cast<std::int32_t>(node))
     throw invalidInput(quoted(target, branch) + " hangs on " + nodeText(target, node) +
                        " already; expected another node");
-  Draft draft(target);
-  DraftBranch& child = draft.branches[branch];
-  dropBridge(draft, child);
-  const auto between = bridge(draft.nodes[node], draft.nodes[child.nodes.front()]);
+  EditableCase edited(target);
+  EditableBranch& child = edited.branches[branch];
+  dropBridge(edited, child);
+  const auto between = bridge(edited.nodes[node], edited.nodes[child.nodes.front()]);
   std::vector<std::uint32_t> chain;
-  for (const DraftNode& put : between) {
-    chain.push_back(static_cast<std::uint32_t>(draft.nodes.size()));
-    draft.nodes.push_back(put);
+  for (const EditableNode& put : between) {
+    chain.push_back(static_cast<std::uint32_t>(edited.nodes.size()));
+    edited.nodes.push_back(put);
   }
   child.nodes.insert(child.nodes.begin(), chain.begin(), chain.end());
   child.parent = node;
   child.isOther = true;
-  return draft.finish(target, "joined " + quoted(target, branch) + " to " + nodeText(target, node));
+  return edited.finish(target,
+                       "joined " + quoted(target, branch) + " to " + nodeText(target, node));
 }
 
 Change reverseBranch(Case& target, std::uint32_t branch) {
   requireBranch(target, branch);
-  Draft draft(target);
-  DraftBranch& turned = draft.branches[branch];
-  draft.reverse(turned.nodes);
+  EditableCase edited(target);
+  EditableBranch& turned = edited.branches[branch];
+  edited.reverse(turned.nodes);
   turned.record.stopReason = StopReason::Unknown;
   std::string sentence = "reversed " + quoted(target, branch);
   if (turned.parent != kNoNode) sentence += ", which hangs on nothing now";
   turned.parent = kNoNode;
-  return draft.finish(target, sentence);
+  return edited.finish(target, sentence);
 }
 
 Change makeRoot(Case& target, std::uint32_t branch) {
@@ -116,36 +117,36 @@ Change makeRoot(Case& target, std::uint32_t branch) {
   if (target.tree.branches[branch].parentNode == formats::kNoParent)
     throw invalidInput(quoted(target, branch) +
                        " is the root of its tree already; to begin at its other end, reverse it");
-  Draft draft(target);
+  EditableCase edited(target);
   std::uint32_t hangOn = kNoNode, leftAt = kNoNode;  // leftAt: the node by which the way leaves
   for (std::uint32_t b = branch; b != UINT32_MAX;) {
     // dividing puts branches behind all others, so that indices stay
-    DraftBranch& piece = draft.branches[b];
+    EditableBranch& piece = edited.branches[b];
     const std::uint32_t above = piece.parent, first = piece.nodes.front();
     const auto at = std::find(piece.nodes.begin(), piece.nodes.end(), leftAt);
     piece.parent = hangOn;
     if (at == piece.nodes.end() || at + 1 == piece.nodes.end()) {
-      draft.reverse(piece.nodes);
+      edited.reverse(piece.nodes);
       piece.record.stopReason = StopReason::Unknown;
     } else if (at != piece.nodes.begin()) {
-      DraftBranch rest = piece;
+      EditableBranch rest = piece;
       rest.nodes.erase(rest.nodes.begin(), rest.nodes.begin() + (at - piece.nodes.begin()) + 1);
       rest.parent = leftAt;
       piece.nodes.erase(at + 1, piece.nodes.end());
       piece.isOther = rest.isOther = true;
       piece.record.stopReason = StopReason::Unknown;
-      draft.reverse(piece.nodes);
-      const std::string other = draft.freeLabel(piece.record.label);
-      const bool isLonger = draft.measureLength(rest.nodes) > draft.measureLength(piece.nodes);
+      edited.reverse(piece.nodes);
+      const std::string other = edited.freeLabel(piece.record.label);
+      const bool isLonger = edited.measureLength(rest.nodes) > edited.measureLength(piece.nodes);
       (isLonger ? piece : rest).record.label = other;
-      draft.branches.push_back(std::move(rest));
+      edited.branches.push_back(std::move(rest));
     }
     hangOn = first;
     leftAt = above;
-    b = above == kNoNode ? UINT32_MAX : draft.branchOf(above);
+    b = above == kNoNode ? UINT32_MAX : edited.branchOf(above);
   }
-  return draft.finish(target,
-                      "made the end of " + quoted(target, branch) + " the root of its tree");
+  return edited.finish(target,
+                       "made the end of " + quoted(target, branch) + " the root of its tree");
 }
 
 }  // namespace lumen::convert

@@ -8,7 +8,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {
@@ -117,13 +117,13 @@ std::string limitsText(const TrimLimits& limits) {
 TrimResult trimEnds(formats::Case& target, const TrimLimits& limits) {
   TrimResult result;
   const std::vector<std::uint32_t> left = Trimmer(target, limits).trim();
-  Draft draft(target);
-  std::vector<DraftBranch> kept;
+  EditableCase edited(target);
+  std::vector<EditableBranch> kept;
   for (std::uint32_t b = 0; b < left.size(); ++b) {
     const Branch& branch = target.tree.branches[b];
     if (left[b] < branch.nodeCount) result.ends.push_back(describe(target.tree, branch, left[b]));
     if (left[b] == 0) continue;
-    DraftBranch& one = draft.branches[b];
+    EditableBranch& one = edited.branches[b];
     if (left[b] < branch.nodeCount) {
       one.nodes.resize(left[b]);
       one.record.stopReason = formats::StopReason::Unknown;
@@ -132,14 +132,14 @@ TrimResult trimEnds(formats::Case& target, const TrimLimits& limits) {
     kept.push_back(std::move(one));
   }
   if (result.ends.empty()) return result;
-  const bool hasVessel = std::any_of(kept.begin(), kept.end(), [](const DraftBranch& branch) {
+  const bool hasVessel = std::any_of(kept.begin(), kept.end(), [](const EditableBranch& branch) {
     return branch.record.kind == formats::BranchKind::Vessel;
   });
   if (!hasVessel)
     throw invalidInput("all vessels are " + limitsText(limits) +
                        ", so nothing would be left; expected lesser limits");
-  draft.branches = std::move(kept);
-  result.change = draft.finish(
+  edited.branches = std::move(kept);
+  result.change = edited.finish(
       target, "trimmed " + counted(result.ends.size(), "end", "ends") + " " + limitsText(limits));
   return result;
 }

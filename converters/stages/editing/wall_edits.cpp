@@ -12,7 +12,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/checks.h"
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 
 namespace lumen::convert {
 namespace {
@@ -52,14 +52,14 @@ struct Polar {
   double along;     ///< mm along the node's direction
   Vector3d across;  ///< from the axis to the point
 
-  Polar(const DraftNode& node, const Vector3d& p) {
+  Polar(const EditableNode& node, const Vector3d& p) {
     const Vector3d axis = toEigen(node.direction), from = p - toEigen(node.centre);
     along = from.dot(axis);
     across = from - along * axis;
   }
 };
 
-void markEdited(DraftNode& node) {
+void markEdited(EditableNode& node) {
   node.isEdited = true;
   node.inlierRate = 0;
 }
@@ -67,15 +67,15 @@ void markEdited(DraftNode& node) {
 /// Moves the wall points of one node by the factor that holds where they lie along the branch.
 template <class Factor>
 void widenPoints(const Case& value, bool isSac, double here, const Factor& factorAt,
-                 std::uint32_t node, Draft& draft) {
+                 std::uint32_t node, EditableCase& edited) {
   if (!value.points) return;
-  const DraftNode& at = draft.nodes[node];
+  const EditableNode& at = edited.nodes[node];
   const Vector3d centre = toEigen(at.centre);
   for (std::uint32_t k = value.points->offset[node]; k < value.points->offset[node + 1]; ++k) {
     const Vector3d p = toEigen(value.points->position[k]);
     const Polar polar(at, p);
     const double more = factorAt(isSac ? here : here + polar.along) - 1;
-    draft.pointPosition[k] = toVec3f(p + more * (isSac ? Vector3d(p - centre) : polar.across));
+    edited.pointPosition[k] = toVec3f(p + more * (isSac ? Vector3d(p - centre) : polar.across));
   }
 }
 
@@ -95,23 +95,23 @@ Change widenAround(Case& target, std::uint32_t node, double radius, double reach
   const auto factorAt = [&](double length) {
     return 1 + (factor - 1) * fading(std::abs(length - middle), reach);
   };
-  Draft draft(target);
-  if (target.points) draft.pointPosition = target.points->position;
+  EditableCase edited(target);
+  if (target.points) edited.pointPosition = target.points->position;
   for (std::uint32_t i = 0; i < branch.nodeCount; ++i) {
     const std::uint32_t at = branch.firstNode + i;
-    DraftNode& changed = draft.nodes[at];
+    EditableNode& changed = edited.nodes[at];
     const double halfHeight = 0.5 * double{changed.height};
     if (std::abs(lengths[i] - middle) >= reach + halfHeight) continue;
     widenPoints(target, branch.kind == formats::BranchKind::Aneurysm, lengths[i], factorAt, at,
-                draft);
+                edited);
     const double own = factorAt(lengths[i]);
     changed.radius = static_cast<float>(own * double{changed.radius});
     if (std::abs(own - 1) > kUnmoved) markEdited(changed);
   }
-  draft.branches[b].isOther = true;
-  return draft.finish(target, "gave " + nodeText(target, node) + " a radius of " +
-                                  shownNumber(radius, 4) + " mm, fading over " +
-                                  shownNumber(reach, 4) + " mm");
+  edited.branches[b].isOther = true;
+  return edited.finish(target, "gave " + nodeText(target, node) + " a radius of " +
+                                   shownNumber(radius, 4) + " mm, fading over " +
+                                   shownNumber(reach, 4) + " mm");
 }
 
 namespace {
@@ -147,7 +147,7 @@ std::vector<std::uint32_t> nodesNear(const formats::CenterlineTree& tree, std::u
 }
 
 /// The place to which a stroke moves a wall point of a node.
-Vector3d pushed(const DraftNode& node, const Vector3d& p, const Stroke& stroke) {
+Vector3d pushed(const EditableNode& node, const Vector3d& p, const Stroke& stroke) {
   Vector3d way = fading((p - stroke.at).norm(), stroke.radius) * stroke.by;
   const Polar polar(node, p);
   const double distance = polar.across.norm();
@@ -158,8 +158,9 @@ Vector3d pushed(const DraftNode& node, const Vector3d& p, const Stroke& stroke) 
 }
 
 /// Moves the wall points of a node by a stroke, and its radius with them; returns how many moved.
-std::size_t pushPoints(const Case& value, std::uint32_t node, const Stroke& stroke, Draft& draft) {
-  DraftNode& at = draft.nodes[node];
+std::size_t pushPoints(const Case& value, std::uint32_t node, const Stroke& stroke,
+                       EditableCase& edited) {
+  EditableNode& at = edited.nodes[node];
   double before = 0, after = 0, farthest = 0;
   std::size_t moved = 0;
   for (std::uint32_t k = value.points->offset[node]; k < value.points->offset[node + 1]; ++k) {
@@ -168,7 +169,7 @@ std::size_t pushPoints(const Case& value, std::uint32_t node, const Stroke& stro
     after += Polar(at, to).across.norm();
     farthest = std::max(farthest, (to - p).norm());
     if (to == p) continue;
-    draft.pointPosition[k] = toVec3f(to);
+    edited.pointPosition[k] = toVec3f(to);
     ++moved;
   }
   if (moved > 0 && before > 0) at.radius = static_cast<float>(double{at.radius} * after / before);
@@ -185,22 +186,22 @@ Change pushWall(Case& target, std::uint32_t node, const Stroke& stroke) {
     throw invalidInput("found a brush of radius " + shownNumber(stroke.radius, 4) +
                        " mm that moves by " + vectorText(stroke.by) +
                        " mm, expected a radius above 0 and lengths within a kilometre");
-  Draft draft(target);
+  EditableCase edited(target);
   std::size_t moved = 0;
   if (target.points) {
-    draft.pointPosition = target.points->position;
+    edited.pointPosition = target.points->position;
     const double reach = 2 * (stroke.radius + double{target.tree.radius[node]});
     for (const std::uint32_t near : nodesNear(target.tree, node, reach)) {
-      const std::size_t count = pushPoints(target, near, stroke, draft);
-      if (count > 0) draft.branches[target.tree.branch[near]].isOther = true;
+      const std::size_t count = pushPoints(target, near, stroke, edited);
+      if (count > 0) edited.branches[target.tree.branch[near]].isOther = true;
       moved += count;
     }
   }
   if (moved == 0)
     throw invalidInput("the brush holds no wall point of " + nodeText(target, node) +
                        " or its neighbours; expected a place at their wall, or a wider brush");
-  return draft.finish(target, "pushed the wall at " + nodeText(target, node) + " by " +
-                                  shownNumber(stroke.by.norm(), 3) + " mm");
+  return edited.finish(target, "pushed the wall at " + nodeText(target, node) + " by " +
+                                   shownNumber(stroke.by.norm(), 3) + " mm");
 }
 
 }  // namespace lumen::convert

@@ -22,7 +22,7 @@ Change widenAround(formats::Case& target, std::uint32_t node, double radius, dou
 /// A stroke of the brush.
 struct Stroke {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< where it begins, mm, LPS
-  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< mm, the way of the wall there
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< mm, displacement of the wall there
   double radius = 0;                             ///< mm: points farther from `at` stay
 };
 

@@ -229,8 +229,9 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   return found;
 }
 
-std::vector<SeedBranch> coursesBeside(const FoundVessels& found, std::span<const WorldBall> vessels,
-                                      Progress& progress) {
+std::vector<SeedBranch> coursesInRemainingLumen(const FoundVessels& found,
+                                                std::span<const WorldBall> vessels,
+                                                Progress& progress) {
   const VolumeGeometry grid = gridGeometry(found.geometry);
   std::vector<WorldBall> balls(vessels.begin(), vessels.end());
   // the rim of a vessel: half a voxel for its wall, half a voxel for its section

@@ -38,11 +38,12 @@ private:
 /// background. Throws Error(Cancelled).
 FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress);
 
-/// The courses through the lumen that vessels leave over, as those of findVessels(): of two vessels
-/// that touch, the courses of a whole lumen may follow one alone. `vessels`: balls along them in the
-/// frame of gridGeometry(). A voxel counts as theirs up to a voxel beyond a ball. Throws
+/// The courses through the lumen outside of `vessels`, in the form of findVessels(), which may
+/// follow only one of two vessels that touch. `vessels`: balls along the vessels in the frame of
+/// gridGeometry(). A voxel belongs to the vessels up to a voxel beyond a ball. Throws
 /// Error(Cancelled).
-std::vector<SeedBranch> coursesBeside(const FoundVessels& found, std::span<const WorldBall> vessels,
-                                      Progress& progress);
+std::vector<SeedBranch> coursesInRemainingLumen(const FoundVessels& found,
+                                                std::span<const WorldBall> vessels,
+                                                Progress& progress);
 
 }  // namespace lumen::convert

@@ -58,7 +58,7 @@ void FitOptions::addRows(OptionTable& table) {
            "Cauchy's s^2 [0.2] or the Gaussian's a^2 [0.5]")
       .in(kScale)
       .recorded()
-      .idleIf([this] {
+      .unusedIf([this] {
         const std::string name(field::kKernelNames.at(static_cast<std::size_t>(kernel)));
         return field::hasParameter(kernel) ? ""
                                            : "does nothing with " + kOption.kernel.shown() + " " +
@@ -75,7 +75,7 @@ void FitOptions::addRows(OptionTable& table) {
   table.add("cohesion-scale", &cohesionScale, "S", "Scale s of the Lennard-Jones energy")
       .in(kScale)
       .recorded()
-      .idleIf([this] {
+      .unusedIf([this] {
         return cohesionWeight > 0 ? ""
                                   : "does nothing with " + kOption.cohesionWeight.shown() + " 0";
       });
@@ -95,7 +95,7 @@ void FitOptions::addRows(OptionTable& table) {
   table.add("seam-weight", &seamWeight, "W", "Weight of a tie, in wall points")
       .in(kWeight)
       .recorded()
-      .idleIf([this] {
+      .unusedIf([this] {
         return seamSweeps > 0 ? "" : "does nothing with " + kOption.seamSweeps.shown() + " 0";
       });
   table.scaled("iso-level", isoLevel, "Iso-level T", "half a voxel").recorded();

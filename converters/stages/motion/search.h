@@ -24,10 +24,10 @@ struct Stations {
   std::vector<std::int32_t> parent;  ///< the station above, or -1
   std::vector<double> gap;           ///< mm along the tree from the parent; 0 without one
   std::vector<double> length;        ///< mm of vessel that a station stands for
-  std::vector<int>
-      end;  ///< 1 for a tip, -1 for a root with one edge, by the direction that leads out; else 0
+  /// 1 for a tip, -1 for a root with one edge, by the direction that leads out; else 0
+  std::vector<int> end;
 
-  /// A node's stations above and below it, itself twice if it is one, and its share of the way.
+  /// A node's stations above and below it, itself twice if it is one, and its share of the path.
   struct Between {
     std::uint32_t above, below;
     double share;
@@ -35,7 +35,7 @@ struct Stations {
   std::vector<Between> between;  ///< one for each node of the tree
 
   [[nodiscard]] std::size_t size() const { return node.size(); }
-  /// Moves of all nodes from those of the stations, linear in the way along the tree.
+  /// Moves of all nodes from those of the stations, linear in the length along the tree.
   [[nodiscard]] std::vector<Eigen::Vector3d> spread(
       const std::vector<Eigen::Vector3d>& moves) const;
 };

@@ -34,23 +34,23 @@ struct MeasuredNumber {
   double value = 0, deviation = 0;  ///< a deviation of 0: not measured
 };
 
-/// The same for numbers, with `walk` per mm for each node, and a prior of zero with the standard deviation
-/// `spread`.
+/// The most likely numbers of all nodes, as smoothMoves(), with `walk` per mm for each node, and a
+/// prior of zero with the standard deviation `spread`.
 std::vector<double> smoothNumbers(const formats::CenterlineTree& tree,
                                   const std::vector<MeasuredNumber>& measured,
                                   const std::vector<double>& walk, double spread);
 
 struct MotionOptions {
-  double reach =
-      12;  ///< mm, > 0: the longest way of a vessel from one phase to the next, along each axis
+  /// mm, > 0: the longest displacement of a vessel from one phase to the next, along each axis
+  double reach = 12;
   bool dark = false;  ///< vessels are darker than their background
 };
 
 /// The findings of one phase.
 struct PhaseReport {
-  double farthest = 0;     ///< mm: longest way of a node from its place at rest
+  double farthest = 0;     ///< mm: longest displacement of a node from its place at rest
   double seen = 0;         ///< share of the length of vessel that the volume shows, 0 to 1
-  double correction = 0;   ///< mm: median way by which the image moved the nodes that it determined
+  double correction = 0;   ///< mm: median displacement by the image of the nodes that it determined
   std::size_t fitted = 0;  ///< nodes that the image determined
 };
 

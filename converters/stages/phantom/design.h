@@ -117,8 +117,8 @@ std::vector<SeedBranch> clickLargeVessels(const formats::CenterlineTree& tree, d
 
 /// The clicks of a person in a hurry: on the vessels of clickLargeVessels(), a fifth of the radius
 /// off the axis, of a child where its axis is 1.5 of its own radii beyond the wall of its parent, or
-/// four of the parent's along the vessel; no radii, no directions. Those of aneurysms are those of
-/// clickSeeds().
+/// four of the parent's along the vessel, without radii and directions. The clicks of aneurysms are
+/// those of clickSeeds().
 std::vector<SeedBranch> clickCarelessly(const formats::CenterlineTree& tree, double voxel,
                                         Random& random);
 

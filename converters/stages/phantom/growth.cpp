@@ -16,9 +16,9 @@ Vector3d partAcross(const Vector3d& v, const Vector3d& tangent) {
 // One walk; all lengths in mm.
 class Walk {
 public:
-  Walk(const GrowthRequest& request, const Surroundings& surroundings, double step, Random& random)
+  Walk(const GrowthRequest& request, const GrownBranches& grown, double step, Random& random)
       : m_request(request),
-        m_surroundings(surroundings),
+        m_grown(grown),
         m_step(step),
         m_random(random),
         m_point(request.start),
@@ -41,16 +41,15 @@ public:
 
 private:
   bool isClear(const Path& path) {
-    if (m_request.parent >= 0 && m_surroundings.depthInBox(m_point, m_radius) < 0) return false;
-    if (m_request.parent < 0 && m_arc > 4 * m_radius &&
-        m_surroundings.depthInBox(m_point, m_radius) < 0)
+    if (m_request.parent >= 0 && m_grown.depthInBox(m_point, m_radius) < 0) return false;
+    if (m_request.parent < 0 && m_arc > 4 * m_radius && m_grown.depthInBox(m_point, m_radius) < 0)
       return false;
-    m_others = m_surroundings.nearestBut(m_request.parent, m_point, m_radius);
-    if (m_others.clearance < m_surroundings.gap()) return false;
+    m_others = m_grown.nearestBut(m_request.parent, m_point, m_radius);
+    if (m_others.clearance < m_grown.gap()) return false;
     m_ownParent = {};
     if (m_request.parent >= 0) {
-      m_ownParent = m_surroundings.nearestOnBranch(m_request.parent, m_point, m_radius);
-      const bool clear = m_ownParent.clearance >= m_surroundings.gap();
+      m_ownParent = m_grown.nearestOnBranch(m_request.parent, m_point, m_radius);
+      const bool clear = m_ownParent.clearance >= m_grown.gap();
       if (m_left && !clear) return false;
       if (!m_left && !clear && m_arc > m_request.freeLength) return false;
       m_left = m_left || clear;
@@ -63,7 +62,7 @@ private:
     const double halfTurn = 3.2 * tightestBend(m_request.startRadius);
     const auto skipped = static_cast<std::size_t>(halfTurn / m_step);
     for (std::size_t i = 0; i + skipped < path.size(); i += 2) {
-      const double reach = path[i].radius + m_radius + m_surroundings.gap();
+      const double reach = path[i].radius + m_radius + m_grown.gap();
       if ((path[i].position - m_point).squaredNorm() < reach * reach) return false;
     }
     return true;
@@ -80,8 +79,8 @@ private:
     Vector3d curvature = partAcross(m_wander, m_tangent);
     curvature += 0.4 * strongest * partAcross((m_request.target - m_point).normalized(), m_tangent);
     // turn away from walls that are near, the parent's own once it is left behind
-    const double comfort = m_surroundings.gap() + 2.5 * m_radius + 1.2;
-    const auto avoid = [&](const Surroundings::Nearest& near) {
+    const double comfort = m_grown.gap() + 2.5 * m_radius + 1.2;
+    const auto avoid = [&](const GrownBranches::Nearest& near) {
       const double closeness = 1 - near.clearance / comfort;
       if (closeness > 0)
         curvature += 1.5 * strongest * closeness * partAcross(near.away, m_tangent);
@@ -101,8 +100,7 @@ private:
     Vector3d push = Vector3d::Zero();
     if (m_request.parent < 0 && m_arc < reach) return push;
     for (int a = 0; a < 3; ++a) {
-      const double low = ahead[a] - m_surroundings.low()[a],
-                   high = m_surroundings.high()[a] - ahead[a];
+      const double low = ahead[a] - m_grown.low()[a], high = m_grown.high()[a] - ahead[a];
       if (low < reach) push[a] += 2 * std::min(1.0, 1 - low / reach);
       if (high < reach) push[a] -= 2 * std::min(1.0, 1 - high / reach);
     }
@@ -110,19 +108,19 @@ private:
   }
 
   const GrowthRequest& m_request;
-  const Surroundings& m_surroundings;
+  const GrownBranches& m_grown;
   double m_step;
   Random& m_random;
   Vector3d m_point, m_tangent;
   Vector3d m_wander = Vector3d::Zero();
   double m_arc = 0, m_radius = 0;
   bool m_left = false;  // the parent's wall is a gap away, or was
-  Surroundings::Nearest m_others, m_ownParent;
+  GrownBranches::Nearest m_others, m_ownParent;
 };
 
 }  // namespace
 
-void Surroundings::add(const Path& path, int branch) {
+void GrownBranches::add(const Path& path, int branch) {
   // balls a third of a radius apart stand for the tube to 1.5 % of its radius
   Vector3d last = Vector3d::Constant(std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -134,8 +132,8 @@ void Surroundings::add(const Path& path, int branch) {
 }
 
 template <class Accept>
-Surroundings::Nearest Surroundings::nearest(const Vector3d& point, double radius,
-                                            Accept accept) const {
+GrownBranches::Nearest GrownBranches::nearest(const Vector3d& point, double radius,
+                                              Accept accept) const {
   Nearest best;
   const BranchBall* found = nullptr;
   for (const BranchBall& ball : m_balls) {
@@ -150,17 +148,17 @@ Surroundings::Nearest Surroundings::nearest(const Vector3d& point, double radius
   return best;
 }
 
-Surroundings::Nearest Surroundings::nearestBut(int except, const Vector3d& point,
-                                               double radius) const {
+GrownBranches::Nearest GrownBranches::nearestBut(int except, const Vector3d& point,
+                                                 double radius) const {
   return nearest(point, radius, [except](int branch) { return branch != except; });
 }
 
-Surroundings::Nearest Surroundings::nearestOnBranch(int branch, const Vector3d& point,
-                                                    double radius) const {
+GrownBranches::Nearest GrownBranches::nearestOnBranch(int branch, const Vector3d& point,
+                                                      double radius) const {
   return nearest(point, radius, [branch](int other) { return other == branch; });
 }
 
-double Surroundings::depthInBox(const Vector3d& point, double radius) const {
+double GrownBranches::depthInBox(const Vector3d& point, double radius) const {
   return std::min((point - m_low).minCoeff(), (m_high - point).minCoeff()) - radius;
 }
 
@@ -168,9 +166,8 @@ double tightestBend(double radius) {
   return std::max(3.2 * radius, 1.6);
 }
 
-Path grow(const GrowthRequest& request, const Surroundings& surroundings, double step,
-          Random& random) {
-  return Walk(request, surroundings, step, random).run();
+Path grow(const GrowthRequest& request, const GrownBranches& grown, double step, Random& random) {
+  return Walk(request, grown, step, random).run();
 }
 
 }  // namespace lumen::convert

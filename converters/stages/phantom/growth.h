@@ -14,11 +14,11 @@
 namespace lumen::convert {
 
 /// The branches that are already there, as balls along their axes.
-class Surroundings {
+class GrownBranches {
 public:
   /// `gap`: the clearance between walls that grow() keeps, mm. `low`, `high`: the box, mm, that
   /// balls stay in.
-  Surroundings(double gap, const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+  GrownBranches(double gap, const Eigen::Vector3d& low, const Eigen::Vector3d& high)
       : m_gap(gap), m_low(low), m_high(high) {}
 
   void add(const Path& path, int branch);
@@ -74,7 +74,6 @@ double tightestBend(double radius);
 /// Ornstein-Uhlenbeck process, leans towards the target, and turns away from walls and the box. It
 /// ends early before it would come closer than the gap to another branch or to itself, or leave the
 /// box.
-Path grow(const GrowthRequest& request, const Surroundings& surroundings, double step,
-          Random& random);
+Path grow(const GrowthRequest& request, const GrownBranches& grown, double step, Random& random);
 
 }  // namespace lumen::convert

@@ -41,7 +41,7 @@ bool growRoot(PatientTree& tree) {
   request.tortuosity = 0.75;
   GrownBranch root;
   root.label = "root";
-  root.path = grow(request, tree.surroundings, tree.step, tree.random);
+  root.path = grow(request, tree.grown, tree.step, tree.random);
   if (pathLength(root.path) < 0.9 * e) return false;
   tree.add(std::move(root));
   return true;
@@ -56,7 +56,7 @@ Vector3d pickTarget(PatientTree& tree, const Vector3d& from, const Vector3d& tan
     const Vector3d point = tree.randomPoint();
     const Vector3d to = point - from;
     if (to.norm() < 0.5 * length || to.dot(tangent) < -0.2 * to.norm()) continue;
-    const double room = tree.surroundings.nearestBut(-1, point, 0).clearance;
+    const double room = tree.grown.nearestBut(-1, point, 0).clearance;
     if (room > emptiest) {
       emptiest = room;
       best = point;
@@ -94,7 +94,7 @@ bool growChild(PatientTree& tree, int parent, double lowRatio, double highRatio)
   request.freeLength = 1.5 * reach + 2 * tree.frame.voxel;
 
   GrownBranch child;
-  child.path = grow(request, tree.surroundings, tree.step, random);
+  child.path = grow(request, tree.grown, tree.step, random);
   if (pathLength(child.path) <
       std::max(0.35 * request.length, request.freeLength + 8 * request.startRadius))
     return false;
@@ -175,12 +175,12 @@ PatientTree::PatientTree(const Frame& f, std::uint64_t seed, std::uint64_t attem
       scale(f),
       step(f.nodeSpacing()),
       random(seed, attempt),
-      surroundings(scale.gap, Vector3d::Constant(scale.margin),
-                   Vector3d::Constant(f.extent - scale.margin)) {}
+      grown(scale.gap, Vector3d::Constant(scale.margin),
+            Vector3d::Constant(f.extent - scale.margin)) {}
 
 int PatientTree::add(GrownBranch branch) {
   const int index = static_cast<int>(branches.size());
-  surroundings.add(branch.path, index);
+  grown.add(branch.path, index);
   branches.push_back(std::move(branch));
   return index;
 }

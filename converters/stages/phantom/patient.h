@@ -37,7 +37,7 @@ struct PatientTree {
   PatientScale scale;
   double step;  ///< mm between the points of a path
   Random random;
-  Surroundings surroundings;
+  GrownBranches grown;
   std::vector<GrownBranch> branches;
   std::string kissing;  ///< labels of the two vessels that touch
 

@@ -34,8 +34,8 @@ double roomFor(const PatientTree& tree, const Path& path, std::size_t from, int 
   double room = std::numeric_limits<double>::infinity();
   for (std::size_t i = from; i < path.size(); i += 2) {
     const PathPoint& p = path[i];
-    room = std::min(room, tree.surroundings.nearestBut(except, p.position, p.radius).clearance);
-    room = std::min(room, tree.surroundings.depthInBox(p.position, p.radius));
+    room = std::min(room, tree.grown.nearestBut(except, p.position, p.radius).clearance);
+    room = std::min(room, tree.grown.depthInBox(p.position, p.radius));
     if (room < 0) break;
   }
   return room;
@@ -149,8 +149,8 @@ bool leavesParent(const PatientTree& tree, const Kiss& kiss, const Path& path) {
   bool left = false;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool clear =
-        tree.surroundings.nearestOnBranch(kiss.parent, path[i].position, kiss.radius).clearance >=
-        tree.surroundings.gap();
+        tree.grown.nearestOnBranch(kiss.parent, path[i].position, kiss.radius).clearance >=
+        tree.grown.gap();
     if (left && !clear) return false;
     if (!clear && static_cast<double>(i) * tree.step > reach) return false;
     left = left || clear;
@@ -162,13 +162,12 @@ bool leavesParent(const PatientTree& tree, const Kiss& kiss, const Path& path) {
 bool fits(const PatientTree& tree, const Kiss& kiss, const Path& path) {
   for (std::size_t i = 0; i < path.size(); i += 2) {
     const Vector3d& p = path[i].position;
-    if (tree.surroundings.depthInBox(p, kiss.radius) < 0) return false;
+    if (tree.grown.depthInBox(p, kiss.radius) < 0) return false;
     for (std::size_t b = 0; b < tree.branches.size(); ++b) {
       const int branch = static_cast<int>(b);
       if (branch == kiss.parent) continue;
-      const double clearance = tree.surroundings.nearestOnBranch(branch, p, kiss.radius).clearance;
-      if (clearance < (branch == kiss.host ? -0.02 * kiss.radius : tree.surroundings.gap()))
-        return false;
+      const double clearance = tree.grown.nearestOnBranch(branch, p, kiss.radius).clearance;
+      if (clearance < (branch == kiss.host ? -0.02 * kiss.radius : tree.grown.gap())) return false;
     }
   }
   return true;
@@ -190,7 +189,7 @@ Path departurePath(PatientTree& tree, const Kiss& kiss, const Path& contact) {
   request.length = 22 * kiss.radius;
   request.freeLength = 7 * kiss.radius + 4;
   request.tortuosity = 0.2;
-  return grow(request, tree.surroundings, tree.step, tree.random);
+  return grow(request, tree.grown, tree.step, tree.random);
 }
 
 }  // namespace

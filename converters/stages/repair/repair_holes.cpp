@@ -18,8 +18,8 @@
 namespace lumen::convert {
 namespace {
 
-// The wall beside a hole faces along the loop's axis by more than this: 30 degrees from the plane
-// of the loop, which no taper and no oblique cut has all around.
+// The wall beside a hole faces along the loop's axis by more than this, 30 degrees from the plane
+// of the loop; the wall around a tapered or obliquely cut end does so on one side at most.
 constexpr double kFacing = 0.5;
 // A loop whose area is below this part of a circle's of its length is a crack, not an end.
 constexpr double kCrack = 0.05;

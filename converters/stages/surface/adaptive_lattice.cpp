@@ -66,7 +66,7 @@ std::uint32_t AdaptiveLattice::cubeAt(const Eigen::Vector3d& point) const {
 // Makes the leaves: level by level from the coarsest, then the balance.
 class LatticeBuilder {
 public:
-  LatticeBuilder(AdaptiveLattice& lattice, const SheetField& field, double share,
+  LatticeBuilder(AdaptiveLattice& lattice, const SeparatedField& field, double share,
                  Progress& progress)
       : m_lattice(lattice),
         m_field(field),
@@ -291,13 +291,13 @@ private:
   }
 
   AdaptiveLattice& m_lattice;
-  const SheetField& m_field;
+  const SeparatedField& m_field;
   const formats::CenterlineTree& m_tree;
   double m_share;
   Progress& m_progress;
 };
 
-AdaptiveLattice::AdaptiveLattice(const SheetField& field, double share, Progress& progress) {
+AdaptiveLattice::AdaptiveLattice(const SeparatedField& field, double share, Progress& progress) {
   LatticeBuilder(*this, field, share, progress).run();
 }
 

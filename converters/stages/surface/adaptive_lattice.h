@@ -9,7 +9,7 @@
 #include <tsl/robin_map.h>
 
 #include "converters/base/progress.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 namespace lumen::convert {
 
@@ -38,7 +38,7 @@ public:
   /// Cubes that cover the lumen and its surroundings. Near the wall their edges are at most `share`
   /// radii of the thinnest vessel there, and at least half of that. Throws Error(InvalidInput) if
   /// the case needs more cubes than fit into memory.
-  AdaptiveLattice(const SheetField& field, double share, Progress& progress);
+  AdaptiveLattice(const SeparatedField& field, double share, Progress& progress);
 
   [[nodiscard]] const std::vector<LatticeCube>& cubes() const { return m_cubes; }
   /// mm, LPS.

@@ -48,7 +48,7 @@ double chooseGap(const formats::Case& source, const ClosedSurfaceOptions& option
 }
 
 // Two walls need more of it than none.
-SheetOptions chooseGaps(const formats::Case& source, const ClosedSurfaceOptions& options) {
+SeparationOptions chooseGaps(const formats::Case& source, const ClosedSurfaceOptions& options) {
   const Length wall = options.thickness.value_or(Length{});
   return {.gap = std::max(chooseGap(source, options), kSharedWall * wall.mm),
           .gapShare = kSharedWall * wall.radii};
@@ -104,7 +104,7 @@ private:
     noteFaults(found);
     m_result.report.crossings = found.crossings;
     m_result.report.overlaps = findOverlaps(surface, m_field);
-    note(bareStretches(surface, m_source.tree));
+    note(stretchesWithoutWall(surface, m_source.tree));
     return surface;
   }
 
@@ -182,7 +182,7 @@ private:
                                       reported.end());
   }
 
-  CaseSurface extract(const SheetField& field, SurfaceReport& report) {
+  CaseSurface extract(const SeparatedField& field, SurfaceReport& report) {
     ExtractionReport found;
     CaseSurface surface = extractSurface(field, kLatticeShare, found, m_progress);
     report.trees = found.trees;
@@ -200,7 +200,7 @@ private:
   }
 
   // Returns the crossings that are left.
-  std::size_t remeshed(CaseSurface& surface, const SheetField& field) {
+  std::size_t remeshed(CaseSurface& surface, const SeparatedField& field) {
     const RefineReport found = refine(surface, field, edgeOf(m_options), m_progress);
     noteFaults(found);
     return found.crossings;
@@ -240,7 +240,7 @@ private:
   const ClosedSurfaceOptions& m_options;
   Progress& m_progress;
   field::BlendedField m_blended;
-  SheetField m_field;
+  SeparatedField m_field;
   ClosedSurface m_result;
 };
 
@@ -255,7 +255,7 @@ void requireModels(const formats::Case& source) {
 SurfaceMesh quickSurface(const formats::Case& source, Progress& progress) {
   requireModels(source);
   const field::BlendedField blended = formats::caseField(source);
-  const SheetField field(source, blended, {chooseGap(source, {}), 0, 0});
+  const SeparatedField field(source, blended, {chooseGap(source, {}), 0, 0});
   ExtractionReport ignored;
   return toSurfaceMesh(extractSurface(field, kQuickShare, ignored, progress), field, progress);
 }

@@ -110,7 +110,7 @@ private:
     return vertices;
   }
 
-  // The cuts of all surfaces by one plane; nothing if one is not possible, or not around another.
+  // The cuts of all surfaces by one plane; nothing if a cut is impossible, or two are not nested.
   std::optional<Cuts> cutAll(const EndPlane& plane) {
     Cuts cuts;
     cuts.plane = plane;
@@ -251,13 +251,13 @@ EndsReport cutEnds(std::span<const FieldSurface> surfaces, const std::vector<End
   return EndCutter(surfaces, planes, progress).run();
 }
 
-EndsReport cutEnds(CaseSurface& surface, const SheetField& field, Progress& progress) {
+EndsReport cutEnds(CaseSurface& surface, const SeparatedField& field, Progress& progress) {
   const std::array<FieldSurface, 1> one{{{&surface, &field}}};
   return cutEnds(one, endPlanes(field.source()), progress);
 }
 
-std::vector<std::string> cutLike(CaseSurface& outer, const SheetField& field, CaseSurface& inner,
-                                 Progress& progress) {
+std::vector<std::string> cutLike(CaseSurface& outer, const SeparatedField& field,
+                                 CaseSurface& inner, Progress& progress) {
   std::vector<std::string> messages;
   SurfaceFans fans(outer);
   const std::vector<std::uint32_t> nodeOf = outer.node;

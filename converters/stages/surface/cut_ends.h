@@ -10,7 +10,7 @@
 #include "converters/base/progress.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/end_planes.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 namespace lumen::convert {
 
@@ -24,7 +24,7 @@ struct EndsReport {
 /// A surface with the field that it follows.
 struct FieldSurface {
   CaseSurface* surface = nullptr;
-  const SheetField* field = nullptr;
+  const SeparatedField* field = nullptr;
 };
 
 /// Cuts each of the ends flat, and closes it by a flat cap. `surfaces`: one, or a lumen's and the
@@ -38,13 +38,13 @@ EndsReport cutEnds(std::span<const FieldSurface> surfaces, const std::vector<End
                    Progress& progress);
 
 /// Cuts the case's own ends of one surface, as the overload for several surfaces does.
-EndsReport cutEnds(CaseSurface& surface, const SheetField& field, Progress& progress);
+EndsReport cutEnds(CaseSurface& surface, const SeparatedField& field, Progress& progress);
 
 /// Cuts `outer`, a surface that lies around `inner` and follows `field`, in the planes of its flat
-/// ends: groups and ends become the same. Where a plane meets no simple opening of it, the end of
-/// both becomes one that is not flat; returns a sentence for each.
-std::vector<std::string> cutLike(CaseSurface& outer, const SheetField& field, CaseSurface& inner,
-                                 Progress& progress);
+/// ends: groups and ends become the same. Where a plane meets no simple opening of `outer`, the
+/// end of both surfaces no longer counts as flat; returns a sentence for each.
+std::vector<std::string> cutLike(CaseSurface& outer, const SeparatedField& field,
+                                 CaseSurface& inner, Progress& progress);
 
 /// Leaves out the faces of the flat ends: a boundary at each rim. Rounded ends stay closed.
 void openEnds(CaseSurface& surface);

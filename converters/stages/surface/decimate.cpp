@@ -288,7 +288,7 @@ std::vector<bool> flatGroups(const CaseSurface& surface) {
   return isFlat;
 }
 
-void collapse(CaseSurface& surface, const SheetField& field, const CollapseBounds& bounds,
+void collapse(CaseSurface& surface, const SeparatedField& field, const CollapseBounds& bounds,
               const Progress& progress) {
   RemeshState state = makeState(surface);
   const PieceRules rules = pieceRules(surface, field, progress);
@@ -308,7 +308,7 @@ double distanceBetween(const CaseSurface& one, const CaseSurface& other) {
   return distanceBetween(one.mesh, one.group, other.mesh, other.group, flatGroups(one));
 }
 
-double decimate(CaseSurface& surface, const SheetField& field, const DecimateOptions& options,
+double decimate(CaseSurface& surface, const SeparatedField& field, const DecimateOptions& options,
                 Progress& progress) {
   if (options.triangles >= surface.mesh.triangle.size() ||
       (options.triangles == 0 && !(options.maxError > 0)))
@@ -325,7 +325,7 @@ double decimate(CaseSurface& surface, const SheetField& field, const DecimateOpt
   }
 }
 
-void addCoarserLevels(std::vector<DetailLevel>& levels, int count, const SheetField& field,
+void addCoarserLevels(std::vector<DetailLevel>& levels, int count, const SeparatedField& field,
                       Progress& progress) {
   while (static_cast<int>(levels.size()) < count) {
     CaseSurface next = levels.back().surface;

@@ -8,7 +8,7 @@
 #include "converters/base/progress.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/remesh_mesh.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 namespace lumen::convert {
 
@@ -38,7 +38,7 @@ struct DecimateOptions {
 /// directions, and gets no new intersections with itself (docs/method.md, section 5, Triangles).
 /// Topology, groups and the planes of ends are kept; at least eight edges are left of a rim.
 /// Returns the measured distance, mm. Throws Error(Cancelled).
-double decimate(CaseSurface& surface, const SheetField& field, const DecimateOptions& options,
+double decimate(CaseSurface& surface, const SeparatedField& field, const DecimateOptions& options,
                 Progress& progress);
 
 /// The greatest distance between a surface and the one that it was made from, in both directions,
@@ -54,7 +54,7 @@ struct DetailLevel {
 /// Adds levels to the first one until there are `count`: each has about a quarter of the triangles
 /// of its predecessor, or as few as its topology, its rims and its neighbours allow. Throws
 /// Error(Cancelled).
-void addCoarserLevels(std::vector<DetailLevel>& levels, int count, const SheetField& field,
+void addCoarserLevels(std::vector<DetailLevel>& levels, int count, const SeparatedField& field,
                       Progress& progress);
 
 }  // namespace lumen::convert

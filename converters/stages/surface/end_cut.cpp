@@ -62,7 +62,7 @@ std::ptrdiff_t eulerCharacteristic(const SurfaceFans& fans,
 // One way of cutting off a part, with one bound for moving vertices onto the plane.
 class EndCutPlanner {
 public:
-  EndCutPlanner(const SurfaceFans& fans, const SheetField& field, const EndPlane& plane,
+  EndCutPlanner(const SurfaceFans& fans, const SeparatedField& field, const EndPlane& plane,
                 const std::vector<std::uint32_t>& part)
       : m_fans(fans), m_mesh(fans.surface().mesh), m_field(field), m_plane(plane), m_part(part) {}
 
@@ -288,7 +288,7 @@ private:
 
   const SurfaceFans& m_fans;
   const TriangleMesh& m_mesh;
-  const SheetField& m_field;
+  const SeparatedField& m_field;
   const EndPlane& m_plane;
   const std::vector<std::uint32_t>& m_part;
   EndCut m_cut;
@@ -332,7 +332,7 @@ std::vector<std::uint32_t> partBeyond(const SurfaceFans& fans, const EndPlane& p
   return part;
 }
 
-std::variant<EndCut, NoCut> planCut(const SurfaceFans& fans, const SheetField& field,
+std::variant<EndCut, NoCut> planCut(const SurfaceFans& fans, const SeparatedField& field,
                                     const EndPlane& plane, const std::vector<std::uint32_t>& nodes,
                                     const std::vector<std::uint32_t>& candidates) {
   bool leaves = false;

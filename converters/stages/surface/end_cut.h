@@ -12,7 +12,7 @@
 
 #include "converters/stages/surface/end_planes.h"
 #include "converters/stages/surface/flat_region.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "converters/stages/surface/surface_fans.h"
 
 namespace lumen::convert {
@@ -44,7 +44,7 @@ enum class NoCut : std::uint8_t {
 /// cursors are at `nodes` of the end, the one nearest to the axis. Vertices within a quarter of an
 /// edge of the plane are moved into it, edges that cross it are split there, and both lie on the
 /// field's surface where that is near. The surface stays a manifold of the same genus.
-std::variant<EndCut, NoCut> planCut(const SurfaceFans& fans, const SheetField& field,
+std::variant<EndCut, NoCut> planCut(const SurfaceFans& fans, const SeparatedField& field,
                                     const EndPlane& plane, const std::vector<std::uint32_t>& nodes,
                                     const std::vector<std::uint32_t>& candidates);
 

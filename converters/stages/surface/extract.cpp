@@ -51,7 +51,7 @@ constexpr std::size_t kBlock = 1024;  // vertices between two reports of progres
 
 class SurfaceExtraction {
 public:
-  SurfaceExtraction(const SheetField& field, double share, ExtractionReport& report,
+  SurfaceExtraction(const SeparatedField& field, double share, ExtractionReport& report,
                     Progress& progress)
       : m_field(field), m_report(report), m_progress(progress), m_lattice(field, share, progress) {}
 
@@ -203,7 +203,7 @@ private:
     node = m_field.at(position, m_lattice.node(inside)).node;
   }
 
-  const SheetField& m_field;
+  const SeparatedField& m_field;
   ExtractionReport& m_report;
   Progress& m_progress;
   SampledLattice m_lattice;
@@ -216,7 +216,7 @@ private:
 
 }  // namespace
 
-CaseSurface extractSurface(const SheetField& field, double share, ExtractionReport& report,
+CaseSurface extractSurface(const SeparatedField& field, double share, ExtractionReport& report,
                            Progress& progress) {
   return SurfaceExtraction(field, share, report, progress).run();
 }

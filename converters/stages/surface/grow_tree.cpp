@@ -27,7 +27,7 @@ struct LinkFacts {
 
 class TreeGrowth {
 public:
-  TreeGrowth(const SampledLattice& lattice, const SheetField& field, std::uint32_t lumen,
+  TreeGrowth(const SampledLattice& lattice, const SeparatedField& field, std::uint32_t lumen,
              const std::vector<std::uint32_t>& lumens)
       : m_lattice(lattice), m_field(field) {
     number(lumen, lumens);
@@ -176,7 +176,7 @@ private:
   }
 
   const SampledLattice& m_lattice;
-  const SheetField& m_field;
+  const SeparatedField& m_field;
   std::vector<std::uint32_t> m_vertex, m_local;  // this lumen's: local to lattice, and back
   std::vector<Tetrahedron> m_tetrahedron;        // made of local vertices
   std::vector<std::uint32_t> m_offset, m_at;
@@ -186,7 +186,7 @@ private:
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> growTree(SampledLattice& lattice, const SheetField& field,
+std::vector<Eigen::Vector3d> growTree(SampledLattice& lattice, const SeparatedField& field,
                                       const TreeLumen& tree,
                                       const std::vector<std::uint32_t>& lumens) {
   const std::vector<std::uint32_t> left =

@@ -17,7 +17,7 @@ namespace {
 // The vertices around a node's centre that a cursor at the node can reach.
 class NodePlaces {
 public:
-  NodePlaces(const SampledLattice& lattice, const SheetField& field)
+  NodePlaces(const SampledLattice& lattice, const SeparatedField& field)
       : m_lattice(lattice), m_field(field), m_tree(field.source().tree) {}
 
   [[nodiscard]] std::uint32_t at(std::uint32_t node) const {
@@ -29,12 +29,12 @@ public:
 
 private:
   const SampledLattice& m_lattice;
-  const SheetField& m_field;
+  const SeparatedField& m_field;
   const formats::CenterlineTree& m_tree;
 };
 
 // All vertices of the cubes along an edge become inside, of that edge's sheet.
-void openEdge(SampledLattice& lattice, const SheetField& field, std::uint32_t from,
+void openEdge(SampledLattice& lattice, const SeparatedField& field, std::uint32_t from,
               std::uint32_t to) {
   const formats::CenterlineTree& tree = field.source().tree;
   const Eigen::Vector3d a = toEigen(tree.centre[from]), b = toEigen(tree.centre[to]);
@@ -121,7 +121,7 @@ std::vector<std::uint32_t> labelLumens(const SampledLattice& lattice) {
   return lumens;
 }
 
-std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SheetField& field,
+std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SeparatedField& field,
                                  std::vector<std::uint32_t>& lumens, std::size_t& opened) {
   const formats::CenterlineTree& tree = field.source().tree;
   const NodePlaces places(lattice, field);

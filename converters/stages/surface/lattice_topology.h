@@ -27,7 +27,7 @@ struct TreeLumen {
 /// Opens the tree edges along which no lumen leads from end to end, by a passage as wide as a cube,
 /// and puts outside any part that is joined to no node. Returns the trees, and in `opened` the
 /// number of edges. `lumens` is brought up to date.
-std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SheetField& field,
+std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SeparatedField& field,
                                  std::vector<std::uint32_t>& lumens, std::size_t& opened);
 
 /// Grows the inside of one tree anew, without handles but one for each link: from its first node by
@@ -35,7 +35,7 @@ std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SheetField& fiel
 /// characterization of three-dimensional simple points*, 1994), along the axes first, then deepest
 /// places first, so a handle is cut where it is shallowest. Vertices that are not reached are put
 /// outside; returns their places, mm, one for each connected group.
-std::vector<Eigen::Vector3d> growTree(SampledLattice& lattice, const SheetField& field,
+std::vector<Eigen::Vector3d> growTree(SampledLattice& lattice, const SeparatedField& field,
                                       const TreeLumen& tree,
                                       const std::vector<std::uint32_t>& lumens);
 

@@ -72,8 +72,8 @@ void LatticeVertices::findNeighbours() {
   });
 }
 
-// A cube's tetrahedra have vertices of itself and of cubes that touch it. Of two cubes that touch,
-// one has a corner that is a corner of the other, since they differ at most by a factor of two.
+// A cube's tetrahedra have vertices of itself and of cubes that touch it. Two cubes that touch
+// share a corner of one of them, since they differ at most by a factor of two.
 std::vector<std::uint8_t> LatticeVertices::cubesNear(
     const std::vector<std::uint8_t>& marked) const {
   std::vector<std::uint8_t> holds(m_own.size(), 0), isCorner(size(), 0), isNear(m_own.size(), 0);

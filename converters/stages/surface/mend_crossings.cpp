@@ -198,7 +198,7 @@ SelfIntersections CrossingSearch::find(const TriangleMesh& mesh, const Progress&
   return searchNear(mesh, isChanged, progress);
 }
 
-SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
+SelfIntersections mendCrossings(CaseSurface& surface, const SeparatedField& field,
                                 CrossingSearch& search, Progress& progress) {
   progress.begin("crossings", 0);
   roundToFloats(surface.mesh);
@@ -209,7 +209,7 @@ SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
     tbb::parallel_for(std::size_t{0}, moved.size(), [&](std::size_t i) {
       const std::uint32_t v = moved[i];
       Eigen::Vector3d& position = surface.mesh.position[v];
-      const SheetSample sample = field.at(position, surface.node[v]);
+      const SeparatedSample sample = field.at(position, surface.node[v]);
       const double step = std::max(0.25 * field.options().gap, 0.02 * field.radius(sample.node));
       position = roundedToFloats(position - step * sample.gradient);
     });
@@ -244,8 +244,8 @@ namespace {
 constexpr int kMostRepeats = 4;
 constexpr double kFirstReach = 1;  // radii around a crossing
 
-void addPlaces(const CaseSurface& surface, const SheetField& field, const SelfIntersections& found,
-               double radii, std::vector<Box3d>& places) {
+void addPlaces(const CaseSurface& surface, const SeparatedField& field,
+               const SelfIntersections& found, double radii, std::vector<Box3d>& places) {
   for (const auto& pair : found.pairs)
     for (const std::uint32_t t : pair)
       for (const std::uint32_t v : surface.mesh.triangle[t])
@@ -266,7 +266,7 @@ std::vector<std::uint8_t> verticesIn(const CaseSurface& surface, const std::vect
 
 }  // namespace
 
-RefineReport refine(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+RefineReport refine(CaseSurface& surface, const SeparatedField& field, const EdgeLength& edge,
                     Progress& progress) {
   const CaseSurface given = surface;
   RepeatedRemesh remeshing(given, field, edge, progress);

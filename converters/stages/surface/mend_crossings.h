@@ -15,7 +15,7 @@
 #include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/remesh_target.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 namespace lumen::convert {
 
@@ -62,7 +62,7 @@ private:
 /// Vertices of flat ends stay where they are. Returns the pairs that still intersect. After the first
 /// search, by `search`, only triangles near those that were moved are looked at. Throws
 /// Error(Cancelled).
-SelfIntersections mendCrossings(CaseSurface& surface, const SheetField& field,
+SelfIntersections mendCrossings(CaseSurface& surface, const SeparatedField& field,
                                 CrossingSearch& search, Progress& progress);
 
 /// Takes the surface off its field where nothing else helps: moves the vertices of the crossing
@@ -83,7 +83,7 @@ struct RefineReport {
 /// (mend_crossings.h). Where some are left, the surface stays as it was given within a radius of
 /// them, and all else is remeshed again; then within two, four and eight radii. Throws
 /// Error(Cancelled).
-RefineReport refine(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+RefineReport refine(CaseSurface& surface, const SeparatedField& field, const EdgeLength& edge,
                     Progress& progress);
 
 }  // namespace lumen::convert

@@ -48,7 +48,7 @@ void moveOntoField(RemeshState& state, const PieceRules& rules) {
   tbb::parallel_for(std::size_t{0}, stays.size(), [&](std::size_t v) {
     if (v % kVertexBatch == 0) rules.progress.check();
     Eigen::Vector3d& position = surface.mesh.position[v];
-    const SheetSample sample = rules.field.at(position, surface.node[v]);
+    const SeparatedSample sample = rules.field.at(position, surface.node[v]);
     if (sample.gradient.isZero()) return;
     state.gradient[v] = sample.gradient;
     state.isSeparated[v] = sample.isSeparated ? 1 : 0;
@@ -185,7 +185,7 @@ RemeshReport RepeatedRemesh::run(const std::vector<std::uint8_t>& isKept, CaseSu
   return makeReport(state, rules);
 }
 
-RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+RemeshReport remesh(CaseSurface& surface, const SeparatedField& field, const EdgeLength& edge,
                     Progress& progress) {
   const CaseSurface given = surface;
   return RepeatedRemesh(given, field, edge, progress).run({}, surface);

@@ -10,7 +10,7 @@
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/remesh_piece.h"
 #include "converters/stages/surface/remesh_target.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 namespace lumen::convert {
 
@@ -25,14 +25,14 @@ struct RemeshReport {
 /// field. Topology and groups stay as they are: vertices of a rim stay on it, those of a flat end
 /// in its plane. Each vertex keeps a node from which a cursor follows to it. The result is the same
 /// on any number of threads. Throws Error(Cancelled).
-RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+RemeshReport remesh(CaseSurface& surface, const SeparatedField& field, const EdgeLength& edge,
                     Progress& progress);
 
 /// Remeshes one surface several times, with parts of it kept.
 class RepeatedRemesh {
 public:
   /// `surface`, `field` and `progress` must stay.
-  RepeatedRemesh(const CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
+  RepeatedRemesh(const CaseSurface& surface, const SeparatedField& field, const EdgeLength& edge,
                  Progress& progress)
       : m_surface(surface), m_field(field), m_edge(edge), m_progress(progress) {}
 
@@ -43,7 +43,7 @@ public:
 
 private:
   const CaseSurface& m_surface;
-  const SheetField& m_field;
+  const SeparatedField& m_field;
   EdgeLength m_edge;
   Progress& m_progress;
   std::vector<std::vector<std::uint32_t>> m_division;  ///< triangles by pieces

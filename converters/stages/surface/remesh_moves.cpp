@@ -70,7 +70,7 @@ void moveTowards(Mesh& mesh, Mesh::VertexHandle v, const std::vector<Mesh::StarF
   }
 }
 
-void take(Mesh& mesh, Mesh::VertexHandle v, const SheetSample& sample) {
+void take(Mesh& mesh, Mesh::VertexHandle v, const SeparatedSample& sample) {
   auto& here = mesh.data(v);
   if (!sample.gradient.isZero()) here.gradient = sample.gradient;
   here.node = sample.node;
@@ -79,8 +79,8 @@ void take(Mesh& mesh, Mesh::VertexHandle v, const SheetSample& sample) {
 
 void stepOntoField(Mesh& mesh, Mesh::VertexHandle v) {
   if (mesh.data(v).isOffField) return;
-  const SheetField& field = mesh.rules().field;
-  const SheetSample sample = field.at(mesh.point(v), mesh.data(v).node);
+  const SeparatedField& field = mesh.rules().field;
+  const SeparatedSample sample = field.at(mesh.point(v), mesh.data(v).node);
   if (sample.gradient.isZero()) return;
   const double longest = kFieldStep * field.radius(sample.node);
   const double distance = std::clamp(sample.distance, -longest, longest);
@@ -236,7 +236,7 @@ void moveOntoField(RemeshMesh& mesh, bool exactly) {
 }
 
 void refineSlits(RemeshMesh& mesh) {
-  const SheetField& field = mesh.rules().field;
+  const SeparatedField& field = mesh.rules().field;
   const double allowed = kChordInSlit * field.options().gap;
   if (!(allowed > 0)) return;
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
@@ -246,10 +246,9 @@ void refineSlits(RemeshMesh& mesh) {
     if (!mesh.data(from).isSeparated && !mesh.data(to).isSeparated) continue;
     if (mesh.data(from).kind == VertexKind::Flat || mesh.data(to).kind == VertexKind::Flat)
       continue;
-    const SheetSample middle =
+    const SeparatedSample middle =
         field.at(0.5 * (mesh.point(from) + mesh.point(to)), mesh.data(from).node);
-    // A surface that lies before the edge is no nearer to the other vessel, and one as far away as
-    // this is none that the edge could follow.
+    // Splitting helps only where the surface lies behind the edge and is near enough.
     const double sag = middle.distance, length = mesh.lengthOf(edge);
     if (!(sag > allowed) || sag > kLargestSag * length) continue;
     // The sag of a chord grows with the square of its length.

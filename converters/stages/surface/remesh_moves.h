@@ -24,7 +24,7 @@ void flipForAngles(RemeshMesh& mesh);
 void relax(RemeshMesh& mesh);
 
 /// Moves vertices that may have left the field's surface onto it: by one step of Newton's method,
-/// or, with `exactly`, all of them and to within SheetField::project()'s tolerance.
+/// or, with `exactly`, all of them and to within SeparatedField::project()'s tolerance.
 void moveOntoField(RemeshMesh& mesh, bool exactly);
 
 /// Moves one vertex onto the field as exactly as project() does; false if nothing is near by.

@@ -9,7 +9,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/geometry/mesh_measures.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 namespace lumen::convert {
 
@@ -22,7 +22,7 @@ struct PieceVertex {
   double target = 0;                                   ///< length that edges should have here, mm
   std::uint32_t node = 0;                              ///< node of its cursor
   std::uint32_t home = kNewVertex;                     ///< its index in the whole surface
-  bool isSeparated = false;                            ///< see SheetSample::isSeparated
+  bool isSeparated = false;                            ///< see SeparatedSample::isSeparated
   bool isOffField = false;                             ///< the field had no surface near by
   bool isBoundary = false;                             ///< on the boundary, so not touched
 };
@@ -37,7 +37,7 @@ struct RemeshPiece {
 
 /// Data that all pieces of a surface share.
 struct PieceRules {
-  const SheetField& field;
+  const SeparatedField& field;
   const Progress& progress;  ///< checked by long loops for cancelling
   /// For each group, the unit normal of its plane if it is a flat end.
   std::vector<std::optional<Eigen::Vector3d>> plane;

@@ -151,7 +151,7 @@ void dropUnused(RemeshState& state) {
 
 }  // namespace
 
-PieceRules pieceRules(const CaseSurface& surface, const SheetField& field,
+PieceRules pieceRules(const CaseSurface& surface, const SeparatedField& field,
                       const Progress& progress) {
   PieceRules rules{field, progress, {}};
   rules.plane.resize(surface.groups.size());

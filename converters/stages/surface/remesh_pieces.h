@@ -21,7 +21,7 @@ struct RemeshState {
 };
 
 /// The rules of a surface: which of its groups are flat.
-PieceRules pieceRules(const CaseSurface& surface, const SheetField& field,
+PieceRules pieceRules(const CaseSurface& surface, const SeparatedField& field,
                       const Progress& progress);
 
 using TriangleList = std::vector<std::uint32_t>;

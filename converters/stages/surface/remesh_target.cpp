@@ -91,7 +91,7 @@ double edgeAt(const EdgeLength& edge, double radius) {
   return length;
 }
 
-std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& field) {
+std::vector<double> vesselRadii(const CaseSurface& surface, const SeparatedField& field) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
   std::vector<double> radius(surface.mesh.position.size());
@@ -101,7 +101,7 @@ std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& fi
   return radius;
 }
 
-std::vector<double> targetLengths(const CaseSurface& surface, const SheetField& field,
+std::vector<double> targetLengths(const CaseSurface& surface, const SeparatedField& field,
                                   const EdgeLength& edge) {
   std::vector<double> length = vesselRadii(surface, field);
   for (double& l : length) l = edgeAt(edge, l);

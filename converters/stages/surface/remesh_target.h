@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "converters/stages/surface/surface_options.h"
 #include "formats/case/case.h"
 
@@ -26,7 +26,7 @@ struct EdgeLength {
 double edgeAt(const EdgeLength& edge, double radius);
 
 /// The radius of the vessel at each vertex, mm: between nodes of a branch it is linear.
-std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& field);
+std::vector<double> vesselRadii(const CaseSurface& surface, const SeparatedField& field);
 
 /// Lowers lengths that exceed the one at another vertex by more than a quarter of the distance to
 /// it.
@@ -35,7 +35,7 @@ void gradeLengths(const TriangleMesh& mesh, std::vector<double>& length);
 /// The length of edges at each vertex, mm: that of `edge` for the radius there, at most an eighth
 /// of the circumference, and nowhere longer than at another vertex by more than a quarter of the
 /// distance to it, so that a thin branch's short edges grow gently into a wide one's.
-std::vector<double> targetLengths(const CaseSurface& surface, const SheetField& field,
+std::vector<double> targetLengths(const CaseSurface& surface, const SeparatedField& field,
                                   const EdgeLength& edge);
 
 // Estimates of the size of the surface of a case.

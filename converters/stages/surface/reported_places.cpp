@@ -14,9 +14,9 @@
 
 namespace lumen::convert {
 
-std::vector<Overlap> findOverlaps(const CaseSurface& surface, const SheetField& field) {
+std::vector<Overlap> findOverlaps(const CaseSurface& surface, const SeparatedField& field) {
   const std::size_t count = surface.mesh.position.size();
-  std::vector<SheetSample> samples(count);
+  std::vector<SeparatedSample> samples(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     if (field.mayTouch(surface.node[v]))
       samples[v] = field.at(surface.mesh.position[v], surface.node[v]);
@@ -78,8 +78,8 @@ std::string exactPlace(const formats::Vec3f& p) {
 
 }  // namespace
 
-std::vector<std::string> bareStretches(const CaseSurface& surface,
-                                       const formats::CenterlineTree& tree) {
+std::vector<std::string> stretchesWithoutWall(const CaseSurface& surface,
+                                              const formats::CenterlineTree& tree) {
   std::vector<bool> hasVertex(tree.nodeCount(), false);
   for (const std::uint32_t node : surface.node) hasVertex[node] = true;
   std::vector<std::string> sentences;

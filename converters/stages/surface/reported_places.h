@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -23,14 +23,14 @@ struct Overlap {
 
 /// The pairs of branches whose walls the surface keeps apart although the field's would overlap,
 /// the deepest first.
-std::vector<Overlap> findOverlaps(const CaseSurface& surface, const SheetField& field);
+std::vector<Overlap> findOverlaps(const CaseSurface& surface, const SeparatedField& field);
 
 // Stretches of vessels that a surface leaves out.
 
 /// A sentence for each stretch of a branch, longer than four radii, around which the surface has no
 /// wall: no vertex whose cursor is at one of its nodes, and none of any vessel within two radii of
 /// its middle. Places in mm, LPS. O(v + n) for v vertices and n nodes, and O(v) for each stretch.
-std::vector<std::string> bareStretches(const CaseSurface& surface,
-                                       const formats::CenterlineTree& tree);
+std::vector<std::string> stretchesWithoutWall(const CaseSurface& surface,
+                                              const formats::CenterlineTree& tree);
 
 }  // namespace lumen::convert

@@ -6,7 +6,7 @@
 
 namespace lumen::convert {
 
-SampledLattice::SampledLattice(const SheetField& field, double share, Progress& progress)
+SampledLattice::SampledLattice(const SeparatedField& field, double share, Progress& progress)
     : m_field(field), m_lattice(field, share, progress), m_vertices(m_lattice) {
   progress.check();
   m_distance.resize(size());
@@ -19,7 +19,7 @@ SampledLattice::SampledLattice(const SheetField& field, double share, Progress& 
       progress.advance(std::min(kBlock, size() - i));
     }
     const auto v = static_cast<std::uint32_t>(i);
-    const SheetSample sample = m_field.deepest(place(v), m_vertices.cubeOf(v).node);
+    const SeparatedSample sample = m_field.deepest(place(v), m_vertices.cubeOf(v).node);
     m_node[i] = sample.node;
     m_distance[i] = sample.distance;
     m_isInside[i] = sample.distance < 0 && !isOutermost(v);
@@ -65,7 +65,7 @@ bool SampledLattice::isOneLumen(std::uint32_t u, std::uint32_t v) const {
   return m_field.isReached(place(v), a, b) || m_field.isReached(place(u), b, a);
 }
 
-void SampledLattice::force(std::uint32_t vertex, const SheetSample& sample) {
+void SampledLattice::force(std::uint32_t vertex, const SeparatedSample& sample) {
   constexpr double kDepth = 1e-3;  // radii
   m_isInside[vertex] = m_isForced[vertex] = 1;
   m_node[vertex] = sample.node;

@@ -13,7 +13,7 @@
 #include "converters/stages/surface/adaptive_lattice.h"
 #include "converters/stages/surface/lattice_vertices.h"
 #include "converters/stages/surface/marching_tetrahedra.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 namespace lumen::convert {
 
@@ -24,7 +24,7 @@ public:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   using Tetrahedron = LatticeVertices::Tetrahedron;
 
-  SampledLattice(const SheetField& field, double share, Progress& progress);
+  SampledLattice(const SeparatedField& field, double share, Progress& progress);
 
   [[nodiscard]] std::size_t size() const { return m_vertices.size(); }
   [[nodiscard]] Eigen::Vector3d place(std::uint32_t vertex) const {
@@ -41,7 +41,7 @@ public:
   /// Puts a vertex inside or outside, whatever the field is there.
   void setInside(std::uint32_t vertex, bool isInside) { m_isInside[vertex] = isInside ? 1 : 0; }
   /// Makes a vertex inside, of a sheet; update() is due then.
-  void force(std::uint32_t vertex, const SheetSample& sample);
+  void force(std::uint32_t vertex, const SeparatedSample& sample);
   void update();
   /// The edges with both ends inside that are not joined.
   [[nodiscard]] const SplitEdges& split() const { return m_split; }
@@ -87,7 +87,7 @@ private:
   void findSplitEdges();
   [[nodiscard]] bool isOneLumen(std::uint32_t u, std::uint32_t v) const;
 
-  const SheetField& m_field;
+  const SeparatedField& m_field;
   AdaptiveLattice m_lattice;
   LatticeVertices m_vertices;
   std::vector<double> m_distance;

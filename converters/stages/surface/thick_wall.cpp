@@ -54,12 +54,12 @@ std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh) {
 
 OffsetField::OffsetField(const formats::Case& source, const field::BlendedField& field, double gap,
                          const CaseSurface& inner, const Length& thickness, Touching touching)
-    : SheetField(source, field,
-                 {.gap = gap,
-                  .offset = thickness.mm,
-                  .offsetShare = thickness.radii,
-                  .leastPath = kLeastPathWidths,
-                  .isUnion = touching == Touching::Share}),
+    : SeparatedField(source, field,
+                     {.gap = gap,
+                      .offset = thickness.mm,
+                      .offsetShare = thickness.radii,
+                      .leastPath = kLeastPathWidths,
+                      .isUnion = touching == Touching::Share}),
       m_inner(inner),
       m_tree(inner.mesh),
       m_normal(vertexNormals(inner.mesh)) {
@@ -146,8 +146,8 @@ OffsetField::Foot OffsetField::nearestFoot(const Eigen::Vector3d& point, double 
   return plain.distance < 0 ? plain : best;
 }
 
-SheetSample OffsetField::sampleFrom(const Eigen::Vector3d& point, const Foot& own) const {
-  SheetSample sample;
+SeparatedSample OffsetField::sampleFrom(const Eigen::Vector3d& point, const Foot& own) const {
+  SeparatedSample sample;
   sample.wall = own.distance - own.thickness;
   sample.distance = sample.wall;
   sample.gradient = own.gradient;
@@ -178,11 +178,11 @@ double OffsetField::fromLumen(const Eigen::Vector3d& point, std::uint32_t node) 
   return ownFoot(point, node).distance;
 }
 
-SheetSample OffsetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
+SeparatedSample OffsetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
   return sampleFrom(point, ownFoot(point, node));
 }
 
-SheetSample OffsetField::deepest(const Eigen::Vector3d& point, std::uint32_t /*node*/) const {
+SeparatedSample OffsetField::deepest(const Eigen::Vector3d& point, std::uint32_t /*node*/) const {
   return sampleFrom(point, nearestFoot(point, kAnywhere, [](std::uint32_t) { return true; }));
 }
 
@@ -291,7 +291,7 @@ CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer) {
   return solid;
 }
 
-void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SheetField& field,
+void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SeparatedField& field,
                const Progress& progress) {
   constexpr int kMostLifts = 10;
   constexpr double kLift = 0.1;  // thicknesses
@@ -308,9 +308,9 @@ void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SheetField& f
     if (moved.empty()) return;
     std::sort(moved.begin(), moved.end());
     moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
-    const SheetOptions& wall = field.options();
+    const SeparationOptions& wall = field.options();
     for (const std::uint32_t v : moved) {
-      const SheetSample sample = field.at(outer.mesh.position[v], outer.node[v]);
+      const SeparatedSample sample = field.at(outer.mesh.position[v], outer.node[v]);
       const double thickness = wall.offset + wall.offsetShare * field.radius(sample.node);
       outer.mesh.position[v] =
           roundedToFloats(outer.mesh.position[v] + kLift * thickness * sample.gradient);

@@ -8,7 +8,7 @@
 #include "converters/base/progress.h"
 #include "converters/geometry/triangle_tree.h"
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "converters/stages/surface/surface_options.h"
 
 namespace lumen::convert {
@@ -27,7 +27,7 @@ namespace lumen::convert {
 /// six times the width of both with their walls. Nearer ones have one wall: it fills the corner of
 /// a fork. With Touching::Share all vessels have one wall, whose surface is the zero of the least
 /// d - t.
-class OffsetField : public SheetField {
+class OffsetField : public SeparatedField {
 public:
   /// `inner` is a closed surface of the case, whose ends are cut; it must stay. Thicknesses in
   /// radii grow by no more than a quarter of the distance along the surface.
@@ -35,9 +35,9 @@ public:
               const CaseSurface& inner, const Length& thickness,
               Touching touching = Touching::Apart);
 
-  [[nodiscard]] SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const override;
-  [[nodiscard]] SheetSample deepest(const Eigen::Vector3d& point,
-                                    std::uint32_t node) const override;
+  [[nodiscard]] SeparatedSample at(const Eigen::Vector3d& point, std::uint32_t node) const override;
+  [[nodiscard]] SeparatedSample deepest(const Eigen::Vector3d& point,
+                                        std::uint32_t node) const override;
   [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
                                std::uint32_t to) const override;
   /// The distance of a point from the lumen's surface, mm, for a cursor at `node`; negative inside.
@@ -59,7 +59,7 @@ private:
   [[nodiscard]] Foot ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] Foot footOn(std::uint32_t triangle, const Eigen::Vector3d& at,
                             const Eigen::Vector3d& point) const;
-  [[nodiscard]] SheetSample sampleFrom(const Eigen::Vector3d& point, const Foot& own) const;
+  [[nodiscard]] SeparatedSample sampleFrom(const Eigen::Vector3d& point, const Foot& own) const;
 
   const CaseSurface& m_inner;
   TriangleTree m_tree;
@@ -80,7 +80,7 @@ CaseSurface thickWall(const CaseSurface& inner, const CaseSurface& outer);
 /// Moves vertices of `outer`, which follows `field`, outwards where its triangles pass through the
 /// lumen's, in steps of a tenth of the thickness, ten times at most; the rims of flat ends stay.
 /// Throws Error(Cancelled).
-void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SheetField& field,
+void liftOuter(const CaseSurface& inner, CaseSurface& outer, const SeparatedField& field,
                const Progress& progress);
 
 }  // namespace lumen::convert

@@ -78,7 +78,8 @@ std::vector<Eigen::Vector3d> sumNormals(const CaseSurface& surface) {
 
 }  // namespace
 
-SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, Progress& progress) {
+SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& field,
+                          Progress& progress) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
   const std::vector<Eigen::Vector3d> normal = sumNormals(surface);

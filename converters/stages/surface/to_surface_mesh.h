@@ -12,7 +12,7 @@
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "formats/case/case.h"
 #include "formats/case/topology.h"
 
@@ -34,7 +34,8 @@ VesselValues vesselAt(const formats::CenterlineTree& tree, const formats::Neighb
 /// `field` is of, and at each vertex the radius and the inlier rate of its place along the vessel.
 /// Normals are those of the field, outward; vertices within a flat end have the end's. Throws
 /// Error(Cancelled).
-SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, Progress& progress);
+SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& field,
+                          Progress& progress);
 
 // The motion of a case as bones of its surface, for programs that know linear blend skinning.
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// findTouchingNodes() of sheet_field.h.
+// findTouchingNodes() of separated_field.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {

@@ -86,7 +86,7 @@ std::vector<std::string> sentencesOf(const std::map<BranchPair, SharedWall>& fou
 
 }  // namespace
 
-WallThickness measureWall(const CaseSurface& solid, const SheetField& field,
+WallThickness measureWall(const CaseSurface& solid, const SeparatedField& field,
                           const Length& thickness, Progress& progress) {
   const TriangleMesh& mesh = solid.mesh;
   const std::vector<Ray> rays = raysOf(solid);
@@ -162,7 +162,7 @@ std::string sentenceOf(const ThinWall& wall, const formats::CenterlineTree& tree
 std::vector<std::string> thinWalls(const CaseSurface& outer, const OffsetField& field,
                                    Progress& progress) {
   const auto& position = outer.mesh.position;
-  std::vector<SheetSample> samples(position.size());
+  std::vector<SeparatedSample> samples(position.size());
   std::vector<double> thickness(position.size(), 0);
   progress.begin("wall thickness", position.size());
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {

@@ -11,7 +11,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "converters/stages/surface/surface_options.h"
 #include "converters/stages/surface/thick_wall.h"
 
@@ -31,7 +31,7 @@ struct WallThickness {
 };
 
 /// Measures a solid of thickWall(). Throws Error(Cancelled).
-WallThickness measureWall(const CaseSurface& solid, const SheetField& field,
+WallThickness measureWall(const CaseSurface& solid, const SeparatedField& field,
                           const Length& thickness, Progress& progress);
 
 // Walls between touching vessels that are thinner than asked for.

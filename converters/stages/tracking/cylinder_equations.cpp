@@ -24,7 +24,7 @@ constexpr double kTraceDamping = 1e-9;
 constexpr std::size_t kPass = 64;
 constexpr std::size_t kSumLanes = 4;
 
-// The same width in every clone, and so the same order of sums.
+// All clones have lanes of this width, so the order of sums is the same in each.
 using SumLanes [[gnu::vector_size(8 * kSumLanes)]] = double;
 
 /// A cylinder, in mm about the candidates' origin.
@@ -39,8 +39,8 @@ struct alignas(64) Pass {
   std::array<double, kPass> along, residual, weight;
 };
 
-/// Sums over candidates of the weight times what the name says: c and s are cosine and sine, w is the
-/// place along the axis, r the residual.
+/// Sums over candidates of the weight times the term in the name: c and s are cosine and sine, w is
+/// the place along the axis, r the residual.
 enum Sum : std::size_t {
   k1,
   kW,

@@ -27,8 +27,9 @@ constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall tha
 /// of the review of walls.
 constexpr std::uint64_t kSearchStream = std::uint64_t{1} << 33;
 
-/// Leaves the longest stretch that begins and ends with a cylinder and has the least share of them, `leastFitted`; the
-/// first of several. A course that follows a vessel and then something else is a vessel as far as cylinders bear it out.
+/// Keeps the longest stretch that begins and ends with a cylinder and has cylinders at a share of
+/// `leastFitted` of its nodes or more; the first of several. So a course that follows a vessel, and
+/// then something else, keeps the vessel alone.
 void keepSupported(std::vector<TrackedNode>& nodes, double leastFitted) {
   struct Stretch {
     std::size_t first = 0, end = 0;
@@ -51,8 +52,8 @@ void keepSupported(std::vector<TrackedNode>& nodes, double leastFitted) {
 /// The longest stretch of a vessel that no vessel before it holds.
 struct OutsideStretch {
   std::size_t first = 0, end = 0;
-  double length = 0;   ///< mm
-  double besides = 0;  ///< greatest radius of the vessels beside it, mm
+  double length = 0;           ///< mm
+  double neighbourRadius = 0;  ///< greatest radius of the vessels beside it, mm
 };
 
 OutsideStretch findOutside(std::span<const BranchLumen> before,
@@ -69,7 +70,7 @@ OutsideStretch findOutside(std::span<const BranchLumen> before,
     if (here.length > best.length) best = here;
     here.first = i + 1;
   }
-  best.besides = widest;
+  best.neighbourRadius = widest;
   return best;
 }
 
@@ -82,7 +83,7 @@ void dropInside(std::span<const BranchLumen> before, double voxel, double apart,
   std::vector<double> radii;
   for (std::size_t i = out.first; i < out.end; ++i) radii.push_back(branch.nodes[i].radius);
   const double own = radii.empty() ? 0 : upperMedian(radii);
-  if (out.length < std::max({out.besides, 2 * own, kShortestVoxels * voxel})) {
+  if (out.length < std::max({out.neighbourRadius, 2 * own, kShortestVoxels * voxel})) {
     branch.nodes.clear();
     branch.failure = "it is a bump on the wall of the vessel that it leaves";
     return;

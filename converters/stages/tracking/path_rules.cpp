@@ -55,7 +55,7 @@ NodeGuess predictNode(const TrackOptions& options, const TrackedNode& from, doub
   return {from.centre + steps * step * direction, direction, from.radius, true, kSlackSteps * step};
 }
 
-Vector3d courseDirection(std::span<const TrackedNode> nodes) {
+Vector3d trackDirection(std::span<const TrackedNode> nodes) {
   const TrackedNode& last = nodes.back();
   for (std::size_t i = nodes.size() - 1; i-- > kUnsettledNodes;) {
     const Vector3d chord = last.centre - nodes[i].centre;

@@ -31,9 +31,9 @@ RecentMeans recentMeans(std::span<const TrackedNode> nodes);
 NodeGuess predictNode(const TrackOptions& options, const TrackedNode& from, double steps,
                       const Eigen::Vector3d& direction);
 
-/// The course of a track (unit): between its last direction and the chord over its last radius
+/// The direction of a track (unit): between its last direction and the chord over its last radius
 /// and a half. On a thin vessel the two together err less than either alone.
-Eigen::Vector3d courseDirection(std::span<const TrackedNode> nodes);
+Eigen::Vector3d trackDirection(std::span<const TrackedNode> nodes);
 
 /// True for a poor fit that is suddenly wide: it lies around the vessel and another that touches
 /// it.

@@ -36,7 +36,7 @@ constexpr std::size_t kStrayedNodes = 12;
 PathStart pathStartAtTip(const TrackContext& context, std::span<const TrackedNode> nodes,
                          std::span<const WorldBall> others) {
   const TrackedNode& tip = nodes.back();
-  PathStart start{tip.centre, courseDirection(nodes), {}, {}, {}, kNearTipRadii * tip.radius};
+  PathStart start{tip.centre, trackDirection(nodes), {}, {}, {}, kNearTipRadii * tip.radius};
   start.others.assign(others.begin(), others.end());
   std::vector<WorldBall> own;
   addLumen(nodes, context.volume.geometry(), own);
@@ -130,7 +130,7 @@ bool extendOnce(TrackRun& run, TrackedBranch& branch, std::span<const WorldBall>
     PathsBeyond beyond = pathsBeyond(context, levels, start, distance);
     branch.goesOn = beyond.visible > kRoundEndRadii * tip.radius ? beyond.visible : 0;
     if (beyond.isAll) return false;
-    sortStraightestFirst(beyond.paths, courseDirection(nodes));
+    sortStraightestFirst(beyond.paths, trackDirection(nodes));
     if (appendAlongPath(run, nodes, beyond.paths)) return true;
   }
   return false;

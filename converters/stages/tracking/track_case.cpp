@@ -176,8 +176,8 @@ void dropOtherArrays(AddedTracks& out) {
   out.result.motion.reset();
 }
 
-/// A vessel beside others needs more evidence, as no skeleton of the whole lumen supports it.
-constexpr CourseRules kRulesBeside{0.5, true, 0.5};
+/// Stricter rules in the remaining lumen: its courses may follow the rim of a known vessel.
+constexpr CourseRules kRemainingLumenRules{0.5, true, 0.5};
 
 /// Adds balls from one place to another, half as far apart as nodes: the rim of each holds what lies
 /// between it and the next. `from` itself is left out unless it is `to`.
@@ -220,11 +220,12 @@ std::vector<WorldBall> ballsIn(const TrackedTree& tree, const VolumeGeometry& ge
   return balls;
 }
 
-/// Adds the vessels along the courses beside those of a tree to it.
-void addBeside(const TrackingVolume& volume, const GridFrame& frame, const CoursesBeside& beside,
-               const PlaceTest& isNoVessel, const WallShape& shape, TrackedTree& tree,
-               Progress& progress) {
-  std::vector<SeedBranch> courses = frame.toGrid(beside(ballsIn(tree, frame.geometry())));
+/// Adds the vessels along the courses in the lumen that a tree leaves to it.
+void addVesselsInRemainingLumen(const TrackingVolume& volume, const GridFrame& frame,
+                                const CoursesInRemainingLumen& remaining,
+                                const PlaceTest& isNoVessel, const WallShape& shape,
+                                TrackedTree& tree, Progress& progress) {
+  std::vector<SeedBranch> courses = frame.toGrid(remaining(ballsIn(tree, frame.geometry())));
   std::erase_if(courses, [](const SeedBranch& c) { return c.kind != BranchKind::Vessel; });
   if (courses.empty()) return;
   std::set<std::string> labels;
@@ -239,14 +240,14 @@ void addBeside(const TrackingVolume& volume, const GridFrame& frame, const Cours
       if (name) *name = "beside-" + *name;
     all.seeds.push_back(std::move(course));
   }
-  trackTree(volume, {SeedPoints::Courses, isNoVessel, shape, kRulesBeside}, all, progress);
+  trackTree(volume, {SeedPoints::Courses, isNoVessel, shape, kRemainingLumenRules}, all, progress);
   tree.seeds = std::move(all.seeds);
   tree.branches = std::move(all.branches);
 }
 
 TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
                     const TrackOptions& options, SeedPoints points, const PlaceTest& isNoVessel,
-                    Progress& progress, const CoursesBeside& beside = {}) {
+                    Progress& progress, const CoursesInRemainingLumen& remaining = {}) {
   const GridFrame frame(volume.geometry);
   const TrackingVolume tracking(volume, frame, seeds, options, progress);
   TrackedTree tree{frame.toGrid(seeds)};
@@ -257,7 +258,8 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   const WallShape shape =
       trackTree(tracking, {points, inGrid, tracking.wallShape()}, tree, progress);
   used.pointSpread = shape.pointSpread;
-  if (beside) addBeside(tracking, frame, beside, inGrid, shape, tree, progress);
+  if (remaining)
+    addVesselsInRemainingLumen(tracking, frame, remaining, inGrid, shape, tree, progress);
   fillBridges(tracking, {points, inGrid, shape}, tree, progress);
   for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
 
@@ -297,7 +299,7 @@ void requireValid(const formats::Case& result) {
 }
 
 /// Gives seeds names that no branch of a case has.
-void nameAnew(const formats::Case& known, std::vector<SeedBranch>& seeds) {
+void giveNewLabels(const formats::Case& known, std::vector<SeedBranch>& seeds) {
   std::set<std::string> used;
   for (const formats::Branch& branch : known.tree.branches) used.insert(branch.label);
   std::map<std::string, std::string> names;
@@ -321,8 +323,8 @@ TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& 
 
 TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
                               const PlaceTest& isNoVessel, const TrackOptions& options,
-                              Progress& progress, const CoursesBeside& beside) {
-  return newCase(volume, courses, options, SeedPoints::Courses, isNoVessel, progress, beside);
+                              Progress& progress, const CoursesInRemainingLumen& remaining) {
+  return newCase(volume, courses, options, SeedPoints::Courses, isNoVessel, progress, remaining);
 }
 
 AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
@@ -342,7 +344,7 @@ AddedTracks addTracksAlongCourses(const TrackingVolume& volume, const formats::C
                                   const PlaceTest& isNoVessel, Progress& progress) {
   TrackedTree tree = makeTrackedTree(known);
   std::vector<SeedBranch> stretches = stretchesOutside(courses, tree);
-  nameAnew(known, stretches);
+  giveNewLabels(known, stretches);
   tree.seeds.insert(tree.seeds.end(), stretches.begin(), stretches.end());
   AddedTracks out = intoCase(volume, known, tree, SeedPoints::Courses, isNoVessel, progress);
   const std::size_t found = out.result.tree.branches.size() - known.tree.branches.size();

@@ -31,16 +31,18 @@ struct TrackResult : TrackRemarks {
 TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
                            const TrackOptions& options, Progress& progress);
 
-/// The courses beside vessels: balls along these, in the frame of gridGeometry(), hold their lumen.
-using CoursesBeside = std::function<std::vector<SeedBranch>(std::span<const WorldBall>)>;
+/// The courses in the lumen that remains outside of vessels, given as balls along them in the frame
+/// of gridGeometry().
+using CoursesInRemainingLumen = std::function<std::vector<SeedBranch>(std::span<const WorldBall>)>;
 
 /// Fits vessels along courses: the points of each seed, with radii, lead along the whole vessel, from
 /// its parent's axis to its tip. Vessels whose walls the volume does not show are left out, as
 /// failures. No node is put where `isNoVessel`. Then vessels are fitted along the courses of
-/// `beside`, if there is one. The result does not depend on the number of threads. Throws as trackFromSeeds() does.
+/// `remaining`, if there is one. The result does not depend on the number of threads. Throws as
+/// trackFromSeeds() does.
 TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
                               const PlaceTest& isNoVessel, const TrackOptions& options,
-                              Progress& progress, const CoursesBeside& beside = {});
+                              Progress& progress, const CoursesInRemainingLumen& remaining = {});
 
 struct AddedTracks : TrackRemarks {
   /// The known nodes and branches, under their indices, and the new ones behind them. New nodes

@@ -132,7 +132,7 @@ Step trackOneStep(TrackRun& run, std::vector<TrackedNode>& nodes, std::size_t& l
   const TrackOptions& options = context.options;
   const std::size_t before = nodes.size();
   if (before >= static_cast<std::size_t>(options.maxNodes)) return {StopReason::StepLimit};
-  const NodeGuess guess = predictNode(options, nodes.back(), 1, courseDirection(nodes));
+  const NodeGuess guess = predictNode(options, nodes.back(), 1, trackDirection(nodes));
   if (!context.volume.geometry().containsWorld(guess.centre)) return {StopReason::LeftVolume};
   std::optional<TrackedNode> node = fitNode(run, guess, leastInlierRate(options)).node;
   if (node && isSwollen(options, nodes, *node)) node.reset();

@@ -59,7 +59,7 @@ constexpr const char* kTrackedAlready =
 /// A node with the opposite direction.
 TrackedNode reversed(TrackedNode node);
 
-/// True if the way from `node` to `next` leads ahead in the directions of both.
+/// True if the line from `node` to `next` leads ahead in the directions of both.
 bool isAhead(const TrackedNode& node, const TrackedNode& next);
 
 /// Whether to drop each node, so that each that is left lies ahead of the one before: cylinders may

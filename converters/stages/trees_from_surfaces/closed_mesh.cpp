@@ -112,21 +112,23 @@ void measure(MeshEnd& end, const TriangleMesh& mesh, const std::vector<std::uint
   end.radius = std::sqrt(area / std::numbers::pi);
 }
 
-/// Beside each side of each triangle, the triangle there.
-std::vector<std::array<std::uint32_t, 3>> besides(const TriangleMesh& mesh) {
+/// For each side of each triangle, the triangle across it; kNothing where there is none.
+std::vector<std::array<std::uint32_t, 3>> oppositeTriangles(const TriangleMesh& mesh) {
   const std::vector<std::uint32_t> opposite = oppositeSides(mesh.triangle);
-  std::vector<std::array<std::uint32_t, 3>> beside(mesh.triangle.size(),
+  std::vector<std::array<std::uint32_t, 3>> across(mesh.triangle.size(),
                                                    {kNothing, kNothing, kNothing});
   for (std::size_t side = 0; side < opposite.size(); ++side)
-    if (opposite[side] != kNoSide) beside[side / 3][side % 3] = opposite[side] / 3;
-  return beside;
+    if (opposite[side] != kNoSide) across[side / 3][side % 3] = opposite[side] / 3;
+  return across;
 }
 
 /// Finds the caps that a closed surface has.
 class FlatEnds {
 public:
   explicit FlatEnds(ClosedMesh& out)
-      : m_out(out), m_beside(besides(out.mesh)), m_isSeen(out.mesh.triangle.size(), false) {
+      : m_out(out),
+        m_opposite(oppositeTriangles(out.mesh)),
+        m_isSeen(out.mesh.triangle.size(), false) {
     for (const Triangle& t : out.mesh.triangle)
       m_normal.push_back(areaVector(out.mesh, t).normalized());
   }
@@ -182,7 +184,7 @@ private:
     m_region.assign(1, seed);
     visit[seed] = round;
     for (std::size_t k = 0; k < m_region.size(); ++k)
-      for (const std::uint32_t other : m_beside[m_region[k]])
+      for (const std::uint32_t other : m_opposite[m_region[k]])
         if (other != kNothing && visit[other] != round && m_out.end[other] == ClosedMesh::kWall &&
             m_normal[other].dot(normal) > least) {
           visit[other] = round;
@@ -224,7 +226,7 @@ private:
     std::size_t count = 0;
     Vector3d sum = Vector3d::Zero();
     for (std::size_t k = 0; k < open.size(); ++k)
-      for (const std::uint32_t other : m_beside[open[k]]) {
+      for (const std::uint32_t other : m_opposite[open[k]]) {
         if (other == kNothing || visit[other] == round) continue;
         visit[other] = round;
         const Triangle& corners = m_out.mesh.triangle[other];
@@ -250,7 +252,7 @@ private:
     m_region.assign(1, seed);
     m_isSeen[seed] = true;
     for (std::size_t k = 0; k < m_region.size(); ++k)
-      for (const std::uint32_t other : m_beside[m_region[k]])
+      for (const std::uint32_t other : m_opposite[m_region[k]])
         if (other != kNothing && !m_isSeen[other] && m_out.end[other] == ClosedMesh::kWall &&
             m_normal[other].dot(m_normal[seed]) > kFlat) {
           m_isSeen[other] = true;
@@ -265,7 +267,7 @@ private:
       const Triangle& corners = m_out.mesh.triangle[t];
       area += 0.5 * areaVector(m_out.mesh, corners).norm();
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t other = m_beside[t][i];
+        const std::uint32_t other = m_opposite[t][i];
         if (other == kNothing || m_normal[other].dot(m_normal[m_seed]) > kFlat) continue;
         const Vector3d side =
             m_out.mesh.position[corners[(i + 1) % 3]] - m_out.mesh.position[corners[i]];
@@ -279,7 +281,7 @@ private:
   }
 
   ClosedMesh& m_out;
-  std::vector<std::array<std::uint32_t, 3>> m_beside;
+  std::vector<std::array<std::uint32_t, 3>> m_opposite;
   std::vector<bool> m_isSeen;
   std::vector<Vector3d> m_normal;
   std::vector<std::uint32_t> m_region;

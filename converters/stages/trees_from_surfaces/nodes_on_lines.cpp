@@ -88,7 +88,7 @@ std::vector<Station> stationsOn(const VesselLine& line, const VesselLine* parent
     station.centre = even[i] + share * (even[i + 1] - even[i]);
     station.radius = widths[i] + share * (widths[i + 1] - widths[i]);
     const auto nearer = share < 0.5 ? i : i + 1;
-    station.direction = courseAt(even, nearer, station.radius);
+    station.direction = lineDirection(even, nearer, station.radius);
     station.height = 2 * spread.step * kSpacing * station.radius;
     out.push_back(station);
   }

@@ -89,7 +89,7 @@ TriangleMesh LumenGeometry::extractWall(const ClosedMesh& surface) {
   return wall;
 }
 
-Vector3d courseAt(std::span<const Vector3d> line, std::size_t i, double reach) {
+Vector3d lineDirection(std::span<const Vector3d> line, std::size_t i, double reach) {
   std::size_t a = i, b = i;
   while (a > 0 && (line[a] - line[i]).norm() < reach) --a;
   while (b + 1 < line.size() && (line[b] - line[i]).norm() < reach) ++b;
@@ -171,7 +171,7 @@ void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lum
       }
       const bool isEnd = i == 0 || (i == last && line.meets >= 0);
       if (isInParent[i] || (isEnd && (parent || i == last))) return;
-      const Vector3d axis = courseAt(point, i, kChord * depth);
+      const Vector3d axis = lineDirection(point, i, kChord * depth);
       const Vector3d toMiddle = sectionCentre(lumen, point[i], axis) - point[i];
       const double most = kMostMoveDepths * depth;
       moved[i] = point[i] + (toMiddle.norm() > most ? Vector3d(toMiddle * (most / toMiddle.norm()))

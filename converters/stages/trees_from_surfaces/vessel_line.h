@@ -70,7 +70,7 @@ Eigen::Vector3d placeAt(std::span<const Eigen::Vector3d> line, std::span<const d
 std::vector<double> widthsAlong(std::span<const Eigen::Vector3d> line, const LumenGeometry& lumen);
 
 /// The unit direction of a line at one of its points, over `reach` mm on either side.
-Eigen::Vector3d courseAt(std::span<const Eigen::Vector3d> line, std::size_t i, double reach);
+Eigen::Vector3d lineDirection(std::span<const Eigen::Vector3d> line, std::size_t i, double reach);
 
 /// Distance of a point from a line, mm, and the line's nearest point.
 std::pair<double, std::size_t> distanceTo(std::span<const Eigen::Vector3d> line,

@@ -60,7 +60,7 @@ static double contact_stiffness(const rod_def* def) {
   return 10 * bending_stiffness(def);
 }
 
-/* The same behind a wall that gives way. */
+/* Stiffness of a contact, with the wall's own where it gives way. */
 static double stiffness_at(const rod* r, size_t i) {
   return 1 / (1 / contact_stiffness(&r->def) + r->contact[i].yield);
 }

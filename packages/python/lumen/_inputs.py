@@ -173,7 +173,7 @@ class Staging:
             json.dump(seeds_document(value), file)
         return path
 
-    def without(self, message: str) -> str:
+    def without_folder(self, message: str) -> str:
         """A message without the folder: names of its files alone."""
         parts = message.split(self._folder.name + os.sep)
         return parts[0] + "".join(part.partition(os.sep)[2] for part in parts[1:])

@@ -56,10 +56,10 @@ def called(function, *arguments, staging=None, known=()):
 
 
 def _worded(error: Error, staging, known) -> Error:
-    message = in_python(staging.without(str(error)) if staging else str(error))
+    message = in_python(staging.without_folder(str(error)) if staging else str(error))
     file = error.file or next((name for name in known if str(error).startswith(name + ":")), None)
     if staging and file:
-        file = staging.without(file)
+        file = staging.without_folder(file)
     return Error(message, error.exit_code, file=file, place=error.place, code=error.code,
                  number=error.number, found=error.found and in_python(error.found),
                  expected=error.expected and in_python(error.expected))
@@ -85,9 +85,9 @@ def run_staged(staging: Staging, command: str, arguments, options, progress=None
         known=known)
     for detail in details:
         _LOG.debug("%s", detail)
-    answer = Answer(json.loads(staging.without(json_text)) if json_text else {})
-    answer.text, answer.code = staging.without(text), code
-    answer.warnings = [staging.without(warning) for warning in warnings]
+    answer = Answer(json.loads(staging.without_folder(json_text)) if json_text else {})
+    answer.text, answer.code = staging.without_folder(text), code
+    answer.warnings = [staging.without_folder(warning) for warning in warnings]
     warn(answer.warnings)
     return answer
 

@@ -84,11 +84,11 @@ py::tuple runCommand(const std::string& name, const std::vector<std::string>& ar
   engine::Answer answer;
   std::string text;
   const Messages messages = runWatched({report, threads, strict}, [&](Progress& progress) {
-    engine::Surroundings around{commands, progress};
-    around.threads = threads;
-    around.strict = strict;
-    around.answerEarly = [&text](const engine::Answer& early) { text += early.text; };
-    answer = commands.run({name, arguments, options}, around);
+    engine::RunContext context{commands, progress};
+    context.threads = threads;
+    context.strict = strict;
+    context.answerEarly = [&text](const engine::Answer& early) { text += early.text; };
+    answer = commands.run({name, arguments, options}, context);
   });
   using Json = engine::Json;
   py::object json = py::none();

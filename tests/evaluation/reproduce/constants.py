@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a change of each named constant by a fifth does to the trees that are found without a click.
+"""The effect of a change of each named constant by a fifth on the trees that are found without a click.
 
   constants.py SOURCE FOLDER [VOLUME [NAME ...]]
 
@@ -30,9 +30,8 @@ from pathlib import Path
 from forks import right_forks
 
 STAGES = "converters/stages/"
-PLACES = [STAGES + "finding/*", STAGES + "tracking/*", STAGES + "editing/smooth_axes.*", STAGES + "editing/untangle.*",
-          STAGES + "editing/overlapping_ends.*", STAGES + "editing/into_sides.*", STAGES + "editing/rungs.*", STAGES + "editing/across_voids.*",
-          STAGES + "editing/inlets.*", STAGES + "editing/node_graph.*", "converters/voxels/vessel_paths.*", "converters/voxels/skeleton.h"]
+PLACES = [STAGES + "finding/*", STAGES + "tracking/*", STAGES + "editing/smooth_axes.*", STAGES + "editing/correct_topology.*",
+          STAGES + "editing/joined_ends.*", STAGES + "editing/inlets.*", STAGES + "editing/node_graph.*", "converters/voxels/vessel_paths.*", "converters/voxels/skeleton.h"]
 LESS, MORE = 0.8, 1.25
 SEEDS = (2, 3, 4)  # of other drawings of a phantom, with every constant as it is: how much chance alone changes
 PHANTOMS = [(name, [name, "--size", 64]) for name in ("right-angle", "aneurysm", "kissing", "fading", "bifurcation", "companion")]
@@ -261,7 +260,7 @@ class Real:
 
 
 def change(record, whole, phantom):
-    """What a run differs in from the unchanged one: points of overlap lost, false mm more, right forks lost, branches, radius."""
+    """The differences of a run from the unchanged one: points of overlap lost, false mm more, right forks lost, branches, radius."""
     if record.get("failed"): return {"failed": True, "worse": 100.0}
     if record.get("same"): return {"worse": 0.0, "same": True}
     loss = {"overlap": whole["overlap"] - record["overlap"], "false": record["false"] - whole["false"], "forks": whole["right"] - record["right"],

@@ -40,17 +40,16 @@ constexpr std::array<Weights, 4> kWeights = {{{"E_d", 0, 0},
                                               {"E_d + beta E_kappa", 0, 1e-3},
                                               {"all terms", 1e-5, 1e-3}}};
 
-struct Situation {
+struct Scenario {
   const char* name;
   std::size_t shape;  ///< of shapes()
   double noise;       ///< mm
   double outliers;    ///< distance of six outliers from the axis, mm; 0: none
 };
-constexpr std::array<Situation, 4> kSituations = {
-    {{"aneurysm", 0, 0, 0},
-     {"aneurysm, noise", 0, kNoise, 0},
-     {"open vessel, outliers outside", 1, kNoise, 1.5},
-     {"open vessel, outliers inside", 1, kNoise, 0.5}}};
+constexpr std::array<Scenario, 4> kScenarios = {{{"aneurysm", 0, 0, 0},
+                                                 {"aneurysm, noise", 0, kNoise, 0},
+                                                 {"open vessel, outliers outside", 1, kNoise, 1.5},
+                                                 {"open vessel, outliers inside", 1, kNoise, 0.5}}};
 
 /// A sac of about 2 mm of radius on a vessel of 1 mm, and the open capsule.
 std::vector<ConvolutionShape> shapes() {
@@ -111,20 +110,20 @@ Table publishedTable() {
        {"open vessel, outliers inside", "E_d + E_n + E_c + E_a", 22.05, 4.69, 9.0}}};
 }
 
-Outcome runOnce(const ConvolutionShape& shape, const Situation& situation, const Weights& weights,
+Outcome runOnce(const ConvolutionShape& shape, const Scenario& scenario, const Weights& weights,
                 const std::vector<Vector3d>& clean, std::uint64_t stream) {
-  std::vector<Vector3d> points = withNoise(shape, clean, situation.noise, Random(5, stream));
+  std::vector<Vector3d> points = withNoise(shape, clean, scenario.noise, Random(5, stream));
   Random random(6, stream);
   std::vector<Vector3d> outliers;
-  for (int i = 0; situation.outliers > 0 && i < kOutliers; ++i) {
+  for (int i = 0; scenario.outliers > 0 && i < kOutliers; ++i) {
     const Vector3d side = Vector3d(0, random.normal(), random.normal()).normalized();
-    outliers.push_back(Vector3d(random.uniform(-3.5, -0.5), 0, 0) + situation.outliers * side);
+    outliers.push_back(Vector3d(random.uniform(-3.5, -0.5), 0, 0) + scenario.outliers * side);
   }
   points.insert(points.end(), outliers.begin(), outliers.end());
   convert::fitting::LocalModelOptions options;
   options.energy.cohesionWeight = weights.cohesion;
   options.energy.curvatureWeight = weights.curvature;
-  options.accuracy = std::max(0.01, 3 * situation.noise);
+  options.accuracy = std::max(0.01, 3 * scenario.noise);
   const formats::BlobbyModels model = fitShape(shape, points, options);
   std::vector<double> all = distances(shape, model, shape.model, random);
   const std::vector<double> back = distances(shape, shape.model, model, random);
@@ -157,19 +156,19 @@ void run(const std::filesystem::path& folder, Progress& progress) {
       {"points", "energy", "Hausdorff", "average", "blobs", "outliers followed, %"},
       {}};
   const std::vector<ConvolutionShape> all = shapes();
-  progress.begin("energy terms", kSituations.size() * kWeights.size() * kRuns);
-  for (const Situation& situation : kSituations) {
-    const ConvolutionShape& shape = all[situation.shape];
-    Random random(7, situation.shape);
+  progress.begin("energy terms", kScenarios.size() * kWeights.size() * kRuns);
+  for (const Scenario& scenario : kScenarios) {
+    const ConvolutionShape& shape = all[scenario.shape];
+    Random random(7, scenario.shape);
     const std::vector<Vector3d> clean = shape.samples(random);
     for (const Weights& weights : kWeights) {
       std::vector<Outcome> runs(kRuns);
       tbb::parallel_for(std::size_t{0}, kRuns, [&](std::size_t i) {
         progress.check();
-        runs[i] = runOnce(shape, situation, weights, clean, i);
+        runs[i] = runOnce(shape, scenario, weights, clean, i);
         progress.advance();
       });
-      table.rows.push_back({situation.name, weights.name,
+      table.rows.push_back({scenario.name, weights.name,
                             medianOf(runs, &Outcome::hausdorff) / kVoxel,
                             medianOf(runs, &Outcome::mean) / kVoxel,
                             medianOf(runs, &Outcome::blobs), meanOf(runs, &Outcome::followed)});

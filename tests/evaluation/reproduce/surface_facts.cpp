@@ -43,10 +43,10 @@ std::vector<std::uint32_t> indices(const VtkArray* array, std::size_t count, dou
 }
 
 // The distance of a point from the field's surface, mm, for a cursor that begins at `node`.
-double distanceToField(const convert::SheetField& field, const Eigen::Vector3d& point,
+double distanceToField(const convert::SeparatedField& field, const Eigen::Vector3d& point,
                        std::uint32_t node) {
   constexpr double kStraight = 0.02;  // of the radius: so near to the wall, one evaluation tells
-  const convert::SheetSample sample = field.at(point, node);
+  const convert::SeparatedSample sample = field.at(point, node);
   if (std::abs(sample.distance) > kStraight * field.radius(sample.node))
     if (const auto foot = field.project(point, node)) return (foot->position - point).norm();
   return std::abs(sample.distance);
@@ -55,7 +55,7 @@ double distanceToField(const convert::SheetField& field, const Eigen::Vector3d& 
 /// Where the nodes of a branch lie.
 class Branches {
 public:
-  explicit Branches(const convert::SheetField& field)
+  explicit Branches(const convert::SeparatedField& field)
       : m_field(field), m_tree(field.source().tree) {}
 
   /// The nodes of the branch that have less power at the point than those beside them: one for each leg that is near.
@@ -83,7 +83,7 @@ public:
                                       const std::vector<std::uint32_t>& cursors) const {
     Farthest best{std::numeric_limits<double>::infinity(), point, 0};
     for (const std::uint32_t cursor : cursors) {
-      const convert::SheetSample at = m_field.at(point, cursor);
+      const convert::SeparatedSample at = m_field.at(point, cursor);
       const double share = distanceToField(m_field, point, cursor) / m_field.radius(at.node);
       if (share < best.radii) best = {share, point, at.node};
     }
@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  const convert::SheetField& m_field;
+  const convert::SeparatedField& m_field;
   const formats::CenterlineTree& m_tree;
 };
 
@@ -100,7 +100,7 @@ void keepFarther(Farthest& most, const Farthest& other) {
 }
 
 // Where the ray leaves the lumen of the node's sheet; nothing within three radii.
-std::optional<Eigen::Vector3d> wallAlong(const convert::SheetField& field, std::uint32_t node,
+std::optional<Eigen::Vector3d> wallAlong(const convert::SeparatedField& field, std::uint32_t node,
                                          const Eigen::Vector3d& from,
                                          const Eigen::Vector3d& outwards) {
   if (field.at(from, node).distance >= 0) return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<Eigen::Vector3d> wallAlong(const convert::SheetField& field, std::
                                                                            : std::nullopt;
 }
 
-void measureField(const convert::SheetField& field, const WrittenSurface& surface,
+void measureField(const convert::SeparatedField& field, const WrittenSurface& surface,
                   FieldFacts& facts) {
   const formats::CenterlineTree& tree = field.source().tree;
   const convert::TriangleTree boxes(surface.mesh);
@@ -190,7 +190,7 @@ std::vector<std::ptrdiff_t> eulerOfTrees(const formats::Case& source) {
   return result;
 }
 
-FieldFacts distanceFrom(const convert::SheetField& field, const WrittenSurface& surface) {
+FieldFacts distanceFrom(const convert::SeparatedField& field, const WrittenSurface& surface) {
   const Branches branches(field);
   const convert::TriangleMesh& mesh = surface.mesh;
   std::vector<std::uint8_t> isWall(mesh.position.size(), 0), isEnd(mesh.position.size(), 0);

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "converters/geometry/mesh_measures.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "formats/case/case.h"
 
 namespace lumen::reproduce {
@@ -61,7 +61,7 @@ struct FieldFacts {
 
 /// A vertex may lie on any sheet of its branch, and a triangle on any of its vertices'. Rays go twelve ways across the
 /// vessel from every node that no end is near.
-FieldFacts distanceFrom(const convert::SheetField& field, const WrittenSurface& surface);
+FieldFacts distanceFrom(const convert::SeparatedField& field, const WrittenSurface& surface);
 
 struct EndFacts {
   std::size_t groups = 0;  ///< of faces besides the wall

@@ -26,7 +26,7 @@ Json placeOf(const reproduce::Farthest& at, const formats::Case& source) {
 Json factsOf(const formats::Case& source, const std::string& file, double gap) {
   const reproduce::WrittenSurface surface = reproduce::readSurface(file);
   const field::BlendedField blended = formats::caseField(source);
-  const convert::SheetField field(source, blended, {gap, 0, 0});
+  const convert::SeparatedField field(source, blended, {gap, 0, 0});
   const reproduce::ShapeFacts shape = reproduce::measureShape(surface.mesh);
   const reproduce::FieldFacts off = reproduce::distanceFrom(field, surface);
   const reproduce::EndFacts ends = reproduce::measureEnds(source, surface);

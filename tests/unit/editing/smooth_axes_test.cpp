@@ -7,7 +7,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
-#include "converters/stages/editing/untangle.h"
+#include "converters/stages/editing/correct_topology.h"
 #include "unit/formats/beads.h"
 
 namespace lumen::convert {
@@ -27,8 +27,8 @@ Case trunk() {
   return value;
 }
 
-void bridgeNodes(Draft& draft, std::uint32_t first, std::uint32_t end) {
-  for (std::uint32_t n = first; n < end; ++n) draft.nodes[n].origin = NodeOrigin::Bridged;
+void bridgeNodes(EditableCase& edited, std::uint32_t first, std::uint32_t end) {
+  for (std::uint32_t n = first; n < end; ++n) edited.nodes[n].origin = NodeOrigin::Bridged;
 }
 
 TEST(AxisCurve, FollowsAnArcAndKeepsToALine) {
@@ -53,32 +53,32 @@ TEST(AxisCurve, TurnsAreThoseAtBothEnds) {
 
 TEST(SmoothAxes, BridgedNodesLieBetweenTheMeasuredOnes) {
   const Case value = trunk();
-  Draft draft(value);
-  bridgeNodes(draft, 10, 13);
+  EditableCase edited(value);
+  bridgeNodes(edited, 10, 13);
   for (std::uint32_t n = 10; n < 13; ++n) {
-    draft.nodes[n].centre.y = 0.7F;
-    draft.nodes[n].radius = 0.6F;
+    edited.nodes[n].centre.y = 0.7F;
+    edited.nodes[n].radius = 0.6F;
   }
-  smoothAxes(draft);
+  smoothAxes(edited);
   for (std::uint32_t n = 10; n < 13; ++n) {
-    EXPECT_NEAR(draft.nodes[n].centre.y, 0, 1e-6);
-    EXPECT_NEAR(draft.nodes[n].centre.x, 0.5 * n, 0.1);
-    EXPECT_EQ(draft.nodes[n].radius, 1);
+    EXPECT_NEAR(edited.nodes[n].centre.y, 0, 1e-6);
+    EXPECT_NEAR(edited.nodes[n].centre.x, 0.5 * n, 0.1);
+    EXPECT_EQ(edited.nodes[n].radius, 1);
   }
 }
 
 TEST(SmoothAxes, MeasuredNodesAndFarBridgesStay) {
   const Case value = trunk();
-  Draft draft(value);
-  draft.nodes[20].centre.y = 0.7F;
-  bridgeNodes(draft, 10, 13);
-  draft.nodes[11].centre.y = 1.5F;
-  bridgeNodes(draft, 38, 41);  // no measured node follows
-  draft.nodes[39].centre.y = 0.7F;
-  smoothAxes(draft);
-  EXPECT_EQ(draft.nodes[20].centre.y, 0.7F);
-  EXPECT_EQ(draft.nodes[11].centre.y, 1.5F) << "farther than a radius from the curve";
-  EXPECT_EQ(draft.nodes[39].centre.y, 0.7F);
+  EditableCase edited(value);
+  edited.nodes[20].centre.y = 0.7F;
+  bridgeNodes(edited, 10, 13);
+  edited.nodes[11].centre.y = 1.5F;
+  bridgeNodes(edited, 38, 41);  // no measured node follows
+  edited.nodes[39].centre.y = 0.7F;
+  smoothAxes(edited);
+  EXPECT_EQ(edited.nodes[20].centre.y, 0.7F);
+  EXPECT_EQ(edited.nodes[11].centre.y, 1.5F) << "farther than a radius from the curve";
+  EXPECT_EQ(edited.nodes[39].centre.y, 0.7F);
 }
 
 /// A branch of radius 0.8 that leaves the trunk at 10 at an angle to x; its first node is 1.5 mm
@@ -97,17 +97,17 @@ Case forkOf(double degrees) {
 
 TEST(SmoothAxes, AnAcuteBranchLeavesBeforeTheNearestPlace) {
   const Case value = forkOf(45);
-  Draft draft(value);
-  ASSERT_EQ(draft.branches[1].parent, 23U);
-  smoothAxes(draft);
-  EXPECT_EQ(draft.branches[1].parent, 20U);
+  EditableCase edited(value);
+  ASSERT_EQ(edited.branches[1].parent, 23U);
+  smoothAxes(edited);
+  EXPECT_EQ(edited.branches[1].parent, 20U);
 }
 
 TEST(SmoothAxes, ABranchAtARightAngleLeavesAtTheNearestPlace) {
   const Case value = forkOf(90);
-  Draft draft(value);
-  smoothAxes(draft);
-  EXPECT_EQ(draft.branches[1].parent, 20U);
+  EditableCase edited(value);
+  smoothAxes(edited);
+  EXPECT_EQ(edited.branches[1].parent, 20U);
 }
 
 TEST(SmoothAxes, BridgedNodesOfABranchLeadFromItsParentsCore) {
@@ -116,14 +116,14 @@ TEST(SmoothAxes, BridgedNodesOfABranchLeadFromItsParentsCore) {
   for (int i = 0; i < 15; ++i) places.push_back({10.3F, 0.2F + 0.4F * static_cast<float>(i), 0.2F});
   for (std::size_t i = 3; i < places.size(); ++i) places[i].x = 10, places[i].z = 0;
   addBeads(value, "branch", places, 0.8F, 20);
-  Draft draft(value);
-  bridgeNodes(draft, 41, 45);
-  smoothAxes(draft);
-  ASSERT_EQ(draft.branches[1].nodes.size(), 14U) << "the first lies in the core";
-  EXPECT_EQ(draft.branches[1].nodes[0], 42U);
+  EditableCase edited(value);
+  bridgeNodes(edited, 41, 45);
+  smoothAxes(edited);
+  ASSERT_EQ(edited.branches[1].nodes.size(), 14U) << "the first lies in the core";
+  EXPECT_EQ(edited.branches[1].nodes[0], 42U);
   for (std::uint32_t n = 42; n < 45; ++n) {
-    EXPECT_NEAR(draft.nodes[n].centre.x, 10, 0.1);
-    EXPECT_NEAR(draft.nodes[n].centre.z, 0, 0.1);
+    EXPECT_NEAR(edited.nodes[n].centre.x, 10, 0.1);
+    EXPECT_NEAR(edited.nodes[n].centre.z, 0, 0.1);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/stages/editing/untangle.h"
+#include "converters/stages/editing/correct_topology.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "unit/formats/beads.h"
@@ -18,8 +18,8 @@ using formats::Case;
 using formats::Vec3f;
 using formats::test::addBeads;
 
-const Surrounding kLumen{[](const Vector3d&) { return true; },
-                         [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 30; }};
+const LumenInVolume kLumen{[](const Vector3d&) { return true; },
+                           [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 30; }};
 
 /// Places half a millimetre apart from one point to another.
 std::vector<Vec3f> between(const Vector3d& from, const Vector3d& to) {
@@ -59,7 +59,7 @@ Case overlapping(double beside) {
 
 TEST(TouchingVessels, TracksThatEnteredOneStretchFromBothSidesAreOneVessel) {
   Case value = overlapping(0.2);
-  EXPECT_EQ(untangle(value, kLumen).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kLumen).size(), 1U);
   finish(value);
   ASSERT_EQ(value.tree.branches.size(), 1U);
   const float way = value.tree.centre.back().x - value.tree.centre.front().x;
@@ -75,7 +75,7 @@ TEST(TouchingVessels, TheStretchWithMoreMeasuredNodesStays) {
     for (std::size_t n = 0; n < 9; ++n)
       origins[isFirst ? value.tree.nodeCount() - 1 - n : 24 - n] = formats::NodeOrigin::Bridged;
     formats::setNodeOrigins(value, origins);
-    untangle(value, kLumen);
+    correctTopology(value, kLumen);
     for (const Vec3f& p : value.tree.centre) {
       const float kept = isFirst ? 0 : 0.2F;
       const bool isInMiddle = std::abs(p.x) < 1.1F;
@@ -86,20 +86,20 @@ TEST(TouchingVessels, TheStretchWithMoreMeasuredNodesStays) {
 
 TEST(TouchingVessels, TracksBesideOneAnotherStayApart) {
   Case value = overlapping(1.8);
-  EXPECT_TRUE(untangle(value, kLumen).empty());
+  EXPECT_TRUE(correctTopology(value, kLumen).empty());
   EXPECT_EQ(value.tree.branches.size(), 2U);
 }
 
 TEST(TouchingVessels, TipsOfOtherWidthOrDirectionInOnePlaceStayApart) {
   Case wide = overlapping(0.2);
   for (std::size_t n = 25; n < wide.tree.nodeCount(); ++n) wide.tree.radius[n] = 1.6F;
-  untangle(wide, kLumen);
+  correctTopology(wide, kLumen);
   EXPECT_EQ(wide.tree.branches.size(), 2U);  // not one vessel
   Case across = formats::test::noBeads();
   addBeads(across, "a", between({-10, 0, 0}, {2, 0, 0}), 1);
   addBeads(across, "b", between({1.7, 12, 0}, {1.7, -0.3, 0}), 0.9F);
   finish(across);
-  EXPECT_TRUE(untangle(across, kLumen).empty());
+  EXPECT_TRUE(correctTopology(across, kLumen).empty());
 }
 
 TEST(TouchingVessels, AStretchThatABranchLeavesStays) {
@@ -108,7 +108,7 @@ TEST(TouchingVessels, AStretchThatABranchLeavesStays) {
   addBeads(value, "branch", between({-0.5, 1.2, 0}, {-4, 9, 0}), 0.5F, 19);
   addBeads(value, "b", between({10, 0.2, 0}, {-2, 0.2, 0}), 0.9F);
   finish(value);
-  untangle(value, kLumen);
+  correctTopology(value, kLumen);
   finish(value);
   const auto& nodes = value.tree.centre;
   EXPECT_NE(std::find(nodes.begin(), nodes.end(), Vec3f{-0.5F, 0, 0}), nodes.end());
@@ -121,7 +121,7 @@ TEST(TouchingVessels, ATipWithAnAneurysmStays) {
   value.tree.branches[1].kind = formats::BranchKind::Aneurysm;
   addBeads(value, "b", between({10, 0.2, 0}, {-2, 0.2, 0}), 0.9F);
   finish(value);
-  untangle(value, kLumen);
+  correctTopology(value, kLumen);
   finish(value);
   const auto sac = std::find_if(
       value.tree.branches.begin(), value.tree.branches.end(),
@@ -151,21 +151,21 @@ Case bentBesideStraight(double distance) {
 }
 
 TEST(TouchingVessels, AVesselThatABentOneHidesIsOneOfItsOwn) {
-  const Surrounding bend{[](const Vector3d& p) { return std::abs(p.x()) > 1.5 || p.y() > -0.3; },
-                         kLumen.isInside};
+  const LumenInVolume bend{[](const Vector3d& p) { return std::abs(p.x()) > 1.5 || p.y() > -0.3; },
+                           kLumen.isInside};
   Case value = bentBesideStraight(0.9);
-  EXPECT_EQ(untangle(value, bend).size(), 1U);
+  EXPECT_EQ(correctTopology(value, bend).size(), 1U);
   finish(value);
   EXPECT_EQ(value.tree.branches.size(), 2U);
   Case apart = bentBesideStraight(2.6);
-  EXPECT_TRUE(untangle(apart, bend).empty());
-  const Surrounding walled{[](const Vector3d& p) { return p.y() > -0.1 || p.y() < -0.5; },
-                           kLumen.isInside};
+  EXPECT_TRUE(correctTopology(apart, bend).empty());
+  const LumenInVolume walled{[](const Vector3d& p) { return p.y() > -0.1 || p.y() < -0.5; },
+                             kLumen.isInside};
   Case behind = bentBesideStraight(0.9);  // a wall lies between both ends and the bent one
-  EXPECT_TRUE(
-      untangle(behind, {[&](const Vector3d& p) { return bend.isLumen(p) && walled.isLumen(p); },
-                        kLumen.isInside})
-          .empty());
+  EXPECT_TRUE(correctTopology(
+                  behind, {[&](const Vector3d& p) { return bend.isLumen(p) && walled.isLumen(p); },
+                           kLumen.isInside})
+                  .empty());
 }
 
 /// A trunk along x, and a vessel that leaves it, goes round and comes back to 2.5 mm before its axis.
@@ -182,7 +182,7 @@ Case comingBack(double end) {
 
 TEST(TouchingVessels, AVesselThatEndsJustBeforeAnothersSideIsLinkedToIt) {
   Case value = comingBack(2.5);
-  EXPECT_EQ(untangle(value, kLumen).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kLumen).size(), 1U);
   finish(value);
   ASSERT_EQ(value.tree.links.size(), 1U);
   const auto [a, b] = value.tree.links[0];
@@ -192,10 +192,10 @@ TEST(TouchingVessels, AVesselThatEndsJustBeforeAnothersSideIsLinkedToIt) {
 
 TEST(TouchingVessels, AVesselThatEndsFarFromAnotherOrBehindAWallIsNot) {
   Case far = comingBack(5);
-  EXPECT_TRUE(untangle(far, kLumen).empty());
+  EXPECT_TRUE(correctTopology(far, kLumen).empty());
   Case walled = comingBack(2.5);
-  EXPECT_TRUE(untangle(walled, {[](const Vector3d& p) { return p.y() < 1.2 || p.y() > 1.8; },
-                                kLumen.isInside})
+  EXPECT_TRUE(correctTopology(walled, {[](const Vector3d& p) { return p.y() < 1.2 || p.y() > 1.8; },
+                                       kLumen.isInside})
                   .empty());
 }
 
@@ -207,7 +207,7 @@ TEST(TouchingVessels, AnEndIsNotLinkedToTheForkThatItHangsOn) {
   for (const Vec3f& p : between({-0.5, 3.5, 0}, {-0.5, 2, 0})) hook.push_back(p);
   addBeads(value, "hook", hook, 0.6F, 32);
   finish(value);
-  EXPECT_TRUE(untangle(value, kLumen).empty());
+  EXPECT_TRUE(correctTopology(value, kLumen).empty());
 }
 
 TEST(TouchingVessels, ALooseVesselThatEndsJustBeforeAnothersSideIsItsBranch) {
@@ -215,7 +215,7 @@ TEST(TouchingVessels, ALooseVesselThatEndsJustBeforeAnothersSideIsItsBranch) {
   addBeads(value, "trunk", between({-20, 0, 0}, {20, 0, 0}), 1.2F);
   addBeads(value, "loose", between({3, 2.5, 0}, {3, 15, 0}), 0.7F);
   finish(value);
-  EXPECT_EQ(untangle(value, kLumen).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kLumen).size(), 1U);
   finish(value);
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_GE(value.tree.branches[1].parentNode, 0);
@@ -223,8 +223,8 @@ TEST(TouchingVessels, ALooseVesselThatEndsJustBeforeAnothersSideIsItsBranch) {
 }
 
 /// A vessel along x, and a second one that leaves it far behind, turns back to pass at a distance,
-/// and turns once more there. A skeleton gets from the first into the second there, too, by a rung,
-/// from where it leads on and back, to a place that the second one's track has reached.
+/// and turns once more there. A false connection leads a skeleton from the first into the second
+/// there, too, and on and back to a place that the second one's track has reached.
 Case ladder(double distance) {
   Case value = formats::test::noBeads();
   addBeads(value, "first", between({-25, 0, 0}, {25, 0, 0}), 1);
@@ -241,7 +241,7 @@ Case ladder(double distance) {
 
 TEST(TouchingVessels, ALoopIsCutWhereVesselsTouch) {
   Case value = ladder(1.9);
-  EXPECT_EQ(untangle(value, kLumen).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kLumen).size(), 1U);
   finish(value);
   EXPECT_TRUE(value.tree.links.empty());
   ASSERT_EQ(value.tree.branches.size(), 2U);
@@ -254,7 +254,7 @@ TEST(TouchingVessels, NoLoopIsCutWhereAnAneurysmHangs) {
   addBeads(value, "sac", between({0, -1.5, 0}, {0, -3, 0}), 1.2F, 50);
   value.tree.branches.back().kind = formats::BranchKind::Aneurysm;
   finish(value);
-  untangle(value, kLumen);
+  correctTopology(value, kLumen);
   finish(value);
   EXPECT_EQ(value.tree.links.size(), 1U);
   EXPECT_GE(value.tree.branches.back().parentNode, 0);
@@ -262,7 +262,7 @@ TEST(TouchingVessels, NoLoopIsCutWhereAnAneurysmHangs) {
 
 TEST(TouchingVessels, AVesselThatConnectsTwoOthersIsKept) {
   Case value = ladder(4);
-  EXPECT_EQ(untangle(value, kLumen).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kLumen).size(), 1U);
   finish(value);
   EXPECT_EQ(value.tree.links.size(), 1U);
   EXPECT_EQ(value.tree.branches.size(), 4U);

@@ -36,9 +36,9 @@ public:
     table.argument("HTML", &m_page, "");
     table.add("title", &m_title, "TEXT", "");
   }
-  Answer run(const Surroundings& around) override {
-    m_notes.settings = around;
-    around.progress.warn("a vessel ends");
+  Answer run(const RunContext& context) override {
+    m_notes.settings = context;
+    context.progress.warn("a vessel ends");
     std::ofstream(m_page) << m_title;
     return {Json{{"page", m_page}}, "", 0};
   }
@@ -70,18 +70,18 @@ protected:
   Notes m_notes;
   Engine m_engine;
   Progress m_progress;
-  Surroundings m_around{m_engine, m_progress};
+  RunContext m_context{m_engine, m_progress};
 };
 
 TEST_F(OperationTest, APageWithinACommandIsMadeWithItsSettings) {
   std::string answered;
-  m_around.threads = 3;
-  m_around.strict = true;
-  m_around.program = "/bin/false";
-  m_around.answerEarly = [&](const Answer& answer) { answered = answer.text; };
+  m_context.threads = 3;
+  m_context.strict = true;
+  m_context.program = "/bin/false";
+  m_context.answerEarly = [&](const Answer& answer) { answered = answer.text; };
   convert::IncomingCase incoming(m_folder / "library");
   incoming.record.id = "a";
-  addReportPage(m_case, incoming, m_around);
+  addReportPage(m_case, incoming, m_context);
   ASSERT_TRUE(m_notes.settings);
   EXPECT_EQ(m_notes.settings->threads, 3);
   EXPECT_TRUE(m_notes.settings->strict);
@@ -91,8 +91,8 @@ TEST_F(OperationTest, APageWithinACommandIsMadeWithItsSettings) {
 }
 
 TEST_F(OperationTest, WithoutAProgramItRunsInThisProcess) {
-  m_around.threads = 1;
-  const OperationEnd end = runApart(report().with("title", "A"), m_around, m_log);
+  m_context.threads = 1;
+  const OperationEnd end = runApart(report().with("title", "A"), m_context, m_log);
   EXPECT_TRUE(end.isDone) << end.error;
   EXPECT_EQ(end.warnings, 1U);
   EXPECT_EQ(Json::parse(end.answer)["page"], (m_folder / "page.html").string());
@@ -100,7 +100,7 @@ TEST_F(OperationTest, WithoutAProgramItRunsInThisProcess) {
 }
 
 TEST_F(OperationTest, AFailureInThisProcessIsItsEnd) {
-  const OperationEnd end = runApart(report().with("colour", "red"), m_around, m_log);
+  const OperationEnd end = runApart(report().with("colour", "red"), m_context, m_log);
   EXPECT_FALSE(end.isDone);
   EXPECT_EQ(end.code, 2);
   EXPECT_NE(end.error.find("colour"), std::string::npos) << end.error;
@@ -108,14 +108,14 @@ TEST_F(OperationTest, AFailureInThisProcessIsItsEnd) {
 }
 
 TEST_F(OperationTest, AWarningInThisProcessIsAnErrorIfStrict) {
-  m_around.strict = true;
-  EXPECT_EQ(runApart(report(), m_around, m_log).code, 3);
+  m_context.strict = true;
+  EXPECT_EQ(runApart(report(), m_context, m_log).code, 3);
 }
 
 TEST_F(OperationTest, ItStopsInThisProcessWithTheCommandAroundIt) {
   m_progress.cancel();
   try {
-    (void)runApart(report(), m_around, m_log);
+    (void)runApart(report(), m_context, m_log);
     FAIL() << "it went on";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::Cancelled);
@@ -129,7 +129,7 @@ TEST_F(OperationTest, TheFileOfAnOperationLeavesItsEndBesideIt) {
                              R"("], "options": [["title", ["A"]]], "threads": 2, "strict": true})";
   EXPECT_EQ(operationSettings(file).threads, 2);
   EXPECT_TRUE(operationSettings(file).strict);
-  EXPECT_EQ(runOperationFile(file, m_around), 0);
+  EXPECT_EQ(runOperationFile(file, m_context), 0);
   std::ifstream left(file.string() + ".end");
   EXPECT_EQ(Json::parse(left)["warnings"], 1);
 }
@@ -138,7 +138,7 @@ TEST_F(OperationTest, AnOptionWithoutValuesInTheFileOfAnOperationIsRefused) {
   const fs::path file = m_folder / "b.json";
   std::ofstream(file) << R"({"name": "report", "arguments": [], "options": [["title"]]})";
   try {
-    (void)runOperationFile(file, m_around);
+    (void)runOperationFile(file, m_context);
     FAIL() << "it was taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);

@@ -280,26 +280,26 @@ std::vector<WorldBall> ballsAlong(double x, double radius) {
   return balls;
 }
 
-TEST(CoursesBeside, FollowTheVesselThatTouchesAKnownOne) {
+TEST(CoursesInRemainingLumen, FollowTheVesselThatTouchesAKnownOne) {
   Progress silent;
   const FoundVessels found = touching(6);
-  const auto courses = coursesBeside(found, ballsAlong(15, 6), silent);
+  const auto courses = coursesInRemainingLumen(found, ballsAlong(15, 6), silent);
   ASSERT_EQ(courses.size(), 1U);
   for (const double z : {10.0, 30.0, 50.0})
     EXPECT_LT(distanceFrom(courses[0], found.geometry.worldFromIndex({25, 20, z})), 1.5) << z;
 }
 
-TEST(CoursesBeside, AreNoneWhereVesselsHoldTheLumen) {
+TEST(CoursesInRemainingLumen, AreNoneWhereVesselsHoldTheLumen) {
   Progress silent;
   std::vector<WorldBall> balls = ballsAlong(15, 5.5);  // half a voxel of rim is a vessel's own
   const std::vector<WorldBall> second = ballsAlong(25, 3.5);
   balls.insert(balls.end(), second.begin(), second.end());
-  EXPECT_TRUE(coursesBeside(touching(6), balls, silent).empty());
+  EXPECT_TRUE(coursesInRemainingLumen(touching(6), balls, silent).empty());
 }
 
-TEST(CoursesBeside, AStretchOfLessThanTenVoxelsIsNone) {
+TEST(CoursesInRemainingLumen, AStretchOfLessThanTenVoxelsIsNone) {
   Progress silent;
-  EXPECT_TRUE(coursesBeside(touching(53.5), ballsAlong(15, 6), silent).empty());
+  EXPECT_TRUE(coursesInRemainingLumen(touching(53.5), ballsAlong(15, 6), silent).empty());
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include "converters/base/vectors.h"
 #include "converters/judge/compare/compare.h"
+#include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
-#include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/tracking/track_case.h"
@@ -119,12 +119,13 @@ TEST(TrackCourses, TheLumenThatKnownVesselsLeaveIsTrackedToo) {
   SeedBranch host;
   host.label = "host";
   for (int i = 0; i <= 60; ++i) host.points.push_back({{7, 8, 0.8 + i * 0.29}, 1.6});
-  const auto tracked = [&](const CoursesBeside& beside) {
-    return trackAlongCourses(volume, {host}, {}, {}, silent, beside).result.tree;
+  const auto tracked = [&](const CoursesInRemainingLumen& remaining) {
+    return trackAlongCourses(volume, {host}, {}, {}, silent, remaining).result.tree;
   };
   EXPECT_EQ(missedWhereTheyTouch(tracked({})), 8);
-  const formats::CenterlineTree both = tracked(
-      [&](std::span<const WorldBall> vessels) { return coursesBeside(found, vessels, silent); });
+  const formats::CenterlineTree both = tracked([&](std::span<const WorldBall> vessels) {
+    return coursesInRemainingLumen(found, vessels, silent);
+  });
   EXPECT_EQ(missedWhereTheyTouch(both), 0);
   EXPECT_EQ(both.branches.size(), 2U);
   EXPECT_EQ(both.branches[0].label, "host");
@@ -135,12 +136,12 @@ formats::Case wholeTreeOf(const Volume& volume, Progress& progress) {
   const FoundVessels found = findVessels(volume, false, progress);
   formats::Case tree = trackAlongCourses(volume, found.courses, {}, {}, progress,
                                          [&](std::span<const WorldBall> vessels) {
-                                           return coursesBeside(found, vessels, progress);
+                                           return coursesInRemainingLumen(found, vessels, progress);
                                          })
                            .result;
-  const Surrounding around{[&](const Vector3d& p) { return found.isLumen(p); },
-                           [&](const Vector3d& p) { return volume.geometry.containsWorld(p); }};
-  untangle(tree, around);
+  const LumenInVolume around{[&](const Vector3d& p) { return found.isLumen(p); },
+                             [&](const Vector3d& p) { return volume.geometry.containsWorld(p); }};
+  correctTopology(tree, around);
   beginAt(tree, furtherInlets(tree.tree, around.isInside));
   return tree;
 }

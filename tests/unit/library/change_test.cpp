@@ -40,7 +40,7 @@ protected:
     incoming.add(kCaseFile, "case", "a case");
     for (const std::string& path : others) incoming.add(path, "other", "of " + path);
     LibraryChange change(folder(), progress);
-    change.put(incoming.record, incoming.folder());
+    change.addOrReplace(incoming.record, incoming.folder());
     change.commit("2026-11-22");
     return change.gone();
   }

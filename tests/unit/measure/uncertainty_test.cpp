@@ -47,13 +47,13 @@ TEST(Uncertainty, OfTheCurveHoldsTheTruthInNineteenOfTwentyDraws) {
     position += std::abs(std::hypot(middle.place.x(), middle.place.y()) - kRadius) < 0.02;
   }
   // five in a hundred, and three standard deviations of that count
-  constexpr int kLeast = kDraws - 10 - 9;
-  EXPECT_GE(curvature, kLeast);
-  EXPECT_GE(torsion, kLeast);
-  EXPECT_GE(mean, kLeast);
+  constexpr int kMinHits = kDraws - 10 - 9;
+  EXPECT_GE(curvature, kMinHits);
+  EXPECT_GE(torsion, kMinHits);
+  EXPECT_GE(mean, kMinHits);
   // intervals are not so wide that nothing could fail them
   EXPECT_LT(curvature + torsion, 2 * kDraws);
-  EXPECT_GE(position, kLeast);
+  EXPECT_GE(position, kMinHits);
 }
 
 TEST(Uncertainty, OfAForksAnglesHoldsTheTruthInNineteenOfTwentyDraws) {

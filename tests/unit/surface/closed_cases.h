@@ -21,7 +21,7 @@ namespace lumen::test {
 struct ClosedCase {
   formats::Case source;
   field::BlendedField blended;
-  convert::SheetField field;
+  convert::SeparatedField field;
   convert::CaseSurface surface;
 
   explicit ClosedCase(formats::Case value)

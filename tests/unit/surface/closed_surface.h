@@ -13,7 +13,7 @@
 #include "converters/geometry/marching_cubes.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/patches/patch.h"
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::test {
@@ -23,7 +23,7 @@ struct FieldOfCase {
   std::unique_ptr<const formats::Case> kept;
   const formats::Case& source;
   field::BlendedField blended;
-  convert::SheetField sheet;
+  convert::SeparatedField sheet;
   explicit FieldOfCase(formats::Case given, double gap = 0.02)
       : kept(std::make_unique<formats::Case>(std::move(given))),
         source(*kept),

@@ -21,7 +21,7 @@ namespace {
 struct Extracted {
   formats::Case source;
   field::BlendedField blended;
-  convert::SheetField field;
+  convert::SeparatedField field;
   convert::ExtractionReport report;
   convert::CaseSurface surface;
 

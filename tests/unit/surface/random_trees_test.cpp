@@ -24,7 +24,7 @@ TEST(RandomTrees, TouchCrossAndJump) {
   for (std::uint64_t number = 1; number <= kCases; ++number) {
     const formats::Case source = test::randomTrees(number);
     const field::BlendedField blended = formats::caseField(source);
-    const SheetField field(source, blended, {.gap = 0.02});
+    const SeparatedField field(source, blended, {.gap = 0.02});
     for (std::uint32_t n = 0; n < source.tree.nodeCount(); ++n) {
       touching += field.mayTouch(n) ? 1 : 0;
       if (const std::int32_t parent = source.tree.parent[n]; parent >= 0) {
@@ -43,7 +43,7 @@ TEST(RandomTrees, HaveASurfaceBeforeRemeshingThatDoesNotPassThroughItself) {
   for (std::uint64_t number = 1; number <= kCases; ++number) {
     const formats::Case source = test::randomTrees(number);
     const field::BlendedField blended = formats::caseField(source);
-    const SheetField field(source, blended, {.gap = 0.02});
+    const SeparatedField field(source, blended, {.gap = 0.02});
     ExtractionReport report;
     const CaseSurface surface = extractSurface(field, 1.0, report, silent);
     EXPECT_EQ(selfIntersections(surface.mesh).pairs.size(), 0U) << number;

@@ -87,7 +87,7 @@ TEST(Remesh, VerticesLieOnTheFieldAndLookOutOfIt) {
   Progress progress;
   remesh(surface, of.sheet, {}, progress);
   for (std::size_t v = 0; v < surface.node.size(); ++v) {
-    const SheetSample at = of.sheet.at(surface.mesh.position[v], surface.node[v]);
+    const SeparatedSample at = of.sheet.at(surface.mesh.position[v], surface.node[v]);
     EXPECT_LT(std::abs(at.distance), 2e-4 * of.sheet.radius(at.node));
   }
   for (const Triangle& t : surface.mesh.triangle) {
@@ -192,7 +192,7 @@ TEST(Remesh, KeepsRimsAndThePlanesOfEnds) {
   for (const auto& [group, vertices] : rims) {
     EXPECT_NEAR(static_cast<double>(vertices.size()), 2 * std::numbers::pi / 0.25, 4);
     for (const std::uint32_t v : vertices) {
-      const SheetSample at = of.sheet.at(surface.mesh.position[v], surface.node[v]);
+      const SeparatedSample at = of.sheet.at(surface.mesh.position[v], surface.node[v]);
       EXPECT_LT(std::abs(at.distance), 2e-4);
     }
   }

@@ -48,7 +48,7 @@ TEST(ToSurfaceMesh, KeepsFacesAndGivesVerticesWhatTheCaseSaysOfThem) {
     source.tree.inlierRate.push_back(0.1F * static_cast<float>(i));
   }
   const field::BlendedField blended = formats::caseField(source);
-  const SheetField field(source, blended, {});
+  const SeparatedField field(source, blended, {});
   const CaseSurface surface = tubeSurface();
   Progress progress;
   const SurfaceMesh mesh = toSurfaceMesh(surface, field, progress);

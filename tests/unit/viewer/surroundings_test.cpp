@@ -20,9 +20,9 @@ using std::chrono::seconds;
 using BoundsTest = ServedTest;
 using TrackFurtherTest = ServedTest;
 
-TEST(IdleEnd, IsAMinuteAfterTheLastPageAndItsWork) {
-  const auto start = viewer::IdleEnd::Clock::now();
-  viewer::IdleEnd idle(seconds(60), start);
+TEST(IdleTimeout, IsAMinuteAfterTheLastPageAndItsWork) {
+  const auto start = viewer::IdleTimeout::Clock::now();
+  viewer::IdleTimeout idle(seconds(60), start);
   EXPECT_FALSE(idle.isOver(0, false, start + seconds(1000)));  // nobody has come yet
   EXPECT_FALSE(idle.isOver(1, false, start + seconds(1001)));
   EXPECT_FALSE(idle.isOver(0, false, start + seconds(1061)));  // it may be loaded again

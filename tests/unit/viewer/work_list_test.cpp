@@ -123,13 +123,13 @@ TEST_F(WorkListTest, AnIgnoredPlaceIsInTheCaseWithItsReason) {
   EXPECT_EQ(after["ignored"][0]["reason"], "a vein, seen: \"v. 2\"");
   ASSERT_EQ(perform({{"op", "save"}}).status, 200);
 
-  // the file keeps it: a new check of it leaves the place out, until it is heeded again
+  // the file keeps it: a new check of it leaves the place out, until it is no longer ignored
   serve({"tube.nrrd", "half.lumen"});
   performAll({{"op", "check"}});
   EXPECT_EQ(work()["items"].size(), after["items"].size());
   EXPECT_EQ(work()["found"], before["found"]);
-  EXPECT_EQ(perform({{"op", "heed"}, {"ignored", 1}}).status, 400);
-  ASSERT_EQ(perform({{"op", "heed"}, {"ignored", 0}}).status, 200);
+  EXPECT_EQ(perform({{"op", "unignore"}, {"ignored", 1}}).status, 400);
+  ASSERT_EQ(perform({{"op", "unignore"}, {"ignored", 0}}).status, 200);
   EXPECT_EQ(countOf(work(), "loose"), 1U);
   EXPECT_EQ(work()["ignored"], Json::array());
 }

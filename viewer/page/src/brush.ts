@@ -8,8 +8,8 @@ import { circle, distance, length, sub } from "./vec";
 
 const kUsual = 0.8, // radii of the vessel
   kGrowth = 1.15, // factor of one turn of the wheel
-  kLeast = 0.1,
-  kMost = 50, // mm
+  kMinRadius = 0.1,
+  kMaxRadius = 50, // mm
   kLeastWay = 0.25; // pixels below which a stroke is a click
 
 export class Brush {
@@ -39,7 +39,7 @@ export class Brush {
   /** Wider (1) or narrower (-1). */
   grow(p: Vec3, way: number): void {
     const wanted = this.radius(this.nodeAt(p)) * kGrowth ** way;
-    this.app.store.set({ brush: Number(Math.min(kMost, Math.max(kLeast, wanted)).toPrecision(3)) });
+    this.app.store.set({ brush: Number(Math.min(kMaxRadius, Math.max(kMinRadius, wanted)).toPrecision(3)) });
   }
 
   press(p: Vec3, slice: SliceView): boolean {

@@ -45,7 +45,7 @@ const kNamed: Operation[] = [
   { op: "push", node: 4, at: [0, 0, 0], by: [1, 0, 0], radius: 1 },
   { op: "nodeAdd", node: 4 },
   { op: "nodeDelete", node: 4 },
-  { op: "heed", ignored: 1 },
+  { op: "unignore", ignored: 1 },
 ];
 
 test.each(kNamed)("an index of $op is meant for what was shown when it was named", async operation => {

@@ -23,8 +23,8 @@ const kKinds: [SlabKind, string][] = [
 ];
 const kNames: SliceName[] = ["axial", "coronal", "sagittal"];
 const kUsual = 10, // mm
-  kLeast = 0.5,
-  kMost = 200,
+  kMinThickness = 0.5,
+  kMaxThickness = 200,
   kStep = 1.25; // factor from one thickness to the next
 /** Places along a ray at most: beyond, a picture in software takes longer than a moment. */
 export const kMostSamples = 129;
@@ -74,7 +74,7 @@ export const reachOf = (
 export const throughOf = (slab: Slab, frame: Frame): Vec3 =>
   frame.normal.map(x => (slab.kind === "off" ? 0 : (x * slab.mm) / 2)) as Vec3;
 
-const within = (mm: number): number => Math.min(kMost, Math.max(kLeast, mm));
+const within = (mm: number): number => Math.min(kMaxThickness, Math.max(kMinThickness, mm));
 
 /** Changes the slabs of the named slices; of all without a name. */
 function change(app: App, name: SliceName | null, to: (slab: Slab) => Slab): void {
@@ -120,8 +120,8 @@ export function slabControl(app: App, name: SliceName): HTMLElement {
     type: "number",
     id: `slab-${name}-mm`,
     class: "slabmm",
-    min: kLeast,
-    max: kMost,
+    min: kMinThickness,
+    max: kMaxThickness,
     step: 0.5,
     "aria-label": `Thickness of the ${name} slab, mm`,
     title: "Thickness, mm  (8 and 9)",

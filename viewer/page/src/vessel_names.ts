@@ -8,7 +8,7 @@ import type { BranchRecord } from "./types";
 
 type Context = CanvasRenderingContext2D;
 
-const kMost = 80, // names in one view
+const kMaxNames = 80, // names in one view
   kHeight = 14, // pixels of a line
   kAside = 6; // pixels from the vessel's axis to its name
 
@@ -18,12 +18,12 @@ export interface Name {
   y: number;
 }
 
-/** The names whose boxes, of the given widths, meet no box before them; at most kMost. */
+/** The names whose boxes, of the given widths, meet no box before them; at most kMaxNames. */
 export function namesApart(names: readonly Name[], widthOf: (text: string) => number): Name[] {
   const boxes: { left: number; right: number; y: number }[] = [],
     kept: Name[] = [];
   for (const name of names) {
-    if (kept.length === kMost) break;
+    if (kept.length === kMaxNames) break;
     const left = name.x,
       right = left + widthOf(name.text);
     if (boxes.some(b => left < b.right && b.left < right && Math.abs(b.y - name.y) < kHeight)) continue;

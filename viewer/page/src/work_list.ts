@@ -233,8 +233,8 @@ function ignoredRow(app: App, place: IgnoredPlace, index: number): HTMLElement {
     ),
     h("span", { class: "note", title: place.reason }, place.reason),
     button(
-      { icon: "undo", label: `Heed it again: ${place.reason}`, class: "button" },
-      () => void app.perform({ op: "heed", ignored: index }),
+      { icon: "undo", label: `Stop ignoring it: ${place.reason}`, class: "button" },
+      () => void app.perform({ op: "unignore", ignored: index }),
     ),
   );
 }

@@ -26,7 +26,7 @@ struct GridOptions {
 /// branch whose lumen a sample is in, elsewhere 0; branches.json, which number is which branch.
 /// With GridOptions::perBranch such files for each branch, as NAME.distance.*: they answer for that
 /// branch and its neighbourhood along the tree, whatever touches it; their samples are some of the
-/// one grid's. Throws Error(Usage) for too many samples and for options that do not go together,
+/// one grid's. Throws Error(Usage) for too many samples and for options that exclude one another,
 /// Error(Unsupported) for a case that a format cannot hold, Error(Cancelled).
 ExportResult exportGrid(const ExportInput& input, const GridOptions& options);
 

@@ -65,7 +65,7 @@ public:
   };
   /// The image at `point` of the plane at the height `height`.
   [[nodiscard]] Value at(const Eigen::Vector2d& point, double height) const;
-  /// The same, with the derivatives by the parameters in `out`, parameterCount() of them.
+  /// at(), with the derivatives by the parameters in `out`, parameterCount() of them.
   Value derivatives(const Eigen::Vector2d& point, double height, double* out) const;
 
 private:

@@ -236,7 +236,7 @@ std::vector<SectionVoxel> Sections::voxels(std::uint32_t node) const {
 
 namespace {
 
-/// The least spread, in the units of ShapeSpread: of vessels that noise alone tells apart.
+/// The least spread, in the units of ShapeSpread: of vessels that differ by noise alone.
 constexpr double kLeastSpread = 0.02;
 /// The share of a prior variance beyond which a variance shows that the prior decided.
 constexpr double kDecided = 0.5;

@@ -170,7 +170,7 @@ MovingWall::Vec3 BlobMotion::motionInStep(const Vec3& point, std::uint32_t curso
 void registerBlobMotion(sofa::core::ObjectFactory* factory) {
   factory->registerObjects(
       sofa::core::ObjectRegistrationData(
-          "Moves the wall of a BlobField as the motion in its case says, and points with it.")
+          "Moves the wall of a BlobField as the motion in its case states, and points with it.")
           .add<BlobMotion>());
 }
 

@@ -16,9 +16,9 @@
 
 namespace lumensofa {
 
-/// A vessel that moves as its case says: the motion in the file of a BlobField takes the wall along,
-/// whatever touches it. In a step from t to t + dt contacts see the wall at t, and the way that each
-/// of its points goes until t + dt. `points`, such as those of a surface to be looked at, and a
+/// A vessel that moves as its case states: the motion in the file of a BlobField takes the wall
+/// along, whatever touches it. In a step from t to t + dt contacts see the wall at t, and the
+/// displacement of each of its points until t + dt. `points`, such as those of a surface to be looked at, and a
 /// `place`, such as that where an instrument enters, go along.
 class LUMENSOFA_API BlobMotion : public sofa::core::objectmodel::BaseObject, public MovingWall {
 public:

@@ -38,8 +38,8 @@ public:
 
   /// The frames that carry the wall, which contacts push; null for a wall that no force moves.
   [[nodiscard]] virtual State* state() const = 0;
-  /// Returns the way, mm, that a point of the wall goes in this step without contact; its cursor is
-  /// that in the field's model. Adds the frames that carry the point to `shares`.
+  /// Returns the displacement, mm, of a point of the wall in this step without contact; its cursor
+  /// is that in the field's model. Adds the frames that carry the point to `shares`.
   virtual Vec3 motionInStep(const Vec3& point, std::uint32_t cursor,
                             std::vector<FrameShare>& shares) const = 0;
   /// mm: contacts are looked for this much farther off, as the wall may come nearer in a step.

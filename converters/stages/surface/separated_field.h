@@ -18,7 +18,7 @@
 namespace lumen::convert {
 
 /// Position of the wall; lengths in mm.
-struct SheetOptions {
+struct SeparationOptions {
   /// Gap between two vessels where their walls touch or overlap.
   double gap = 0;
   /// Gap as a share of the lesser radius of both; added to `gap`.
@@ -34,8 +34,8 @@ struct SheetOptions {
   bool isUnion = false;
 };
 
-/// Values of a SheetField at a point.
-struct SheetSample {
+/// Values of a SeparatedField at a point.
+struct SeparatedSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
   std::uint32_t node = 0;                              ///< at which following the point ends
@@ -59,21 +59,22 @@ struct SheetSample {
 /// so that neither is severed where two axes cross.
 ///
 /// Never changed after construction: any number of threads may ask.
-class SheetField {
+class SeparatedField {
 public:
   /// `source` has models and, with `field`, must stay.
-  SheetField(const formats::Case& source, const field::BlendedField& field,
-             const SheetOptions& options);
-  virtual ~SheetField() = default;
-  SheetField(const SheetField&) = delete;
-  SheetField& operator=(const SheetField&) = delete;
+  SeparatedField(const formats::Case& source, const field::BlendedField& field,
+                 const SeparationOptions& options);
+  virtual ~SeparatedField() = default;
+  SeparatedField(const SeparatedField&) = delete;
+  SeparatedField& operator=(const SeparatedField&) = delete;
 
   /// The sample for a cursor that begins at `node` and follows.
-  [[nodiscard]] virtual SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] virtual SeparatedSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
 
   /// The sample of the sheet of a point whose axis is the nearest in radii, among the one that
   /// following from `node` leads to and those that touch it.
-  [[nodiscard]] virtual SheetSample deepest(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] virtual SeparatedSample deepest(const Eigen::Vector3d& point,
+                                                std::uint32_t node) const;
 
   /// Whether two cursors that have followed a point are on one sheet of it.
   [[nodiscard]] bool areOneSheet(const Eigen::Vector3d& point, std::uint32_t a,
@@ -104,7 +105,7 @@ public:
   /// through `start` normal to it. Nothing if there is no surface near by.
   struct Foot {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    SheetSample sample;
+    SeparatedSample sample;
   };
   [[nodiscard]] std::optional<Foot> project(const Eigen::Vector3d& start, std::uint32_t node,
                                             const Eigen::Vector3d* plane = nullptr) const;
@@ -113,7 +114,7 @@ public:
   [[nodiscard]] double radius(std::uint32_t node) const { return m_source.tree.radius[node]; }
   [[nodiscard]] const formats::Case& source() const { return m_source; }
   [[nodiscard]] const field::BlendedField& field() const { return m_field; }
-  [[nodiscard]] const SheetOptions& options() const { return m_options; }
+  [[nodiscard]] const SeparationOptions& options() const { return m_options; }
 
 private:
   /// Distance to the wall f = T, and its gradient.
@@ -132,18 +133,18 @@ private:
   [[nodiscard]] bool isLeast(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] Axis nearestAxis(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// `sample` kept off the sheet of node `other`.
-  void separate(SheetSample& sample, const Eigen::Vector3d& point, std::uint32_t other) const;
+  void separate(SeparatedSample& sample, const Eigen::Vector3d& point, std::uint32_t other) const;
   /// The axes of two sheets, for comparison: the one with precedence is nearer within its core.
   [[nodiscard]] std::pair<Axis, Axis> nearestAxes(const Eigen::Vector3d& point, std::uint32_t a,
                                                   std::uint32_t b) const;
-  [[nodiscard]] SheetSample sampleSheet(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] SeparatedSample sampleSheet(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// The nodes besides `node` that a sheet of the point ends at, one for each sheet.
   template <class Visit>
   void eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node, Visit&& visit) const;
 
   const formats::Case& m_source;
   const field::BlendedField& m_field;
-  SheetOptions m_options;
+  SeparationOptions m_options;
   double m_wall;  ///< the level transform on the wall
   formats::Neighbours m_edges;
   std::vector<std::uint32_t> m_touchingOffset, m_touching;  ///< CSR over nodes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/sheet_field.h"
+#include "converters/stages/surface/separated_field.h"
 
 #include <algorithm>
 #include <array>
@@ -25,8 +25,8 @@ field::Vec toVec(const Eigen::Vector3d& p) {
 
 }  // namespace
 
-SheetField::SheetField(const formats::Case& source, const field::BlendedField& field,
-                       const SheetOptions& options)
+SeparatedField::SeparatedField(const formats::Case& source, const field::BlendedField& field,
+                               const SeparationOptions& options)
     : m_source(source),
       m_field(field),
       m_options(options),
@@ -42,7 +42,8 @@ SheetField::SheetField(const formats::Case& source, const field::BlendedField& f
 }
 
 // docs/method.md, section 4.2, with the node's radius as the scale.
-SheetField::Wall SheetField::nearestWall(const Eigen::Vector3d& point, std::uint32_t node) const {
+SeparatedField::Wall SeparatedField::nearestWall(const Eigen::Vector3d& point,
+                                                 std::uint32_t node) const {
   const field::Jet<1> f = m_field.blended(toVec(point), node);
   const Eigen::Vector3d gradient(f.gradient);
   const double slope = gradient.norm(), level = m_field.level(), r = radius(node);
@@ -61,14 +62,15 @@ SheetField::Wall SheetField::nearestWall(const Eigen::Vector3d& point, std::uint
   return {isInside ? -k * r / (d + s) : std::min(k / g, out.norm() + r), -gradient / slope};
 }
 
-bool SheetField::isLeast(const Eigen::Vector3d& point, std::uint32_t node) const {
+bool SeparatedField::isLeast(const Eigen::Vector3d& point, std::uint32_t node) const {
   const Eigen::Vector3d x = point - Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
   return m_field.eachRival(node, [&](const field::Rival& rival) {
     return field::powerDifference(rival, x.data()) >= 0;
   });
 }
 
-bool SheetField::areOneSheet(const Eigen::Vector3d& point, std::uint32_t a, std::uint32_t b) const {
+bool SeparatedField::areOneSheet(const Eigen::Vector3d& point, std::uint32_t a,
+                                 std::uint32_t b) const {
   if (a == b) return true;
   const std::span<const std::uint32_t> around = m_field.neighbours(a);
   if (std::binary_search(around.begin(), around.end(), b)) return true;
@@ -80,14 +82,14 @@ bool SheetField::areOneSheet(const Eigen::Vector3d& point, std::uint32_t a, std:
   return found;
 }
 
-bool SheetField::isReached(const Eigen::Vector3d& point, std::uint32_t from,
-                           std::uint32_t to) const {
+bool SeparatedField::isReached(const Eigen::Vector3d& point, std::uint32_t from,
+                               std::uint32_t to) const {
   return areOneSheet(point, m_field.follow(toVec(point), from), to);
 }
 
 template <class Visit>
-void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node,
-                                Visit&& visit) const {
+void SeparatedField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node,
+                                    Visit&& visit) const {
   constexpr std::size_t kMostSheets = 8;  // sheets of one point
   std::array<std::uint32_t, kMostSheets> seen{};
   std::size_t count = 0;
@@ -103,7 +105,8 @@ void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node
   }
 }
 
-SheetField::Axis SheetField::nearestAxis(const Eigen::Vector3d& point, std::uint32_t node) const {
+SeparatedField::Axis SeparatedField::nearestAxis(const Eigen::Vector3d& point,
+                                                 std::uint32_t node) const {
   const Eigen::Vector3d centre = Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
   const Eigen::Vector3d out = point - centre;
   const double r = radius(node);
@@ -122,9 +125,8 @@ SheetField::Axis SheetField::nearestAxis(const Eigen::Vector3d& point, std::uint
   return best;
 }
 
-std::pair<SheetField::Axis, SheetField::Axis> SheetField::nearestAxes(const Eigen::Vector3d& point,
-                                                                      std::uint32_t a,
-                                                                      std::uint32_t b) const {
+std::pair<SeparatedField::Axis, SeparatedField::Axis> SeparatedField::nearestAxes(
+    const Eigen::Vector3d& point, std::uint32_t a, std::uint32_t b) const {
   std::pair<Axis, Axis> axes{nearestAxis(point, a), nearestAxis(point, b)};
   Axis& first = a > b ? axes.first : axes.second;
   if (first.share < kSheetCore) {
@@ -134,8 +136,8 @@ std::pair<SheetField::Axis, SheetField::Axis> SheetField::nearestAxes(const Eige
   return axes;
 }
 
-void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
-                          std::uint32_t node) const {
+void SeparatedField::separate(SeparatedSample& sample, const Eigen::Vector3d& point,
+                              std::uint32_t node) const {
   const auto [own, other] = nearestAxes(point, sample.node, node);
   const double harmonic = 1 / (1 / own.radius + 1 / other.radius);
   const Eigen::Vector3d gradient =
@@ -151,9 +153,10 @@ void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
   sample.other = node;
 }
 
-SheetSample SheetField::sampleSheet(const Eigen::Vector3d& point, std::uint32_t node) const {
+SeparatedSample SeparatedField::sampleSheet(const Eigen::Vector3d& point,
+                                            std::uint32_t node) const {
   const Wall wall = nearestWall(point, node);
-  SheetSample sample;
+  SeparatedSample sample;
   sample.distance = wall.distance;
   sample.gradient = wall.gradient;
   sample.node = node;
@@ -161,13 +164,13 @@ SheetSample SheetField::sampleSheet(const Eigen::Vector3d& point, std::uint32_t 
   return sample;
 }
 
-SheetSample SheetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
-  SheetSample sample = sampleSheet(point, m_field.follow(toVec(point), node));
+SeparatedSample SeparatedField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
+  SeparatedSample sample = sampleSheet(point, m_field.follow(toVec(point), node));
   eachOtherSheet(point, sample.node, [&](std::uint32_t other) { separate(sample, point, other); });
   return sample;
 }
 
-SheetSample SheetField::deepest(const Eigen::Vector3d& point, std::uint32_t node) const {
+SeparatedSample SeparatedField::deepest(const Eigen::Vector3d& point, std::uint32_t node) const {
   const std::uint32_t here = m_field.follow(toVec(point), node);
   std::uint32_t best = here;
   bool isAlone = true;
@@ -179,9 +182,9 @@ SheetSample SheetField::deepest(const Eigen::Vector3d& point, std::uint32_t node
   return isAlone ? sampleSheet(point, here) : at(point, best);
 }
 
-std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start,
-                                                    std::uint32_t node,
-                                                    const Eigen::Vector3d* plane) const {
+std::optional<SeparatedField::Foot> SeparatedField::project(const Eigen::Vector3d& start,
+                                                            std::uint32_t node,
+                                                            const Eigen::Vector3d* plane) const {
   Foot foot{start, {}};
   foot.sample.node = node;
   for (int step = 0; step < kMaxSteps; ++step) {

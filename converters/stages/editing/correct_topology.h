@@ -8,34 +8,34 @@
 
 #include <Eigen/Core>
 
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 #include "converters/stages/editing/node_graph.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
 /// The volume that a tree was found in.
-struct Surrounding {
+struct LumenInVolume {
   std::function<bool(const Eigen::Vector3d&)> isLumen;   ///< a point, mm, LPS, lies in a vessel
   std::function<bool(const Eigen::Vector3d&)> isInside;  ///< it lies in the volume
 };
 
 /// Corrects the topology of a valid case without models. Measured nodes and walls stay; bridged nodes
-/// follow their neighbours (smooth_axes.h).
+/// follow their neighbours (smoothAxes()).
 ///
 /// - Two ends that face one another through the lumen, of like direction and width, are one vessel:
 ///   two that leave a third on both sides cross it, and are joined to one another instead, also where
 ///   that one bends and they touch it all along; a tip and a start, or two tips, are joined by a
 ///   bridge. A join that closes a loop becomes a link.
-/// - Tips that overlap are one vessel (overlapping_ends.h), and a tip before the side of another joins
-///   it (into_sides.h). Loops are cut where vessels only touch (rungs.h).
-/// - Ends of two trees that face one another across a void are one vessel, too (across_voids.h).
+/// - Tips that overlap are one vessel (joinOverlappingEnds()), and a tip before the side of another
+///   joins it (joinIntoSides()). Loops are cut where vessels only touch (cutFalseConnections()).
+/// - Ends of two trees that face one another across a void are one vessel, too (joinAcrossVoids()).
 /// - Each tree begins at its widest end that leaves the volume, or at its widest end if those that
 ///   leave are less than half as wide.
 /// - At a fork the straightest, widest vessel keeps the branch. Vessels are named vessel-1 and so on,
 ///   in the order of trees by their nodes, aneurysms aneurysm-1 and so on; those stay on their nodes.
 /// Returns the places at which two ends became one vessel, mm, LPS.
-std::vector<Eigen::Vector3d> untangle(formats::Case& target, const Surrounding& around);
+std::vector<Eigen::Vector3d> correctTopology(formats::Case& target, const LumenInVolume& around);
 
 // Vessels that go on behind a stretch without contrast (docs/method.md, section 1.14).
 
@@ -70,23 +70,23 @@ std::vector<Eigen::Vector3d> joinOverlappingEnds(NodeGraph& graph);
 // section 1.14).
 
 /// Cuts loops of a graph where two vessels touch instead of at the links that hold them together. A
-/// *rung* is a way between two nodes along which two lumens meet, and at both of which another vessel
-/// goes on: the vessels pass one another there. A link on a loop that has a rung becomes an edge, and
-/// the rung is cut; other links stay, as those of communicating arteries. Directions of edges are stale
-/// afterwards.
-void cutRungs(NodeGraph& graph);
+/// *false connection* is a path between two nodes along which two lumens meet, and at both of which
+/// another vessel goes on: the vessels pass one another there. A link on a loop that has a false
+/// connection becomes an edge, and the connection is cut; other links stay, as those of communicating
+/// arteries. Directions of edges are stale afterwards.
+void cutFalseConnections(NodeGraph& graph);
 
 // Axes through the places where no wall was measured: forks, and where vessels touch (docs/method.md,
 // section 1.14).
 
-/// Moves the bridged nodes of the vessels of a draft, and the places at which vessels leave their
-/// parents; measured nodes stay.
+/// Moves the bridged nodes of the vessels of an editable case, and the places at which vessels leave
+/// their parents; measured nodes stay.
 ///
 /// - Bridged nodes between two measured ones of a branch lie on the curve along the directions of
 ///   both, unless that leads farther than a radius from where they were.
-/// - A vessel leaves its parent, within twice the lesser radius of where it did, where the way from
-///   axis to axis turns least; each radius of that way counts as a quarter radian. Its bridged
-///   nodes before the first measured one lie on that way, outside of the parent's core.
-void smoothAxes(Draft& draft);
+/// - A vessel leaves its parent, within twice the lesser radius of where it did, where the path from
+///   axis to axis turns least; each radius of that path counts as a quarter radian. Its bridged
+///   nodes before the first measured one lie on that path, outside of the parent's core.
+void smoothAxes(EditableCase& edited);
 
 }  // namespace lumen::convert

@@ -9,7 +9,7 @@ namespace {
 
 TEST(BareStretches, AWholeSurfaceHasNone) {
   const test::ClosedCase closed(test::forkCase());
-  EXPECT_TRUE(bareStretches(closed.surface, closed.source.tree).empty());
+  EXPECT_TRUE(stretchesWithoutWall(closed.surface, closed.source.tree).empty());
 }
 
 TEST(BareStretches, NamesTheBranchWhoseSurfaceIsNotThere) {
@@ -24,7 +24,7 @@ TEST(BareStretches, NamesTheBranchWhoseSurfaceIsNotThere) {
     without.mesh.position.push_back(surface.mesh.position[v]);
     without.node.push_back(surface.node[v]);
   }
-  const auto told = bareStretches(without, closed.source.tree);
+  const auto told = stretchesWithoutWall(without, closed.source.tree);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_NE(told[0].find("branch side"), std::string::npos) << told[0];
 }

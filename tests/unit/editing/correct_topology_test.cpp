@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vessels that were found, as one vessel each: crossings, inlets and forks, on cases of beads.
-#include "converters/stages/editing/untangle.h"
+#include "converters/stages/editing/correct_topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ using formats::test::addBeads;
 using formats::test::alongX;
 
 /// All is lumen; the volume is a box around the origin with faces at 20 mm.
-const Surrounding kEverywhere{[](const Vector3d&) { return true; },
-                              [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 20; }};
+const LumenInVolume kEverywhere{[](const Vector3d&) { return true; },
+                                [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 20; }};
 
 /// `count` places from one on, half a millimetre apart.
 std::vector<Vec3f> along(const Vector3d& from, const Vector3d& direction, int count) {
@@ -63,9 +63,9 @@ Case crossing(float after) {
   return withoutModels(value);
 }
 
-TEST(Untangle, AVesselThatCrossesAnotherIsOneOfItsOwn) {
+TEST(CorrectTopology, AVesselThatCrossesAnotherIsOneOfItsOwn) {
   Case value = crossing(1);
-  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
   EXPECT_EQ(findFault(value), "");
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_EQ(rootsOf(value), 2U);
@@ -75,41 +75,41 @@ TEST(Untangle, AVesselThatCrossesAnotherIsOneOfItsOwn) {
 
 /// A thin vessel along another that it touches. A skeleton gets from one into the other by a slanting
 /// stretch, which leaves the first far before the fork at its end.
-TEST(Untangle, AVesselAlongsideThatASlantReachesIsOneOfItsOwn) {
+TEST(CorrectTopology, AVesselAlongsideThatASlantReachesIsOneOfItsOwn) {
   Case value = formats::test::noBeads();
   addBeads(value, "first", alongX(-10, 0.5F, 41), 1);
   addBeads(value, "slant", along({-3, 1, 0}, {3.5, 0.7, 0}, 7), 0.7F, 12);
   addBeads(value, "on", along({0.5, 1.7, 0}, {1, 0, 0}, 20), 0.7F, 47);
   addBeads(value, "back", along({-0.5, 1.7, 0}, {-1, 0, 0}, 20), 0.7F, 47);
   value = withoutModels(value);
-  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
   EXPECT_EQ(findFault(value), "");
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_EQ(rootsOf(value), 2U);
 }
 
-TEST(Untangle, AVesselThatLosesWhatItsBranchesCarryDivides) {
+TEST(CorrectTopology, AVesselThatLosesWhatItsBranchesCarryDivides) {
   // 1 - 2 x 0.63 ^ 3 = 0.5, the cube of 0.79
   Case value = crossing(0.79F);
   for (std::size_t n = 41; n < 81; ++n) value.tree.radius[n] = 0.63F;
-  EXPECT_TRUE(untangle(value, kEverywhere).empty());
+  EXPECT_TRUE(correctTopology(value, kEverywhere).empty());
   EXPECT_EQ(rootsOf(value), 1U);
   EXPECT_EQ(value.tree.branches.size(), 3U);
 }
 
 /// A vessel that narrows evenly from 1.24 to 0.84, by as much from one side of the crossing to the
 /// other as it would lose to branches of radius 0.56.
-TEST(Untangle, AVesselThatNarrowsEvenlyIsCrossed) {
+TEST(CorrectTopology, AVesselThatNarrowsEvenlyIsCrossed) {
   Case value = crossing(1);
   for (std::size_t n = 0; n < 41; ++n) value.tree.radius[n] = 1.24F - 0.01F * static_cast<float>(n);
   for (std::size_t n = 41; n < 81; ++n) value.tree.radius[n] = 0.56F;
-  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
   EXPECT_EQ(rootsOf(value), 2U);
 }
 
 /// A vessel that another hides for 5 mm, beside which it goes on. Bridges lead to its parts from the
 /// axis of that one, across its lumen.
-TEST(Untangle, ABridgeFromAParentsAxisShowsNoDirection) {
+TEST(CorrectTopology, ABridgeFromAParentsAxisShowsNoDirection) {
   Case value = formats::test::noBeads();
   addBeads(value, "first", alongX(-10, 0.5F, 41), 1);
   std::vector<Vec3f> on = along({0, 0.5, 0}, {0.3, 1, 0}, 3);
@@ -119,29 +119,29 @@ TEST(Untangle, ABridgeFromAParentsAxisShowsNoDirection) {
   value = withoutModels(value);
   std::vector<formats::NodeOrigin> origins(value.tree.nodeCount(), formats::NodeOrigin::Measured);
   Case aside = value;  // the bridge, as if it were measured, looks aside
-  untangle(aside, kEverywhere);
+  correctTopology(aside, kEverywhere);
   EXPECT_EQ(rootsOf(aside), 1U);
   for (std::size_t n = 41; n < 44; ++n) origins[n] = formats::NodeOrigin::Bridged;
   formats::setNodeOrigins(value, origins);
-  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
   EXPECT_EQ(findFault(value), "");
   EXPECT_EQ(value.tree.branches.size(), 2U);
   EXPECT_EQ(rootsOf(value), 2U);
 }
 
-TEST(Untangle, NothingIsJoinedThroughTheBackground) {
+TEST(CorrectTopology, NothingIsJoinedThroughTheBackground) {
   Case value = crossing(1);
-  Surrounding apart = kEverywhere;
+  LumenInVolume apart = kEverywhere;
   apart.isLumen = [](const Vector3d& p) { return std::abs(p.y()) > 1.4; };
-  EXPECT_TRUE(untangle(value, apart).empty());
+  EXPECT_TRUE(correctTopology(value, apart).empty());
 }
 
-TEST(Untangle, TipsThatFaceOneAnotherAreOneVessel) {
+TEST(CorrectTopology, TipsThatFaceOneAnotherAreOneVessel) {
   Case value = formats::test::noBeads();
   addBeads(value, "a", alongX(-10, 0.5F, 17), 1);
   addBeads(value, "b", along({10, 0, 0}, {-1, 0, 0}, 17), 0.9F);
   value = withoutModels(value);
-  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
   EXPECT_EQ(value.tree.branches.size(), 1U);
   EXPECT_EQ(findFault(value), "");
   // directions agree with the order of nodes
@@ -151,13 +151,13 @@ TEST(Untangle, TipsThatFaceOneAnotherAreOneVessel) {
   }
 }
 
-TEST(Untangle, TipsOfOtherWidthOrSideStayApart) {
+TEST(CorrectTopology, TipsOfOtherWidthOrSideStayApart) {
   Case value = formats::test::noBeads();
   addBeads(value, "a", alongX(-10, 0.5F, 17), 1);
   addBeads(value, "wide", along({10, 0, 0}, {-1, 0, 0}, 17), 1.6F);
   addBeads(value, "beside", along({0, 4, 0}, {0, 1, 0}, 17), 1);
   value = withoutModels(value);
-  EXPECT_TRUE(untangle(value, kEverywhere).empty());
+  EXPECT_TRUE(correctTopology(value, kEverywhere).empty());
   EXPECT_EQ(rootsOf(value), 3U);
 }
 
@@ -169,41 +169,41 @@ Case aroundAVoid(double gap, int count = 21) {
   return withoutModels(value);
 }
 
-const Surrounding kDark{[](const Vector3d&) { return false; }, kEverywhere.isInside};
+const LumenInVolume kDark{[](const Vector3d&) { return false; }, kEverywhere.isInside};
 
-TEST(Untangle, VesselsThatFaceOneAnotherAcrossAVoidAreOne) {
+TEST(CorrectTopology, VesselsThatFaceOneAnotherAcrossAVoidAreOne) {
   Case value = aroundAVoid(5);
-  EXPECT_EQ(untangle(value, kDark).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kDark).size(), 1U);
   EXPECT_EQ(findFault(value), "");
   EXPECT_EQ(value.tree.branches.size(), 1U);
 }
 
-TEST(Untangle, ALongVoidStaysOpen) {
+TEST(CorrectTopology, ALongVoidStaysOpen) {
   Case value = aroundAVoid(6.5);  // more than three times both radii
-  EXPECT_TRUE(untangle(value, kDark).empty());
+  EXPECT_TRUE(correctTopology(value, kDark).empty());
   EXPECT_EQ(rootsOf(value), 2U);
 }
 
-TEST(Untangle, NoShortPieceIsJoinedAcrossAVoid) {
+TEST(CorrectTopology, NoShortPieceIsJoinedAcrossAVoid) {
   Case value = aroundAVoid(5, 11);  // 5 mm of vessel
-  EXPECT_TRUE(untangle(value, kDark).empty());
+  EXPECT_TRUE(correctTopology(value, kDark).empty());
 }
 
-TEST(Untangle, AVesselOfUnsteadyWidthIsNotJoinedAcrossAVoid) {
+TEST(CorrectTopology, AVesselOfUnsteadyWidthIsNotJoinedAcrossAVoid) {
   Case value = aroundAVoid(5);
   // radii of a track in texture: their median is that of the other side
   for (std::size_t n = 0; n < 21; ++n)
     value.tree.radius[n] = n % 3 == 0 ? 1.0F : n % 3 == 1 ? 0.6F : 1.6F;
-  EXPECT_TRUE(untangle(value, kDark).empty());
+  EXPECT_TRUE(correctTopology(value, kDark).empty());
 }
 
-TEST(Untangle, AVesselBesideAVoidStaysApart) {
+TEST(CorrectTopology, AVesselBesideAVoidStaysApart) {
   Case value = aroundAVoid(4);
   for (std::size_t n = 21; n < 42; ++n) value.tree.centre[n].y = 2.5F;
-  EXPECT_TRUE(untangle(value, kDark).empty());
+  EXPECT_TRUE(correctTopology(value, kDark).empty());
 }
 
-TEST(Untangle, AJoinThatClosesALoopIsALink) {
+TEST(CorrectTopology, AJoinThatClosesALoopIsALink) {
   // a ring whose two halves leave one trunk and meet on the other side
   Case value = formats::test::noBeads();
   addBeads(value, "trunk", alongX(-18, 0.5F, 21), 1);
@@ -217,48 +217,48 @@ TEST(Untangle, AJoinThatClosesALoopIsALink) {
     addBeads(value, side < 0 ? "left" : "right", half, 0.7F, 20);
   }
   value = withoutModels(value);
-  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
   EXPECT_EQ(findFault(value), "");
   EXPECT_EQ(value.tree.links.size(), 1U);
   EXPECT_EQ(rootsOf(value), 1U);
 }
 
-TEST(Untangle, ATreeBeginsAtItsWidestEndThatLeavesTheVolume) {
+TEST(CorrectTopology, ATreeBeginsAtItsWidestEndThatLeavesTheVolume) {
   Case value = formats::test::noBeads();
   // the widest end lies inside; another leaves, and is more than half as wide
   addBeads(value, "first", along({0, 0, 0}, {1, 0, 0}, 40), 1);
   for (std::size_t n = 0; n < 40; ++n)
     value.tree.radius[n] = 1.5F - 0.5F * static_cast<float>(n) / 39;
   value = withoutModels(value);
-  untangle(value, kEverywhere);
+  correctTopology(value, kEverywhere);
   EXPECT_NEAR(value.tree.centre[0].x, 19.5, 1e-6);
   // where that is less than half as wide, it is an outlet
   for (std::size_t n = 0; n < 40; ++n)
     value.tree.radius[n] = 0.4F + 1.6F * static_cast<float>(n) / 39;
-  untangle(value, kEverywhere);
+  correctTopology(value, kEverywhere);
   EXPECT_NEAR(value.tree.centre[0].x, 0, 1e-6);
 }
 
-TEST(Untangle, TheStraightestOfLikeWidthKeepsTheBranch) {
+TEST(CorrectTopology, TheStraightestOfLikeWidthKeepsTheBranch) {
   Case value = formats::test::noBeads();
   addBeads(value, "trunk", along({-19.5, 0, 0}, {1, 0, 0}, 30), 1);
   addBeads(value, "bent", along({-4, 1.6, 0}, {0.3, 1, 0}, 20), 0.8F, 29);
   addBeads(value, "straight", along({-4, -0.5, 0}, {1, -0.3, 0}, 20), 0.8F, 29);
   value = withoutModels(value);
-  untangle(value, kEverywhere);
+  correctTopology(value, kEverywhere);
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_EQ(value.tree.branches[0].nodeCount, 50U);
   EXPECT_LT(value.tree.centre[49].y, 0);
   EXPECT_EQ(value.tree.branches[0].label, "vessel-1");
 }
 
-TEST(Untangle, AneurysmsStayOnTheirNodes) {
+TEST(CorrectTopology, AneurysmsStayOnTheirNodes) {
   Case value = formats::test::noBeads();
   addBeads(value, "trunk", along({-19.5, 0, 0}, {1, 0, 0}, 30), 1);
   addBeads(value, "sac", along({-10, 2, 0}, {0, 1, 0}, 3), 1.5F, 19);
   value.tree.branches[1].kind = formats::BranchKind::Aneurysm;
   value = withoutModels(value);
-  untangle(value, kEverywhere);
+  correctTopology(value, kEverywhere);
   ASSERT_EQ(value.tree.branches.size(), 2U);
   EXPECT_EQ(value.tree.branches[1].label, "aneurysm-1");
   const auto parent = static_cast<std::size_t>(value.tree.branches[1].parentNode);

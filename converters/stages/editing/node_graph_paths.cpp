@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trees, ends and ways of a graph that no direction of its edges changes.
+// Trees, ends and paths of a graph that no direction of its edges changes.
 #include <algorithm>
 
 #include "converters/stages/editing/node_graph.h"
@@ -7,21 +7,21 @@
 namespace lumen::convert {
 
 bool NodeGraph::hasAneurysm(std::uint32_t node) const {
-  return std::any_of(m_draft.branches.begin(), m_draft.branches.end(), [&](const auto& branch) {
+  return std::any_of(m_edited.branches.begin(), m_edited.branches.end(), [&](const auto& branch) {
     return branch.record.kind != formats::BranchKind::Vessel && branch.parent == node;
   });
 }
 
 std::vector<std::uint32_t> NodeGraph::unforkedFrom(std::uint32_t end) const {
   const auto isLeft = [&](std::uint32_t node) {
-    return m_beside[node].size() > 2 || hasAneurysm(node);
+    return m_neighbours[node].size() > 2 || hasAneurysm(node);
   };
   std::vector<std::uint32_t> nodes;
   std::uint32_t before = kNoNode, next = kNoNode;
   for (std::uint32_t i = end; i != kNoNode && !isLeft(i); before = i, i = next) {
     nodes.push_back(i);
     next = kNoNode;
-    for (const std::uint32_t j : m_beside[i])
+    for (const std::uint32_t j : m_neighbours[i])
       if (j != before) next = j;
   }
   return nodes;
@@ -30,16 +30,16 @@ std::vector<std::uint32_t> NodeGraph::unforkedFrom(std::uint32_t end) const {
 std::size_t NodeGraph::countMeasured(std::span<const std::uint32_t> nodes) const {
   return static_cast<std::size_t>(
       std::count_if(nodes.begin(), nodes.end(), [&](std::uint32_t node) {
-        return m_draft.nodes[node].origin == formats::NodeOrigin::Measured;
+        return m_edited.nodes[node].origin == formats::NodeOrigin::Measured;
       }));
 }
 
 std::vector<std::uint32_t> NodeGraph::treeOf(std::uint32_t node) const {
-  std::vector<bool> isSeen(m_beside.size(), false);
+  std::vector<bool> isSeen(m_neighbours.size(), false);
   std::vector<std::uint32_t> reached{node};
   isSeen[node] = true;
   for (std::size_t k = 0; k < reached.size(); ++k)
-    for (const std::uint32_t j : m_beside[reached[k]]) {
+    for (const std::uint32_t j : m_neighbours[reached[k]]) {
       if (!isSeen[j]) reached.push_back(j);
       isSeen[j] = true;
     }
@@ -60,11 +60,11 @@ std::vector<std::uint32_t> NodeGraph::nodesAwayFromEnds() const {
   return nodes;
 }
 
-std::vector<std::uint32_t> NodeGraph::way(std::uint32_t a, std::uint32_t b) const {
-  std::vector<std::uint32_t> before(m_beside.size(), kNoNode), reached{b};
+std::vector<std::uint32_t> NodeGraph::pathBetween(std::uint32_t a, std::uint32_t b) const {
+  std::vector<std::uint32_t> before(m_neighbours.size(), kNoNode), reached{b};
   before[b] = b;
   for (std::size_t k = 0; k < reached.size() && before[a] == kNoNode; ++k)
-    for (const std::uint32_t j : m_beside[reached[k]])
+    for (const std::uint32_t j : m_neighbours[reached[k]])
       if (before[j] == kNoNode) {
         before[j] = reached[k];
         reached.push_back(j);
@@ -75,8 +75,8 @@ std::vector<std::uint32_t> NodeGraph::way(std::uint32_t a, std::uint32_t b) cons
   return nodes;
 }
 
-std::optional<double> NodeGraph::wayBetween(std::uint32_t a, std::uint32_t b) const {
-  const std::vector<std::uint32_t> nodes = way(a, b);
+std::optional<double> NodeGraph::pathLength(std::uint32_t a, std::uint32_t b) const {
+  const std::vector<std::uint32_t> nodes = pathBetween(a, b);
   if (nodes.empty()) return std::nullopt;
   double length = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i)
@@ -87,21 +87,21 @@ std::optional<double> NodeGraph::wayBetween(std::uint32_t a, std::uint32_t b) co
 double NodeGraph::treeLength(std::uint32_t node) const {
   double length = 0;
   for (const std::uint32_t i : treeOf(node))
-    for (const std::uint32_t j : m_beside[i])
+    for (const std::uint32_t j : m_neighbours[i])
       if (i < j) length += (position(i) - position(j)).norm();
   return length;
 }
 
 std::vector<std::vector<std::uint32_t>> NodeGraph::endsOfTrees() const {
   std::vector<std::vector<std::uint32_t>> out;
-  std::vector<bool> isSeen(m_beside.size(), false);
-  for (std::uint32_t i = 0; i < m_beside.size(); ++i) {
+  std::vector<bool> isSeen(m_neighbours.size(), false);
+  for (std::uint32_t i = 0; i < m_neighbours.size(); ++i) {
     if (isSeen[i] || !m_isVessel[i]) continue;
     std::vector<std::uint32_t> tree{i}, ends;
     isSeen[i] = true;
     for (std::size_t k = 0; k < tree.size(); ++k) {
-      if (m_beside[tree[k]].size() < 2) ends.push_back(tree[k]);
-      for (const std::uint32_t j : m_beside[tree[k]]) {
+      if (m_neighbours[tree[k]].size() < 2) ends.push_back(tree[k]);
+      for (const std::uint32_t j : m_neighbours[tree[k]]) {
         if (!isSeen[j]) tree.push_back(j);
         isSeen[j] = true;
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A case taken apart into branches of nodes, to be changed and put together again by the rules of
-// the format. Every edit is a change of such a draft.
+// the format. Every edit is a change of an editable case.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace lumen::convert {
 
-/// No node of a draft.
+/// No node of an editable case.
 constexpr std::uint32_t kNoNode = UINT32_MAX;
 
-struct DraftNode {
+struct EditableNode {
   std::uint32_t before = kNewNode;  ///< its index in the case
   formats::Vec3f centre{}, direction{};
   float radius = 0, height = 0, inlierRate = 0;
@@ -25,7 +25,7 @@ struct DraftNode {
   bool isEdited = false;  ///< its wall was changed by hand
 };
 
-struct DraftBranch {
+struct EditableBranch {
   formats::Branch record;            ///< without its range and its parent
   std::uint32_t parent = kNoNode;    ///< node to which its first node is joined
   std::vector<std::uint32_t> nodes;  ///< at least one
@@ -34,22 +34,21 @@ struct DraftBranch {
 
 /// Nodes on the straight line from one node to another, without both, half a radius apart. Throws
 /// Error(InvalidInput) for a line of more than 20000 nodes.
-std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to);
+std::vector<EditableNode> bridge(const EditableNode& from, const EditableNode& to);
 
 /// Nodes are identified by their place in `nodes`, which for those of the case is their index.
-/// Nodes without a branch are left out of the case that is made of the draft, and so are their
-/// links.
-class Draft {
+/// Nodes without a branch are left out of the finished case, and so are their links.
+class EditableCase {
 public:
-  explicit Draft(const formats::Case& value);
+  explicit EditableCase(const formats::Case& value);
 
-  std::vector<DraftNode> nodes;
-  std::vector<DraftBranch> branches;
+  std::vector<EditableNode> nodes;
+  std::vector<EditableBranch> branches;
   std::vector<std::array<std::uint32_t, 2>> links;
   // for each wall point of the case; empty: all are there, as they are
   std::vector<bool> isGone;
   std::vector<formats::Vec3f> pointPosition;
-  std::vector<std::uint32_t> pointOwner;  ///< the node of the draft that it belongs to
+  std::vector<std::uint32_t> pointOwner;  ///< the node of the editable case that it belongs to
 
   /// The branch of a node of the case, before anything was moved.
   [[nodiscard]] std::uint32_t branchOf(std::uint32_t node) const {
@@ -62,24 +61,24 @@ public:
   /// A label that no branch has: `base` followed by the first free number from 2 on.
   [[nodiscard]] std::string freeLabel(const std::string& base) const;
 
-  /// Replaces the case that the draft was made of by the draft, and records `sentence`. Parents
-  /// come before their children; the order of branches stays otherwise. Throws Error(InvalidInput)
-  /// if a rule of the format is broken, and leaves the case as it was.
+  /// Replaces `target`, the case that this one was made of, by the edited one, and records
+  /// `sentence`. Parents come before their children; the order of branches stays otherwise. Throws
+  /// Error(InvalidInput) if a rule of the format is broken, and leaves the case as it was.
   Change finish(formats::Case& target, const std::string& sentence) const;
 
 private:
   struct Layout;
   [[nodiscard]] Layout layOut() const;
-  void putTree(const Layout& layout, formats::Case& out) const;
-  void putLinks(const Layout& layout, formats::Case& out) const;
-  /// The wall points of each node of the draft, in the order of the case.
+  void writeTree(const Layout& layout, formats::Case& out) const;
+  void writeLinks(const Layout& layout, formats::Case& out) const;
+  /// The wall points of each node of the editable case, in the order of the case.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> pointsByOwner() const;
-  void putPoints(const Layout& layout, formats::Case& out) const;
-  void putModels(const Layout& layout, formats::Case& out) const;
-  void putArrays(const Layout& layout, formats::Case& out, Change& change) const;
+  void writePoints(const Layout& layout, formats::Case& out) const;
+  void writeModels(const Layout& layout, formats::Case& out) const;
+  void writeArrays(const Layout& layout, formats::Case& out, Change& change) const;
   /// Keeps the motion of the nodes that stay; a motion goes where a node is new or has another
   /// centre at rest.
-  void putMotion(const Layout& layout, formats::Case& out, Change& change) const;
+  void writeMotion(const Layout& layout, formats::Case& out, Change& change) const;
 
   const formats::Case& m_case;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 
 #include <algorithm>
 #include <utility>
@@ -20,7 +20,8 @@ namespace {
 using formats::Case;
 using formats::Vec3f;
 
-/// The values of an array with `components` values for each node, for the nodes of the draft.
+/// The values of an array with `components` values for each node, for the nodes of the editable
+/// case.
 template <class Value>
 std::vector<Value> gathered(const std::vector<Value>& values, std::size_t components,
                             const std::vector<std::uint32_t>& before) {
@@ -38,14 +39,13 @@ Vec3f opposite(const Vec3f& v) {
 }  // namespace
 
 /// The nodes of the case to be, in order.
-struct Draft::Layout {
-  std::vector<std::uint32_t> branches;  ///< branches of the draft, in the new order
-  std::vector<std::uint32_t> nodes;     ///< nodes of the draft, in the new order
-  std::vector<std::uint32_t> index;  ///< new indices of the draft's nodes; kNoNode for dropped ones
-  std::vector<std::uint32_t> before;  ///< the index before of each of `nodes`, or kNewNode
+struct EditableCase::Layout {
+  std::vector<std::uint32_t> branches, nodes;  ///< old indices in the new order
+  std::vector<std::uint32_t> index;            ///< new indices of nodes; kNoNode for dropped ones
+  std::vector<std::uint32_t> before;           ///< the index before of each of `nodes`, or kNewNode
 };
 
-Draft::Draft(const Case& value) : links(value.tree.links), m_case(value) {
+EditableCase::EditableCase(const Case& value) : links(value.tree.links), m_case(value) {
   const formats::CenterlineTree& tree = value.tree;
   const auto origins = formats::readNodeOrigins(value);
   const auto edited = formats::readEditedWalls(value);
@@ -53,28 +53,27 @@ Draft::Draft(const Case& value) : links(value.tree.links), m_case(value) {
     nodes.push_back({i, tree.centre[i], tree.direction[i], tree.radius[i], tree.height[i],
                      tree.inlierRate.empty() ? 0 : tree.inlierRate[i], origins[i], edited[i]});
   for (const formats::Branch& branch : tree.branches) {
-    DraftBranch draft{branch, kNoNode, {}};
+    EditableBranch made{branch, kNoNode, {}};
     if (branch.parentNode != formats::kNoParent)
-      draft.parent = static_cast<std::uint32_t>(branch.parentNode);
-    for (std::uint32_t i = 0; i < branch.nodeCount; ++i)
-      draft.nodes.push_back(branch.firstNode + i);
-    branches.push_back(std::move(draft));
+      made.parent = static_cast<std::uint32_t>(branch.parentNode);
+    for (std::uint32_t i = 0; i < branch.nodeCount; ++i) made.nodes.push_back(branch.firstNode + i);
+    branches.push_back(std::move(made));
   }
 }
 
-void Draft::reverse(std::vector<std::uint32_t>& chain) {
+void EditableCase::reverse(std::vector<std::uint32_t>& chain) {
   std::reverse(chain.begin(), chain.end());
   for (const std::uint32_t node : chain) nodes[node].direction = opposite(nodes[node].direction);
 }
 
-double Draft::measureLength(const std::vector<std::uint32_t>& chain) const {
+double EditableCase::measureLength(const std::vector<std::uint32_t>& chain) const {
   double length = 0;
   for (std::size_t i = 1; i < chain.size(); ++i)
     length += (toEigen(nodes[chain[i]].centre) - toEigen(nodes[chain[i - 1]].centre)).norm();
   return length;
 }
 
-std::string Draft::freeLabel(const std::string& base) const {
+std::string EditableCase::freeLabel(const std::string& base) const {
   for (std::size_t number = 2;; ++number) {
     std::string ending(1, '-');
     ending += std::to_string(number);
@@ -82,12 +81,12 @@ std::string Draft::freeLabel(const std::string& base) const {
     while (!formats::isUtf8(label)) label.pop_back();
     label += ending;
     if (std::none_of(branches.begin(), branches.end(),
-                     [&](const DraftBranch& b) { return b.record.label == label; }))
+                     [&](const EditableBranch& b) { return b.record.label == label; }))
       return label;
   }
 }
 
-Draft::Layout Draft::layOut() const {
+EditableCase::Layout EditableCase::layOut() const {
   std::vector<std::uint32_t> owner(nodes.size(), kNoNode);
   for (std::uint32_t b = 0; b < branches.size(); ++b)
     for (const std::uint32_t node : branches[b].nodes) owner[node] = b;
@@ -113,11 +112,11 @@ Draft::Layout Draft::layOut() const {
   return layout;
 }
 
-void Draft::putTree(const Layout& layout, Case& out) const {
+void EditableCase::writeTree(const Layout& layout, Case& out) const {
   formats::CenterlineTree& tree = out.tree;
   const bool hasRates = !m_case.tree.inlierRate.empty();
   for (const std::uint32_t n : layout.nodes) {
-    const DraftNode& node = nodes[n];
+    const EditableNode& node = nodes[n];
     tree.centre.push_back(node.centre);
     tree.direction.push_back(node.direction);
     tree.radius.push_back(node.radius);
@@ -125,27 +124,27 @@ void Draft::putTree(const Layout& layout, Case& out) const {
     if (hasRates) tree.inlierRate.push_back(node.inlierRate);
   }
   for (const std::uint32_t b : layout.branches) {
-    const DraftBranch& draft = branches[b];
-    formats::Branch branch = draft.record;
-    branch.firstNode = layout.index[draft.nodes.front()];
-    branch.nodeCount = static_cast<std::uint32_t>(draft.nodes.size());
-    branch.parentNode = draft.parent == kNoNode
+    const EditableBranch& from = branches[b];
+    formats::Branch branch = from.record;
+    branch.firstNode = layout.index[from.nodes.front()];
+    branch.nodeCount = static_cast<std::uint32_t>(from.nodes.size());
+    branch.parentNode = from.parent == kNoNode
                             ? formats::kNoParent
-                            : static_cast<std::int32_t>(layout.index[draft.parent]);
+                            : static_cast<std::int32_t>(layout.index[from.parent]);
     double rates = 0;
-    for (const std::uint32_t node : draft.nodes) {
+    for (const std::uint32_t node : from.nodes) {
       rates += nodes[node].inlierRate;
       const auto at = static_cast<std::int32_t>(layout.index[node]);
-      tree.parent.push_back(node == draft.nodes.front() ? branch.parentNode : at - 1);
+      tree.parent.push_back(node == from.nodes.front() ? branch.parentNode : at - 1);
       tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
     }
-    if (draft.isOther && hasRates && branch.meanInlierRate)
-      branch.meanInlierRate = static_cast<float>(rates / static_cast<double>(draft.nodes.size()));
+    if (from.isOther && hasRates && branch.meanInlierRate)
+      branch.meanInlierRate = static_cast<float>(rates / static_cast<double>(from.nodes.size()));
     tree.branches.push_back(std::move(branch));
   }
 }
 
-void Draft::putLinks(const Layout& layout, Case& out) const {
+void EditableCase::writeLinks(const Layout& layout, Case& out) const {
   for (const auto& [a, b] : links) {
     const std::uint32_t first = std::min(layout.index[a], layout.index[b]);
     const std::uint32_t second = std::max(layout.index[a], layout.index[b]);
@@ -155,7 +154,7 @@ void Draft::putLinks(const Layout& layout, Case& out) const {
   std::sort(out.tree.links.begin(), out.tree.links.end());
 }
 
-std::vector<std::vector<std::uint32_t>> Draft::pointsByOwner() const {
+std::vector<std::vector<std::uint32_t>> EditableCase::pointsByOwner() const {
   const formats::PointSets& points = *m_case.points;
   std::vector<std::vector<std::uint32_t>> owned(nodes.size());
   for (std::uint32_t node = 0; node + 1 < points.offset.size(); ++node)
@@ -164,7 +163,7 @@ std::vector<std::vector<std::uint32_t>> Draft::pointsByOwner() const {
   return owned;
 }
 
-void Draft::putPoints(const Layout& layout, Case& out) const {
+void EditableCase::writePoints(const Layout& layout, Case& out) const {
   if (!m_case.points) return;
   const formats::PointSets& points = *m_case.points;
   out.points.emplace();
@@ -178,7 +177,7 @@ void Draft::putPoints(const Layout& layout, Case& out) const {
   }
 }
 
-void Draft::putModels(const Layout& layout, Case& out) const {
+void EditableCase::writeModels(const Layout& layout, Case& out) const {
   if (!m_case.models) return;
   const formats::BlobbyModels& models = *m_case.models;
   out.models.emplace();
@@ -196,7 +195,7 @@ void Draft::putModels(const Layout& layout, Case& out) const {
   }
 }
 
-void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
+void EditableCase::writeArrays(const Layout& layout, Case& out, Change& change) const {
   const bool hasNew =
       std::find(layout.before.begin(), layout.before.end(), kNewNode) != layout.before.end();
   for (const formats::NodeArray& array : m_case.nodeArrays) {
@@ -223,7 +222,7 @@ void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
   formats::setEditedWalls(out, edited);
 }
 
-void Draft::putMotion(const Layout& layout, Case& out, Change& change) const {
+void EditableCase::writeMotion(const Layout& layout, Case& out, Change& change) const {
   if (!m_case.motion) return;
   std::vector<bool> stays(m_case.tree.nodeCount(), false);
   std::vector<std::uint32_t> newIndex(m_case.tree.nodeCount(), 0);
@@ -238,7 +237,7 @@ void Draft::putMotion(const Layout& layout, Case& out, Change& change) const {
   formats::keepMotionOf(out.motion, stays, newIndex);
 }
 
-Change Draft::finish(Case& target, const std::string& sentence) const {
+Change EditableCase::finish(Case& target, const std::string& sentence) const {
   const Layout layout = layOut();
   Change change;
   change.before = layout.before;
@@ -246,12 +245,12 @@ Change Draft::finish(Case& target, const std::string& sentence) const {
   Case out;
   out.metadata = m_case.metadata;
   recordEdit(out.metadata, sentence);
-  putTree(layout, out);
-  putLinks(layout, out);
-  putPoints(layout, out);
-  putModels(layout, out);
-  putArrays(layout, out, change);
-  putMotion(layout, out, change);
+  writeTree(layout, out);
+  writeLinks(layout, out);
+  writePoints(layout, out);
+  writeModels(layout, out);
+  writeArrays(layout, out, change);
+  writeMotion(layout, out, change);
   out.otherChunks = m_case.otherChunks;
   formats::dropDependentChunks(out);
   if (const auto valid = formats::validate(out); !valid)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/editing/untangle.h"
+#include "converters/stages/editing/correct_topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
-#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/editable_case.h"
 #include "converters/stages/editing/node_graph.h"
 
 namespace lumen::convert {
@@ -41,20 +41,20 @@ struct Match {
   double cost = 0;
 };
 
-class Tangle {
+class TopologyCorrector {
 public:
-  Tangle(formats::Case& target, const Surrounding& around)
-      : m_case(target), m_around(around), m_draft(target), m_graph(m_draft) {}
+  TopologyCorrector(formats::Case& target, const LumenInVolume& around)
+      : m_case(target), m_around(around), m_edited(target), m_graph(m_edited) {}
 
-  std::vector<Vector3d> untangle() {
+  std::vector<Vector3d> correct() {
     m_graph.orient(m_graph.formerRoots());
     const std::vector<Match> joined = chosen(matches(findEnds(m_graph.chains())));
     join(joined);
     std::vector<Vector3d> places = joinOverlappingEnds(m_graph);
-    cutRungs(m_graph);
+    cutFalseConnections(m_graph);
     const auto isLumenBetween = [&](const Vector3d& a, const Vector3d& b) { return isOpen(a, b); };
     for (const Vector3d& place : joinIntoSides(m_graph, isLumenBetween)) places.push_back(place);
-    cutRungs(m_graph);
+    cutFalseConnections(m_graph);
     for (const Vector3d& place : joinAcrossVoids(m_graph)) places.push_back(place);
     m_graph.orient(roots());
     rebuild();
@@ -67,7 +67,7 @@ private:
     std::vector<VesselEnd> ends;
     const auto add = [&](std::span<const std::uint32_t> nodes, std::size_t chain,
                          std::uint32_t parent, std::vector<std::uint32_t> stem) {
-      if (const auto arm = m_graph.armAlong(nodes))
+      if (const auto arm = m_graph.armOf(nodes))
         ends.push_back({nodes.front(), chain, m_graph.position(nodes.front()), -arm->direction,
                         arm->radius, parent, std::move(stem)});
     };
@@ -86,7 +86,7 @@ private:
   /// Number of nodes between a parent and the last fork of a vessel that still touches the parent's
   /// vessel: through them a skeleton gets from one vessel into another that passes by.
   [[nodiscard]] std::size_t countStem(const Chain& chain) const {
-    const auto arm = m_graph.armAlong(chain.nodes);
+    const auto arm = m_graph.armOf(chain.nodes);
     if (!arm) return 0;
     const std::vector<std::uint32_t> parents = m_graph.stretchAround(chain.parent);
     const auto touches = [&](std::uint32_t node) {
@@ -106,7 +106,7 @@ private:
   [[nodiscard]] std::size_t skipBridge(std::span<const std::uint32_t> nodes,
                                        std::size_t first) const {
     const auto isBridge = [&](std::uint32_t node) {
-      return m_draft.nodes[node].origin == formats::NodeOrigin::Bridged && !m_graph.isFork(node);
+      return m_edited.nodes[node].origin == formats::NodeOrigin::Bridged && !m_graph.isFork(node);
     };
     std::size_t at = first;
     while (at < nodes.size() && isBridge(nodes[at])) ++at;
@@ -238,9 +238,9 @@ private:
   void rebuild() {
     const std::vector<formats::Step> before = m_case.metadata.steps;
     const std::vector<formats::StopReason> reasons = m_graph.reasonsAtEnds();
-    std::vector<DraftBranch> branches;
+    std::vector<EditableBranch> branches;
     for (Chain& chain : m_graph.chains()) {
-      DraftBranch branch;
+      EditableBranch branch;
       branch.record.kind = BranchKind::Vessel;
       branch.record.label = "vessel-" + std::to_string(branches.size() + 1);
       branch.record.stopReason = reasons[chain.nodes.back()];
@@ -251,29 +251,29 @@ private:
       branches.push_back(std::move(branch));
     }
     std::size_t sacs = 0;
-    for (DraftBranch& branch : m_draft.branches) {
+    for (EditableBranch& branch : m_edited.branches) {
       if (branch.record.kind == BranchKind::Vessel) continue;
       branch.record.label = "aneurysm-" + std::to_string(++sacs);
       branches.push_back(std::move(branch));
     }
-    m_draft.branches = std::move(branches);
+    m_edited.branches = std::move(branches);
     m_graph.turnDirections();
-    smoothAxes(m_draft);
-    m_draft.finish(m_case, "untangled");
+    smoothAxes(m_edited);
+    m_edited.finish(m_case, "corrected the topology");
     m_case.metadata.steps = before;  // no person has edited the case
   }
 
   formats::Case& m_case;
-  const Surrounding& m_around;
-  Draft m_draft;
+  const LumenInVolume& m_around;
+  EditableCase m_edited;
   NodeGraph m_graph;
   std::vector<VesselEnd> m_ends;
 };
 
 }  // namespace
 
-std::vector<Vector3d> untangle(formats::Case& target, const Surrounding& around) {
-  return Tangle(target, around).untangle();
+std::vector<Vector3d> correctTopology(formats::Case& target, const LumenInVolume& around) {
+  return TopologyCorrector(target, around).correct();
 }
 
 }  // namespace lumen::convert
