@@ -47,7 +47,7 @@ ROOMS = [
     {"export/targets/" + name: [] for name in ("cathsim", "engines", "grid", "isaac", "mujoco", "oned", "openfoam", "print",
                                                "simvascular", "slicer", "sofa", "steve", "svzerod")},
     {"export": []},
-    {"library": [], "library/site": ["library"]},
+    {"library/index": [], "library/publish": ["library/index"], "library/rows": ["library/index"], "library/site": ["library/index"]},
     {"engine/answers": []},
     {"engine": []},
     {"engine/operations": []},

@@ -5,7 +5,7 @@
 #include "converters/cli/help_text.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/io/seeds/seeds_parse.h"
-#include "converters/library/json_values.h"
+#include "converters/library/index/json_values.h"
 #include "formats/container/container.h"
 #include "libblob/include/blob.h"
 

@@ -9,8 +9,8 @@
 #include "converters/base/files.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/library/json_values.h"
-#include "converters/library/spdx.h"
+#include "converters/library/index/json_values.h"
+#include "converters/library/index/spdx.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 
@@ -29,17 +29,8 @@ ValueCheck checked(Test test, std::string expected) {
   };
 }
 
-/// "SNOMED CT:86117002:Internal carotid artery".
-convert::AnatomyCode parseCode(const std::string& text) {
-  const std::size_t first = text.find(':');
-  const std::size_t second = first == std::string::npos ? first : text.find(':', first + 1);
-  if (second == std::string::npos) return {};
-  return {text.substr(0, first), text.substr(first + 1, second - first - 1),
-          text.substr(second + 1)};
-}
-
 bool isCode(const std::string& text) {
-  const convert::AnatomyCode code = parseCode(text);
+  const convert::AnatomyCode code = convert::parseCode(text);
   return (code.system == "SNOMED CT" || code.system == "FMA") && !code.code.empty() &&
          code.code.size() <= 18 && code.code.find_first_not_of("0123456789") == std::string::npos &&
          !formats::checkText(code.name, 255, "");
@@ -89,15 +80,16 @@ ValueCheck caseIdText() {
                  convert::kCaseIdRule);
 }
 
-void addAboutRows(OptionTable& table, AboutArguments& about) {
+void addAboutRows(OptionTable& table, AboutArguments& arguments) {
+  convert::CaseAbout& about = arguments.stated;
   table.group(kStatementsGroup);
-  table.file("about", about.file,
+  table.file("about", arguments.file,
              "JSON file of the statements below, under the keys of record.json, or a record.json");
   addText(table, "title", about.title, "Title [the anatomy, or the id]", 255);
   addText(table, "description", about.description, "Description", 4096);
   addText(table, "anatomy", about.anatomy, "Anatomy, such as \"carotid siphon\"", 255);
   table
-      .add("code", &about.codes, "CODE",
+      .add("code", &arguments.codes, "CODE",
            "Anatomy as a code, such as \"SNOMED CT:86117002:Internal carotid artery\", or of FMA; "
            "may be repeated")
       .many()
@@ -133,39 +125,29 @@ convert::CaseAbout statedAbout(const AboutArguments& arguments, const convert::C
   if (!arguments.file.empty())
     about = convert::readAbout(readWholeFile(arguments.file, "file about the case"), arguments.file,
                                known);
-  const bool statesModality = !arguments.modality.empty() || about.modality != "other";
-  about.synthetic = about.synthetic || arguments.synthetic;
-  take(arguments.title, about.title);
-  take(arguments.description, about.description);
-  take(arguments.anatomy, about.anatomy);
-  take(arguments.laterality, about.laterality);
+  const convert::CaseAbout& stated = arguments.stated;
+  const bool statesModality = !stated.modality.empty() || about.modality != "other";
+  about.synthetic = about.synthetic || stated.synthetic;
   if (about.synthetic && !statesModality) about.modality = "synthetic";
-  take(arguments.modality, about.modality);
   if (about.licence.empty()) about.licence = licence;
-  take(arguments.licence, about.licence);
-  take(arguments.attribution, about.attribution);
-  take(arguments.doi, about.doi);
-  take(arguments.origin, about.origin);
-  take(arguments.consent, about.consent);
-  take(arguments.deidentification, about.deidentification);
+  for (const convert::AboutText& one : convert::kAboutTexts)
+    take(stated.*one.text, about.*one.text);
+  take(stated.anatomy, about.anatomy);
+  take(stated.laterality, about.laterality);
+  take(stated.modality, about.modality);
   if (!arguments.codes.empty()) about.codes.clear();
-  for (const std::string& code : arguments.codes) about.codes.push_back(parseCode(code));
+  for (const std::string& code : arguments.codes) about.codes.push_back(convert::parseCode(code));
   return about;
 }
 
 void clearEmptied(const OptionTable& table, convert::CaseAbout& about) {
-  const std::pair<std::string_view, std::string*> texts[] = {
-      {"title", &about.title},
-      {"description", &about.description},
-      {"anatomy", &about.anatomy},
-      {"attribution", &about.attribution},
-      {"doi", &about.doi},
-      {"origin", &about.origin},
-      {kOption.consent.name, &about.consent},
-      {kOption.deidentification.name, &about.deidentification}};
-  for (const auto& [name, text] : texts)
+  const auto clear = [&table](const char* name, std::string& text) {
     if (const OptionRow& row = *table.find(name); row.isGiven && row.givenValues.back().empty())
-      text->clear();
+      text.clear();
+  };
+  for (const convert::AboutText& one : convert::kAboutTexts)
+    if (one.text != &convert::CaseAbout::licence) clear(one.key, about.*one.text);
+  clear("anatomy", about.anatomy);
 }
 
 std::string revisionDay(const std::string& given) {

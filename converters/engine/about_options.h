@@ -6,17 +6,16 @@
 #include <vector>
 
 #include "converters/base/option_table.h"
-#include "converters/library/record.h"
+#include "converters/library/index/record.h"
 
 namespace lumen::engine {
 
 /// Statements of the command line; those that are not given are empty.
 struct AboutArguments {
+  AboutArguments() { stated.laterality = stated.modality = ""; }
   std::string file;  ///< --about
-  std::string title, description, anatomy, laterality, modality, licence, attribution, doi, origin,
-      consent, deidentification;
+  convert::CaseAbout stated;
   std::vector<std::string> codes;
-  bool synthetic = false;
 };
 
 /// Group of the rows of addAboutRows().

@@ -21,8 +21,8 @@
 #include "converters/engine/file_format.h"
 #include "converters/engine/operation_process.h"
 #include "converters/export/export_case.h"
-#include "converters/library/library_file.h"
-#include "converters/library/record.h"
+#include "converters/library/index/library_file.h"
+#include "converters/library/index/record.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using convert::BuildRow, convert::RowEnd, convert::RowResult;
+using convert::BuildRow, convert::RowState, convert::RowResult;
 
 constexpr int kMostJobs = 256;
 
@@ -93,34 +93,20 @@ RowResult resultOf(const convert::RowFault& fault) {
   return result;
 }
 
-const char* endName(RowEnd end) {
-  switch (end) {
-    case RowEnd::Made:
-      return "made";
-    case RowEnd::Kept:
-      return "kept";
-    case RowEnd::Failed:
-      return "failed";
-    case RowEnd::NeedsPerson:
-      return "needs a person";
-  }
-  return "";
-}
-
-std::size_t countRows(const std::vector<RowResult>& results, RowEnd end) {
+std::size_t countRows(const std::vector<RowResult>& results, RowState state) {
   return static_cast<std::size_t>(std::count_if(
-      results.begin(), results.end(), [end](const RowResult& r) { return r.end == end; }));
+      results.begin(), results.end(), [state](const RowResult& r) { return r.state == state; }));
 }
 
 /// Whether the row's case is in the library.
 bool isIn(const RowResult& result) {
-  return result.end == RowEnd::Made || result.end == RowEnd::Kept;
+  return result.state == RowState::Made || result.state == RowState::Kept;
 }
 
 Json resultJson(const RowResult& result) {
   Json json{{"row", result.line},
             {"id", result.id},
-            {"end", endName(result.end)},
+            {"end", convert::rowWord(result.state)},
             {"seconds", jsonNumber(result.seconds)},
             {"warnings", result.warnings},
             {"why", nullptr},
@@ -143,7 +129,7 @@ std::string resultTable(const std::vector<RowResult>& results) {
   std::vector<std::vector<std::string>> rows{{"case", "line", "seconds", "warnings", ""}};
   for (const RowResult& result : results)
     rows.push_back({result.id, std::to_string(result.line), fixedText(result.seconds, 1),
-                    std::to_string(result.warnings), endName(result.end)});
+                    std::to_string(result.warnings), convert::rowWord(result.state)});
   std::string text = alignColumns(std::move(rows));
   for (const RowResult& result : results)
     if (!isIn(result))
@@ -167,10 +153,10 @@ int exitCodeOf(const std::vector<RowResult>& results) {
 }
 
 Answer makeAnswer(const std::vector<RowResult>& results, const std::string& library) {
-  const std::size_t made = countRows(results, RowEnd::Made),
-                    kept = countRows(results, RowEnd::Kept),
-                    missing = countRows(results, RowEnd::Failed),
-                    waiting = countRows(results, RowEnd::NeedsPerson);
+  const std::size_t made = countRows(results, RowState::Made),
+                    kept = countRows(results, RowState::Kept),
+                    missing = countRows(results, RowState::Failed),
+                    waiting = countRows(results, RowState::NeedsPerson);
   Json rows = Json::array();
   for (const RowResult& result : results) rows.push_back(resultJson(result));
   return {Json{{"made", made},

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "converters/engine/command.h"
-#include "converters/library/build.h"
-#include "converters/library/build_list.h"
+#include "converters/library/rows/build.h"
+#include "converters/library/rows/build_list.h"
 
 namespace lumen::engine {
 

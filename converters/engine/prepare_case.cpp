@@ -27,9 +27,9 @@
 #include "converters/export/export_case.h"
 #include "converters/io/mesh/write_gltf.h"
 #include "converters/judge/facts/reachable.h"
-#include "converters/library/change.h"
-#include "converters/library/library_file.h"
-#include "converters/library/record_of_case.h"
+#include "converters/library/index/change.h"
+#include "converters/library/index/library_file.h"
+#include "converters/library/index/record_of_case.h"
 #include "converters/stages/surface/closed_surface.h"
 #include "formats/case/case_file.h"
 #include "formats/container/container.h"
@@ -206,10 +206,8 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
     for (const std::string& loss : result.losses) progress.warn("exports/" + name + ": " + loss);
     for (const convert::ExportFile& one : result.files) {
       const std::string path = "exports/" + name + "/" + one.name;
-      if (one.isProgram)
-        incoming.addProgram(path, "export", one.bytes, name);
-      else
-        incoming.add(path, "export", one.bytes, name);
+      incoming.add(path, "export", one.bytes, name);
+      if (one.isProgram) allowRunning(incoming.folder() / path);
     }
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::InvalidInput) throw;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "converters/engine/command.h"
-#include "converters/library/incoming_case.h"
-#include "converters/library/library_file.h"
-#include "converters/library/record.h"
+#include "converters/library/index/change.h"
+#include "converters/library/index/library_file.h"
+#include "converters/library/index/record.h"
 
 namespace lumen::engine {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "converters/base/sha256.h"
-#include "converters/library/change.h"
-#include "converters/library/derived.h"
+#include "converters/library/index/change.h"
+#include "converters/library/index/derived.h"
 
 namespace {
 
@@ -55,16 +55,14 @@ void copyCases(const fs::path& from, const fs::path& to, std::size_t count) {
     library.cases.push_back({record.id, record.version, record.about.title, text.size(),
                              sha256(std::string_view(text)), first.files, first.bytes});
   }
-  std::ofstream manifest(to / kManifestFile, std::ios::binary);
-  std::ofstream crate(to / kPayload / kCrateFile, std::ios::binary);
-  LibraryTexts texts(
-      library, [&](std::string_view text) { manifest << text; },
-      [&](std::string_view text) { crate << text; });
+  LibraryTexts texts(library);
   for (std::size_t i = 0; i < count; ++i) {
     rename(i);
-    texts.add(record, caseCrate(record));
+    texts.add(library.cases[i], record, caseCrate(record));
   }
-  const TagTexts tags = texts.finish();
+  const RevisionTexts tags = texts.finish();
+  write(to / kManifestFile, tags.manifest);
+  write(to / kRootCrate, tags.crate);
   write(to / kBagFile, tags.bag);
   write(to / kBagInfoFile, tags.bagInfo);
   write(to / kTagManifestFile, tags.tagManifest);

@@ -82,9 +82,9 @@ FAULTS = [
           "segments[t] >= joints[t]", "segments[t] > joints[t]", "flow_test"),
     Fault("LSA axes are a mirror image", "converters/export/shared/frame.cpp",
           "r << 1, 0, 0, 0, 0, 1, 0, -1, 0;", "r << 1, 0, 0, 0, 0, 1, 0, 1, 0;", "export_test", "*Frame*"),
-    Fault("a licence of one's own may have no name", "converters/library/spdx.cpp",
+    Fault("a licence of one's own may have no name", "converters/library/index/spdx.cpp",
           "return text.size() > prefix.size() &&", "return text.size() >= prefix.size() &&", "library_test"),
-    Fault("a link in a library is followed", "converters/library/plain_folder.cpp",
+    Fault("a link in a library is followed", "converters/library/publish/plain_folder.cpp",
           "O_RDONLY | O_NOFOLLOW | O_NONBLOCK", "O_RDONLY | O_NONBLOCK", "library_trust_test"),
     # engine, viewer
     Fault("a name that is nothing but an ending has a format", "converters/engine/file_format.cpp",

@@ -16,7 +16,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
-#include "converters/library/change.h"
+#include "converters/library/index/change.h"
 #include "formats/container/printable.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"

@@ -9,7 +9,7 @@
 
 #include "converters/base/shown_text.h"
 #include "converters/engine/file_format.h"
-#include "converters/library/library_file.h"
+#include "converters/library/index/library_file.h"
 #include "formats/case/topology.h"
 #include "formats/container/printable.h"
 #include "viewer/session/events.h"

@@ -57,6 +57,15 @@ Json librarySummary(const convert::LibraryFile& library) {
           {"count", library.cases.size()}};
 }
 
+Json changeJson(const convert::LibraryFile& library, const std::vector<std::string>& gone,
+                const std::vector<std::string>& updated) {
+  Json json = librarySummary(library);
+  json["gone"] = gone;
+  json["origin"] = nullptr;
+  json["updated"] = updated;
+  return json;
+}
+
 Json caseLineJson(const convert::CaseRecord& record, std::uint64_t bytes) {
   return {{"id", record.id},
           {"version", record.version},

@@ -8,9 +8,9 @@
 
 #include "converters/base/error.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/library/check_library.h"
-#include "converters/library/library_file.h"
-#include "converters/library/record.h"
+#include "converters/library/index/library_file.h"
+#include "converters/library/index/record.h"
+#include "converters/library/publish/check_library.h"
 
 namespace lumen::engine {
 
@@ -19,6 +19,11 @@ std::string goneText(const std::vector<std::string>& gone);
 
 /// id, revision, title, licence, date, and how many cases there are.
 Json librarySummary(const convert::LibraryFile& library);
+
+/// The summary of a library that a command made or changed, the entries that its old revision had
+/// alone, and the ids of cases with other statements; no origin.
+Json changeJson(const convert::LibraryFile& library, const std::vector<std::string>& gone = {},
+                const std::vector<std::string>& updated = {});
 
 /// A case as a line of its library: with the main figures of its record.
 Json caseLineJson(const convert::CaseRecord& record, std::uint64_t bytes);

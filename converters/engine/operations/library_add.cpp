@@ -13,7 +13,7 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/prepare_case.h"
 #include "converters/engine/scope.h"
-#include "converters/library/change.h"
+#include "converters/library/index/change.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {

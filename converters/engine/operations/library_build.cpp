@@ -15,7 +15,7 @@
 #include "converters/engine/about_options.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
-#include "converters/library/row_state.h"
+#include "converters/library/rows/row_note.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -41,55 +41,51 @@ std::string lineListFault(const std::string& text) {
   return linesIn(text) ? "" : foundText(text, "numbers of lines such as 2,5,9");
 }
 
-using convert::RowState;
-using Kind = convert::RowState::Kind;
+using convert::RowState, convert::RowStatus;
 
-constexpr std::array<Kind, 7> kKinds = {Kind::InLibrary, Kind::Made,        Kind::Running,
-                                        Kind::Waiting,   Kind::Interrupted, Kind::NeedsPerson,
-                                        Kind::Failed};
+constexpr std::array<RowState, 7> kStates = {
+    RowState::Kept,        RowState::Made,        RowState::Running, RowState::Waiting,
+    RowState::Interrupted, RowState::NeedsPerson, RowState::Failed};
 
-std::string keyOf(Kind kind) {
-  std::string key = convert::stateWord(kind);
-  if (kind == Kind::InLibrary) key = "in_library";
-  if (kind == Kind::NeedsPerson) key = "needs_person";
-  return key;
+std::string wordOf(RowState state) {
+  return state == RowState::Kept ? "in the library" : convert::rowWord(state);
 }
 
-std::size_t countOf(const std::vector<RowState>& states, Kind kind) {
-  return static_cast<std::size_t>(std::count_if(states.begin(), states.end(),
-                                                [kind](const auto& s) { return s.kind == kind; }));
+std::string keyOf(RowState state) {
+  if (state == RowState::Kept) return "in_library";
+  return state == RowState::NeedsPerson ? "needs_person" : convert::rowWord(state);
 }
 
-std::string idOf(const RowState& state) {
+std::string idOf(const RowStatus& state) {
   return state.note && !state.note->result.id.empty() ? state.note->result.id : state.row->id;
 }
 
-Json stateJson(const RowState& state) {
-  Json json{{"row", state.row->line}, {"id", idOf(state)}, {"state", keyOf(state.kind)},
+Json stateJson(const RowStatus& state) {
+  Json json{{"row", state.row->line}, {"id", idOf(state)}, {"state", keyOf(state.state)},
             {"seconds", nullptr},     {"place", nullptr},  {"why", nullptr}};
   if (!state.note) return json;
   json["seconds"] = jsonNumber(state.note->result.seconds);
   if (!state.note->place.empty()) json["place"] = state.note->place;
-  if (state.kind == Kind::Failed || state.kind == Kind::NeedsPerson)
+  if (state.state == RowState::Failed || state.state == RowState::NeedsPerson)
     json["why"] = state.note->result.why;
   return json;
 }
 
 Json faultJson(const convert::RowFault& fault) {
-  return Json{{"row", fault.line},  {"id", fault.id},   {"state", keyOf(Kind::Failed)},
+  return Json{{"row", fault.line},  {"id", fault.id},   {"state", keyOf(RowState::Failed)},
               {"seconds", nullptr}, {"place", nullptr}, {"why", fault.why}};
 }
 
 /// A line for each row that needs a look.
-std::string linesOf(const std::vector<RowState>& states) {
+std::string linesOf(const std::vector<RowStatus>& states) {
   std::string text;
-  for (const RowState& state : states) {
-    const bool isCut = state.kind == Kind::Interrupted;
-    if (!isCut && state.kind != Kind::Failed && state.kind != Kind::NeedsPerson) continue;
+  for (const RowStatus& state : states) {
+    const bool isCut = state.state == RowState::Interrupted;
+    if (!isCut && state.state != RowState::Failed && state.state != RowState::NeedsPerson) continue;
     const std::string why = isCut ? state.note->place : state.note->result.why;
     text += Lines()
                 .add("line " + std::to_string(state.row->line) + " (" + idOf(state) +
-                     "): " + convert::stateWord(state.kind) + ": " + why)
+                     "): " + wordOf(state.state) + ": " + why)
                 .text();
   }
   return text;
@@ -100,27 +96,25 @@ std::string linesOf(const std::vector<RowState>& states) {
 Answer buildStatus(const convert::BuildList& rows, const std::string& library,
                    const BuildArguments& arguments, const RunContext& context) {
   const convert::BuildOptions options = buildOptions(library, arguments, context);
-  const std::vector<RowState> states = rowStates(rows.rows, library, options);
+  const std::vector<RowStatus> states = rowStates(rows.rows, library, options);
   Json json = Json::object();
   std::string counts;
-  for (const Kind kind : kKinds) {
-    const std::size_t unread = kind == Kind::Failed ? rows.faults.size() : 0;
-    const std::size_t count = countOf(states, kind) + unread;
+  for (const RowState kind : kStates) {
+    auto count = std::count_if(states.begin(), states.end(),
+                               [kind](const RowStatus& row) { return row.state == kind; });
+    if (kind == RowState::Failed) count += static_cast<std::ptrdiff_t>(rows.faults.size());
     json[keyOf(kind)] = count;
     if (count > 0)
-      counts += std::string(", ")
-                    .append(std::to_string(count))
-                    .append(" ")
-                    .append(convert::stateWord(kind));
+      counts.append(counts.empty() ? "" : ", ").append(std::to_string(count) + " " + wordOf(kind));
   }
   json["rows"] = Json::array();
-  for (const RowState& state : states) json["rows"].push_back(stateJson(state));
+  for (const RowStatus& state : states) json["rows"].push_back(stateJson(state));
   for (const convert::RowFault& fault : rows.faults) json["rows"].push_back(faultJson(fault));
   std::string text = linesOf(states);
   for (const convert::RowFault& fault : rows.faults)
     text += Lines().add("line " + std::to_string(fault.line) + ": " + fault.why).text();
   text += formats::printable(library) + ": " + counted(json["rows"].size(), "row", "rows") + ": " +
-          (counts.empty() ? "" : counts.substr(2)) + "\n";
+          counts + "\n";
   return {std::move(json), text, 0, true};
 }
 

@@ -9,8 +9,8 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/library_build.h"
 #include "converters/engine/operations/operations.h"
-#include "converters/library/build.h"
-#include "converters/library/library_file.h"
+#include "converters/library/index/library_file.h"
+#include "converters/library/rows/build.h"
 
 namespace lumen::engine {
 

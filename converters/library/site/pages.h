@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "converters/base/embedded_text.h"
-#include "converters/library/library_file.h"
-#include "converters/library/record.h"
+#include "converters/library/index/library_file.h"
+#include "converters/library/index/record.h"
 
 namespace lumen::convert {
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/library/site/site.h"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/library/change.h"
-#include "converters/library/library_lock.h"
-#include "converters/library/record.h"
+#include "converters/library/index/change.h"
+#include "converters/library/index/library_lock.h"
+#include "converters/library/index/record.h"
 #include "converters/library/site/pages.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
@@ -51,30 +50,17 @@ void requireOwnPage(const fs::path& place) {
 }
 
 std::string signatureIn(const fs::path& folder) {
-  for (const char* const name : {"library.json.minisig", "library.json.sig"})
+  for (const char* const name : {kMinisignSignatureFile, kOpenSshSignatureFile})
     if (std::error_code error; fs::is_regular_file(folder / name, error)) return name;
   return {};
-}
-
-/// Calls that put site/ in its place. Its files are flushed to disk together, by flushFolder(): one
-/// at a time 10,000 of them take a minute, most of it waiting.
-const formats::FileCalls& placingCalls() {
-  static const formats::FileCalls calls = [] {
-    formats::FileCalls all = formats::systemCalls();
-    all.flush = [](int) { return 0; };
-    return all;
-  }();
-  return calls;
 }
 
 /// Writes files into the folder that is to become site/, and counts them.
 class SiteWriter {
 public:
-  SiteWriter(fs::path folder, SiteReport& report)
-      : m_folder(std::move(folder)), m_cases(m_folder / "cases.js"), m_report(report) {
+  SiteWriter(fs::path folder, SiteReport& report) : m_folder(std::move(folder)), m_report(report) {
     fs::create_directory(m_folder / "case");
     fs::create_directory(m_folder / "page");
-    addCases("\"use strict\";\nglobalThis.lumenCases = [\n");
   }
   /// `path`: as from the folder of the library.
   void addPage(const std::string& path, std::string_view text) {
@@ -82,22 +68,13 @@ public:
     ++m_report.pages;
     add(path.substr(kSite.size()), text);
   }
-  void add(const std::string& name, std::string_view text) {
+  void add(std::string_view name, std::string_view text) {
     writeNewFile(text, m_folder / name);
     m_report.bytes += text.size();
-  }
-  void addCases(std::string_view text) {
-    m_cases.add(text);
-    m_report.bytes += text.size();
-  }
-  void endCases() {
-    addCases("];\n");
-    m_cases.close();
   }
 
 private:
   fs::path m_folder;
-  NewFile m_cases;
   SiteReport& m_report;
 };
 
@@ -106,7 +83,7 @@ std::string writePages(const fs::path& folder, const LibraryFile& library, SiteW
                        Progress& progress) {
   const std::string signature = signatureIn(folder);
   const std::vector<std::size_t> order = galleryOrder(library);
-  std::string first, cards;
+  std::string first, cards, list = "\"use strict\";\nglobalThis.lumenCases = [\n";
   std::size_t page = 1;
   const auto endPage = [&] {
     const std::string html = galleryPage(library, page, cards, signature);
@@ -122,12 +99,13 @@ std::string writePages(const fs::path& folder, const LibraryFile& library, SiteW
     progress.check();
     const CaseRecord record = openRecord(folder, library.cases[order[i]]);
     writer.addPage(casePagePath(record.id), casePage(library, record, signature));
-    writer.addCases(searchRow(record) + ",\n");
+    list += searchRow(record) + ",\n";
     cards += galleryCard(record, page == 1 ? "" : "../../");
     if ((i + 1) % kCasesPerPage == 0) endPage();
     progress.advance();
   }
   progress.end();
+  writer.add("cases.js", list + "];\n");
   if (!cards.empty() || page == 1) endPage();
   return first;
 }
@@ -137,21 +115,18 @@ std::string writePages(const fs::path& folder, const LibraryFile& library, SiteW
 SiteReport writeSite(const fs::path& folder, Progress& progress) {
   const LibraryLock lock(folder, progress);
   const LibraryFile library = openLibrary(folder);
-  requireOwnFolder(folder / "site");
-  requireOwnPage(folder / "index.html");
+  requireOwnFolder(folder / kSiteFolder);
+  requireOwnPage(folder / kFirstPage);
   SiteReport report;
   report.cases = library.cases.size();
-  auto site = formats::PendingFolder::beside(
-      folder / "site", formats::PendingFolder::Existing::Replace, placingCalls());
-  if (!site) throw failed(site.error().message);
-  SiteWriter writer(site->path(), report);
-  for (const EmbeddedText& file : siteFiles()) writer.add(std::string(file.name), file.bytes);
+  formats::PendingFolder site =
+      pendingFolder(folder / kSiteFolder, formats::PendingFolder::Existing::Replace);
+  SiteWriter writer(site.path(), report);
+  for (const EmbeddedText& file : siteFiles()) writer.add(file.name, file.bytes);
   const std::string first = writePages(folder, library, writer, progress);
-  writer.endCases();
-  flushFolder(site->path());
-  if (const auto done = site->commit(); !done) throw failed(done.error().message);
-  const auto done = formats::writeFileAtomically(
-      std::as_bytes(std::span(first.data(), first.size())), folder / "index.html");
+  commitFolder(site);
+  const auto done =
+      formats::writeFileAtomically(std::as_bytes(std::span(first)), folder / kFirstPage);
   if (!done) throw failed(done.error().message);
   ++report.pages;
   report.bytes += first.size();

@@ -1,51 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files of the bag, each altered by itself.
-#include "converters/library/bag_check.h"
+#include "converters/library/publish/bag_check.h"
 
-#include <span>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "converters/base/sha256.h"
-#include "converters/library/derived.h"
+#include "converters/library/index/derived.h"
 #include "tests/unit/library/made_library.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {
 namespace {
 
-const std::string kRootCrate = std::string(kPayload) + "/" + kCrateFile;
-
 /// A library in a folder, as far as its bag is concerned.
 class BagOfLibrary : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    std::string manifest, crate;
-    LibraryTexts maker(
-        m_library, [&](std::string_view piece) { manifest += piece; },
-        [&](std::string_view piece) { crate += piece; });
+    LibraryTexts maker(m_library);
     for (const LibraryEntry& entry : m_library.cases) {
       const CaseRecord record = madeRecord(entry.id);
-      maker.add(record, caseCrate(record));
+      maker.add(entry, record, caseCrate(record));
     }
-    const TagTexts tags = maker.finish();
-    m_files.write(kRootCrate, crate);
-    m_files.write(kManifestFile, manifest);
+    const RevisionTexts tags = maker.finish();
+    m_files.write(kRootCrate, tags.crate);
+    m_files.write(kManifestFile, tags.manifest);
     m_files.write(kBagFile, tags.bag);
     m_files.write(kBagInfoFile, tags.bagInfo);
     m_files.write(kTagManifestFile, tags.tagManifest);
   }
 
-  /// The paths of the faults, of which each is one of the bag or of the crate.
-  [[nodiscard]] std::vector<std::string> faultyPaths() const {
+  /// The paths of the faults, of which each is one of the bag or of the crate; the record of the
+  /// case `missing` is not there.
+  [[nodiscard]] std::vector<std::string> faultyPaths(const std::string& missing = "") const {
     const Progress progress;
     const PlainFolder folder(m_files.path());
     const std::string text = libraryText(m_library);
     BagCheck check(folder, m_library, text, progress);
     for (const LibraryEntry& entry : m_library.cases) {
       const CaseRecord record = madeRecord(entry.id);
-      check.add(entry, {FaultList(8), record, caseCrate(record), false, "", 0, 0});
+      CaseCheck one{FaultList(8), record, caseCrate(record), false, "", 0, 0};
+      if (entry.id == missing) one.record.reset();
+      check.add(entry, one);
     }
     FaultList faults(8);
     check.finish(faults);
@@ -63,6 +60,12 @@ protected:
 
 TEST_F(BagOfLibrary, AsItWasWrittenHasNoFault) {
   EXPECT_TRUE(faultyPaths().empty());
+}
+
+TEST_F(BagOfLibrary, LinesOfACaseWithoutItsRecordAreUnknownAndAllOthersAreNot) {
+  EXPECT_TRUE(faultyPaths("siphon-01").empty());
+  m_files.write(kManifestFile, m_files.read(kManifestFile) + "more\n");
+  EXPECT_EQ(faultyPaths("siphon-01"), std::vector<std::string>{kManifestFile});
 }
 
 TEST_P(BagOfLibrary, AFileWithOneOtherByteIsAFault) {
@@ -85,6 +88,26 @@ TEST_P(BagOfLibrary, AMissingFileIsAFault) {
 INSTANTIATE_TEST_SUITE_P(Files, BagOfLibrary,
                          testing::Values(kBagFile, kBagInfoFile, kManifestFile, kTagManifestFile,
                                          kRootCrate));
+
+std::string comparison(std::string_view found, std::string_view expected) {
+  const auto other = firstDifference(found, expected);
+  return other ? other->first : "";
+}
+
+TEST(FirstDifference, IsTheFirstOtherLine) {
+  EXPECT_EQ(comparison("a\nb\n", "a\nb\n"), "");
+  EXPECT_EQ(comparison("a\nx\n", "a\nb\n"), "line 2 \"x\"");
+  EXPECT_EQ(comparison("a\n", "a\nb\n"), "nothing from line 2 on");
+  EXPECT_EQ(comparison("a\nb\nc\n", "a\nb\n"), "line 3 \"c\"");
+  EXPECT_EQ(comparison("a\nb", "a\nb\n"), "line 2 \"b (and no line end)\"");
+  EXPECT_EQ(comparison("", "a\n"), "nothing from line 1 on");
+}
+
+TEST(FirstDifference, PassesOverTheLinesOfOneCase) {
+  const std::string found = "0  data/a/file\n1  data/b/file\n2  data/b/x/y\n3  data/c\n";
+  EXPECT_FALSE(firstDifference(found, "0  data/a/file\n", {"data/b/", "data/c"}));
+  EXPECT_TRUE(firstDifference(found, "0  data/a/file\n", {"data/b/"}));
+}
 
 }  // namespace
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/build_list.h"
+#include "converters/library/rows/build_list.h"
 
 #include <filesystem>
 #include <map>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/library/record.h"
+#include "converters/library/index/record.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

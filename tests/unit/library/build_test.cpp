@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Making the rows of a list by several threads.
-#include "converters/library/build.h"
+#include "converters/library/rows/build.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
-#include "converters/library/change.h"
+#include "converters/library/index/change.h"
 #include "tests/unit/library/made_library.h"
 #include "tests/unit/library/temporary_folder.h"
 

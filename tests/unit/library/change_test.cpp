@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Revisions of a library, and cases of one as another.
-#include "converters/library/change.h"
+#include "converters/library/index/change.h"
 
 #include <filesystem>
 #include <string>
@@ -11,7 +11,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
-#include "converters/library/incoming_case.h"
 #include "tests/unit/library/made_library.h"
 #include "tests/unit/library/temporary_folder.h"
 

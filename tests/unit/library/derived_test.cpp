@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/derived.h"
+#include "converters/library/index/derived.h"
 
 #include <algorithm>
 #include <set>
@@ -20,22 +20,13 @@ std::string digestOf(const std::string& text) {
   return sha256(std::as_bytes(std::span(text)));
 }
 
-struct Texts {
-  std::string manifest, crate, caseCrates;
-  TagTexts tags;
-};
-
-Texts textsOf(const LibraryFile& library) {
-  Texts texts;
-  LibraryTexts maker(
-      library, [&](std::string_view piece) { texts.manifest += piece; },
-      [&](std::string_view piece) { texts.crate += piece; });
+RevisionTexts textsOf(const LibraryFile& library) {
+  LibraryTexts maker(library);
   for (const LibraryEntry& entry : library.cases) {
     const CaseRecord record = madeRecord(entry.id);
-    maker.add(record, caseCrate(record));
+    maker.add(entry, record, caseCrate(record));
   }
-  texts.tags = maker.finish();
-  return texts;
+  return maker.finish();
 }
 
 std::string entityText(const std::string& crate, const std::string& id) {
@@ -64,7 +55,7 @@ void expectClosed(const std::string& crate) {
 }
 
 TEST(DerivedTexts, ManifestHasEveryFileOnce) {
-  const Texts texts = textsOf(madeLibrary());
+  const RevisionTexts texts = textsOf(madeLibrary());
   EXPECT_NE(texts.manifest.find(madeDigest('c') + "  data/siphon-01/exports/mujoco/scene.xml\n"),
             std::string::npos);
   EXPECT_NE(texts.manifest.find(madeDigest('f') + "  data/siphon-01/record.json\n"),
@@ -78,21 +69,21 @@ TEST(DerivedTexts, ManifestHasEveryFileOnce) {
 
 TEST(DerivedTexts, TagFilesCountThePayloadAndStateEachOther) {
   const LibraryFile library = madeLibrary();
-  const Texts texts = textsOf(library);
+  const RevisionTexts texts = textsOf(library);
   const std::size_t crates = caseCrate(madeRecord("siphon-01")).size() +
                              caseCrate(madeRecord("siphon-02")).size() + texts.crate.size();
-  EXPECT_NE(texts.tags.bagInfo.find(
-                "Payload-Oxum: " + std::to_string(2 * 600 + 4021 + 4022 + crates) + ".11\n"),
+  EXPECT_NE(texts.bagInfo.find("Payload-Oxum: " + std::to_string(2 * 600 + 4021 + 4022 + crates) +
+                               ".11\n"),
             std::string::npos)
-      << texts.tags.bagInfo;
-  EXPECT_EQ(texts.tags.tagManifest, digestOf(texts.tags.bagInfo) + "  bag-info.txt\n" +
-                                        digestOf(texts.tags.bag) + "  bagit.txt\n" +
-                                        digestOf(libraryText(library)) + "  library.json\n" +
-                                        digestOf(texts.manifest) + "  manifest-sha256.txt\n");
+      << texts.bagInfo;
+  EXPECT_EQ(texts.tagManifest, digestOf(texts.bagInfo) + "  bag-info.txt\n" + digestOf(texts.bag) +
+                                   "  bagit.txt\n" + digestOf(libraryText(library)) +
+                                   "  library.json\n" + digestOf(texts.manifest) +
+                                   "  manifest-sha256.txt\n");
 }
 
 TEST(DerivedTexts, CratesAreClosedAndSayWhatTheSpecificationAsks) {
-  const Texts texts = textsOf(madeLibrary());
+  const RevisionTexts texts = textsOf(madeLibrary());
   const std::string nested = caseCrate(madeRecord());
   for (const std::string& crate : {texts.crate, nested}) {
     expectClosed(crate);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/library_file.h"
+#include "converters/library/index/library_file.h"
 
 #include <fstream>
 #include <utility>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
-#include "converters/library/library_fault.h"
+#include "converters/library/publish/library_fault.h"
 #include "tests/unit/library/made_library.h"
 
 namespace lumen::convert {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "converters/library/library_file.h"
-#include "converters/library/record.h"
+#include "converters/library/index/library_file.h"
+#include "converters/library/index/record.h"
 
 namespace lumen::convert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/plain_folder.h"
+#include "converters/library/publish/plain_folder.h"
 
 #include <set>
 
@@ -7,8 +7,7 @@
 #include <sys/stat.h>
 
 #include "converters/base/error.h"
-#include "converters/library/bag_check.h"
-#include "converters/library/check_case.h"
+#include "converters/library/publish/check_case.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {
@@ -18,17 +17,6 @@ namespace {
 PlainRead readOf(const TemporaryFolder& files, const std::string& path,
                  const WantedRead& wanted = {{}, true}) {
   return PlainFolder(files.path()).read(path, wanted, {});
-}
-
-std::string comparison(const std::string& file, const std::string& expected) {
-  const TemporaryFolder files;
-  files.write("file", file);
-  const PlainFolder folder(files.path());
-  const Progress progress;
-  LineComparison lines(folder, "file", progress);
-  lines.expect(expected);
-  lines.finish();
-  return lines.found();
 }
 
 }  // namespace
@@ -50,6 +38,8 @@ TEST(PlainFolder, DoesNotReadAFileOfAnotherSize) {
   EXPECT_FALSE(read.isRead);
   EXPECT_EQ(read.bytes, 3U);
   EXPECT_EQ(read.content, "");
+  EXPECT_FALSE(readOf(files, "a", {{}, true, 2}).isRead);
+  EXPECT_TRUE(readOf(files, "a", {{}, true, 3}).isRead);
 }
 
 TEST(PlainFolder, FollowsNoLinkAndWaitsForNoPipe) {
@@ -112,29 +102,6 @@ TEST(CaseFolder, IsNotSettledWhileAChangeWouldGetTheSameTime) {
   const TemporaryFolder files;
   files.write("case/known", "abc");
   EXPECT_FALSE(walkFolder(PlainFolder(files.path()), "case", {}, "id", 10).isSettled);
-}
-
-TEST(LineComparison, TellsTheFirstOtherLine) {
-  EXPECT_EQ(comparison("a\nb\n", "a\nb\n"), "");
-  EXPECT_EQ(comparison("a\nx\n", "a\nb\n"), "line 2 \"x\"");
-  EXPECT_EQ(comparison("a\n", "a\nb\n"), "nothing from line 2 on");
-  EXPECT_EQ(comparison("a\nb\nc\n", "a\nb\n"), "line 3 \"c\"");
-  EXPECT_EQ(comparison("a\nb", "a\nb\n"), "line 2 \"b (and no line end)\"");
-  EXPECT_EQ(comparison("", "a\n"), "nothing from line 1 on");
-}
-
-TEST(LineComparison, PassesOverTheLinesOfOneCase) {
-  const TemporaryFolder files;
-  files.write("file", "a\nx 1\nx 2\nb\n");
-  const PlainFolder folder(files.path());
-  const Progress progress;
-  LineComparison lines(folder, "file", progress);
-  lines.expect("a");
-  lines.expect("\n");
-  lines.skip("x ");
-  lines.expect("b\n");
-  lines.finish();
-  EXPECT_EQ(lines.found(), "");
 }
 
 }  // namespace lumen::convert

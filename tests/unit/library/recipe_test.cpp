@@ -6,7 +6,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
-#include "converters/library/build_row.h"
+#include "converters/library/rows/build_row.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/record.h"
+#include "converters/library/index/record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/library/record_of_case.h"
+#include "converters/library/publish/record_faults.h"
 #include "tests/unit/formats/json_samples.h"
 #include "tests/unit/library/made_library.h"
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/library/check_journal.h"
-#include "converters/library/verified_revisions.h"
+#include "converters/library/publish/check_journal.h"
+#include "converters/library/publish/verify_library.h"
 #include "tests/unit/library/made_library.h"
 #include "tests/unit/library/temporary_folder.h"
 

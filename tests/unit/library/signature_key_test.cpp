@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/library/signature.h"
+#include "converters/library/publish/signature.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

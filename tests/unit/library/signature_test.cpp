@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The signer of a signature, with keys that the programs make for the test.
-#include "converters/library/signature.h"
+#include "converters/library/publish/signature.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/library/spdx.h"
+#include "converters/library/index/spdx.h"
 
 #include <algorithm>
 #include <string>

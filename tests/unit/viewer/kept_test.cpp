@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library's cases, files that are read again, and work that is not saved.
 #include "converters/base/error.h"
-#include "converters/library/library_file.h"
+#include "converters/library/index/library_file.h"
 #include "served.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/file_operations.h"
