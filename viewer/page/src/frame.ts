@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The inner side of <lumen-case src>: the page in its frame learns what to show, and reports when it is shown. */
 import type { CaseFrame, Framed } from "./lumen_case";
-import type { Layout, View } from "./model";
-import type { Source } from "./source";
-import { openFile } from "./source_file";
-import type { Store } from "./store";
+import type { Layout, View } from "./model/model";
+import type { Source } from "./net/source";
+import { openFile } from "./net/source_file";
+import type { Store } from "./base/store";
 
 const kLayouts: readonly string[] = ["four", "scene", "rows", "axial", "coronal", "sagittal"];
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Keys that hold everywhere on the page; views and lists have their own. */
-import type { Actions } from "./actions";
-import { kTools } from "./bar";
-import type { Hand } from "./hand";
-import type { App, Layout } from "./model";
-import { askPosition } from "./probe_line";
-import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./selection";
-import { slabKey } from "./slab";
-import { resetPlanes } from "./slice_input";
-import { renameBranch } from "./tree_panel";
-import type { WorkList } from "./work_list";
+import type { Actions } from "./tools/actions";
+import { kTools } from "./panels/bar";
+import type { Hand } from "./tools/hand";
+import type { App, Layout } from "./model/model";
+import { askPosition } from "./panels/probe_line";
+import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
+import { slabKey } from "./slices/slice_controls";
+import { resetPlanes } from "./slices/slice_input";
+import { renameBranch } from "./panels/tree_panel";
+import type { WorkList } from "./panels/work_list";
 
 const kLayouts: Layout[] = ["four", "rows", "scene", "axial", "coronal", "sagittal"];
 

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The page's model: one value that panels and views watch. */
+import type { Model } from "../../../../libblob/wasm/blob.mjs";
+import { branchColour, type Rgb } from "../base/colour";
+import type { Deviation } from "../scene/mesh_view";
+import { kNoBeside, type Beside } from "../slices/beside";
+import { kNoSlabs, type Slabs } from "../slices/slab";
+import type { OpenAs, Source } from "../net/source";
+import type { Stage } from "../drawing/stage";
+import { Store } from "../base/store";
+import type { Stroke } from "../tools/stroke";
+import type { Surface } from "../case/surface";
+import type { Tree } from "../case/tree";
+import { kEmptyState, type Seed, type State, type Vec3 } from "../base/types";
+import type { Frame } from "../base/vec";
+import type { Volume } from "../case/volume";
+
+export type Tool =
+  | "navigate"
+  | "seed"
+  | "probe"
+  | "distance"
+  | "angle"
+  | "section"
+  | "touch"
+  | "move"
+  | "brush";
+export type ColourBy = "branch" | "radius" | "confidence" | "error" | "root" | "compare";
+export type Cast = "off" | "mip" | "volume";
+export type Layout = "four" | "scene" | "rows" | "axial" | "coronal" | "sagittal";
+/** Axes in which coordinates are shown: x to the patient's left and y to the back, or both the other way. */
+export type Axes = "LPS" | "RAS";
+export type Planes = "patient" | "vessel" | "free";
+
+export interface Layers {
+  surface: boolean;
+  lines: boolean;
+  nodes: boolean;
+  points: boolean;
+  local: boolean;
+  contours: boolean;
+  seeds: boolean;
+  slices: boolean;
+  places: boolean;
+  proposals: boolean;
+  names: boolean;
+}
+
+export interface Measurement {
+  id: number;
+  kind: "distance" | "angle" | "section" | "touch" | "probe";
+  points: Vec3[];
+  text: string;
+  detail: string;
+}
+
+export interface View {
+  state: State;
+  tree: Tree | null;
+  /** Revision of the document that the tree is of; the state's may be newer while the tree is on its way. */
+  treeRevision: number;
+  /** Vessels that wait to be accepted. */
+  proposals: Tree | null;
+  /** Label of the proposal that was shown last. */
+  proposal: string | null;
+  /** Id of the place of the check that was shown last. */
+  place: number | null;
+  /** Time of the case's motion that is shown, s; null: the case at rest. */
+  time: number | null;
+  /** The time goes on. */
+  playing: boolean;
+  /** The tree at that time; null at rest. */
+  posed: Tree | null;
+  surface: Surface | null;
+  volume: Volume | null;
+  /** Slices of the volume that can be shown. */
+  volumeReady: number;
+  /** A volume to look at beside the first, at its own places; nothing is tracked in it. */
+  second: Volume | null;
+  secondReady: number;
+  secondWindow: [number, number];
+  /** How the second volume is seen. */
+  beside: Beside;
+  /** The part that a series of the files that were dropped last becomes; null: to be asked. */
+  seriesAs: OpenAs | null;
+  blob: Model | null;
+
+  selected: number;
+  hidden: ReadonlySet<string>;
+  solo: string | null;
+  opacity: ReadonlyMap<string, number>;
+  allOpacity: number;
+  /** Chosen by the user. */
+  colours: ReadonlyMap<string, Rgb>;
+  /** Index of each name in the list of colours: a vessel keeps its colour when the list of vessels changes. */
+  colourNumbers: ReadonlyMap<string, number>;
+
+  crosshair: Vec3;
+  axes: Axes;
+  /** Node of the selected vessel that the cursor is at, or -1. */
+  node: number;
+  planes: Planes;
+  frame: Frame;
+
+  window: [number, number];
+  cast: Cast;
+  layers: Layers;
+  colourBy: ColourBy;
+  clip: { on: boolean; flip: boolean };
+  slabs: Slabs;
+  interpolate: boolean;
+  tool: Tool;
+  layout: Layout;
+  theme: "dark" | "light";
+  strip: boolean;
+  /** Panels that are open; the others are folded. */
+  panels: { left: boolean; right: boolean };
+
+  measurements: Measurement[];
+  /** Points of the measurement that is being made, or of what is dragged. */
+  pending: Vec3[];
+  /** The brush at the pointer, and the way that it pushes the wall. */
+  brushLines: Vec3[][];
+  /** The stroke that is being drawn. */
+  stroke: Stroke | null;
+  /** Radius of the brush, mm; null: that of the vessel. */
+  brush: number | null;
+  /** mm along a vessel over which a radius that is dragged fades; null: as the vessel is wide, 0: one node. */
+  stretch: number | null;
+  /** Clicks of the seed that is being made; they stay while other tools are used to look for the next one. */
+  clicks: Seed["points"];
+  job: { job: number; name: string; stage: string; done: number; total: number } | null;
+  lost: boolean;
+  distance: Float32Array | null;
+  figures: Record<string, unknown> | null;
+  /** By the number of a mesh: those that are coloured by their distance from the wall. */
+  deviations: ReadonlyMap<string, Deviation>;
+}
+
+/** Axial as it is read: from the feet, the patient's left on the right. */
+export const kPatientFrame: Frame = { right: [1, 0, 0], up: [0, -1, 0], normal: [0, 0, -1] };
+
+export const kInitial: View = {
+  state: kEmptyState,
+  tree: null,
+  treeRevision: 0,
+  proposals: null,
+  proposal: null,
+  place: null,
+  time: null,
+  playing: false,
+  posed: null,
+  surface: null,
+  volume: null,
+  volumeReady: 0,
+  second: null,
+  secondReady: 0,
+  secondWindow: [0, 1],
+  beside: kNoBeside,
+  seriesAs: null,
+  blob: null,
+  selected: -1,
+  hidden: new Set(),
+  solo: null,
+  opacity: new Map(),
+  allOpacity: 1,
+  colours: new Map(),
+  colourNumbers: new Map(),
+  crosshair: [0, 0, 0],
+  axes: "LPS",
+  node: -1,
+  planes: "patient",
+  frame: kPatientFrame,
+  window: [0, 1],
+  cast: "off",
+  layers: {
+    surface: true,
+    lines: true,
+    nodes: false,
+    points: false,
+    local: false,
+    contours: true,
+    seeds: true,
+    slices: false,
+    places: true,
+    proposals: true,
+    names: false,
+  },
+  colourBy: "branch",
+  clip: { on: false, flip: false },
+  slabs: kNoSlabs,
+  interpolate: true,
+  tool: "navigate",
+  layout: "four",
+  theme: "dark",
+  strip: true,
+  panels: { left: true, right: true },
+  measurements: [],
+  pending: [],
+  brushLines: [],
+  stroke: null,
+  brush: null,
+  stretch: null,
+  clicks: [],
+  job: null,
+  lost: false,
+  distance: null,
+  figures: null,
+  deviations: new Map(),
+};
+
+/** The members of a view that belong to a volume. */
+export const kFirst = { volume: "volume", ready: "volumeReady", window: "window" } as const,
+  kSecond = { volume: "second", ready: "secondReady", window: "secondWindow" } as const;
+export type VolumeKeys = typeof kFirst | typeof kSecond;
+
+export interface App {
+  store: Store<View>;
+  source: Source;
+  stage: Stage;
+  /** Shows the user a line that goes away, and to assistive technology. */
+  inform: (text: string, severity?: "note" | "warning" | "error") => void;
+  /** Changes the document and reports a refusal. True if it was done. */
+  perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
+}
+
+/** The tree where the views show it: at the time of its motion, or at rest. */
+export const shownTree = ({ tree, posed }: Pick<View, "tree" | "posed">): Tree | null => posed ?? tree;
+
+/** The colour of a branch: chosen, or of the number that its name has. */
+export function colourOf(view: View, branch: number): Rgb {
+  const label = view.tree?.branches[branch]?.label ?? "";
+  return view.colours.get(label) ?? branchColour(view.colourNumbers.get(label) ?? branch);
+}
+
+export function isShown(view: View, branch: number): boolean {
+  const label = view.tree?.branches[branch]?.label;
+  if (label === undefined) return true;
+  return view.solo !== null ? view.solo === label : !view.hidden.has(label);
+}
+
+export function opacityOf(view: View, branch: number): number {
+  return (view.opacity.get(view.tree?.branches[branch]?.label ?? "") ?? 1) * view.allOpacity;
+}
+
+export const newStore = (): Store<View> => new Store<View>(kInitial);
