@@ -35,15 +35,17 @@ export class Frame {
     const { layout, panels } = this.framed,
       open = panels !== null && panels !== "none";
     store.set({
-      layout: (kLayouts.includes(layout ?? "") ? layout : "scene") as Layout,
-      panels: { left: open && panels !== "right", right: open && panels !== "left" },
-      strip: open,
+      page: {
+        layout: (kLayouts.includes(layout ?? "") ? layout : "scene") as Layout,
+        panels: { left: open && panels !== "right", right: open && panels !== "left" },
+        strip: open,
+      },
     });
   }
 
   ready(store: Store<View>): void {
     const { theme } = this.framed;
-    if (theme === "light" || theme === "dark") store.set({ theme });
+    if (theme === "light" || theme === "dark") store.set({ page: { theme } });
     this.element.dispatchEvent(new CustomEvent("lumen-ready"));
   }
   fail(text: string): void {

@@ -65,7 +65,9 @@ function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
 
 function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: WorkList): boolean {
   const { store, source } = app,
-    { selected } = store.get(),
+    {
+      selection: { selected },
+    } = store.get(),
     key = e.shiftKey ? `Shift+${e.key.toUpperCase()}` : e.key.toLowerCase();
   const onVessel = (act: () => void): boolean => {
     if (selected >= 0) act();
@@ -82,7 +84,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
   }
   const layout = /^[1-6]$/.test(key) ? kLayouts[Number(key) - 1] : undefined;
   if (layout !== undefined) {
-    store.set({ layout });
+    store.set({ page: { layout } });
     return true;
   }
   switch (key) {
@@ -97,22 +99,26 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       actions.fit();
       return true;
     case "b":
-      store.set({ strip: !store.get().strip });
+      store.set({ page: { strip: !store.get().page.strip } });
       return true;
     case "c":
-      store.set({ clip: { ...store.get().clip, on: !store.get().clip.on } });
+      store.set({ scene: { clip: { ...store.get().scene.clip, on: !store.get().scene.clip.on } } });
       return true;
     case "\\": {
-      const { left, right } = store.get().panels,
+      const { left, right } = store.get().page.panels,
         open = !(left || right);
-      store.set({ panels: { left: open, right: open } });
+      store.set({ page: { panels: { left: open, right: open } } });
       return true;
     }
     case "l":
-      store.set({ layers: { ...store.get().layers, names: !store.get().layers.names } });
+      store.set({
+        scene: { layers: { ...store.get().scene.layers, names: !store.get().scene.layers.names } },
+      });
       return true;
     case "m":
-      store.set({ cast: ({ off: "mip", mip: "volume", volume: "off" } as const)[store.get().cast] });
+      store.set({
+        scene: { cast: ({ off: "mip", mip: "volume", volume: "off" } as const)[store.get().scene.cast] },
+      });
       return true;
     case "f":
       actions.fly();
@@ -128,7 +134,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       actions.theme();
       return true;
     case "q":
-      if (store.get().planes === "vessel") resetPlanes(app);
+      if (store.get().slices.planes === "vessel") resetPlanes(app);
       else followVessel(app);
       return true;
     case "[":
@@ -171,7 +177,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case "Shift+X":
       return working(() => onVessel(() => atCursor(app, at => void app.perform({ op: "cut", node: at }))));
     case "enter": // without clicks that wait it presses the button that has the keys
-      return store.get().clicks.length > 0 && working(() => void hand.finish());
+      return store.get().tools.clicks.length > 0 && working(() => void hand.finish());
     case "escape":
       return giveUp(app, actions, hand);
     case "Shift+T":
@@ -188,7 +194,10 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
 }
 
 function giveUp(app: App, actions: Actions, hand: Hand): boolean {
-  const { pending, clicks, job, tool } = app.store.get();
+  const {
+    tools: { pending, clicks, tool },
+    document: { job },
+  } = app.store.get();
   if (actions.flight?.running === true) actions.flight.stop();
   else if (pending.length + clicks.length > 0) hand.giveUp();
   else if (job !== null) void actions.cancel();

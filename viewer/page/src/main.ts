@@ -114,52 +114,6 @@ async function start(root: HTMLElement): Promise<void> {
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene),
     watcher = new Watcher(app, shell, loader, actions);
-  app.store.watch(
-    [
-      "crosshair",
-      "frame",
-      "planes",
-      "tree",
-      "window",
-      "layout",
-      "interpolate",
-      "slabs",
-      "second",
-      "secondReady",
-      "secondWindow",
-      "beside",
-    ],
-    view => {
-      for (const slice of slices) {
-        slice.texture?.interpolate(view.interpolate);
-        slice.second?.interpolate(view.interpolate);
-        app.stage.invalidate(slice);
-      }
-    },
-  );
-  app.store.watch(
-    [
-      "surface",
-      "posed",
-      "hidden",
-      "solo",
-      "selected",
-      "colours",
-      "layers",
-      "measurements",
-      "pending",
-      "brushLines",
-      "stroke",
-      "clicks",
-      "state",
-      "proposals",
-      "proposal",
-      "place",
-    ],
-    () => {
-      for (const slice of slices) app.stage.invalidateOver(slice);
-    },
-  );
   await watcher.begin(state);
   frame?.ready(app.store);
 }

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/** One object of values that views watch. Setting a value calls the watchers of changed keys once, in the same turn. */
+/** Values that views watch, in a few owners. Setting values calls the watchers of what changed once, in the same turn. */
 
-export class Store<T extends object> {
-  private readonly listeners: { keys: Set<keyof T>; call: (value: T) => void }[] = [];
-  private changed = new Set<keyof T>();
+/** An owner, or one of its values as `owner.value`. */
+export type Path<T> = {
+  [O in keyof T & string]: O | `${O}.${keyof T[O] & string}`;
+}[keyof T & string];
+
+/** Values of any owners. */
+export type Change<T> = { [O in keyof T]?: Partial<T[O]> };
+
+export class Store<T extends { [O in keyof T]: object }> {
+  private readonly listeners: { paths: readonly Path<T>[]; call: (value: T) => void }[] = [];
+  private changed = new Set<string>();
   private notifying = false;
 
   constructor(private value: T) {}
@@ -12,16 +20,20 @@ export class Store<T extends object> {
     return this.value;
   }
 
-  set(patch: Partial<T>): void {
-    for (const key of Object.keys(patch) as (keyof T)[])
-      if (!Object.is(this.value[key], patch[key])) this.changed.add(key);
-    this.value = { ...this.value, ...patch };
+  set(change: Change<T>): void {
+    for (const owner of Object.keys(change) as (keyof T & string)[]) {
+      const before = this.value[owner],
+        after = { ...before, ...change[owner] };
+      for (const name of Object.keys(after) as (keyof T[typeof owner] & string)[])
+        if (!Object.is(before[name], after[name])) this.changed.add(owner).add(`${owner}.${name}`);
+      this.value = { ...this.value, [owner]: after };
+    }
     if (!this.notifying) this.notify();
   }
 
-  /** Calls at once, and then whenever one of the keys has changed. Gives what ends it. */
-  watch(keys: (keyof T)[], call: (value: T) => void): () => void {
-    const listener = { keys: new Set(keys), call };
+  /** Calls at once, and then whenever one of the values has changed. Gives what ends it. */
+  watch(paths: readonly Path<T>[], call: (value: T) => void): () => void {
+    const listener = { paths, call };
     this.listeners.push(listener);
     call(this.value);
     return () => {
@@ -39,7 +51,7 @@ export class Store<T extends object> {
         const changed = this.changed;
         this.changed = new Set();
         for (const listener of [...this.listeners])
-          if ([...listener.keys].some(key => changed.has(key))) listener.call(this.value);
+          if (listener.paths.some(path => changed.has(path))) listener.call(this.value);
       }
     } finally {
       this.notifying = false;

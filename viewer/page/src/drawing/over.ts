@@ -73,10 +73,10 @@ export function drawMeasurements(
   reach: number,
 ): void {
   const groups = [
-    ...view.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
-    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : []),
-    ...(view.clicks.length > 0
-      ? [{ points: view.clicks.map(click => click.position), text: "", kind: "pending" }]
+    ...view.tools.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
+    ...(view.tools.pending.length > 0 ? [{ points: view.tools.pending, text: "", kind: "pending" }] : []),
+    ...(view.tools.clicks.length > 0
+      ? [{ points: view.tools.clicks.map(click => click.position), text: "", kind: "pending" }]
       : []),
   ];
   for (const { points, text, kind } of groups) {

@@ -31,9 +31,11 @@ export function strokeAxis(
 
 /** Calls for each proposed vessel that is shown; the chosen one last, so that it lies on top. */
 function eachShown(view: View, draw: (tree: Tree, branch: Branch, isChosen: boolean) => void): void {
-  const { proposals: tree } = view;
-  if (tree === null || !view.layers.proposals) return;
-  const rank = (b: Branch): number => (b.label === view.proposal ? 1 : 0);
+  const {
+    document: { proposals: tree },
+  } = view;
+  if (tree === null || !view.scene.layers.proposals) return;
+  const rank = (b: Branch): number => (b.label === view.selection.proposal ? 1 : 0);
   for (const branch of [...tree.branches].sort((a, b) => rank(a) - rank(b)))
     draw(tree, branch, rank(branch) === 1);
 }

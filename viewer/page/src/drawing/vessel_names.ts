@@ -34,11 +34,13 @@ export function namesApart(names: readonly Name[], widthOf: (text: string) => nu
 }
 
 function shownBranches(view: View): (BranchRecord & { index: number })[] {
-  if (!view.layers.names || view.tree === null) return [];
-  return [...view.tree.branches]
+  if (!view.scene.layers.names || view.document.tree === null) return [];
+  return [...view.document.tree.branches]
     .filter(b => isShown(view, b.index))
     .sort(
-      (a, b) => Number(b.index === view.selected) - Number(a.index === view.selected) || b.length - a.length,
+      (a, b) =>
+        Number(b.index === view.selection.selected) - Number(a.index === view.selection.selected) ||
+        b.length - a.length,
     );
 }
 

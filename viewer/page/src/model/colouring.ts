@@ -25,7 +25,9 @@ export function numbersOf(
   view: View,
   by: ColourBy,
 ): { nodes: ArrayLike<number> } | { vertices: Float32Array } | null {
-  const { tree, surface } = view;
+  const {
+    document: { tree, surface },
+  } = view;
   if (tree === null || surface === null) return null;
   switch (by) {
     case "radius":
@@ -37,7 +39,9 @@ export function numbersOf(
     case "root":
       return { nodes: tree.rootDistance };
     case "compare":
-      return view.distance?.length !== surface.radius.length ? null : { vertices: view.distance };
+      return view.document.distance?.length !== surface.radius.length
+        ? null
+        : { vertices: view.document.distance };
     default:
       return null;
   }
@@ -47,36 +51,41 @@ const ranges = new WeakMap<object, Map<string, [number, number]>>();
 
 /** The range of numbers that the map spans, kept as long as the surface. */
 function rangeOf(view: View): [number, number] {
-  const numbers = numbersOf(view, view.colourBy);
-  if (numbers === null || view.surface === null) return [0, 1];
-  let kept = ranges.get(view.surface);
-  if (kept === undefined) ranges.set(view.surface, (kept = new Map()));
-  const key = view.colourBy + (view.colourBy === "compare" ? String(view.state.revisions.distance) : "");
+  const numbers = numbersOf(view, view.scene.colourBy);
+  if (numbers === null || view.document.surface === null) return [0, 1];
+  let kept = ranges.get(view.document.surface);
+  if (kept === undefined) ranges.set(view.document.surface, (kept = new Map()));
+  const key =
+    view.scene.colourBy +
+    (view.scene.colourBy === "compare" ? String(view.document.state.revisions.distance) : "");
   let range = kept.get(key);
   if (range === undefined) {
-    if (view.colourBy === "confidence") range = [0, 1];
+    if (view.scene.colourBy === "confidence") range = [0, 1];
     else
-      range = usualRange("nodes" in numbers ? numbers.nodes : numbers.vertices, view.colourBy === "compare");
+      range = usualRange(
+        "nodes" in numbers ? numbers.nodes : numbers.vertices,
+        view.scene.colourBy === "compare",
+      );
     kept.set(key, range);
   }
   return range;
 }
 
 export function colouring(view: View): Colouring {
-  const mapped = view.colourBy !== "branch" && numbersOf(view, view.colourBy) !== null;
+  const mapped = view.scene.colourBy !== "branch" && numbersOf(view, view.scene.colourBy) !== null;
   return {
     mapped,
     range: rangeOf(view),
-    map: view.colourBy === "compare" ? "diverging" : "sequential",
-    title: kColourTitles[view.colourBy],
-    unit: view.colourBy === "confidence" || view.colourBy === "branch" ? "" : "mm",
+    map: view.scene.colourBy === "compare" ? "diverging" : "sequential",
+    title: kColourTitles[view.scene.colourBy],
+    unit: view.scene.colourBy === "confidence" || view.scene.colourBy === "branch" ? "" : "mm",
   };
 }
 
 /** Puts the numbers of the present choice into the surface. */
 export function fillValues(view: View): void {
-  const numbers = numbersOf(view, view.colourBy);
-  if (view.surface === null || numbers === null) return;
-  if ("nodes" in numbers) view.surface.fromNodes(numbers.nodes);
-  else view.surface.fromVertices(numbers.vertices);
+  const numbers = numbersOf(view, view.scene.colourBy);
+  if (view.document.surface === null || numbers === null) return;
+  if ("nodes" in numbers) view.document.surface.fromNodes(numbers.nodes);
+  else view.document.surface.fromVertices(numbers.vertices);
 }

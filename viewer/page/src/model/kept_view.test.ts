@@ -17,12 +17,14 @@ const measured: Measurement = {
 };
 const view: View = {
   ...kInitial,
-  window: [10, 200],
-  hidden: new Set(["ica"]),
-  colours: new Map([["aca", [1, 0, 0]]]),
-  opacity: new Map([["mca", 0.5]]),
-  measurements: [measured],
-  axes: "RAS",
+  selection: {
+    ...kInitial.selection,
+    hidden: new Set(["ica"]),
+    colours: new Map([["aca", [1, 0, 0]]]),
+    opacity: new Map([["mca", 0.5]]),
+  },
+  slices: { ...kInitial.slices, window: [10, 200], axes: "RAS" },
+  tools: { ...kInitial.tools, measurements: [measured] },
 };
 
 describe("a view file", () => {

@@ -14,36 +14,35 @@ const kFormat = "lumen-view",
   kVersion = 1,
   kWait = 300; // ms after a change until it is kept
 
-/** The members that are kept as they are. */
-const kPlain = [
-  "window",
-  "crosshair",
-  "cast",
-  "layers",
-  "colourBy",
-  "allOpacity",
-  "clip",
-  "interpolate",
-  "layout",
-  "strip",
-  "panels",
-  "axes",
-  "slabs",
-  "beside",
-  "secondWindow",
-] as const;
+/** The values that are kept as they are, by their owners; a file has all of them side by side. */
+const kPlain = {
+  selection: ["allOpacity"],
+  slices: ["window", "crosshair", "interpolate", "axes", "slabs", "beside", "secondWindow"],
+  scene: ["cast", "layers", "colourBy", "clip"],
+  page: ["layout", "strip", "panels"],
+} as const;
+type Owner = keyof typeof kPlain;
+type Plain = { [O in Owner]: Pick<View[O], (typeof kPlain)[O][number] & keyof View[O]> };
+type Flat = Plain["selection"] & Plain["slices"] & Plain["scene"] & Plain["page"];
+const kOwners = Object.keys(kPlain) as Owner[],
+  kNames = kOwners.flatMap((owner): readonly (keyof Flat)[] => kPlain[owner]);
+
+const flat = (view: View): Flat =>
+  Object.fromEntries(
+    kOwners.flatMap(owner => kPlain[owner].map(name => [name, view[owner][name as keyof View[Owner]]])),
+  ) as unknown as Flat;
+const kUsual = flat(kInitial);
+
 /** Those that a file of before may lack. */
 const kLater: readonly string[] = ["slabs", "beside", "secondWindow"];
 /** The words that some of them may be. */
-const kWords: { readonly [name in (typeof kPlain)[number]]?: readonly string[] } = {
+const kWords: { readonly [name in keyof Flat]?: readonly string[] } = {
   cast: ["off", "mip", "volume"],
   colourBy: ["branch", "radius", "confidence", "error", "root", "compare"],
   layout: ["four", "scene", "rows", "axial", "coronal", "sagittal"],
   axes: ["LPS", "RAS"],
 };
-type Plain = Pick<View, (typeof kPlain)[number]>;
-
-export interface KeptView extends Plain {
+export interface KeptView extends Flat {
   format: typeof kFormat;
   version: typeof kVersion;
   /** Labels of vessels that are not shown. */
@@ -55,15 +54,19 @@ export interface KeptView extends Plain {
 }
 
 export function takeView(view: View): KeptView {
-  const plain = Object.fromEntries(kPlain.map(name => [name, view[name]])) as unknown as Plain;
   return {
     format: kFormat,
     version: kVersion,
-    ...plain,
-    hidden: [...view.hidden],
-    colours: Object.fromEntries([...view.colours].map(([label, colour]) => [label, toHex(colour)])),
-    opacity: Object.fromEntries(view.opacity),
-    measurements: view.measurements.map(({ kind, points, text, detail }) => ({ kind, points, text, detail })),
+    ...flat(view),
+    hidden: [...view.selection.hidden],
+    colours: Object.fromEntries([...view.selection.colours].map(([label, colour]) => [label, toHex(colour)])),
+    opacity: Object.fromEntries(view.selection.opacity),
+    measurements: view.tools.measurements.map(({ kind, points, text, detail }) => ({
+      kind,
+      points,
+      text,
+      detail,
+    })),
   };
 }
 
@@ -104,11 +107,11 @@ export function readView(text: string): KeptView {
   if (!isObject(value) || value.format !== kFormat) throw new Error(`its "format" is not "${kFormat}"`);
   if (value.version !== kVersion)
     throw new Error(`its version is ${String(value.version)}, this page reads ${kVersion}`);
-  for (const name of kPlain)
-    if (kLater.includes(name) && value[name] === undefined) value[name] = kInitial[name];
-  const wrong = kPlain.find(
+  for (const name of kNames)
+    if (kLater.includes(name) && value[name] === undefined) value[name] = kUsual[name];
+  const wrong = kNames.find(
     name =>
-      !isLike(value[name], kInitial[name]) ||
+      !isLike(value[name], kUsual[name]) ||
       kWords[name]?.includes(value[name] as string) === false ||
       (name === "slabs" && !areSlabs(value.slabs as Slabs)) ||
       (name === "beside" && !isBeside(value.beside as Beside)),
@@ -126,15 +129,23 @@ export function readView(text: string): KeptView {
 }
 
 export function applyView(app: App, kept: KeptView): void {
-  const plain = Object.fromEntries(kPlain.map(name => [name, kept[name]])) as Partial<View>;
-  const now = app.store.get().measurements,
+  const of = <O extends Owner>(owner: O): Plain[O] =>
+    Object.fromEntries(kPlain[owner].map(name => [name, kept[name]])) as unknown as Plain[O];
+  const now = app.store.get().tools.measurements,
     first = Math.max(0, ...now.map(m => m.id)) + 1;
   app.store.set({
-    ...plain,
-    hidden: new Set(kept.hidden),
-    colours: new Map<string, Rgb>(Object.entries(kept.colours).map(([label, hex]) => [label, fromHex(hex)])),
-    opacity: new Map(Object.entries(kept.opacity)),
-    measurements: kept.measurements.map((m, i) => ({ ...m, id: first + i })),
+    selection: {
+      ...of("selection"),
+      hidden: new Set(kept.hidden),
+      colours: new Map<string, Rgb>(
+        Object.entries(kept.colours).map(([label, hex]) => [label, fromHex(hex)]),
+      ),
+      opacity: new Map(Object.entries(kept.opacity)),
+    },
+    slices: of("slices"),
+    scene: of("scene"),
+    page: of("page"),
+    tools: { measurements: kept.measurements.map((m, i) => ({ ...m, id: first + i })) },
   });
 }
 
@@ -163,7 +174,7 @@ export function keepView(app: App): void {
       return null; // of another version, or a page that may keep nothing
     }
   };
-  const bringBack = ({ state, tree, volume, second }: View): void => {
+  const bringBack = ({ document: { state, tree, volume, second } }: View): void => {
     const isThere =
       (state.hasVolume || state.hasCase) &&
       (!state.hasVolume || volume !== null) &&
@@ -173,8 +184,8 @@ export function keepView(app: App): void {
     const kept = read();
     if (kept !== null) queueMicrotask(() => applyView(app, kept)); // after what the volume brings along
   };
-  app.store.watch(["state", "tree", "volume", "second"], bringBack);
-  app.store.watch([...kPlain, "hidden", "colours", "opacity", "measurements"], () => {
+  app.store.watch(["document.state", "document.tree", "document.volume", "document.second"], bringBack);
+  app.store.watch(["selection", "slices", "scene", "page", "tools.measurements"], () => {
     if (!isBack) return;
     window.clearTimeout(timer);
     timer = window.setTimeout(() => {

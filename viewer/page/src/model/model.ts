@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The page's model: one value that panels and views watch. */
+/** The page's model: values of a few owners, which panels and views watch. */
 import type { Model } from "../../../../libblob/wasm/blob.mjs";
 import { branchColour, type Rgb } from "../base/colour";
 import type { Deviation } from "../scene/mesh_view";
@@ -54,23 +54,14 @@ export interface Measurement {
   detail: string;
 }
 
-export interface View {
+/** The document, as far as it has come from the server. */
+export interface DocumentView {
   state: State;
   tree: Tree | null;
   /** Revision of the document that the tree is of; the state's may be newer while the tree is on its way. */
   treeRevision: number;
   /** Vessels that wait to be accepted. */
   proposals: Tree | null;
-  /** Label of the proposal that was shown last. */
-  proposal: string | null;
-  /** Id of the place of the check that was shown last. */
-  place: number | null;
-  /** Time of the case's motion that is shown, s; null: the case at rest. */
-  time: number | null;
-  /** The time goes on. */
-  playing: boolean;
-  /** The tree at that time; null at rest. */
-  posed: Tree | null;
   surface: Surface | null;
   volume: Volume | null;
   /** Slices of the volume that can be shown. */
@@ -78,14 +69,20 @@ export interface View {
   /** A volume to look at beside the first, at its own places; nothing is tracked in it. */
   second: Volume | null;
   secondReady: number;
-  secondWindow: [number, number];
-  /** How the second volume is seen. */
-  beside: Beside;
-  /** The part that a series of the files that were dropped last becomes; null: to be asked. */
-  seriesAs: OpenAs | null;
   blob: Model | null;
+  distance: Float32Array | null;
+  figures: Record<string, unknown> | null;
+  /** By the number of a mesh: those that are coloured by their distance from the wall. */
+  deviations: ReadonlyMap<string, Deviation>;
+  job: { job: number; name: string; stage: string; done: number; total: number } | null;
+  lost: boolean;
+}
 
+/** The selected vessel, the cursor on it, and how each vessel looks. */
+export interface SelectionView {
   selected: number;
+  /** Node of the selected vessel that the cursor is at, or -1. */
+  node: number;
   hidden: ReadonlySet<string>;
   solo: string | null;
   opacity: ReadonlyMap<string, number>;
@@ -94,28 +91,46 @@ export interface View {
   colours: ReadonlyMap<string, Rgb>;
   /** Index of each name in the list of colours: a vessel keeps its colour when the list of vessels changes. */
   colourNumbers: ReadonlyMap<string, number>;
+  /** Label of the proposal that was shown last. */
+  proposal: string | null;
+  /** Id of the place of the check that was shown last. */
+  place: number | null;
+}
 
+export interface MotionView {
+  /** Time of the case's motion that is shown, s; null: the case at rest. */
+  time: number | null;
+  /** The time goes on. */
+  playing: boolean;
+  /** The tree at that time; null at rest. */
+  posed: Tree | null;
+}
+
+/** The place that the three slices share, and how they show volumes. */
+export interface SlicesView {
   crosshair: Vec3;
   axes: Axes;
-  /** Node of the selected vessel that the cursor is at, or -1. */
-  node: number;
   planes: Planes;
   frame: Frame;
-
   window: [number, number];
+  secondWindow: [number, number];
+  /** How the second volume is seen. */
+  beside: Beside;
+  slabs: Slabs;
+  interpolate: boolean;
+}
+
+/** What is drawn in 3D; layers count in slices, too. */
+export interface SceneLook {
   cast: Cast;
   layers: Layers;
   colourBy: ColourBy;
   clip: { on: boolean; flip: boolean };
-  slabs: Slabs;
-  interpolate: boolean;
-  tool: Tool;
-  layout: Layout;
-  theme: "dark" | "light";
-  strip: boolean;
-  /** Panels that are open; the others are folded. */
-  panels: { left: boolean; right: boolean };
+}
 
+/** The tool of the pointer, and what it has made or is making. */
+export interface ToolsView {
+  tool: Tool;
   measurements: Measurement[];
   /** Points of the measurement that is being made, or of what is dragged. */
   pending: Vec3[];
@@ -129,87 +144,116 @@ export interface View {
   stretch: number | null;
   /** Clicks of the seed that is being made; they stay while other tools are used to look for the next one. */
   clicks: Seed["points"];
-  job: { job: number; name: string; stage: string; done: number; total: number } | null;
-  lost: boolean;
-  distance: Float32Array | null;
-  figures: Record<string, unknown> | null;
-  /** By the number of a mesh: those that are coloured by their distance from the wall. */
-  deviations: ReadonlyMap<string, Deviation>;
+  /** The part that a series of the files that were dropped last becomes; null: to be asked. */
+  seriesAs: OpenAs | null;
+}
+
+export interface PageView {
+  layout: Layout;
+  theme: "dark" | "light";
+  strip: boolean;
+  /** Panels that are open; the others are folded. */
+  panels: { left: boolean; right: boolean };
+}
+
+/** What is shown, by its owners. A function takes those that it reads: `Pick<View, "document" | "motion">`. */
+export interface View {
+  document: DocumentView;
+  selection: SelectionView;
+  motion: MotionView;
+  slices: SlicesView;
+  scene: SceneLook;
+  tools: ToolsView;
+  page: PageView;
 }
 
 /** Axial as it is read: from the feet, the patient's left on the right. */
 export const kPatientFrame: Frame = { right: [1, 0, 0], up: [0, -1, 0], normal: [0, 0, -1] };
 
 export const kInitial: View = {
-  state: kEmptyState,
-  tree: null,
-  treeRevision: 0,
-  proposals: null,
-  proposal: null,
-  place: null,
-  time: null,
-  playing: false,
-  posed: null,
-  surface: null,
-  volume: null,
-  volumeReady: 0,
-  second: null,
-  secondReady: 0,
-  secondWindow: [0, 1],
-  beside: kNoBeside,
-  seriesAs: null,
-  blob: null,
-  selected: -1,
-  hidden: new Set(),
-  solo: null,
-  opacity: new Map(),
-  allOpacity: 1,
-  colours: new Map(),
-  colourNumbers: new Map(),
-  crosshair: [0, 0, 0],
-  axes: "LPS",
-  node: -1,
-  planes: "patient",
-  frame: kPatientFrame,
-  window: [0, 1],
-  cast: "off",
-  layers: {
-    surface: true,
-    lines: true,
-    nodes: false,
-    points: false,
-    local: false,
-    contours: true,
-    seeds: true,
-    slices: false,
-    places: true,
-    proposals: true,
-    names: false,
+  document: {
+    state: kEmptyState,
+    tree: null,
+    treeRevision: 0,
+    proposals: null,
+    surface: null,
+    volume: null,
+    volumeReady: 0,
+    second: null,
+    secondReady: 0,
+    blob: null,
+    distance: null,
+    figures: null,
+    deviations: new Map(),
+    job: null,
+    lost: false,
   },
-  colourBy: "branch",
-  clip: { on: false, flip: false },
-  slabs: kNoSlabs,
-  interpolate: true,
-  tool: "navigate",
-  layout: "four",
-  theme: "dark",
-  strip: true,
-  panels: { left: true, right: true },
-  measurements: [],
-  pending: [],
-  brushLines: [],
-  stroke: null,
-  brush: null,
-  stretch: null,
-  clicks: [],
-  job: null,
-  lost: false,
-  distance: null,
-  figures: null,
-  deviations: new Map(),
+  selection: {
+    selected: -1,
+    node: -1,
+    hidden: new Set(),
+    solo: null,
+    opacity: new Map(),
+    allOpacity: 1,
+    colours: new Map(),
+    colourNumbers: new Map(),
+    proposal: null,
+    place: null,
+  },
+  motion: {
+    time: null,
+    playing: false,
+    posed: null,
+  },
+  slices: {
+    crosshair: [0, 0, 0],
+    axes: "LPS",
+    planes: "patient",
+    frame: kPatientFrame,
+    window: [0, 1],
+    secondWindow: [0, 1],
+    beside: kNoBeside,
+    slabs: kNoSlabs,
+    interpolate: true,
+  },
+  scene: {
+    cast: "off",
+    clip: { on: false, flip: false },
+    layers: {
+      surface: true,
+      lines: true,
+      nodes: false,
+      points: false,
+      local: false,
+      contours: true,
+      seeds: true,
+      slices: false,
+      places: true,
+      proposals: true,
+      names: false,
+    },
+    colourBy: "branch",
+  },
+  tools: {
+    tool: "navigate",
+    measurements: [],
+    pending: [],
+    brushLines: [],
+    stroke: null,
+    brush: null,
+    stretch: null,
+    clicks: [],
+    seriesAs: null,
+  },
+  page: {
+    layout: "four",
+    theme: "dark",
+    strip: true,
+    panels: { left: true, right: true },
+  },
 };
 
-/** The members of a view that belong to a volume. */
+/** The values that belong to a volume: two of the document, and the window of the slices. */
 export const kFirst = { volume: "volume", ready: "volumeReady", window: "window" } as const,
   kSecond = { volume: "second", ready: "secondReady", window: "secondWindow" } as const;
 export type VolumeKeys = typeof kFirst | typeof kSecond;
@@ -225,22 +269,28 @@ export interface App {
 }
 
 /** The tree where the views show it: at the time of its motion, or at rest. */
-export const shownTree = ({ tree, posed }: Pick<View, "tree" | "posed">): Tree | null => posed ?? tree;
+export const shownTree = ({
+  document: { tree },
+  motion: { posed },
+}: Pick<View, "document" | "motion">): Tree | null => posed ?? tree;
 
 /** The colour of a branch: chosen, or of the number that its name has. */
 export function colourOf(view: View, branch: number): Rgb {
-  const label = view.tree?.branches[branch]?.label ?? "";
-  return view.colours.get(label) ?? branchColour(view.colourNumbers.get(label) ?? branch);
+  const label = view.document.tree?.branches[branch]?.label ?? "";
+  return view.selection.colours.get(label) ?? branchColour(view.selection.colourNumbers.get(label) ?? branch);
 }
 
 export function isShown(view: View, branch: number): boolean {
-  const label = view.tree?.branches[branch]?.label;
+  const label = view.document.tree?.branches[branch]?.label;
   if (label === undefined) return true;
-  return view.solo !== null ? view.solo === label : !view.hidden.has(label);
+  return view.selection.solo !== null ? view.selection.solo === label : !view.selection.hidden.has(label);
 }
 
 export function opacityOf(view: View, branch: number): number {
-  return (view.opacity.get(view.tree?.branches[branch]?.label ?? "") ?? 1) * view.allOpacity;
+  return (
+    (view.selection.opacity.get(view.document.tree?.branches[branch]?.label ?? "") ?? 1) *
+    view.selection.allOpacity
+  );
 }
 
 export const newStore = (): Store<View> => new Store<View>(kInitial);

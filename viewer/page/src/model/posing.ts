@@ -14,26 +14,32 @@ const kAtRest = new Set(["fit", "seedAdd", "seedMove", "seedDelete", "track", "t
 /** Shows the case at a time of its motion, s. Tools act at rest: navigation takes the place of another. */
 export function goToTime(app: App, time: number): void {
   const { store } = app,
-    { tree, tool } = store.get(),
+    {
+      document: { tree },
+      tools: { tool },
+    } = store.get(),
     motion = tree?.motion ?? null;
   if (motion === null) return;
   store.set({
-    time: motion.within(time),
-    ...(tool === "navigate" ? {} : { tool: "navigate", pending: [], brushLines: [], stroke: null }),
+    motion: { time: motion.within(time) },
+    tools: tool === "navigate" ? {} : { tool: "navigate", pending: [], brushLines: [], stroke: null },
   });
 }
 
 /** Shows the case at rest. A crosshair on a node stays on it. */
 export function goToRest(app: App): void {
   const { store } = app,
-    { tree, posed, node, crosshair } = store.get();
+    {
+      document: { tree },
+      motion: { posed },
+      selection: { node },
+      slices: { crosshair },
+    } = store.get();
   const isOnNode = tree !== null && posed !== null && node >= 0 && node < posed.count;
   store.set({
-    time: null,
-    playing: false,
-    ...(isOnNode && distance(posed.position(node), crosshair) < kSame
-      ? { crosshair: tree.position(node) }
-      : {}),
+    motion: { time: null, playing: false },
+    slices:
+      isOnNode && distance(posed.position(node), crosshair) < kSame ? { crosshair: tree.position(node) } : {},
   });
 }
 
@@ -41,7 +47,7 @@ export function goToRest(app: App): void {
  * the views go back to the case at rest, which it acts on, and it waits to be asked for again. */
 export function mayChange(app: App, operation: Operation): boolean {
   const isAtRest = kAtRest.has(operation.op) || (namesTree(operation) && operation.op !== "rename");
-  if (app.store.get().time === null || !isAtRest) return true;
+  if (app.store.get().motion.time === null || !isAtRest) return true;
   goToRest(app);
   app.inform("Corrections act on the case at rest, which is shown now: once more does it.", "warning");
   return false;
@@ -49,12 +55,15 @@ export function mayChange(app: App, operation: Operation): boolean {
 
 /** Plays the motion, or stops it; false without a motion. */
 export function playOrPause(app: App): boolean {
-  const { tree, time, playing } = app.store.get(),
+  const {
+      document: { tree },
+      motion: { time, playing },
+    } = app.store.get(),
     motion = tree?.motion ?? null;
   if (motion === null) return false;
   if (!playing && (time === null || (motion.period === null && time >= motion.end)))
     goToTime(app, motion.begin);
-  app.store.set({ playing: !playing });
+  app.store.set({ motion: { playing: !playing } });
   return true;
 }
 
@@ -65,43 +74,47 @@ export class Posing {
 
   constructor(private readonly app: App) {
     const { store } = app;
-    store.watch(["tree"], ({ tree }) => {
+    store.watch(["document.tree"], ({ document: { tree } }) => {
       if (tree === this.tree) return;
       this.tree = tree;
-      store.set({ time: null, playing: false });
+      store.set({ motion: { time: null, playing: false } });
     });
-    store.watch(["tool"], ({ tool, time }) => {
+    store.watch(["tools.tool"], ({ tools: { tool }, motion: { time } }) => {
       if (tool === "navigate" || time === null) return;
       goToRest(app);
       app.inform("Tools act on the case at rest, which is shown now.");
     });
-    store.watch(["time", "tree", "surface"], view => this.pose(view));
-    store.watch(["playing"], ({ playing }) => {
+    store.watch(["motion.time", "document.tree", "document.surface"], view => this.pose(view));
+    store.watch(["motion.playing"], ({ motion: { playing } }) => {
       this.last = 0;
       if (playing) this.run();
     });
   }
 
-  private pose({ time, tree, surface, posed }: View): void {
+  private pose({ motion: { time, posed }, document: { tree, surface } }: View): void {
     const poses = time === null ? null : (tree?.motion?.at(time) ?? null);
     if (tree === null || poses === null) {
       surface?.rest();
-      if (posed !== null) this.app.store.set({ posed: null });
+      if (posed !== null) this.app.store.set({ motion: { posed: null } });
       return;
     }
     surface?.pose(poses, tree.centre);
-    this.app.store.set({ posed: tree.posed(poses) });
+    this.app.store.set({ motion: { posed: tree.posed(poses) } });
   }
 
   private run(): void {
     requestAnimationFrame(now => {
-      const { playing, time, tree } = this.app.store.get(),
+      const {
+          motion: { playing, time },
+          document: { tree },
+        } = this.app.store.get(),
         motion = tree?.motion ?? null;
       if (!playing || time === null || motion === null) return;
       const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
       this.last = now;
       goToTime(this.app, time + passed);
-      if (motion.period === null && time + passed >= motion.end) this.app.store.set({ playing: false });
+      if (motion.period === null && time + passed >= motion.end)
+        this.app.store.set({ motion: { playing: false } });
       else this.run();
     });
   }

@@ -3,7 +3,7 @@
 import type { View } from "./model";
 import type { Tree } from "../case/tree";
 
-type Kept = Pick<View, "selected" | "node" | "hidden" | "solo" | "opacity" | "colours" | "colourNumbers">;
+type Kept = Omit<View["selection"], "allOpacity" | "proposal" | "place">;
 
 /** Old name of each vessel that has another name in the new tree, but begins at the same place. */
 function renamed(old: Tree, tree: Tree): Map<string, string> {
@@ -42,8 +42,12 @@ function numbered(numbers: ReadonlyMap<string, number>, tree: Tree): Map<string,
 }
 
 /** Selection, cursor, looks and colours, in the tree that follows another. */
-export function sameVessels(before: Kept & Pick<View, "tree">, tree: Tree | null): Kept {
-  const { tree: old, hidden, solo, opacity, colours, colourNumbers } = before,
+export function sameVessels(view: Pick<View, "document" | "selection">, tree: Tree | null): Kept {
+  const {
+      document: { tree: old },
+      selection: before,
+    } = view,
+    { hidden, solo, opacity, colours, colourNumbers } = before,
     none = { selected: -1, node: -1, hidden, solo, opacity, colours, colourNumbers };
   if (tree === null) return none;
   if (old === null) return { ...none, colourNumbers: numbered(colourNumbers, tree) };

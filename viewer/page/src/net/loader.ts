@@ -32,11 +32,11 @@ export class Loader {
   ) {
     this.volume = new VolumeLoader(app, kFirst, slices, scene, () => this.settle());
     this.second = new VolumeLoader(app, kSecond, slices);
-    app.store.watch(["colourBy", "surface", "distance"], view => {
+    app.store.watch(["scene.colourBy", "document.surface", "document.distance"], view => {
       fillValues(view);
       app.stage.invalidate(scene);
     });
-    app.store.watch(["colourBy", "surface", "state"], () => this.askDistance());
+    app.store.watch(["scene.colourBy", "document.surface", "document.state"], () => this.askDistance());
   }
 
   /** Takes a state as the new truth. */
@@ -44,7 +44,7 @@ export class Loader {
     const { store } = this.app,
       r = state.revisions,
       jobs: Promise<void>[] = [];
-    store.set({ state, figures: state.figures ?? null });
+    store.set({ document: { state, figures: state.figures ?? null } });
     if (r.case !== this.seen.case) {
       this.seen.case = r.case;
       jobs.push(this.takeCase(state));
@@ -62,7 +62,7 @@ export class Loader {
       jobs.push(this.takeProposals(state));
     }
     await Promise.all(jobs);
-    store.set({ treeRevision: state.revision });
+    store.set({ document: { treeRevision: state.revision } });
     if (r.surface !== this.seen.surface) {
       this.seen.surface = r.surface;
       void this.takeSurface(state);
@@ -73,7 +73,10 @@ export class Loader {
 
   /** Distances belong to one surface and one truth, and take a while: they are asked for when they are shown. */
   private askDistance(): void {
-    const { state, surface, colourBy } = this.app.store.get(),
+    const {
+        document: { state, surface },
+        scene: { colourBy },
+      } = this.app.store.get(),
       r = state.revisions;
     if (colourBy !== "compare" || surface === null || !state.hasTruth) return;
     const key = `${r.case} ${r.truth ?? 0} ${this.shown.kind} ${this.shown.level}`;
@@ -87,14 +90,18 @@ export class Loader {
   /** Once: the crosshair to where the page was sent, or into the middle; the projection where there is no case. */
   private settle(): void {
     const { store, stage } = this.app,
-      { tree, volume, state } = store.get();
+      {
+        document: { tree, volume, state },
+      } = store.get();
     if (!this.first || (tree === null && (volume === null || state.hasCase))) return;
     this.first = false;
     store.set({
-      crosshair:
-        state.look ?? (tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre()),
-      cast: tree === null && volume !== null ? "mip" : "off",
-      ...(state.time !== null && tree?.motion ? { time: tree.motion.within(state.time) } : {}),
+      slices: {
+        crosshair:
+          state.look ?? (tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre()),
+      },
+      scene: { cast: tree === null && volume !== null ? "mip" : "off" },
+      motion: state.time !== null && tree?.motion ? { time: tree.motion.within(state.time) } : {},
     });
     stage.invalidate();
   }
@@ -107,9 +114,11 @@ export class Loader {
   private async takeCase(state: State): Promise<void> {
     const { store } = this.app,
       pack = state.hasCase ? await this.pack("case") : null;
-    const tree = pack === null ? null : new Tree(pack),
-      before = store.get();
-    store.set({ tree, ...sameVessels(before, tree), ...(tree === null ? { surface: null } : {}) });
+    const tree = pack === null ? null : new Tree(pack);
+    store.set({
+      document: { tree, ...(tree === null ? { surface: null } : {}) },
+      selection: sameVessels(store.get(), tree),
+    });
     this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
     this.settle();
     void this.openModel(tree);
@@ -119,17 +128,19 @@ export class Loader {
     const { store } = this.app,
       pack = state.proposals.length > 0 ? await this.pack("proposals") : null,
       tree = pack === null ? null : new Tree(pack),
-      { proposal } = store.get();
+      {
+        selection: { proposal },
+      } = store.get();
     store.set({
-      proposals: tree,
-      proposal: tree?.branches.some(b => b.label === proposal) === true ? proposal : null,
+      document: { proposals: tree },
+      selection: { proposal: tree?.branches.some(b => b.label === proposal) === true ? proposal : null },
     });
   }
 
   private async openModel(tree: Tree | null): Promise<void> {
     const { store, source, inform } = this.app;
     if (tree?.hasModels !== true) {
-      store.set({ blob: null });
+      store.set({ document: { blob: null } });
       return;
     }
     try {
@@ -137,11 +148,11 @@ export class Loader {
         .bytes("blob.wasm")
         .then(wasm => (wasm === null ? null : loadBlob(wasm as BufferSource)));
       const [library, file] = await Promise.all([this.library, source.bytes("case.lumen")]);
-      if (store.get().tree !== tree) return;
-      store.get().blob?.close();
-      store.set({ blob: library === null || file === null ? null : library.open(file) });
+      if (store.get().document.tree !== tree) return;
+      store.get().document.blob?.close();
+      store.set({ document: { blob: library === null || file === null ? null : library.open(file) } });
     } catch (error) {
-      store.set({ blob: null });
+      store.set({ document: { blob: null } });
       inform(
         `The probe is not available: ${error instanceof Error ? error.message : String(error)}`,
         "warning",
@@ -154,8 +165,8 @@ export class Loader {
     const { store, stage } = this.app,
       ofCase = state.revisions.case,
       live = (): boolean => ofCase === this.seen.case;
-    if (!state.hasCase || store.get().tree?.hasModels !== true) {
-      store.set({ surface: null });
+    if (!state.hasCase || store.get().document.tree?.hasModels !== true) {
+      store.set({ document: { surface: null } });
       return;
     }
     const level = stage.software ? 1 : 0;
@@ -188,16 +199,18 @@ export class Loader {
     )
       return;
     this.shown = { case: ofCase, kind, level };
-    this.app.store.set({ surface: new Surface(pack), distance: null });
+    this.app.store.set({ document: { surface: new Surface(pack), distance: null } });
     document.body.dataset.surface = kind;
-    const { surface } = this.app.store.get();
+    const {
+      document: { surface },
+    } = this.app.store.get();
     if (surface !== null) this.buildBoxes(surface, live, performance.now());
   }
 
   /** Builds what outlines and picking need, a part at a time, while nothing moves; outlines appear by and by. */
   private buildBoxes(surface: Surface, live: () => boolean, drawn: number): void {
     idle(() => {
-      if (!live() || this.app.store.get().surface !== surface) return;
+      if (!live() || this.app.store.get().document.surface !== surface) return;
       if (this.scene.isMoving) {
         window.setTimeout(() => this.buildBoxes(surface, live, drawn), kWhileMoving);
         return;
@@ -216,12 +229,17 @@ export class Loader {
     const pack = await this.pack("distance", query),
       distance = pack?.optional("distance", "f32") ?? null,
       { store } = this.app;
-    if (store.get().surface !== surface) return;
+    if (store.get().document.surface !== surface) return;
     if (distance !== null && distance.length !== surface.radius.length) {
       this.seen.distance = "";
       return;
     } // of a finer one, which comes soon
-    store.set({ distance, figures: (pack?.meta.figures as View["figures"]) ?? store.get().figures });
+    store.set({
+      document: {
+        distance,
+        figures: (pack?.meta.figures as View["document"]["figures"]) ?? store.get().document.figures,
+      },
+    });
   }
 }
 

@@ -17,14 +17,24 @@ function slowDocument(store: Store<View>): { source: Source; asked: [string, num
   const perform = (operation: { op: string }, revision: number): Promise<{ revision: number }> => {
     asked.push([operation.op, revision]);
     const answer = ++now;
-    setTimeout(() => store.set({ state: { ...store.get().state, revision: answer } }), 20);
+    setTimeout(
+      () => store.set({ document: { state: { ...store.get().document.state, revision: answer } } }),
+      20,
+    );
     return Promise.resolve({ revision: answer });
   };
   return { source: { perform } as unknown as Source, asked };
 }
 
 const storeAt = (revision: number): Store<View> =>
-  new Store<View>({ ...kInitial, state: { ...kInitial.state, revision }, treeRevision: revision });
+  new Store<View>({
+    ...kInitial,
+    document: {
+      ...kInitial.document,
+      state: { ...kInitial.document.state, revision },
+      treeRevision: revision,
+    },
+  });
 
 test("two undos at once are two undos, each of the state that the one before it left", async () => {
   const store = storeAt(7),

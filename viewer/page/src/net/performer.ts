@@ -11,7 +11,7 @@ const kLongest = 5000; // ms to wait for the state that an answer announced; wit
 export const namesTree = (operation: Operation): boolean => "branch" in operation || "node" in operation;
 
 /** The revision whose indices an operation has; null: it has none, and is meant for the document as it will be. */
-function seenRevision(operation: Operation, { state, treeRevision }: View): number | null {
+function seenRevision(operation: Operation, { document: { state, treeRevision } }: View): number | null {
   if (namesTree(operation)) return treeRevision;
   return "ignored" in operation ? state.revision : null;
 }
@@ -30,7 +30,10 @@ export class Performer {
       before = this.last;
     const turn = (async (): Promise<void> => {
       await before.catch(() => undefined); // its caller gets the error
-      const { revision } = await this.source.perform(operation, seen ?? this.store.get().state.revision);
+      const { revision } = await this.source.perform(
+        operation,
+        seen ?? this.store.get().document.state.revision,
+      );
       if (revision !== undefined) await this.reached(revision);
     })();
     this.last = turn;
@@ -46,7 +49,7 @@ export class Performer {
         resolve();
       };
       const timer = window.setTimeout(done, kLongest);
-      end = this.store.watch(["state"], ({ state }) => {
+      end = this.store.watch(["document.state"], ({ document: { state } }) => {
         if (state.revision >= revision) queueMicrotask(done);
       });
     });

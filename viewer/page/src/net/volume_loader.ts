@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Fetches one volume of the document and shows its slices as they arrive. */
 import { Caster } from "../scene/cast";
-import { kFirst, type App, type View, type VolumeKeys } from "../model/model";
+import { kFirst, type App, type VolumeKeys } from "../model/model";
 import { headerEnd, Pack } from "../case/pack";
 import type { SceneView } from "../scene/scene_view";
 import type { SliceView } from "../slices/slice_view";
@@ -60,10 +60,9 @@ export class VolumeLoader {
   private set(volume: Volume | null, ready: number, window?: [number, number]): void {
     const { keys } = this;
     this.app.store.set({
-      [keys.volume]: volume,
-      [keys.ready]: ready,
-      ...(window === undefined ? {} : { [keys.window]: window }),
-    } as Partial<View>);
+      document: { [keys.volume]: volume, [keys.ready]: ready },
+      slices: window === undefined ? {} : { [keys.window]: window },
+    });
   }
 
   /** Hands slices that are complete to the graphics, a part of them with each picture. */
@@ -73,7 +72,7 @@ export class VolumeLoader {
       if (this.texture !== texture) return;
       if (texture.upload()) this.upload(volume, texture);
       else {
-        store.set({ [this.keys.ready]: volume.complete } as Partial<View>);
+        store.set({ document: { [this.keys.ready]: volume.complete } });
         stage.firstPicture ||= volume.complete === volume.size[2];
       }
       for (const each of this.slices) stage.invalidate(each);
@@ -106,6 +105,6 @@ export class VolumeLoader {
       ),
     );
     stage.invalidate(scene);
-    store.set({ volumeReady: volume.size[2] });
+    store.set({ document: { volumeReady: volume.size[2] } });
   }
 }

@@ -21,7 +21,7 @@ export class Watcher {
     this.showEmpty();
     this.takeDrops();
     window.addEventListener("beforeunload", e => {
-      if (app.source.live && app.store.get().state.unsaved) e.preventDefault();
+      if (app.source.live && app.store.get().document.state.unsaved) e.preventDefault();
     });
   }
 
@@ -34,10 +34,12 @@ export class Watcher {
       /* a page from disk may keep nothing */
     }
     app.store.set({
-      theme:
-        theme === "light" || (theme === null && matchMedia("(prefers-color-scheme: light)").matches)
-          ? "light"
-          : "dark",
+      page: {
+        theme:
+          theme === "light" || (theme === null && matchMedia("(prefers-color-scheme: light)").matches)
+            ? "light"
+            : "dark",
+      },
     });
     this.take(await state);
     await this.taking;
@@ -64,37 +66,39 @@ export class Watcher {
       case "state":
         this.tellChanged(event.state);
         this.take(event.state);
-        if (event.state.job === null) store.set({ job: null });
-        else if (store.get().job?.job !== event.state.job.job)
-          store.set({ job: { ...event.state.job, stage: "", done: 0, total: 0 } });
+        if (event.state.job === null) store.set({ document: { job: null } });
+        else if (store.get().document.job?.job !== event.state.job.job)
+          store.set({ document: { job: { ...event.state.job, stage: "", done: 0, total: 0 } } });
         break;
       case "progress":
         store.set({
-          job: {
-            job: event.job,
-            name: store.get().job?.name ?? "",
-            stage: event.stage,
-            done: event.done,
-            total: event.total,
+          document: {
+            job: {
+              job: event.job,
+              name: store.get().document.job?.name ?? "",
+              stage: event.stage,
+              done: event.done,
+              total: event.total,
+            },
           },
         });
         break;
       case "done":
-        store.set({ job: null });
+        store.set({ document: { job: null } });
         if (event.text !== "") this.app.inform(event.text, event.ok ? "note" : "error");
         break;
       case "message":
         this.app.inform(event.text, event.severity);
         break;
       case "lost":
-        store.set({ lost: true });
+        store.set({ document: { lost: true } });
         this.shell.status.textContent =
           "The server does not answer: what you see can be looked at, not changed.";
         break;
       case "back":
-        if (store.get().lost) {
+        if (store.get().document.lost) {
           this.shell.status.textContent = "";
-          store.set({ lost: false });
+          store.set({ document: { lost: false } });
           void this.app.source.state().then(state => this.take(state));
         }
         break;
@@ -105,7 +109,7 @@ export class Watcher {
     const known = new Set(
       this.app.store
         .get()
-        .state.files.filter(f => f.changed)
+        .document.state.files.filter(f => f.changed)
         .map(f => f.id),
     );
     for (const file of state.files)
@@ -132,7 +136,7 @@ export class Watcher {
         () => void this.actions.cancel(),
       ),
     );
-    this.app.store.watch(["job"], ({ job }) => {
+    this.app.store.watch(["document.job"], ({ document: { job } }) => {
       progress.hidden = job === null;
       if (job === null) return;
       text.textContent = [job.name, job.stage].filter(x => x !== "").join(": ");
@@ -171,7 +175,7 @@ export class Watcher {
         () => this.actions.openFolder(),
       ),
     );
-    app.store.watch(["state"], ({ state }) => {
+    app.store.watch(["document.state"], ({ document: { state } }) => {
       empty.hidden =
         !app.source.live ||
         state.hasCase ||
@@ -180,7 +184,9 @@ export class Watcher {
         document.body.dataset.ready === undefined;
     });
     new MutationObserver(() => {
-      const { state } = app.store.get();
+      const {
+        document: { state },
+      } = app.store.get();
       empty.hidden = !app.source.live || state.hasCase || state.hasVolume || state.meshes.length > 0;
     }).observe(document.body, { attributes: true, attributeFilter: ["data-ready"] });
   }
@@ -220,25 +226,25 @@ export class Watcher {
 
 /** Layout, theme and what hides with them are classes of the page. */
 export function applyLayout(app: App, shell: Shell): void {
-  app.store.watch(["layout"], view => {
-    shell.views.dataset.layout = view.layout;
+  app.store.watch(["page.layout"], view => {
+    shell.views.dataset.layout = view.page.layout;
     app.stage.invalidate();
   });
   const narrow = window.matchMedia("(max-width: 900px)"), // as page.css has it
     foldIfNarrow = (): void => {
-      if (narrow.matches) app.store.set({ panels: { left: false, right: false } });
+      if (narrow.matches) app.store.set({ page: { panels: { left: false, right: false } } });
     };
   foldIfNarrow();
   narrow.addEventListener("change", foldIfNarrow);
-  app.store.watch(["panels"], ({ panels }) => {
+  app.store.watch(["page.panels"], ({ page: { panels } }) => {
     shell.left.classList.toggle("folded", !panels.left);
     shell.right.classList.toggle("folded", !panels.right);
     app.stage.invalidate();
   });
-  app.store.watch(["theme"], view => {
-    document.documentElement.dataset.theme = view.theme;
+  app.store.watch(["page.theme"], view => {
+    document.documentElement.dataset.theme = view.page.theme;
   });
-  app.store.watch(["tool"], view => {
-    shell.views.dataset.tool = view.tool;
+  app.store.watch(["tools.tool"], view => {
+    shell.views.dataset.tool = view.tools.tool;
   });
 }

@@ -66,13 +66,15 @@ export function makeBar(element: HTMLElement, app: App, actions: Actions): void 
     });
   const fold = (side: "left" | "right", label: string): HTMLButtonElement =>
     button({ icon: side, label, key: "\\", id: `fold-${side}` }, () => {
-      const { panels } = store.get();
-      store.set({ panels: { ...panels, [side]: !panels[side] } });
+      const {
+        page: { panels },
+      } = store.get();
+      store.set({ page: { panels: { ...panels, [side]: !panels[side] } } });
     });
   const left = fold("left", "Fold or open the list of vessels"),
     right = fold("right", "Fold or open display and work");
   const layout = select("layout", "Layout of the views  (1 to 6)", kLayouts, "four", value =>
-    store.set({ layout: value }),
+    store.set({ page: { layout: value } }),
   );
   element.append(
     h("div", { class: "brand" }, h("strong", {}, "lumen"), title, unsaved),
@@ -110,17 +112,17 @@ export function makeBar(element: HTMLElement, app: App, actions: Actions): void 
     ),
   );
   for (const child of [...element.childNodes]) if (child.nodeType === Node.TEXT_NODE) child.remove();
-  store.watch(["panels"], ({ panels }) => {
+  store.watch(["page.panels"], ({ page: { panels } }) => {
     left.setAttribute("aria-expanded", String(panels.left));
     right.setAttribute("aria-expanded", String(panels.right));
   });
-  store.watch(["tool"], view => {
-    for (const { tool, b } of tools) b.setAttribute("aria-pressed", String(tool === view.tool));
+  store.watch(["tools.tool"], view => {
+    for (const { tool, b } of tools) b.setAttribute("aria-pressed", String(tool === view.tools.tool));
   });
-  store.watch(["layout"], view => {
-    layout.value = view.layout;
+  store.watch(["page.layout"], view => {
+    layout.value = view.page.layout;
   });
-  store.watch(["state"], ({ state }) => {
+  store.watch(["document.state"], ({ document: { state } }) => {
     title.textContent = state.title;
     document.title = state.title === "" ? "lumen" : `${state.title} – lumen`;
     unsaved.hidden = !state.unsaved;

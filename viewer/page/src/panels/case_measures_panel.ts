@@ -74,12 +74,12 @@ class CaseMeasures {
       this.list,
       this.figures,
     );
-    app.store.watch(["state"], ({ state }) => {
+    app.store.watch(["document.state"], ({ document: { state } }) => {
       this.section.hidden = !state.hasCase;
       run.disabled = state.job !== null;
       void this.take(state.revisions.measures ?? 0);
     });
-    app.store.watch(["state", "treeRevision"], () => this.say());
+    app.store.watch(["document.state", "document.treeRevision"], () => this.say());
   }
 
   /** Fetches the tables when there are others. */
@@ -99,7 +99,9 @@ class CaseMeasures {
   }
 
   private say(): void {
-    const { state } = this.app.store.get(),
+    const {
+        document: { state },
+      } = this.app.store.get(),
       count = this.rows.length;
     this.note.textContent =
       this.seen === 0
@@ -139,7 +141,9 @@ class CaseMeasures {
   private choose(i: number): void {
     this.chosen = i;
     const row = this.rows[i],
-      { tree } = this.app.store.get();
+      {
+        document: { tree },
+      } = this.app.store.get();
     const branch = tree?.branches.findIndex(b => b.label === (row.vessel ?? row.end ?? row.parent)) ?? -1;
     if (branch >= 0) select(this.app, branch);
     this.goTo(placeOf(row));

@@ -34,8 +34,8 @@ function sceneSection(app: App, actions: Actions): HTMLElement {
   const { store } = app;
   const boxes = kLayerTitles.map(([name, title, tip]) => ({
     name,
-    element: checkbox(`layer-${name}`, title, tip, store.get().layers[name], on =>
-      store.set({ layers: { ...store.get().layers, [name]: on } }),
+    element: checkbox(`layer-${name}`, title, tip, store.get().scene.layers[name], on =>
+      store.set({ scene: { layers: { ...store.get().scene.layers, [name]: on } } }),
     ),
   }));
   const by = select<ColourBy>(
@@ -43,10 +43,10 @@ function sceneSection(app: App, actions: Actions): HTMLElement {
     "Colour by",
     Object.entries(kColourTitles) as [ColourBy, string][],
     "branch",
-    value => store.set({ colourBy: value }),
+    value => store.set({ scene: { colourBy: value } }),
   );
   const opacity = slider("opacity", "Opacity of all vessels", [0.05, 1, 0.05], 1, value =>
-    store.set({ allOpacity: value }),
+    store.set({ selection: { allOpacity: value } }),
   );
   const sides = (["A", "P", "L", "R", "S", "I"] as const).map(side =>
     button(
@@ -64,30 +64,33 @@ function sceneSection(app: App, actions: Actions): HTMLElement {
     "Clip at crosshair",
     "Cut away what is nearer than the plane through the crosshair  (C)",
     false,
-    on => store.set({ clip: { ...store.get().clip, on } }),
+    on => store.set({ scene: { clip: { ...store.get().scene.clip, on } } }),
   );
   const flip = checkbox("clip-flip", "Other side", "Cut away the other side", false, on =>
-    store.set({ clip: { ...store.get().clip, flip: on } }),
+    store.set({ scene: { clip: { ...store.get().scene.clip, flip: on } } }),
   );
-  store.watch(["layers"], view => {
-    for (const { name, element } of boxes) element.querySelector("input")!.checked = view.layers[name];
+  store.watch(["scene.layers"], view => {
+    for (const { name, element } of boxes) element.querySelector("input")!.checked = view.scene.layers[name];
   });
-  store.watch(["clip"], view => {
-    clip.querySelector("input")!.checked = view.clip.on;
-    flip.querySelector("input")!.checked = view.clip.flip;
+  store.watch(["scene.clip"], view => {
+    clip.querySelector("input")!.checked = view.scene.clip.on;
+    flip.querySelector("input")!.checked = view.scene.clip.flip;
   });
-  store.watch(["allOpacity"], view => {
-    opacity.value = String(view.allOpacity);
+  store.watch(["selection.allOpacity"], view => {
+    opacity.value = String(view.selection.allOpacity);
   });
-  store.watch(["colourBy", "tree", "surface", "distance", "state"], view => {
-    by.value = view.colourBy;
-    for (const option of by.options)
-      option.disabled =
-        option.value !== "branch" &&
-        (option.value === "compare"
-          ? !view.state.hasTruth
-          : numbersOf(view, option.value as ColourBy) === null);
-  });
+  store.watch(
+    ["scene.colourBy", "document.tree", "document.surface", "document.distance", "document.state"],
+    view => {
+      by.value = view.scene.colourBy;
+      for (const option of by.options)
+        option.disabled =
+          option.value !== "branch" &&
+          (option.value === "compare"
+            ? !view.document.state.hasTruth
+            : numbersOf(view, option.value as ColourBy) === null);
+    },
+  );
   return section(
     "section-scene",
     "3D view",
@@ -123,7 +126,7 @@ function planesSection(app: App): HTMLElement {
     value => {
       if (value === "patient") resetPlanes(app);
       else if (value === "vessel") followVessel(app);
-      else store.set({ planes: "free" });
+      else store.set({ slices: { planes: "free" } });
     },
   );
   const turns = (["right", "up", "normal"] as const).map((axis, i) =>
@@ -139,14 +142,14 @@ function planesSection(app: App): HTMLElement {
   turns.forEach((field, i) =>
     field.addEventListener("input", () => {
       const value = Number(field.value),
-        axis = store.get().frame[(["right", "up", "normal"] as const)[i]];
+        axis = store.get().slices.frame[(["right", "up", "normal"] as const)[i]];
       turnPlanes(app, axis, ((value - at[i]) * Math.PI) / 180);
       at[i] = value;
     }),
   );
-  store.watch(["planes"], view => {
-    planes.value = view.planes;
-    if (view.planes !== "free")
+  store.watch(["slices.planes"], view => {
+    planes.value = view.slices.planes;
+    if (view.slices.planes !== "free")
       turns.forEach((field, i) => {
         field.value = "0";
         at[i] = 0;

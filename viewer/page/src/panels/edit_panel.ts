@@ -34,10 +34,10 @@ function lengthField(
   });
   input.addEventListener("change", () => {
     const value = Number(input.value);
-    app.store.set({ [id]: input.value.trim() === "" || !(value >= least) ? null : value });
+    app.store.set({ tools: { [id]: input.value.trim() === "" || !(value >= least) ? null : value } });
   });
-  app.store.watch([id], view => {
-    input.value = view[id] === null ? "" : String(view[id]);
+  app.store.watch([`tools.${id}`], ({ tools }) => {
+    input.value = tools[id] === null ? "" : String(tools[id]);
   });
   return h("label", { class: "line" }, `${text}, mm`, input);
 }
@@ -65,11 +65,11 @@ export function editSection(app: App, hand: Hand): HTMLElement {
     "aria-label": "Vessel to join to",
     title: "Vessel to join to",
   });
-  const branch = (v: View): number => v.selected;
+  const branch = (v: View): number => v.selection.selected;
   const buttons = [
     button(
       { id: "edit-rename", text: "Rename", label: "Rename", icon: "edit", key: "F2", class: "button text" },
-      () => void renameBranch(app, store.get().selected),
+      () => void renameBranch(app, store.get().selection.selected),
     ),
     act(
       "delete",
@@ -83,7 +83,7 @@ export function editSection(app: App, hand: Hand): HTMLElement {
       "cut",
       "Cut here",
       "Cut the vessel before the cursor's node; what follows becomes a vessel of its own",
-      v => (v.node < 0 ? null : { op: "cut", node: v.node }),
+      v => (v.selection.node < 0 ? null : { op: "cut", node: v.selection.node }),
       "cut",
       "Shift+X",
     ),
@@ -96,13 +96,13 @@ export function editSection(app: App, hand: Hand): HTMLElement {
     act("kind", "Vessel ↔ sac", "Change between vessel and aneurysm", v => ({
       op: "kind",
       branch: branch(v),
-      kind: v.tree?.branches[v.selected].kind === "aneurysm" ? "vessel" : "aneurysm",
+      kind: v.document.tree?.branches[v.selection.selected].kind === "aneurysm" ? "vessel" : "aneurysm",
     })),
     act(
       "split",
       "Split here",
       "Cut the vessel at the cursor; what follows stays joined as a vessel of its own",
-      v => (v.node < 0 ? null : { op: "cut", node: v.node, rest: "child" }),
+      v => (v.selection.node < 0 ? null : { op: "cut", node: v.selection.node, rest: "child" }),
     ),
     act(
       "prune",
@@ -116,7 +116,7 @@ export function editSection(app: App, hand: Hand): HTMLElement {
       "node-add",
       "Add node",
       "Put a node between the cursor's and the next",
-      v => (v.node < 0 ? null : { op: "nodeAdd", node: v.node }),
+      v => (v.selection.node < 0 ? null : { op: "nodeAdd", node: v.selection.node }),
       undefined,
       "Shift+A",
     ),
@@ -124,7 +124,7 @@ export function editSection(app: App, hand: Hand): HTMLElement {
       "node-delete",
       "Delete node",
       "Delete the cursor's node; its neighbours take its wall points",
-      v => (v.node < 0 ? null : { op: "nodeDelete", node: v.node }),
+      v => (v.selection.node < 0 ? null : { op: "nodeDelete", node: v.selection.node }),
       undefined,
       "Shift+D",
     ),
@@ -146,10 +146,12 @@ export function editSection(app: App, hand: Hand): HTMLElement {
     "Join to",
     "Make its first node a child of the nearest node of the chosen vessel",
     v => {
-      const { tree } = v,
+      const {
+          document: { tree },
+        } = v,
         to = Number(target.value);
       if (tree === null || target.value === "") return null;
-      const first = tree.position(tree.branches[v.selected].firstNode);
+      const first = tree.position(tree.branches[v.selection.selected].firstNode);
       return { op: "join", branch: branch(v), node: tree.nearest(first, b => b === to) };
     },
   );
@@ -177,22 +179,23 @@ export function editSection(app: App, hand: Hand): HTMLElement {
       0.1,
     ),
   );
-  store.watch(["tree", "selected", "state", "node"], view => {
-    const b = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;
-    box.hidden = view.tree === null;
+  store.watch(["document.tree", "selection.selected", "document.state", "selection.node"], view => {
+    const b =
+      view.selection.selected >= 0 ? view.document.tree?.branches[view.selection.selected] : undefined;
+    box.hidden = view.document.tree === null;
     name.textContent =
       b === undefined
         ? "Select a vessel."
-        : `${b.label}${view.node >= 0 ? `, cursor at node ${view.node - b.firstNode + 1} of ${b.nodeCount}` : ""}`;
+        : `${b.label}${view.selection.node >= 0 ? `, cursor at node ${view.selection.node - b.firstNode + 1} of ${b.nodeCount}` : ""}`;
     for (const each of [...buttons, join])
-      each.disabled = (b === undefined && each.id !== "edit-fit") || view.state.job !== null;
+      each.disabled = (b === undefined && each.id !== "edit-fit") || view.document.state.job !== null;
   });
-  store.watch(["tree", "selected"], view => {
+  store.watch(["document.tree", "selection.selected"], view => {
     const before = target.value;
     target.replaceChildren(
       h("option", { value: "" }, "choose a vessel"),
-      ...(view.tree?.branches ?? [])
-        .filter(x => x.index !== view.selected)
+      ...(view.document.tree?.branches ?? [])
+        .filter(x => x.index !== view.selection.selected)
         .map(x => h("option", { value: x.index }, x.label)),
     );
     target.value = before;

@@ -53,7 +53,7 @@ export function findPanel(app: App, actions: Actions): HTMLElement[] {
       decide,
       h("div", { class: "row end" }, run),
     );
-  store.watch(["state"], ({ state }) => {
+  store.watch(["document.state"], ({ document: { state } }) => {
     const waiting = state.proposals.length > 0;
     box.hidden = !state.hasVolume;
     run.disabled = !state.hasVolume || state.job !== null;
@@ -65,7 +65,7 @@ export function findPanel(app: App, actions: Actions): HTMLElement[] {
       state.proposals.map(proposal => proposalRow(app, actions, proposal)),
     );
   });
-  store.watch(["proposal"], ({ proposal }) => {
+  store.watch(["selection.proposal"], ({ selection: { proposal } }) => {
     for (const row of list.children)
       (row as HTMLElement).classList.toggle("chosen", (row as HTMLElement).dataset.label === proposal);
   });
@@ -74,9 +74,9 @@ export function findPanel(app: App, actions: Actions): HTMLElement[] {
 
 function proposalRow(app: App, actions: Actions, proposal: Proposal): HTMLElement {
   const { label, parent } = proposal,
-    busy = app.store.get().state.job !== null;
+    busy = app.store.get().document.state.job !== null;
   const show = (): void => {
-    app.store.set({ proposal: label, place: null });
+    app.store.set({ selection: { proposal: label, place: null } });
     goTo(app, proposal.position);
   };
   const accept = button(
@@ -88,7 +88,7 @@ function proposalRow(app: App, actions: Actions, proposal: Proposal): HTMLElemen
   return h(
     "li",
     {
-      class: app.store.get().proposal === label ? "row item chosen" : "row item",
+      class: app.store.get().selection.proposal === label ? "row item chosen" : "row item",
       "data-label": label,
     },
     h(

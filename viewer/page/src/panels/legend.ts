@@ -34,7 +34,7 @@ class Scale {
 /** That of the surface's colours. */
 export function surfaceLegend(element: HTMLElement, app: App): void {
   const scale = new Scale(element);
-  app.store.watch(["colourBy", "surface", "distance", "tree"], view => {
+  app.store.watch(["scene.colourBy", "document.surface", "document.distance", "document.tree"], view => {
     const c = colouring(view);
     element.hidden = !c.mapped;
     if (c.mapped) scale.show(c.unit === "" ? c.title : `${c.title}, ${c.unit}`, c.range, c.map);
@@ -46,7 +46,7 @@ export function deviationLegend(element: HTMLElement, app: App): void {
   const scale = new Scale(element),
     lines = h("div", { class: "figures" });
   element.append(lines);
-  app.store.watch(["deviations"], ({ deviations }) => {
+  app.store.watch(["document.deviations"], ({ document: { deviations } }) => {
     element.hidden = deviations.size === 0;
     if (deviations.size === 0) return;
     const all = [...deviations.values()];

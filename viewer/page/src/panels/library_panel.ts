@@ -38,7 +38,9 @@ export function libraryPanel(app: App): HTMLElement[] {
   let library: Library | null = null,
     seen = 0;
   const fill = (): void => {
-    const { state } = app.store.get(),
+    const {
+        document: { state },
+      } = app.store.get(),
       cases = library?.cases ?? [],
       shown = found(cases, search.value);
     box.hidden = library === null;
@@ -57,7 +59,7 @@ export function libraryPanel(app: App): HTMLElement[] {
   };
   search.addEventListener("input", fill);
   box.hidden = true;
-  app.store.watch(["state"], ({ state }) => {
+  app.store.watch(["document.state"], ({ document: { state } }) => {
     const now = state.revisions.library ?? 0;
     if (now === seen) {
       if (library !== null) fill();
@@ -104,10 +106,10 @@ function row(app: App, each: LibraryCase, index: number, isOpen: boolean, busy: 
 async function openCase(app: App, index: number): Promise<void> {
   const { source, store, inform } = app;
   try {
-    await source.perform({ op: "openCase", index }, store.get().state.revision);
+    await source.perform({ op: "openCase", index }, store.get().document.state.revision);
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);
-    if (!(error instanceof Refused) || error.status !== 409 || !store.get().state.unsaved) {
+    if (!(error instanceof Refused) || error.status !== 409 || !store.get().document.state.unsaved) {
       inform(text, "error");
       return;
     }

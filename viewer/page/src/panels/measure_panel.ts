@@ -19,7 +19,7 @@ function measureSection(app: App, hand: Hand): HTMLElement {
     list = h("ul", { class: "list", id: "measure-list", "aria-label": "Measurements" });
   const clear = button(
     { text: "Clear", label: "Remove all measurements", id: "measure-clear", class: "button text" },
-    () => store.set({ measurements: [], pending: [] }),
+    () => store.set({ tools: { measurements: [], pending: [] } }),
   );
   const here = button(
     {
@@ -28,7 +28,7 @@ function measureSection(app: App, hand: Hand): HTMLElement {
       id: "measure-section",
       class: "button text",
     },
-    () => hand.section(store.get().crosshair),
+    () => hand.section(store.get().slices.crosshair),
   );
   const keep = button(
     {
@@ -37,9 +37,9 @@ function measureSection(app: App, hand: Hand): HTMLElement {
       id: "measure-probe",
       class: "button text",
     },
-    () => hand.keepProbe(store.get().crosshair),
+    () => hand.keepProbe(store.get().slices.crosshair),
   );
-  const csv = (): string => measurementsCsv(store.get().measurements);
+  const csv = (): string => measurementsCsv(store.get().tools.measurements);
   const copy = button(
     { text: "Copy", label: "Copy the measurements as a table", id: "measure-copy", class: "button text" },
     () =>
@@ -55,12 +55,12 @@ function measureSection(app: App, hand: Hand): HTMLElement {
       id: "measure-csv",
       class: "button text",
     },
-    () => saveText(`${store.get().state.title || "lumen"}.measurements.csv`, csv()),
+    () => saveText(`${store.get().document.state.title || "lumen"}.measurements.csv`, csv()),
   );
-  store.watch(["measurements"], view => {
-    clear.disabled = copy.disabled = table.disabled = view.measurements.length === 0;
+  store.watch(["tools.measurements"], view => {
+    clear.disabled = copy.disabled = table.disabled = view.tools.measurements.length === 0;
     list.replaceChildren(
-      ...view.measurements.map(m =>
+      ...view.tools.measurements.map(m =>
         h(
           "li",
           { class: "row item" },
@@ -71,12 +71,12 @@ function measureSection(app: App, hand: Hand): HTMLElement {
           ),
           h("span", { class: "note", title: m.detail }, m.detail),
           button({ icon: "close", label: "Remove this measurement", class: "button" }, () =>
-            store.set({ measurements: store.get().measurements.filter(x => x !== m) }),
+            store.set({ tools: { measurements: store.get().tools.measurements.filter(x => x !== m) } }),
           ),
         ),
       ),
     );
-    if (view.measurements.length === 0)
+    if (view.tools.measurements.length === 0)
       list.append(
         h(
           "li",
@@ -98,7 +98,9 @@ function gapSection(app: App, hand: Hand): HTMLElement {
   const { store } = app,
     list = h("ul", { class: "list", id: "gap-list", "aria-label": "Vessels that touch or nearly touch" });
   const find = (): void => {
-    const { tree, blob } = store.get();
+    const {
+      document: { tree, blob },
+    } = store.get();
     if (tree === null) return;
     const found = gaps(tree, blob, kMostGaps);
     list.replaceChildren(
@@ -123,7 +125,7 @@ function gapSection(app: App, hand: Hand): HTMLElement {
     );
     if (found.length === 0) list.append(h("li", { class: "hint" }, "No two vessels come near each other."));
   };
-  store.watch(["tree", "blob"], () => list.replaceChildren());
+  store.watch(["document.tree", "document.blob"], () => list.replaceChildren());
   return section(
     "section-gaps",
     "Vessels that touch",
@@ -173,15 +175,16 @@ function compareSection(app: App, actions: Actions): HTMLElement {
     { text: "Open truth…", label: "Open a second case or the truth", id: "open-truth", class: "button text" },
     () => actions.open("truth"),
   );
-  store.watch(["state", "figures", "distance"], view => {
-    const f = view.figures,
+  store.watch(["document.state", "document.figures", "document.distance"], view => {
+    const f = view.document.figures,
       wall = f?.wall_distance_mm as { median?: number; p90?: number; max?: number } | undefined;
-    hint.textContent = view.state.hasTruth
+    hint.textContent = view.document.state.hasTruth
       ? f === null
         ? "Compare to see distances as colour."
         : "Colours: distance of the surface to the truth’s; red is outside."
       : "Open a second case or the truth beside this one.";
-    run.disabled = !view.state.hasTruth || !view.state.hasCase || view.state.job !== null;
+    run.disabled =
+      !view.document.state.hasTruth || !view.document.state.hasCase || view.document.state.job !== null;
     const rows =
       f === null
         ? []
@@ -212,8 +215,8 @@ function compareSection(app: App, actions: Actions): HTMLElement {
     table,
     app.source.live ? h("div", { class: "row end" }, open, run) : null,
   );
-  store.watch(["distance"], view => {
-    if (view.distance !== null) box.open = true;
+  store.watch(["document.distance"], view => {
+    if (view.document.distance !== null) box.open = true;
   });
   return box;
 }

@@ -32,7 +32,7 @@ export function motionBar(app: App): HTMLElement {
     ),
     hint = h("span", { class: "hint", id: "motion-hint" });
   const set = (time: number): void => {
-    store.set({ playing: false });
+    store.set({ motion: { playing: false } });
     goToTime(app, time);
   };
   number.addEventListener("change", () => {
@@ -45,7 +45,7 @@ export function motionBar(app: App): HTMLElement {
     h("div", { class: "row" }, play, at, h("label", {}, number, " s"), rest),
     hint,
   );
-  store.watch(["tree"], ({ tree }) => {
+  store.watch(["document.tree"], ({ document: { tree } }) => {
     const motion = tree?.motion ?? null;
     bar.hidden = motion === null;
     if (motion === null) return;
@@ -54,22 +54,25 @@ export function motionBar(app: App): HTMLElement {
     at.step = String((motion.end - motion.begin) / kSteps || 1);
     number.step = String(Number(((motion.end - motion.begin) / 100).toPrecision(1)) || 1);
   });
-  store.watch(["playing"], ({ playing }) => {
+  store.watch(["motion.playing"], ({ motion: { playing } }) => {
     const label = playing ? "Stop the motion" : "Play the motion";
     play.replaceChildren(icon(playing ? "pause" : "play"));
     play.setAttribute("aria-label", label);
     play.title = `${label}  (Space)`;
   });
-  store.watch(["time", "tree", "volume"], ({ time, tree, volume }) => {
-    const motion = tree?.motion ?? null;
-    if (motion === null) return;
-    at.value = String(time ?? motion.begin);
-    at.setAttribute("aria-valuetext", time === null ? "at rest" : `${time.toFixed(kDigits)} s`);
-    if (document.activeElement !== number || time === null)
-      number.value = time === null ? "" : time.toFixed(kDigits);
-    rest.setAttribute("aria-pressed", String(time === null));
-    hint.textContent =
-      time === null ? "" : `Tools act at rest${volume === null ? "" : "; the volume does not move"}.`;
-  });
+  store.watch(
+    ["motion.time", "document.tree", "document.volume"],
+    ({ motion: { time }, document: { tree, volume } }) => {
+      const motion = tree?.motion ?? null;
+      if (motion === null) return;
+      at.value = String(time ?? motion.begin);
+      at.setAttribute("aria-valuetext", time === null ? "at rest" : `${time.toFixed(kDigits)} s`);
+      if (document.activeElement !== number || time === null)
+        number.value = time === null ? "" : time.toFixed(kDigits);
+      rest.setAttribute("aria-pressed", String(time === null));
+      hint.textContent =
+        time === null ? "" : `Tools act at rest${volume === null ? "" : "; the volume does not move"}.`;
+    },
+  );
   return bar;
 }

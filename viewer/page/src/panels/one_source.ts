@@ -21,14 +21,14 @@ export function requestFor(
 }
 
 async function askWhich(app: App): Promise<void> {
-  const { otherSource } = app.store.get().state;
+  const { otherSource } = app.store.get().document.state;
   if (otherSource === null) return;
   const answer = await choose(
     "One patient, or two?",
     `${otherSource}. Vessels are not tracked in this volume until you answer; the case records that you accept it.`,
     kChoices,
   );
-  const request = requestFor(answer, app.store.get().state);
+  const request = requestFor(answer, app.store.get().document.state);
   if (request !== null) await app.perform(request);
 }
 
@@ -50,7 +50,7 @@ export function oneSourcePanel(app: App): HTMLElement[] {
       ),
     );
   let asked: string | null = null;
-  app.store.watch(["state"], ({ state }) => {
+  app.store.watch(["document.state"], ({ document: { state } }) => {
     line.hidden = state.otherSource === null;
     text.textContent = state.otherSource ?? "";
     if (state.otherSource === asked) return;
@@ -69,7 +69,7 @@ export function assumptionsPanel(app: App): HTMLElement[] {
       h("h2", {}, "Not certain"),
       list,
     );
-  app.store.watch(["state"], ({ state }) => {
+  app.store.watch(["document.state"], ({ document: { state } }) => {
     box.hidden = state.assumptions.length === 0;
     list.replaceChildren(...state.assumptions.map(sentence => h("li", {}, `The volume: ${sentence}.`)));
   });

@@ -42,7 +42,9 @@ export function parsePosition(text: string): Vec3 | null {
 
 /** Asks for coordinates and goes there. */
 export async function askPosition(app: App): Promise<void> {
-  const { crosshair, axes } = app.store.get(),
+  const {
+      slices: { crosshair, axes },
+    } = app.store.get(),
     text = await askText(
       "Go to a place",
       `x, y and z in mm, ${axes}`,
@@ -75,7 +77,8 @@ export class ProbeLine {
         id: "probe-frame",
         title:
           "Axes of the coordinates, in mm: LPS (to the left, back, head) or RAS (to the right, front, head)",
-        onclick: () => app.store.set({ axes: app.store.get().axes === "LPS" ? "RAS" : "LPS" }),
+        onclick: () =>
+          app.store.set({ slices: { axes: app.store.get().slices.axes === "LPS" ? "RAS" : "LPS" } }),
       },
       "LPS",
     );
@@ -94,15 +97,18 @@ export class ProbeLine {
       if (answer !== null) this.show(answer);
       else this.rest();
     });
-    app.store.watch(["crosshair", "blob", "time", "volumeReady", "secondReady"], () => {
-      if (!this.pointing) this.rest();
-    });
+    app.store.watch(
+      ["slices.crosshair", "document.blob", "motion.time", "document.volumeReady", "document.secondReady"],
+      () => {
+        if (!this.pointing) this.rest();
+      },
+    );
     const second = this.fields.second.parentElement!;
     second.title = "Value of the second volume";
-    app.store.watch(["second"], view => {
-      second.hidden = view.second === null;
+    app.store.watch(["document.second"], view => {
+      second.hidden = view.document.second === null;
     });
-    app.store.watch(["axes"], ({ axes }) => {
+    app.store.watch(["slices.axes"], ({ slices: { axes } }) => {
       frame.textContent = axes;
       frame.setAttribute("aria-label", `Coordinates in mm, ${axes}; press for the others`);
       this.rest();
@@ -113,11 +119,14 @@ export class ProbeLine {
 
   private rest(): void {
     const view = this.app.store.get();
-    this.show(probe(view, view.crosshair));
+    this.show(probe(view, view.slices.crosshair));
   }
 
   private show(a: Answer): void {
-    const { tree, axes } = this.app.store.get(),
+    const {
+        document: { tree },
+        slices: { axes },
+      } = this.app.store.get(),
       branch = a.wall === null ? undefined : tree?.branches[tree.branch[a.wall.node]];
     const texts: Record<keyof typeof kTitles, string> = {
       position: inAxes(a.position, axes)

@@ -34,7 +34,7 @@ export function offerUnsaved(app: App): void {
     const answer = await choose("Take up unsaved work?", aboutUnsaved(file, saveAs), kChoices);
     if (answer !== null) await app.perform({ op: answer, name: file.name });
     asking = false;
-    await ask(app.store.get().state);
+    await ask(app.store.get().document.state);
   };
-  app.store.watch(["state"], ({ state }) => void ask(state));
+  app.store.watch(["document.state"], ({ document: { state } }) => void ask(state));
 }

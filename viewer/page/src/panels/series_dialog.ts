@@ -38,7 +38,7 @@ function paint(canvas: HTMLCanvasElement, pixel: Uint8Array, width: number, heig
 }
 
 async function fetchPicture(app: App, index: number, canvas: HTMLCanvasElement): Promise<void> {
-  const revision = app.store.get().state.revisions.series ?? 0,
+  const revision = app.store.get().document.state.revisions.series ?? 0,
     bytes = await app.source.bytes("seriesPicture", { series: String(index), of: String(revision) });
   if (bytes === null) return;
   const pack = new Pack(bytes),
@@ -54,7 +54,9 @@ const kParts = [
 /** Asks whether a volume takes the place of the one that is open or is seen beside it; null: neither. Without an open
  * volume there is nothing to ask. */
 export async function askPart(app: App, name: string): Promise<OpenAs | null> {
-  const { volume, state } = app.store.get();
+  const {
+    document: { volume, state },
+  } = app.store.get();
   if (!state.hasVolume) return "auto";
   return (await choose(
     "Replace the volume, or put this one over it?",
@@ -65,7 +67,8 @@ export async function askPart(app: App, name: string): Promise<OpenAs | null> {
 
 /** Opens a series of the list `of` as the part that was chosen when its files were dropped; otherwise asks. */
 async function openSeries(app: App, series: DicomSeries, index: number, of: number): Promise<void> {
-  const part = app.store.get().seriesAs ?? (await askPart(app, series.description || `Series ${index + 1}`));
+  const part =
+    app.store.get().tools.seriesAs ?? (await askPart(app, series.description || `Series ${index + 1}`));
   if (part !== null) await app.perform({ op: "openSeries", series: index, of, second: part === "second" });
 }
 
@@ -89,7 +92,7 @@ function row(app: App, series: DicomSeries, index: number, choose: () => void): 
 }
 
 export function openSeriesDialog(app: App): void {
-  const { series, revisions } = app.store.get().state,
+  const { series, revisions } = app.store.get().document.state,
     of = revisions.series ?? 0;
   document.getElementById("series-dialog")?.remove();
   if (series === null) return;
@@ -130,7 +133,7 @@ export function openSeriesDialog(app: App): void {
 /** Shows the list whenever the server has another one of several series, or of one that cannot be opened. */
 export function offerSeries(app: App): void {
   let seen = 0;
-  app.store.watch(["state"], ({ state }) => {
+  app.store.watch(["document.state"], ({ document: { state } }) => {
     const now = state.revisions.series ?? 0;
     if (now === seen) return;
     seen = now;

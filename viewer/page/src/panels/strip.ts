@@ -12,7 +12,7 @@ import { brief, button, h, slider } from "../base/ui";
 
 interface Curve {
   branch: number;
-  tree: View["tree"];
+  tree: View["document"]["tree"];
   nodes: number[];
   s: number[];
   r: number[];
@@ -114,7 +114,7 @@ export class Strip {
         ),
         button(
           { icon: "close", label: "Close this strip", key: "B", class: "button", id: "strip-close" },
-          () => app.store.set({ strip: false }),
+          () => app.store.set({ page: { strip: false } }),
         ),
       ),
       h("div", { class: "stripbody" }, this.plot, this.image),
@@ -137,20 +137,30 @@ export class Strip {
       e.stopPropagation();
     });
     new ResizeObserver(() => this.draw()).observe(element);
-    app.store.watch(["tree", "selected", "strip"], view => this.take(view));
-    app.store.watch(["node", "volume", "volumeReady", "window", "colours", "theme"], () => this.draw());
+    app.store.watch(["document.tree", "selection.selected", "page.strip"], view => this.take(view));
+    app.store.watch(
+      [
+        "selection.node",
+        "document.volume",
+        "document.volumeReady",
+        "slices.window",
+        "selection.colours",
+        "page.theme",
+      ],
+      () => this.draw(),
+    );
   }
 
   private take(view: View): void {
-    const shown = view.strip && view.tree !== null && view.selected >= 0;
+    const shown = view.page.strip && view.document.tree !== null && view.selection.selected >= 0;
     this.element.hidden = !shown;
     this.straight = null;
     if (!shown) {
       this.curve = null;
       return;
     }
-    const tree = view.tree!,
-      b = tree.branches[view.selected],
+    const tree = view.document.tree!,
+      b = tree.branches[view.selection.selected],
       nodes = Array.from({ length: b.nodeCount }, (_, i) => b.firstNode + i),
       s = [0];
     for (let i = 1; i < nodes.length; ++i)
@@ -161,7 +171,7 @@ export class Strip {
           ),
       );
     const r = nodes.map(n => tree.radius[n]),
-      places = b.kind === "vessel" ? findPlaces(s, r, view.tree?.voxelSize ?? 0) : [];
+      places = b.kind === "vessel" ? findPlaces(s, r, view.document.tree?.voxelSize ?? 0) : [];
     this.curve = { branch: b.index, tree, nodes, s, r, places, reference: reference(s, r) };
     this.name.textContent = b.label;
     this.places.replaceChildren(
@@ -265,7 +275,7 @@ export class Strip {
     c.lineTo(x(0), y(0));
     c.fillStyle = toCss(colour, 0.16);
     c.fill();
-    const i = nodes.indexOf(view.node);
+    const i = nodes.indexOf(view.selection.node);
     this.plot.setAttribute("aria-valuemin", "0");
     this.plot.setAttribute("aria-valuemax", String(nodes.length - 1));
     this.plot.setAttribute("aria-valuenow", String(Math.max(0, i)));
@@ -286,8 +296,10 @@ export class Strip {
 
   private drawImage(curve: Curve): void {
     const view = this.app.store.get(),
-      { volume, tree } = view;
-    this.image.hidden = volume === null || view.volumeReady < volume.size[2];
+      {
+        document: { volume, tree },
+      } = view;
+    this.image.hidden = volume === null || view.document.volumeReady < volume.size[2];
     if (volume === null || tree === null || this.image.hidden || this.image.clientWidth < 2) return;
     const c = clearedContext(this.image, this.image.clientWidth, this.image.clientHeight),
       width = this.image.clientWidth - kLeft - kRight,
@@ -311,7 +323,7 @@ export class Strip {
     picture.height = rows;
     picture
       .getContext("2d")!
-      .putImageData(reformat(volume, this.straight, rows, half, this.turn, view.window), 0, 0);
+      .putImageData(reformat(volume, this.straight, rows, half, this.turn, view.slices.window), 0, 0);
     c.imageSmoothingEnabled = true;
     c.drawImage(picture, kLeft, 0, width, height);
     const y = (mm: number): number => height / 2 - (mm / half) * (height / 2),
@@ -326,7 +338,7 @@ export class Strip {
       );
       c.stroke();
     }
-    const i = curve.nodes.indexOf(view.node);
+    const i = curve.nodes.indexOf(view.selection.node);
     c.strokeStyle = "rgb(255 255 255 / 0.8)";
     if (i >= 0) line(c, x(curve.s[i]), 0, x(curve.s[i]), height);
     c.fillStyle = getComputedStyle(this.element).getPropertyValue("--ink-2");

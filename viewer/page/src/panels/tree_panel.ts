@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The list of vessels: a tree in the order of the case, or a table by any of its columns. */
 import { toHex, fromHex } from "../base/colour";
-import { colourOf, isShown, opacityOf, type App, type View } from "../model/model";
+import { colourOf, isShown, type App, type View } from "../model/model";
 import { goToNode, setOpacity, showAll, showBranch, toggleHidden, toggleSolo } from "../model/selection";
 import type { Branch, Tree } from "../case/tree";
 import { askText, brief, button, h, icon, mm, select, slider } from "../base/ui";
@@ -88,15 +88,31 @@ export class TreePanel {
       this.detail,
     );
     this.list.addEventListener("keydown", e => this.key(e));
-    app.store.watch(["tree"], view => this.fill(view));
-    app.store.watch(["state"], view => {
-      if (view.tree === null) this.fill(view);
+    app.store.watch(["document.tree"], view => this.fill(view));
+    app.store.watch(["document.state"], view => {
+      if (view.document.tree === null) this.fill(view);
     });
-    app.store.watch(["state", "treeRevision"], view => {
-      this.list.setAttribute("aria-busy", String(view.state.revision !== view.treeRevision));
+    app.store.watch(["document.state", "document.treeRevision"], view => {
+      this.list.setAttribute(
+        "aria-busy",
+        String(view.document.state.revision !== view.document.treeRevision),
+      );
     });
-    app.store.watch(["tree", "selected", "hidden", "solo", "colours", "opacity"], view => this.mark(view));
-    app.store.watch(["tree", "selected", "opacity", "allOpacity", "state"], view => this.describe(view));
+    app.store.watch(
+      [
+        "document.tree",
+        "selection.selected",
+        "selection.hidden",
+        "selection.solo",
+        "selection.colours",
+        "selection.opacity",
+      ],
+      view => this.mark(view),
+    );
+    app.store.watch(
+      ["document.tree", "selection.selected", "selection.opacity", "selection.allOpacity", "document.state"],
+      view => this.describe(view),
+    );
   }
 
   private ordered(tree: Tree): { branch: Branch; depth: number }[] {
@@ -114,7 +130,9 @@ export class TreePanel {
   }
 
   private fill(view: View): void {
-    const { tree } = view;
+    const {
+      document: { tree },
+    } = view;
     this.rows = [];
     this.list.replaceChildren();
     this.count.textContent = tree === null ? "" : `${tree.branches.length}`;
@@ -123,7 +141,7 @@ export class TreePanel {
         h(
           "li",
           { class: "none", role: "none" },
-          view.state.hasVolume
+          view.document.state.hasVolume
             ? "No vessels yet. Find them (Shift+F), or place seeds in the volume and track them: tool “Seed”, key S."
             : "Nothing is open.",
         ),
@@ -147,7 +165,11 @@ export class TreePanel {
       tabindex: -1,
     });
     swatch.addEventListener("input", () =>
-      app.store.set({ colours: new Map(app.store.get().colours).set(b.label, fromHex(swatch.value)) }),
+      app.store.set({
+        selection: {
+          colours: new Map(app.store.get().selection.colours).set(b.label, fromHex(swatch.value)),
+        },
+      }),
     );
     const eye = button({ icon: "eye", label: `Show or hide ${b.label}`, class: "button eye" }, () =>
       toggleHidden(app, b.index),
@@ -197,7 +219,7 @@ export class TreePanel {
   /** Updates selection, visibility and colours without a new list. */
   private mark(view: View): void {
     for (const { branch, element, eye, swatch } of this.rows) {
-      const on = branch === view.selected,
+      const on = branch === view.selection.selected,
         shown = isShown(view, branch);
       element.setAttribute("aria-selected", String(on));
       element.classList.toggle("off", !shown);
@@ -208,20 +230,22 @@ export class TreePanel {
       eye.setAttribute("aria-pressed", String(shown));
       eye.replaceChildren(icon(shown ? "eye" : "hidden"));
       swatch.value = toHex(colourOf(view, branch));
-      element.classList.toggle("isolated", view.solo !== null && shown);
+      element.classList.toggle("isolated", view.selection.solo !== null && shown);
     }
-    if (view.selected < 0) this.list.removeAttribute("aria-activedescendant");
+    if (view.selection.selected < 0) this.list.removeAttribute("aria-activedescendant");
   }
 
   private key(e: KeyboardEvent): void {
     const { app } = this,
-      { selected } = app.store.get(),
+      {
+        selection: { selected },
+      } = app.store.get(),
       at = this.rows.findIndex(r => r.branch === selected);
     const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: this.rows.length - 1 }[e.key];
     if (to !== undefined) {
       if (this.rows[to] !== undefined) showBranch(app, this.rows[to].branch);
     } else if (selected >= 0 && e.key === " ") toggleHidden(app, selected);
-    else if (selected >= 0 && e.key === "Enter") goToNode(app, app.store.get().node);
+    else if (selected >= 0 && e.key === "Enter") goToNode(app, app.store.get().selection.node);
     else if (selected >= 0 && e.key === "F2") void renameBranch(app, selected);
     else return;
     e.preventDefault();
@@ -229,12 +253,13 @@ export class TreePanel {
   }
 
   private describe(view: View): void {
-    const b = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined,
+    const b =
+        view.selection.selected >= 0 ? view.document.tree?.branches[view.selection.selected] : undefined,
       { app } = this;
     if (b === undefined) {
-      const r = view.tree?.reachable ?? null;
+      const r = view.document.tree?.reachable ?? null;
       this.detail.replaceChildren(
-        ...(view.tree === null
+        ...(view.document.tree === null
           ? []
           : [
               h(
@@ -242,7 +267,7 @@ export class TreePanel {
                 { class: "hint" },
                 `${
                   r === null
-                    ? `${brief(view.tree.branches.reduce((s, x) => s + x.length, 0))} mm of vessels`
+                    ? `${brief(view.document.tree.branches.reduce((s, x) => s + x.length, 0))} mm of vessels`
                     : `${brief(r.reached)} of ${brief(r.total)} mm are reachable from ${r.trees === 1 ? "the root" : `the roots of ${r.trees} trees`}`
                 }. Click a vessel here or in a view.`,
               ),
@@ -250,7 +275,7 @@ export class TreePanel {
       );
       return;
     }
-    const parent = b.parentBranch < 0 ? "none: a root" : view.tree!.branches[b.parentBranch].label;
+    const parent = b.parentBranch < 0 ? "none: a root" : view.document.tree!.branches[b.parentBranch].label;
     const rows: [string, string][] = [
       ["Length", mm(b.length)],
       ["Radius", `${brief(b.mean)} (${brief(b.least)} – ${brief(b.greatest)}) mm`],
@@ -258,13 +283,13 @@ export class TreePanel {
       ["Stopped by", b.stopReason.replaceAll("-", " ")],
       ["Parent", parent],
     ];
-    const edited = view.tree!.countEdited(b);
+    const edited = view.document.tree!.countEdited(b);
     if (edited > 0) rows.push(["Edited", `${edited} of ${b.nodeCount} nodes, by hand`]);
     const opacity = slider(
       "branch-opacity",
       `Opacity of ${b.label}`,
       [0, 1, 0.05],
-      opacityOf({ ...view, allOpacity: 1 }, b.index),
+      view.selection.opacity.get(b.label) ?? 1,
       value => setOpacity(app, b.index, value),
     );
     if (document.activeElement?.id === "branch-opacity" && this.detail.dataset.branch === String(b.index))
@@ -290,7 +315,9 @@ export class TreePanel {
 }
 
 export async function renameBranch(app: App, branch: number): Promise<void> {
-  const { tree } = app.store.get(),
+  const {
+      document: { tree },
+    } = app.store.get(),
     old = tree?.branches[branch]?.label;
   if (old === undefined || !app.source.live) return;
   const label = (await askText("Rename the vessel", "Name", old))?.trim();

@@ -25,7 +25,7 @@ export function presetOf(window: readonly [number, number]): string {
 }
 
 const setWindow = (app: App, keys: VolumeKeys, window: [number, number]): void =>
-  app.store.set({ [keys.window]: window } as Partial<View>);
+  app.store.set({ slices: { [keys.window]: window } });
 
 /** A name and a geometry for people. */
 function aboutVolume({ meta: m }: Volume): string {
@@ -44,17 +44,17 @@ export function volumeSection(app: App): HTMLElement {
       ["volume", "Volume"],
     ],
     "off",
-    value => store.set({ cast: value }),
+    value => store.set({ scene: { cast: value } }),
   );
   const smooth = checkbox(
     "interpolate",
     "Smooth voxels",
     "Interpolate between voxels in the slices",
     true,
-    on => store.set({ interpolate: on }),
+    on => store.set({ slices: { interpolate: on } }),
   );
-  store.watch(["cast"], view => {
-    cast.value = view.cast;
+  store.watch(["scene.cast"], view => {
+    cast.value = view.scene.cast;
   });
   const { range, plot, preset, about } = windowControls(app, kFirst, "");
   const box = section(
@@ -67,8 +67,8 @@ export function volumeSection(app: App): HTMLElement {
     preset,
     about,
   );
-  store.watch(["volume"], view => {
-    box.hidden = view.volume === null;
+  store.watch(["document.volume"], view => {
+    box.hidden = view.document.volume === null;
   });
   return box;
 }
@@ -76,12 +76,13 @@ export function volumeSection(app: App): HTMLElement {
 /** The volume beside the first: how it is seen, its own window, and what speaks against seeing both at one place. */
 export function secondSection(app: App): HTMLElement {
   const { store } = app,
-    change = (to: Partial<Beside>): void => store.set({ beside: { ...store.get().beside, ...to } });
+    change = (to: Partial<Beside>): void =>
+      store.set({ slices: { beside: { ...store.get().slices.beside, ...to } } });
   const mode = select(
       "beside-mode",
       "The second volume in the slices",
       kBesideModes,
-      store.get().beside.mode,
+      store.get().slices.beside.mode,
       value => change({ mode: value }),
     ),
     share = slider("beside-share", "Share of the second volume", [0, 1, 0.01], 0.5, value =>
@@ -115,7 +116,7 @@ export function secondSection(app: App): HTMLElement {
       "Each volume is where its file places it. No file states whether both are of one patient.",
     ),
   );
-  store.watch(["beside"], ({ beside }) => {
+  store.watch(["slices.beside"], ({ slices: { beside } }) => {
     const isSplit = beside.mode === "split";
     mode.value = beside.mode;
     share.value = String(beside.share);
@@ -126,13 +127,13 @@ export function secondSection(app: App): HTMLElement {
     warm.hidden = beside.mode !== "blend";
     warm.querySelector("input")!.checked = beside.warm;
   });
-  store.watch(["second"], view => {
-    const isNew = box.hidden && view.second !== null;
-    box.hidden = view.second === null;
+  store.watch(["document.second"], view => {
+    const isNew = box.hidden && view.document.second !== null;
+    box.hidden = view.document.second === null;
     if (isNew) box.scrollIntoView({ block: "nearest" });
   });
   let said: string | null = null;
-  store.watch(["state"], ({ state }) => {
+  store.watch(["document.state"], ({ document: { state } }) => {
     const now = state.second?.doubt ?? null;
     doubt.hidden = now === null;
     doubt.textContent = now === null ? "" : `${now}.`;
@@ -165,22 +166,25 @@ function windowControls(
   let drawn: Volume | null = null,
     counts: ReturnType<Volume["histogram"]> | null = null;
   const draw = (view: View): void => {
-    const volume = view[keys.volume],
-      window = view[keys.window];
+    const volume = view.document[keys.volume],
+      window = view.slices[keys.window];
     low.value = brief(window[0]);
     high.value = brief(window[1]);
     preset.value = presetOf(window);
-    if (volume !== null && view[keys.ready] >= volume.size[2] && drawn !== volume) {
+    if (volume !== null && view.document[keys.ready] >= volume.size[2] && drawn !== volume) {
       drawn = volume;
       counts = volume.histogram(128);
     }
     if (counts !== null && volume !== null) drawHistogram(plot, counts, window);
   };
-  store.watch([keys.volume], view => {
-    const volume = view[keys.volume];
+  store.watch([`document.${keys.volume}`], view => {
+    const volume = view.document[keys.volume];
     about.textContent = volume === null ? "" : aboutVolume(volume);
   });
-  store.watch([keys.volume, keys.ready, keys.window, "theme"], draw);
+  store.watch(
+    [`document.${keys.volume}`, `document.${keys.ready}`, `slices.${keys.window}`, "page.theme"],
+    draw,
+  );
   dragWindow(plot, app, keys, () => counts);
   return { range, plot, preset: h("label", { class: "line" }, "CT", preset), about };
 }
@@ -196,10 +200,10 @@ function windowFields(
   const number = (id: string, label: string, which: 0 | 1): HTMLInputElement => {
     const field = h("input", { type: "number", id, "aria-label": label, title: label, step: "any" });
     field.addEventListener("change", () => {
-      const window: [number, number] = [...store.get()[keys.window]];
+      const window: [number, number] = [...store.get().slices[keys.window]];
       window[which] = Number(field.value);
       if (Number.isFinite(window[which]) && window[0] < window[1]) setWindow(app, keys, window);
-      else field.value = brief(store.get()[keys.window][which]);
+      else field.value = brief(store.get().slices[keys.window][which]);
     });
     return field;
   };
@@ -219,7 +223,7 @@ function windowFields(
         class: "button text",
       },
       () => {
-        const volume = store.get()[keys.volume];
+        const volume = store.get().document[keys.volume];
         if (volume !== null) setWindow(app, keys, volume.meta.window as [number, number]);
       },
     ),
@@ -239,7 +243,7 @@ function dragWindow(
       box = plot.getBoundingClientRect();
     if (c === null) return;
     const x = c.low + ((e.clientX - box.left) / box.width) * (c.high - c.low),
-      [a, b] = app.store.get()[keys.window];
+      [a, b] = app.store.get().slices[keys.window];
     setWindow(app, keys, Math.abs(x - a) < Math.abs(x - b) ? [Math.min(x, b), b] : [a, Math.max(a, x)]);
   };
   plot.addEventListener("pointerdown", e => {

@@ -23,13 +23,19 @@ export class WorkList {
 
   /** The item that was shown last and is left, or undefined. */
   private get current(): WorkItem | undefined {
-    const { state, place } = this.app.store.get();
+    const {
+      document: { state },
+      selection: { place },
+    } = this.app.store.get();
     return state.work?.items.find(item => item.id === place);
   }
 
   /** The label of the proposal that was shown last and waits, or undefined. */
   private get proposed(): string | undefined {
-    const { state, proposal } = this.app.store.get();
+    const {
+      document: { state },
+      selection: { proposal },
+    } = this.app.store.get();
     return state.proposals.find(each => each.label === proposal)?.label;
   }
 
@@ -38,12 +44,15 @@ export class WorkList {
     const { store } = this.app;
     if (item.missing === null) goToNode(this.app, item.node);
     goTo(this.app, item.position);
-    store.set({ place: item.id, proposal: null });
+    store.set({ selection: { place: item.id, proposal: null } });
   }
 
   /** Goes to the next (1) or the one before (-1): proposals first, then places; round at the ends. */
   walk(by: 1 | -1): boolean {
-    const { state, place, proposal } = this.app.store.get(),
+    const {
+        document: { state },
+        selection: { place, proposal },
+      } = this.app.store.get(),
       items = state.work?.items ?? [],
       total = state.proposals.length + items.length;
     if (total === 0) {
@@ -59,7 +68,7 @@ export class WorkList {
       at = proposed >= 0 ? proposed : listed >= 0 ? state.proposals.length + listed : by > 0 ? -1 : 0,
       next = (at + by + total) % total;
     if (next < state.proposals.length) {
-      this.app.store.set({ proposal: state.proposals[next].label, place: null });
+      this.app.store.set({ selection: { proposal: state.proposals[next].label, place: null } });
       goTo(this.app, state.proposals[next].position);
     } else this.show(items[next - state.proposals.length]);
     return true;
@@ -87,7 +96,10 @@ export class WorkList {
   /** A remedy that changes a vessel acts only on a place that the views show: elsewhere the first press goes there. */
   async act(item: WorkItem, remedy: Remedy | undefined): Promise<void> {
     if (remedy === undefined) return;
-    const { state, tree, place } = this.app.store.get();
+    const {
+      document: { state, tree },
+      selection: { place },
+    } = this.app.store.get();
     if (kRemedyWords[remedy].changes && place !== item.id) {
       this.show(item);
       this.app.inform(
@@ -143,7 +155,7 @@ export function checkSection(app: App, actions: Actions, work: WorkList): HTMLEl
     button({ id, text, label, key, class: "button text" }, () => void work.walk(by));
   const before = step("work-before", "Before", "Show the place before", ",", -1),
     next = step("work-next", "Next", "Show the next place", ".", 1);
-  store.watch(["state"], ({ state }) => {
+  store.watch(["document.state"], ({ document: { state } }) => {
     const items = state.work?.items ?? [],
       found = state.work?.found ?? 0;
     run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
@@ -163,7 +175,7 @@ export function checkSection(app: App, actions: Actions, work: WorkList): HTMLEl
     ignored.querySelector("summary")!.textContent = `Ignored: ${places.length}`;
     set.replaceChildren(...places.map((place, i) => ignoredRow(app, place, i)));
   });
-  store.watch(["place"], ({ place }) => {
+  store.watch(["selection.place"], ({ selection: { place } }) => {
     for (const row of list.children) {
       const isChosen = place !== null && row.id === `work-${place}`;
       row.classList.toggle("chosen", isChosen);
@@ -183,7 +195,10 @@ export function checkSection(app: App, actions: Actions, work: WorkList): HTMLEl
 }
 
 function workRow(app: App, work: WorkList, item: WorkItem, goesOn: boolean): HTMLElement {
-  const { state, place } = app.store.get(),
+  const {
+      document: { state },
+      selection: { place },
+    } = app.store.get(),
     words = `${item.about.charAt(0).toUpperCase()}${item.about.slice(1)}`,
     acts = remediesOf(item).map(remedy =>
       button(

@@ -66,7 +66,7 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
     () => void hand.finish(),
   );
   finish.hidden = true;
-  store.watch(["clicks"], ({ clicks }) => {
+  store.watch(["tools.clicks"], ({ tools: { clicks } }) => {
     finish.disabled = clicks.length === 0;
   });
   const all = button(
@@ -80,7 +80,7 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
     },
     () => void actions.track(null),
   );
-  store.watch(["state"], ({ state }) => {
+  store.watch(["document.state"], ({ document: { state } }) => {
     const waiting = state.seeds.filter(s => !s.tracked);
     all.disabled = waiting.length === 0 || state.job !== null || !state.hasVolume;
     list.replaceChildren(...state.seeds.filter(s => !s.tracked).map(seed => seedRow(app, actions, seed)));
@@ -100,7 +100,10 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
       done.length === 1 ? "One seed was tracked" : `${done.length} seeds were tracked`;
     trackedList.replaceChildren(...done.map(seed => trackedRow(app, seed)));
     const labels = [
-      ...new Set([...state.seeds.map(s => s.label), ...(store.get().tree?.branches.map(b => b.label) ?? [])]),
+      ...new Set([
+        ...state.seeds.map(s => s.label),
+        ...(store.get().document.tree?.branches.map(b => b.label) ?? []),
+      ]),
     ];
     parent.replaceChildren(
       h("option", { value: "" }, "Found by itself"),
@@ -138,7 +141,7 @@ function trackedRow(app: App, seed: Seed): HTMLElement {
 
 function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
   const radius = seed.points[0]?.radius ?? null,
-    busy = app.store.get().state.job !== null;
+    busy = app.store.get().document.state.job !== null;
   const track = button(
     { icon: "play", label: `Track ${seed.label}`, class: "button" },
     () => void actions.track([seed.label]),
@@ -169,7 +172,7 @@ function fileSection(app: App): HTMLElement {
   const list = h("ul", { class: "list", id: "file-list", "aria-label": "Open files" }),
     box = section("section-files", "Files", false, list);
   let hadSeries = false;
-  app.store.watch(["state"], ({ state }) => {
+  app.store.watch(["document.state"], ({ document: { state } }) => {
     list.replaceChildren(
       ...state.files.map(file =>
         h(
@@ -228,7 +231,7 @@ function fileSection(app: App): HTMLElement {
               class: "button text",
             },
             () => {
-              app.store.set({ seriesAs: null }); // another series may become another part
+              app.store.set({ tools: { seriesAs: null } }); // another series may become another part
               openSeriesDialog(app);
             },
           ),

@@ -58,10 +58,10 @@ export class Flight {
     private readonly app: App,
     private readonly scene: SceneView,
   ) {
-    app.store.watch(["tree"], () => {
+    app.store.watch(["document.tree"], () => {
       if (this.running) this.stop();
     });
-    app.store.watch(["time"], ({ time }) => {
+    app.store.watch(["motion.time"], ({ motion: { time } }) => {
       if (time !== null && this.running) this.stop(); // its way is that of the vessel at rest
     });
   }
@@ -74,7 +74,10 @@ export class Flight {
   }
 
   start(): void {
-    const { tree, selected, node } = this.app.store.get();
+    const {
+      document: { tree },
+      selection: { selected, node },
+    } = this.app.store.get();
     if (tree === null || selected < 0) {
       this.app.inform("Select the vessel to fly into first.", "warning");
       return;
@@ -166,14 +169,18 @@ export class Flight {
   }
 
   private radiusHere(): number {
-    const { tree } = this.app.store.get();
+    const {
+      document: { tree },
+    } = this.app.store.get();
     return this.path === null || tree === null
       ? 1
       : tree.radius[this.path.nodes[locate(this.path, this.s).i]];
   }
 
   private show(): void {
-    const { tree } = this.app.store.get();
+    const {
+      document: { tree },
+    } = this.app.store.get();
     if (this.path === null || tree === null) return;
     const { i } = locate(this.path, this.s),
       node = this.path.nodes[i],
@@ -193,7 +200,7 @@ export class Flight {
       up: this.up,
       fade: kFadePerRadius / r,
     };
-    this.app.store.set({ crosshair: eye, node });
+    this.app.store.set({ slices: { crosshair: eye }, selection: { node } });
     this.app.stage.invalidate(this.scene);
     this.onChange?.();
   }

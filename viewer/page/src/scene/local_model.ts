@@ -80,39 +80,46 @@ export class LocalModel {
   private mesh: Mesh<BufferGeometry, PartMaterial> | null = null;
 
   constructor(app: App, scene: SceneView) {
-    app.store.watch(["layers", "node", "blob", "tree", "time"], view => {
-      if (this.mesh !== null) {
-        scene.extra.remove(this.mesh);
-        this.mesh.geometry.dispose();
-        this.mesh.material.dispose();
-        this.mesh = null;
-      }
-      app.stage.invalidate(scene);
-      if (
-        !view.layers.local ||
-        view.time !== null ||
-        view.blob === null ||
-        view.tree === null ||
-        view.node < 0
-      )
-        return;
-      const { position, normal } = localSurface(view.blob, view.tree, view.node),
-        geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(position, 3));
-      geometry.setAttribute("normal", new BufferAttribute(normal, 3));
-      this.mesh = new Mesh(geometry, new PartMaterial(false));
-      this.mesh.material.look({
-        own: [1, 0.86, 0.35],
-        alpha: 0.8,
-        mapped: false,
-        range: [0, 1],
-        map: "sequential",
-        lit: true,
-        clip: kNoClip,
-      });
-      this.mesh.renderOrder = 4;
-      this.mesh.frustumCulled = false;
-      scene.extra.add(this.mesh);
-    });
+    app.store.watch(
+      ["scene.layers", "selection.node", "document.blob", "document.tree", "motion.time"],
+      view => {
+        if (this.mesh !== null) {
+          scene.extra.remove(this.mesh);
+          this.mesh.geometry.dispose();
+          this.mesh.material.dispose();
+          this.mesh = null;
+        }
+        app.stage.invalidate(scene);
+        if (
+          !view.scene.layers.local ||
+          view.motion.time !== null ||
+          view.document.blob === null ||
+          view.document.tree === null ||
+          view.selection.node < 0
+        )
+          return;
+        const { position, normal } = localSurface(
+            view.document.blob,
+            view.document.tree,
+            view.selection.node,
+          ),
+          geometry = new BufferGeometry();
+        geometry.setAttribute("position", new BufferAttribute(position, 3));
+        geometry.setAttribute("normal", new BufferAttribute(normal, 3));
+        this.mesh = new Mesh(geometry, new PartMaterial(false));
+        this.mesh.material.look({
+          own: [1, 0.86, 0.35],
+          alpha: 0.8,
+          mapped: false,
+          range: [0, 1],
+          map: "sequential",
+          lit: true,
+          clip: kNoClip,
+        });
+        this.mesh.renderOrder = 4;
+        this.mesh.frustumCulled = false;
+        scene.extra.add(this.mesh);
+      },
+    );
   }
 }

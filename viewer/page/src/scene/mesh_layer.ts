@@ -37,7 +37,7 @@ export class MeshLayer {
     private readonly scene: SceneView,
   ) {
     this.panel = section("section-meshes", "Meshes", true, this.list);
-    app.store.watch(["state"], ({ state }) => {
+    app.store.watch(["document.state"], ({ document: { state } }) => {
       this.panel.hidden = state.meshes.length === 0;
       const wanted = new Map(state.meshes.map(m => [String(m.id), m.name]));
       const looks = new Map<string, Look>(); // by name: a mesh that was read again has another number
@@ -52,8 +52,8 @@ export class MeshLayer {
           void this.take(id, name, looks.get(name));
         }
     });
-    app.store.watch(["tree", "state"], view => this.follow(view));
-    app.store.watch(["deviations"], ({ deviations }) => this.colour(deviations));
+    app.store.watch(["document.tree", "document.state"], view => this.follow(view));
+    app.store.watch(["document.deviations"], ({ document: { deviations } }) => this.colour(deviations));
   }
 
   private drop(id: string, row: Row | null): void {
@@ -72,7 +72,7 @@ export class MeshLayer {
     try {
       const bytes = await app.source.bytes("mesh", { id });
       if (bytes === null || !this.rows.has(id)) return;
-      const alpha = look?.alpha ?? (app.store.get().tree === null ? 1 : kAlpha),
+      const alpha = look?.alpha ?? (app.store.get().document.tree === null ? 1 : kAlpha),
         view = new MeshView(new Pack(bytes), name, alpha);
       const row = this.makeRow(id, view);
       row.box.checked = look?.coloured === true;
@@ -121,17 +121,17 @@ export class MeshLayer {
     row.opacity.value = String(alpha);
     row.view.look({ alpha });
     if (on) {
-      if (store.get().allOpacity === 1) store.set({ allOpacity: kFaint });
+      if (store.get().selection.allOpacity === 1) store.set({ selection: { allOpacity: kFaint } });
       this.follow(store.get());
       return;
     }
     this.clear(id, row);
     const others = [...this.rows.values()].some(each => each?.box.checked === true);
-    if (!others && store.get().allOpacity === kFaint) store.set({ allOpacity: 1 });
+    if (!others && store.get().selection.allOpacity === kFaint) store.set({ selection: { allOpacity: 1 } });
   }
 
   /** Distances belong to one wall: another asks for others. */
-  private follow({ tree, state }: View): void {
+  private follow({ document: { tree, state } }: View): void {
     const canAsk = tree?.hasModels === true;
     for (const [id, row] of this.rows) {
       if (row === null) continue;
@@ -170,7 +170,7 @@ export class MeshLayer {
     row.view.setValues(deviation.distance);
     row.figures.textContent = deviationText(deviation);
     row.figures.removeAttribute("aria-busy");
-    store.set({ deviations: new Map(store.get().deviations).set(id, deviation) });
+    store.set({ document: { deviations: new Map(store.get().document.deviations).set(id, deviation) } });
   }
 
   private clear(id: string, row: Row | null): void {
@@ -182,12 +182,12 @@ export class MeshLayer {
       row.figures.removeAttribute("aria-busy");
     }
     const { store } = this.app,
-      deviations = new Map(store.get().deviations);
-    if (deviations.delete(id)) store.set({ deviations });
+      deviations = new Map(store.get().document.deviations);
+    if (deviations.delete(id)) store.set({ document: { deviations } });
     this.app.stage.invalidate(this.scene);
   }
 
-  private colour(deviations: View["deviations"]): void {
+  private colour(deviations: View["document"]["deviations"]): void {
     const range = deviations.size === 0 ? null : sharedRange([...deviations.values()]);
     for (const [id, row] of this.rows) row?.view.look({ range: deviations.has(id) ? range : null });
     this.app.stage.invalidate(this.scene);
@@ -195,7 +195,9 @@ export class MeshLayer {
 
   /** The view shows the mesh as a whole if nothing else is open. */
   private fit(position: Float32Array): void {
-    const { tree, volume } = this.app.store.get();
+    const {
+      document: { tree, volume },
+    } = this.app.store.get();
     if (tree !== null || volume !== null || position.length === 0) return;
     const low: Vec3 = [Infinity, Infinity, Infinity],
       high: Vec3 = [-Infinity, -Infinity, -Infinity];

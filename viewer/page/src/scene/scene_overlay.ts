@@ -44,13 +44,13 @@ function drawCompass(c: CanvasRenderingContext2D, camera: OrbitCamera, height: n
 }
 
 function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
-  if (view.layers.seeds)
-    for (const seed of view.state.seeds) {
+  if (view.scene.layers.seeds)
+    for (const seed of view.document.state.seeds) {
       const p = seed.tracked ? null : camera.project(seed.points[0].position);
       if (p !== null) label(c, seed.label, p.x + 8, p.y - 8, "#ffe6a8");
     }
-  const cross = camera.project(view.crosshair);
-  if (cross === null || (view.volume === null && view.tree === null)) return;
+  const cross = camera.project(view.slices.crosshair);
+  if (cross === null || (view.document.volume === null && view.document.tree === null)) return;
   c.strokeStyle = "rgb(255 255 255 / 0.7)";
   c.lineWidth = 1;
   c.beginPath();
@@ -68,7 +68,9 @@ function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View
 
 /** The centerline of the selected vessel, also through walls. Here, because a line costs nothing where the scene does. */
 function drawSelected(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
-  const { selected } = view,
+  const {
+      selection: { selected },
+    } = view,
     tree = shownTree(view),
     branch = tree?.branches[selected];
   if (tree === null || branch === undefined || !isShown(view, selected)) return;
@@ -93,13 +95,14 @@ export function drawSceneOverlay(
   drawProposalsInScene(c, camera, view);
   drawNamesInScene(c, camera, view);
   drawPoints(c, camera, view);
-  if (view.time === null) drawMeasurements(c, view, project, Infinity); // of the case at rest
+  if (view.motion.time === null) drawMeasurements(c, view, project, Infinity); // of the case at rest
   drawCompass(c, camera, height);
   drawScaleBar(c, camera.mmPerPixel, width, height);
-  const branch = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;
+  const branch =
+    view.selection.selected >= 0 ? view.document.tree?.branches[view.selection.selected] : undefined;
   label(
     c,
-    `3D${view.cast === "mip" ? "  projection" : view.cast === "volume" ? "  volume" : ""}${branch === undefined ? "" : `  ${branch.label}`}`,
+    `3D${view.scene.cast === "mip" ? "  projection" : view.scene.cast === "volume" ? "  volume" : ""}${branch === undefined ? "" : `  ${branch.label}`}`,
     8,
     12,
     "#e8edf4",

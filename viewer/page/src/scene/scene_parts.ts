@@ -27,7 +27,7 @@ export function centerlines(view: View): LineSegments {
     position: number[] = [],
     colour: number[] = [],
     one = new Color(),
-    inside = view.layers.surface || view.layers.nodes;
+    inside = view.scene.layers.surface || view.scene.layers.nodes;
   for (const branch of tree.branches) {
     if (!isShown(view, branch.index)) continue;
     const nodes = tree.nodesOf(branch);

@@ -23,6 +23,7 @@ import { SlicePlanes } from "./slice_planes";
 import { ScenePicture } from "../drawing/scene_picture";
 import type { StageView } from "../drawing/stage";
 import type { Surface } from "../case/surface";
+import type { Path } from "../base/store";
 import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
 import { dot, scale } from "../base/vec";
@@ -31,6 +32,16 @@ import { missingPlaces } from "../case/work_items";
 
 const kStill = 250, // ms after the last movement at which what is slow is drawn again in full
   kHeld = 1500; // ms, while a button of the pointer is down: a hand that turns stops for moments
+
+/** The values on which centerlines and wall points depend. */
+const kLines: readonly Path<View>[] = [
+  "document.tree",
+  "motion.posed",
+  "scene.layers",
+  "selection.hidden",
+  "selection.solo",
+  "selection.colours",
+];
 
 export class SceneView implements StageView {
   readonly camera = new OrbitCamera();
@@ -62,42 +73,48 @@ export class SceneView implements StageView {
     this.over = element.querySelector("canvas")!;
     this.scene.add(this.lines, this.points, this.marks, this.extra, this.planes.group);
     const { store, stage } = app;
-    const all = (keys: (keyof View)[], call: (view: View) => void): void => {
-      store.watch(keys, view => {
+    const all = (paths: readonly Path<View>[], call: (view: View) => void): void => {
+      store.watch(paths, view => {
         call(view);
         stage.invalidate(this);
       });
     };
-    all(["surface"], view => this.setSurface(view));
-    all(["tree"], view => this.setTubes(view));
-    all(["tree", "posed", "layers", "hidden", "solo", "colours"], view => this.setLines(view));
-    all(["tree", "posed", "layers", "hidden", "solo", "colours"], view => this.setPoints(view));
-    store.watch(["time"], () => this.busy());
-    all(["state", "layers", "crosshair"], view => this.setMarks(view));
+    all(["document.surface"], view => this.setSurface(view));
+    all(["document.tree"], view => this.setTubes(view));
+    all(kLines, view => {
+      this.setLines(view);
+      this.setPoints(view);
+    });
+    store.watch(["motion.time"], () => this.busy());
+    all(["document.state", "scene.layers", "slices.crosshair"], view => this.setMarks(view));
     all(
       [
-        "surface",
-        "tree",
-        "posed",
-        "layers",
-        "hidden",
-        "solo",
-        "colours",
-        "opacity",
-        "allOpacity",
-        "colourBy",
-        "clip",
-        "distance",
-        "window",
-        "cast",
-        "volumeReady",
-        "theme",
+        ...kLines,
+        "document.surface",
+        "document.distance",
+        "document.volumeReady",
+        "selection.opacity",
+        "selection.allOpacity",
+        "scene",
+        "slices.window",
+        "page.theme",
       ],
       view => this.setLooks(view),
     );
-    store.watch(["proposals", "proposal", "layers"], () => stage.invalidateOver(this));
+    store.watch(["document.proposals", "selection.proposal", "scene.layers"], () =>
+      stage.invalidateOver(this),
+    );
     store.watch(
-      ["selected", "crosshair", "frame", "node", "measurements", "pending", "clicks", "tool"],
+      [
+        "selection.selected",
+        "slices.crosshair",
+        "slices.frame",
+        "selection.node",
+        "tools.measurements",
+        "tools.pending",
+        "tools.clicks",
+        "tools.tool",
+      ],
       view => {
         this.setLooks(view);
         this.marked();
@@ -115,14 +132,14 @@ export class SceneView implements StageView {
   }
 
   private setSurface(view: View): void {
-    if (view.surface === this.surface) return;
+    if (view.document.surface === this.surface) return;
     for (const wall of this.walls) {
       this.scene.remove(wall);
       wall.material.dispose();
     }
     this.surface?.dispose();
-    this.surface = view.surface;
-    this.walls = (view.surface?.parts ?? []).map((part, index) => {
+    this.surface = view.document.surface;
+    this.walls = (view.document.surface?.parts ?? []).map((part, index) => {
       const wall = new Mesh(part.geometry, new PartMaterial(true));
       wall.frustumCulled = false;
       wall.userData.branch = part.branch;
@@ -138,24 +155,28 @@ export class SceneView implements StageView {
       tube.dispose();
       tube.geometry.dispose();
     }
-    this.tubesOf = view.tree;
-    this.tubes = view.tree === null ? [] : cylinders(view.tree, this.app.stage.software ? 6 : 20);
+    this.tubesOf = view.document.tree;
+    this.tubes =
+      view.document.tree === null ? [] : cylinders(view.document.tree, this.app.stage.software ? 6 : 20);
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }
   private setLines(view: View): void {
-    this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view)] : []);
+    this.replace(
+      this.lines,
+      view.document.tree !== null && view.scene.layers.lines ? [centerlines(view)] : [],
+    );
   }
   private setPoints(view: View): void {
-    const points = view.tree !== null && view.layers.points ? wallPoints(view) : null;
+    const points = view.document.tree !== null && view.scene.layers.points ? wallPoints(view) : null;
     this.replace(this.points, points === null ? [] : [points]);
   }
 
   private setMarks(view: View): void {
     const marks: Object3D[] = [],
-      least = Math.max(view.volume?.spacing[0] ?? 0, view.tree?.voxelSize ?? 0, 0.1);
-    if (view.layers.seeds)
-      for (const seed of view.state.seeds)
+      least = Math.max(view.document.volume?.spacing[0] ?? 0, view.document.tree?.voxelSize ?? 0, 0.1);
+    if (view.scene.layers.seeds)
+      for (const seed of view.document.state.seeds)
         for (const point of seed.points)
           marks.push(
             ball(
@@ -165,47 +186,51 @@ export class SceneView implements StageView {
               seed.tracked ? 0.5 : 0.9,
             ),
           );
-    if (view.layers.places)
-      for (const { place } of missingPlaces(view.state))
+    if (view.scene.layers.places)
+      for (const { place } of missingPlaces(view.document.state))
         marks.push(ball(place.position, Math.max(2 * place.radius_mm, 1.5 * least), [1, 0.48, 0.56], 0.75));
     this.replace(this.marks, marks);
   }
 
   /** The plane that cuts away what is nearer than the crosshair; zero if it is off. */
   private clip(view: View): Vector4 {
-    if (!view.clip.on) return new Vector4(0, 0, 0, 0);
-    const n: Vec3 = scale(view.frame.normal, view.clip.flip ? -1 : 1);
-    return new Vector4(...n, -dot(n, view.crosshair));
+    if (!view.scene.clip.on) return new Vector4(0, 0, 0, 0);
+    const n: Vec3 = scale(view.slices.frame.normal, view.scene.clip.flip ? -1 : 1);
+    return new Vector4(...n, -dot(n, view.slices.crosshair));
   }
 
   private setLooks(view: View): void {
     const clip = this.clip(view),
       { mapped, range, map } = colouring(view),
-      asTubes = view.surface === null || view.layers.nodes;
+      asTubes = view.document.surface === null || view.scene.layers.nodes;
     const shown = shownTree(view);
     if (asTubes && shown !== this.tubesOf && shown?.branches.length === this.tubes.length) {
       this.tubes.forEach((tube, branch) => placeCylinders(tube, shown, branch));
       this.tubesOf = shown;
     }
-    if (view.tree !== null && this.tubes.length === view.tree.branches.length)
+    if (view.document.tree !== null && this.tubes.length === view.document.tree.branches.length)
       this.tubes.forEach((tube, branch) => {
         const alpha = opacityOf(view, branch);
         tube.visible =
-          asTubes && isShown(view, branch) && alpha > 0 && (view.layers.nodes || view.layers.surface);
+          asTubes &&
+          isShown(view, branch) &&
+          alpha > 0 &&
+          (view.scene.layers.nodes || view.scene.layers.surface);
         (tube.material as PartMaterial).look({
           own: colourOf(view, branch),
           alpha,
           mapped: false,
           range,
           map,
-          lit: branch === view.selected,
+          lit: branch === view.selection.selected,
           clip,
         });
       });
     for (const wall of this.walls) {
       const branch = wall.userData.branch as number,
-        alpha = branch < 0 ? view.allOpacity : opacityOf(view, branch);
-      wall.visible = view.layers.surface && !view.layers.nodes && isShown(view, branch) && alpha > 0;
+        alpha = branch < 0 ? view.selection.allOpacity : opacityOf(view, branch);
+      wall.visible =
+        view.scene.layers.surface && !view.scene.layers.nodes && isShown(view, branch) && alpha > 0;
       const own: [number, number, number] = branch < 0 ? [0.75, 0.72, 0.68] : colourOf(view, branch);
       wall.material.look({
         own,
@@ -213,7 +238,7 @@ export class SceneView implements StageView {
         mapped,
         range,
         map,
-        lit: branch === view.selected && branch >= 0,
+        lit: branch === view.selection.selected && branch >= 0,
         clip,
       });
       wall.renderOrder = alpha < 1 ? 2 : 0;
@@ -225,7 +250,9 @@ export class SceneView implements StageView {
 
   /** Shows everything that there is. */
   fit(): void {
-    const { tree, volume } = this.app.store.get(),
+    const {
+        document: { tree, volume },
+      } = this.app.store.get(),
       box = tree?.box() ?? null;
     if (box !== null) this.camera.fit(box.low, box.high);
     else if (volume !== null) {
@@ -290,7 +317,7 @@ export class SceneView implements StageView {
   private chooseDetail(coarse: boolean, view: View): void {
     const isSeenFromOutside =
       coarse &&
-      !view.clip.on &&
+      !view.scene.clip.on &&
       this.camera.flight === null &&
       this.walls.some(wall => wall.visible) &&
       this.walls.every(wall => !wall.visible || !wall.material.transparent);
@@ -312,7 +339,8 @@ export class SceneView implements StageView {
     this.chooseDetail(coarse, view);
     kFade.value = this.camera.flight === null ? 0 : this.camera.flight.fade;
     this.picture.draw(renderer, [width, height], coarse, () => {
-      if (view.cast !== "off" && this.caster !== null) this.cast(this.caster, renderer, [width, height]);
+      if (view.scene.cast !== "off" && this.caster !== null)
+        this.cast(this.caster, renderer, [width, height]);
       renderer.render(this.scene, camera);
     });
   }
@@ -328,8 +356,8 @@ export class SceneView implements StageView {
       this.camera.isParallel && this.camera.flight === null,
       size,
       moving ? (software ? 0.22 : 0.6) : software ? 0.5 : 1,
-      view.window,
-      view.cast === "volume",
+      view.slices.window,
+      view.scene.cast === "volume",
       this.clip(view),
       moving || software ? 1 : 0.6,
     );

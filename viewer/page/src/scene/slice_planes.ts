@@ -39,19 +39,24 @@ export class SlicePlanes {
   update(view: View, texture: VolumeTexture | null): void {
     for (const child of this.group.children as Mesh[]) child.geometry.dispose();
     this.group.clear();
-    const { volume } = view;
-    if (!view.layers.slices || texture === null || volume === null) return;
+    const {
+      document: { volume },
+    } = view;
+    if (!view.scene.layers.slices || texture === null || volume === null) return;
     const u = this.material.uniforms;
     (u.toTexture.value as Matrix4).fromArray(volume.toTexture());
     u.voxels.value = texture.texture;
-    (u.window.value as Vector2).set(volume.stored(view.window[0]), volume.stored(view.window[1]));
+    (u.window.value as Vector2).set(
+      volume.stored(view.slices.window[0]),
+      volume.stored(view.slices.window[1]),
+    );
     (u.channels.value as Vector2).set(255, volume.bytesPerVoxel === 1 ? 0 : 65280);
     const corners = volume.corners(),
       middle = volume.centre(),
       half = Math.max(...corners.map(c => Math.hypot(...sub(c, middle))));
     for (const name of kSliceNames) {
-      const f = frameOf(name, view.frame),
-        centre = along(middle, f.normal, dot(sub(view.crosshair, middle), f.normal));
+      const f = frameOf(name, view.slices.frame),
+        centre = along(middle, f.normal, dot(sub(view.slices.crosshair, middle), f.normal));
       const corner = (x: number, y: number): Vec3 =>
         add(centre, add(scale(f.right, x * half), scale(f.up, y * half)));
       const geometry = new BufferGeometry();

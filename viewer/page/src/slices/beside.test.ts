@@ -8,9 +8,8 @@ import type { Volume } from "../case/volume";
 const volume = {} as Volume,
   view = (beside: Partial<Beside>, second: Volume | null = volume): View => ({
     ...kInitial,
-    volume,
-    second,
-    beside: { ...kNoBeside, ...beside },
+    document: { ...kInitial.document, volume, second },
+    slices: { ...kInitial.slices, beside: { ...kNoBeside, ...beside }, secondWindow: [1, 9] },
   });
 
 describe("a second volume", () => {
@@ -40,9 +39,7 @@ describe("a second volume", () => {
     expect(showsSecond(view({ mode: "blend" }, null))).toBe(false);
   });
   it("keepsHowItIsSeen", () => {
-    const kept = readView(
-      JSON.stringify(takeView({ ...view({ mode: "split", share: 0.7 }), secondWindow: [1, 9] })),
-    );
+    const kept = readView(JSON.stringify(takeView(view({ mode: "split", share: 0.7 }))));
     expect(kept.beside).toEqual({ mode: "split", share: 0.7, warm: true });
     expect(kept.secondWindow).toEqual([1, 9]);
     expect(isBeside({ ...kNoBeside, share: 1.2 })).toBe(false);

@@ -24,14 +24,13 @@ export const isBeside = (x: Beside): boolean =>
 
 /** The volumes that are there, and how they are seen. */
 export interface Both {
-  volume: Volume | null;
-  second: Volume | null;
-  beside: Beside;
+  document: { volume: Volume | null; second: Volume | null };
+  slices: { beside: Beside };
 }
 
 /** Whether both volumes are in the slices. */
-export const showsSecond = (view: Both): boolean =>
-  view.volume !== null && view.second !== null && view.beside.mode !== "off";
+export const showsSecond = ({ document, slices }: Both): boolean =>
+  document.volume !== null && document.second !== null && slices.beside.mode !== "off";
 
 /** The drawing of the second volume: opacity, the place in [-1, 1] across the view where it begins, and its colours. */
 export function drawingOf({ mode, share, warm }: Beside): { alpha: number; from: number; warm: boolean } {
@@ -40,4 +39,4 @@ export function drawingOf({ mode, share, warm }: Beside): { alpha: number; from:
 
 /** Whether the second volume alone is seen at a share of a view's width. */
 export const isSecondAt = (view: Both, across: number): boolean =>
-  showsSecond(view) && view.beside.mode === "split" && across > view.beside.share;
+  showsSecond(view) && view.slices.beside.mode === "split" && across > view.slices.beside.share;

@@ -32,7 +32,10 @@ describe("slabs", () => {
     expect(throughOf({ kind: "max", mm: 4 }, frame)).toEqual([0, 0, -2]);
   });
   it("are kept with the view, and older view files and foreign kinds do no harm", () => {
-    const kept = takeView({ ...kInitial, slabs: { ...kNoSlabs, axial: { kind: "min", mm: 7 } } });
+    const kept = takeView({
+      ...kInitial,
+      slices: { ...kInitial.slices, slabs: { ...kNoSlabs, axial: { kind: "min", mm: 7 } } },
+    });
     expect(readView(JSON.stringify(kept)).slabs.axial).toEqual({ kind: "min", mm: 7 });
     expect(readView(JSON.stringify({ ...kept, slabs: undefined })).slabs).toEqual(kNoSlabs);
     const foreign = { ...kNoSlabs, axial: { kind: "median", mm: 7 } };

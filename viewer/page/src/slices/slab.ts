@@ -57,7 +57,7 @@ export const areSlabs = (slabs: Slabs): boolean =>
 
 /** The depth of a slice on either side of its plane, mm: of its slab, at least `thin`. */
 export const reachOf = (
-  { slabs }: { slabs: Slabs },
+  { slices: { slabs } }: { slices: { slabs: Slabs } },
   slice: Pick<SliceProjection, "name">,
   thin: number,
 ): number => {

@@ -14,17 +14,21 @@ const within = (mm: number): number => Math.min(kMost, Math.max(kLeast, mm));
 
 /** Changes the slabs of the named slices; of all without a name. */
 function change(app: App, name: SliceName | null, to: (slab: Slab) => Slab): void {
-  const { slabs } = app.store.get();
+  const {
+    slices: { slabs },
+  } = app.store.get();
   app.store.set({
-    slabs: Object.fromEntries(
-      kSliceNames.map(each => [each, name === null || name === each ? to(slabs[each]) : slabs[each]]),
-    ) as unknown as Slabs,
+    slices: {
+      slabs: Object.fromEntries(
+        kSliceNames.map(each => [each, name === null || name === each ? to(slabs[each]) : slabs[each]]),
+      ) as unknown as Slabs,
+    },
   });
 }
 
 /** Slice, maximum, minimum, mean, and the slice again; all slices follow the first of them. */
 function nextKind(app: App, name: SliceName | null): void {
-  const now = app.store.get().slabs[name ?? "axial"].kind,
+  const now = app.store.get().slices.slabs[name ?? "axial"].kind,
     next = kSlabKinds[(kSlabKinds.findIndex(([kind]) => kind === now) + 1) % kSlabKinds.length][0];
   change(app, name, slab => ({ ...slab, kind: next }));
 }
@@ -68,9 +72,9 @@ export function slabControl(app: App, name: SliceName): HTMLElement {
   mm.addEventListener("change", () => {
     const wanted = Number(mm.value);
     if (wanted > 0) change(app, name, slab => ({ ...slab, mm: within(wanted) }));
-    else mm.value = String(app.store.get().slabs[name].mm);
+    else mm.value = String(app.store.get().slices.slabs[name].mm);
   });
-  app.store.watch(["slabs"], ({ slabs }) => {
+  app.store.watch(["slices.slabs"], ({ slices: { slabs } }) => {
     const slab = slabs[name];
     kind.value = slab.kind;
     mm.value = String(slab.mm);
@@ -111,14 +115,14 @@ export function splitLine(app: App, view: HTMLElement): HTMLElement {
     if (!line.hasPointerCapture(e.pointerId)) return;
     const box = view.getBoundingClientRect(),
       share = Math.min(1, Math.max(0, (e.clientX - box.left) / Math.max(box.width, 1)));
-    store.set({ beside: { ...store.get().beside, share } });
+    store.set({ slices: { beside: { ...store.get().slices.beside, share } } });
     e.stopPropagation();
   });
-  store.watch(["beside", "second", "volume"], view => {
-    line.hidden = !(showsSecond(view) && view.beside.mode === "split");
-    line.style.left = `${100 * view.beside.share}%`;
-    before.textContent = view.volume?.meta.name ?? "";
-    after.textContent = view.second?.meta.name ?? "";
+  store.watch(["slices.beside", "document.second", "document.volume"], view => {
+    line.hidden = !(showsSecond(view) && view.slices.beside.mode === "split");
+    line.style.left = `${100 * view.slices.beside.share}%`;
+    before.textContent = view.document.volume?.meta.name ?? "";
+    after.textContent = view.document.second?.meta.name ?? "";
   });
   return line;
 }

@@ -2,7 +2,7 @@
 /** Pointer and keys in a slice. Left: the tool (or the crosshair); right: window and level; middle or shift: pan; wheel:
  * slices, with control zoom; control and left: turns the planes. */
 import { isSecondAt } from "./beside";
-import { kFirst, kPatientFrame, kSecond, type App, type View, type VolumeKeys } from "../model/model";
+import { kFirst, kPatientFrame, kSecond, type App, type VolumeKeys } from "../model/model";
 import { slabKey } from "./slice_controls";
 import type { SliceView } from "./slice_view";
 import type { Tools } from "../tools/tools";
@@ -19,19 +19,20 @@ export function turnFrame(frame: Frame, axis: Vec3, angle: number): Frame {
 
 /** Turns the shared planes about an axis; they are then neither the patient's nor the vessel's. */
 export function turnPlanes(app: App, axis: Vec3, angle: number): void {
-  app.store.set({ planes: "free", frame: turnFrame(app.store.get().frame, axis, angle) });
+  app.store.set({ slices: { planes: "free", frame: turnFrame(app.store.get().slices.frame, axis, angle) } });
 }
-export const resetPlanes = (app: App): void => app.store.set({ planes: "patient", frame: kPatientFrame });
+export const resetPlanes = (app: App): void =>
+  app.store.set({ slices: { planes: "patient", frame: kPatientFrame } });
 
 const kWindowStep = 1 / 300; // of the window for a pixel
 const kZoomStep = 1.0015; // for a unit of the wheel
 
 export function shiftWindow(app: App, dx: number, dy: number, keys: VolumeKeys = kFirst): void {
-  const [low, high] = app.store.get()[keys.window],
+  const [low, high] = app.store.get().slices[keys.window],
     width = Math.max(high - low, 1e-6);
   const wider = width * Math.exp(dx * kWindowStep * 2),
     level = (low + high) / 2 + dy * kWindowStep * width;
-  app.store.set({ [keys.window]: [level - wider / 2, level + wider / 2] } as Partial<View>);
+  app.store.set({ slices: { [keys.window]: [level - wider / 2, level + wider / 2] } });
 }
 
 export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
@@ -49,7 +50,7 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
     return { x: e.clientX - box.left, y: e.clientY - box.top };
   };
   const angleAt = (x: number, y: number): number => {
-    const c = slice.toPixel(store.get().crosshair);
+    const c = slice.toPixel(store.get().slices.crosshair);
     return Math.atan2(c.y - y, x - c.x);
   };
   element.addEventListener("pointerdown", e => {
@@ -127,7 +128,10 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
 function sliceKey(slice: SliceView, app: App, tools: Tools, e: KeyboardEvent): boolean {
   const { store } = app,
     f = slice.frame,
-    { crosshair, volume } = store.get();
+    {
+      slices: { crosshair },
+      document: { volume },
+    } = store.get();
   if (e.altKey || e.metaKey) return false;
   const each = (e.shiftKey ? 5 : 1) * (volume === null ? 0.5 : Math.min(...volume.spacing));
   const go = (d: Vec3, s: number): boolean => {

@@ -39,8 +39,10 @@ function outlines(slice: SliceProjection, surface: Surface): (number[] | null)[]
 type Context = CanvasRenderingContext2D;
 
 function drawOutlines(c: Context, slice: SliceProjection, view: View): void {
-  const { surface } = view;
-  if (surface === null || !view.layers.contours) return;
+  const {
+    document: { surface },
+  } = view;
+  if (surface === null || !view.scene.layers.contours) return;
   const parts = outlines(slice, surface),
     map = slice.toPixels(),
     x = map.x.by,
@@ -60,15 +62,15 @@ function drawOutlines(c: Context, slice: SliceProjection, view: View): void {
         o.y + points[k + 3] * y[0] + points[k + 4] * y[1] + points[k + 5] * y[2],
       );
     }
-    c.strokeStyle = toCss(colourOf(view, part.branch), part.branch === view.selected ? 1 : 0.8);
-    c.lineWidth = part.branch === view.selected ? 2 : 1.2;
+    c.strokeStyle = toCss(colourOf(view, part.branch), part.branch === view.selection.selected ? 1 : 0.8);
+    c.lineWidth = part.branch === view.selection.selected ? 2 : 1.2;
     c.stroke();
   });
 }
 
 function drawLines(c: Context, slice: SliceProjection, view: View): void {
   const tree = shownTree(view);
-  if (tree === null || !view.layers.lines) return;
+  if (tree === null || !view.scene.layers.lines) return;
   const near = reachOf(view, slice, 2 * slice.mmPerPixel + (tree.voxelSize || 0.5)),
     { x, y, depth } = slice.toPixels(),
     p = tree.centre;
@@ -112,8 +114,8 @@ export const placeReach = (place: MissingVessel): number => Math.max(3, place.le
 
 function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
   const pixel = slice.mmPerPixel;
-  if (view.layers.seeds)
-    for (const seed of view.state.seeds) {
+  if (view.scene.layers.seeds)
+    for (const seed of view.document.state.seeds) {
       seed.points.forEach((point, i) => {
         const r = point.radius ?? 0,
           reach = reachOf(view, slice, Math.max(r, 4 * pixel, 1.5));
@@ -124,19 +126,22 @@ function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
         if (isNamed && Math.abs(at.depth) < reach) label(c, seed.label, at.x + 7, at.y - 6, "#ffe6a8");
       });
     }
-  if (view.layers.places)
-    for (const { place } of missingPlaces(view.state)) {
+  if (view.scene.layers.places)
+    for (const { place } of missingPlaces(view.document.state)) {
       ring(c, slice, place.position, kPlaceRing, "#ff7a90", placeReach(place));
       ring(c, slice, place.position, 1.5, "#ff7a90", placeReach(place), true);
     }
-  const shown = view.state.work?.items.find(item => item.id === view.place);
+  const shown = view.document.state.work?.items.find(item => item.id === view.selection.place);
   if (shown !== undefined) ring(c, slice, shown.position, kPlaceRing + 4, "#ffffff", kShownReach);
 }
 
 /** Draws the outlines near the brush where the stroke takes them. `outlines`: segments of each part of the surface, as
  * x y z of both ends. */
 function drawStroke(c: Context, slice: SliceProjection, view: View, outlines: (number[] | null)[]): void {
-  const { stroke, tree, surface } = view;
+  const {
+    tools: { stroke },
+    document: { tree, surface },
+  } = view;
   if (stroke === null || tree === null || surface === null) return;
   const branches = branchesAt(tree, stroke.node),
     moved = (p: Vec3): Vec3 | null => {
@@ -166,11 +171,11 @@ function drawStroke(c: Context, slice: SliceProjection, view: View, outlines: (n
 }
 
 function drawBrush(c: Context, slice: SliceProjection, view: View): void {
-  if (view.stroke !== null && view.surface !== null)
-    drawStroke(c, slice, view, outlines(slice, view.surface));
+  if (view.tools.stroke !== null && view.document.surface !== null)
+    drawStroke(c, slice, view, outlines(slice, view.document.surface));
   c.strokeStyle = "#ffd166";
   c.lineWidth = 1.5;
-  for (const line of view.brushLines) {
+  for (const line of view.tools.brushLines) {
     c.beginPath();
     for (const [i, p] of line.map(q => slice.toPixel(q)).entries())
       if (i === 0) c.moveTo(p.x, p.y);
@@ -180,7 +185,7 @@ function drawBrush(c: Context, slice: SliceProjection, view: View): void {
 }
 
 function drawCrosshair(c: Context, slice: SliceProjection, view: View, width: number, height: number): void {
-  const p = slice.toPixel(view.crosshair),
+  const p = slice.toPixel(view.slices.crosshair),
     gap = 9;
   const colours: Record<string, [string, string]> = {
     // of the planes that the lines stand for: [across, up]
@@ -224,11 +229,11 @@ function drawMarks(c: Context, slice: SliceProjection, width: number, height: nu
 function title(slice: SliceProjection, view: View): string {
   const name = { axial: "Axial", coronal: "Coronal", sagittal: "Sagittal" }[slice.name],
     n = slice.frame.normal;
-  if (view.planes === "vessel")
+  if (view.slices.planes === "vessel")
     return { axial: "Cross-section", coronal: "Along vessel, A", sagittal: "Along vessel, B" }[slice.name];
   const axis = [0, 1, 2].find(a => Math.abs(n[a]) > 0.9999);
   if (axis === undefined) return `${name}, oblique`;
-  const x = view.crosshair[axis];
+  const x = view.slices.crosshair[axis];
   return `${name}  ${orientation([0, 1, 2].map(a => (a === axis ? Math.sign(x) || 1 : 0)) as Vec3)} ${Math.abs(x).toFixed(1)}`;
 }
 

@@ -48,16 +48,40 @@ export class SliceView implements StageView, SliceProjection {
     this.over = element.querySelector("canvas")!;
     element.querySelector(".viewtools")!.append(slabControl(app, name));
     element.append(splitLine(app, element));
+    app.store.watch(
+      ["slices", "document.tree", "document.second", "document.secondReady", "page.layout"],
+      ({ slices }) => {
+        this.texture?.interpolate(slices.interpolate);
+        this.second?.interpolate(slices.interpolate);
+        app.stage.invalidate(this);
+      },
+    );
+    app.store.watch(
+      [
+        "document.state",
+        "document.surface",
+        "document.proposals",
+        "motion.posed",
+        "selection",
+        "scene.layers",
+        "tools",
+      ],
+      () => app.stage.invalidateOver(this),
+    );
   }
 
   get frame(): Frame {
-    return frameOf(this.name, this.app.store.get().frame);
+    return frameOf(this.name, this.app.store.get().slices.frame);
   }
 
   /** Half the height, mm. Without zoom, all of the volume or tree fits. */
   half(): number {
     if (this.halfHeight !== null) return this.halfHeight;
-    const { volume, tree, planes, node } = this.app.store.get(),
+    const {
+        document: { volume, tree },
+        slices: { planes },
+        selection: { node },
+      } = this.app.store.get(),
       frame = this.frame;
     const box = volume === null ? (tree?.box() ?? null) : null;
     const corners =
@@ -86,7 +110,10 @@ export class SliceView implements StageView, SliceProjection {
 
   /** The point in the middle of the view: the middle of the volume where all of it is shown, else the crosshair; panned. */
   centre(): Vec3 {
-    const { crosshair, volume, tree, planes } = this.app.store.get(),
+    const {
+        slices: { crosshair, planes },
+        document: { volume, tree },
+      } = this.app.store.get(),
       f = this.frame;
     const box = tree?.box() ?? null;
     const middle = volume?.centre() ?? (box === null ? crosshair : scale(add(box.low, box.high), 0.5));
@@ -103,7 +130,10 @@ export class SliceView implements StageView, SliceProjection {
   }
   /** What is drawn at a place of the plane: the brightest or darkest through a slab, otherwise the place itself. */
   picked(p: Vec3): Vec3 {
-    const { volume, slabs } = this.app.store.get();
+    const {
+      document: { volume },
+      slices: { slabs },
+    } = this.app.store.get();
     return pickInSlab(volume, slabs[this.name], p, this.frame.normal);
   }
   toPixel(p: Vec3): Pixel {
@@ -129,7 +159,7 @@ export class SliceView implements StageView, SliceProjection {
     this.width = width;
     this.height = height;
     const view = this.app.store.get();
-    if (this.texture === null || view.volume === null) return;
+    if (this.texture === null || view.document.volume === null) return;
     const halfHeight = this.half(),
       plane = {
         centre: this.centre(),
@@ -146,16 +176,19 @@ export class SliceView implements StageView, SliceProjection {
 
   /** The volume, and the one beside it; with no more places through a slab than `most`. */
   private drawVolumes(renderer: WebGLRenderer, view: View, plane: Plane, most: number): void {
-    const slab = view.slabs[this.name],
+    const slab = view.slices.slabs[this.name],
       samples = (volume: Volume): number => Math.min(most, samplesOf(slab, volume.spacing)),
-      { volume, second, beside } = view;
+      {
+        document: { volume, second },
+        slices: { beside },
+      } = view;
     if (this.texture === null || volume === null) return;
     this.material.draw(
       renderer,
       this.texture,
       plane,
-      view.window,
-      view.volumeReady / volume.size[2],
+      view.slices.window,
+      view.document.volumeReady / volume.size[2],
       slab,
       samples(volume),
     );
@@ -164,8 +197,8 @@ export class SliceView implements StageView, SliceProjection {
       renderer,
       this.second,
       plane,
-      view.secondWindow,
-      view.secondReady / second.size[2],
+      view.slices.secondWindow,
+      view.document.secondReady / second.size[2],
       slab,
       samples(second),
       { ...drawingOf(beside), isSeenThrough: beside.mode === "blend" },
@@ -175,8 +208,8 @@ export class SliceView implements StageView, SliceProjection {
   /** Whether the next picture is a quick one: a thick slab while something moves. A moment later it is drawn in full. */
   private isQuick(view: View): boolean {
     window.clearTimeout(this.refining);
-    const shown = [view.volume!, ...(showsSecond(view) ? [view.second!] : [])],
-      wanted = shown.map(({ spacing }) => samplesOf(view.slabs[this.name], spacing));
+    const shown = [view.document.volume!, ...(showsSecond(view) ? [view.document.second!] : [])],
+      wanted = shown.map(({ spacing }) => samplesOf(view.slices.slabs[this.name], spacing));
     if (Math.max(...wanted) <= kQuickSamples || this.isFine) {
       this.isFine = false;
       return false;
@@ -223,7 +256,9 @@ export class SliceView implements StageView, SliceProjection {
   }
   /** Steps through the volume by a number of voxels: to the head, to the front, to the left. */
   step(count: number): void {
-    const { volume, tree } = this.app.store.get(),
+    const {
+        document: { volume, tree },
+      } = this.app.store.get(),
       f = this.frame,
       upwards = this.name === "axial" ? -1 : 1; // the view is from the feet
     const each = volume === null ? Math.max(tree?.voxelSize ?? 0, 0.1) : Math.min(...volume.spacing);
@@ -231,10 +266,13 @@ export class SliceView implements StageView, SliceProjection {
   }
   /** Moves the crosshair along a direction, but not out of the volume. */
   moveCrosshair(direction: Vec3, mm: number): void {
-    const { volume, crosshair } = this.app.store.get(),
+    const {
+        document: { volume },
+        slices: { crosshair },
+      } = this.app.store.get(),
       to = along(crosshair, direction, mm);
     if (volume !== null && volume.holds(crosshair) && !volume.holds(to)) return;
-    this.app.store.set({ crosshair: to });
+    this.app.store.set({ slices: { crosshair: to } });
     this.reveal(to);
   }
   /** Brings a point into the middle where it would be out of sight. */

@@ -25,7 +25,7 @@ export class Actions {
   ) {}
 
   tool(tool: Tool): void {
-    this.app.store.set({ tool, pending: [] });
+    this.app.store.set({ tools: { tool, pending: [] } });
   }
   undo(): Promise<boolean> {
     return this.app.perform({ op: "undo" });
@@ -50,12 +50,14 @@ export class Actions {
     return this.app.perform({ op: "check" });
   }
   async compare(): Promise<void> {
-    if (await this.app.perform({ op: "compare" })) this.app.store.set({ colourBy: "compare" });
+    if (await this.app.perform({ op: "compare" })) this.app.store.set({ scene: { colourBy: "compare" } });
   }
 
   /** To the file that it came from; a case without one is downloaded. */
   async save(): Promise<void> {
-    const { state } = this.app.store.get();
+    const {
+      document: { state },
+    } = this.app.store.get();
     if (!state.hasCase) {
       this.app.inform("There is no case to save yet: track a vessel first.", "warning");
       return;
@@ -66,10 +68,10 @@ export class Actions {
   private async saveFile(): Promise<void> {
     const { source, store, inform } = this.app;
     try {
-      await source.perform({ op: "save" }, store.get().state.revision);
+      await source.perform({ op: "save" }, store.get().document.state.revision);
     } catch (error) {
       const text = error instanceof Error ? error.message : String(error),
-        { files, saveAs } = store.get().state;
+        { files, saveAs } = store.get().document.state;
       if (
         !(error instanceof Refused) ||
         error.status !== 409 ||
@@ -85,7 +87,10 @@ export class Actions {
   download(format: string): void {
     if (format === kViewFormat) {
       const view = this.app.store.get();
-      saveText(`${view.state.title || "lumen"}${kViewEnding}`, JSON.stringify(takeView(view), null, 1));
+      saveText(
+        `${view.document.state.title || "lumen"}${kViewEnding}`,
+        JSON.stringify(takeView(view), null, 1),
+      );
       return;
     }
     const link = h("a", { href: this.app.source.download(format), download: "" });
@@ -123,7 +128,7 @@ export class Actions {
       files.length === 1 ? files[0].name : `${files.length} files of DICOM`,
     );
     if (part === null) return;
-    this.app.store.set({ seriesAs: part });
+    this.app.store.set({ tools: { seriesAs: part } });
     const batch = (this.batch = Math.floor(Math.random() * kMostBatch)),
       { source, inform } = this.app;
     try {
@@ -159,7 +164,7 @@ export class Actions {
   }
   /** Asks before a file of seeds takes the place of seeds that wait. */
   private async mayReplaceSeeds(file: File): Promise<boolean> {
-    const waiting = this.app.store.get().state.seeds.filter(seed => !seed.tracked).length,
+    const waiting = this.app.store.get().document.state.seeds.filter(seed => !seed.tracked).length,
       kHead = 4096; // bytes that show what a file is
     if (waiting === 0 || !holdsSeeds(file.name, await file.slice(0, kHead).text())) return true;
     return askYes(
@@ -180,7 +185,9 @@ export class Actions {
     }
   }
   async cancel(): Promise<void> {
-    const { job } = this.app.store.get();
+    const {
+      document: { job },
+    } = this.app.store.get();
     if (job !== null) await this.app.source.cancel(job.job);
   }
 
@@ -189,8 +196,11 @@ export class Actions {
       this.flight.stop();
       return;
     }
-    const { layout } = this.app.store.get();
-    if (layout !== "four" && layout !== "rows" && layout !== "scene") this.app.store.set({ layout: "four" });
+    const {
+      page: { layout },
+    } = this.app.store.get();
+    if (layout !== "four" && layout !== "rows" && layout !== "scene")
+      this.app.store.set({ page: { layout: "four" } });
     this.flight.start();
     this.scene.element.focus();
   }
@@ -207,8 +217,8 @@ export class Actions {
     this.scene.moved();
   }
   theme(): void {
-    const theme = this.app.store.get().theme === "dark" ? "light" : "dark";
-    this.app.store.set({ theme });
+    const theme = this.app.store.get().page.theme === "dark" ? "light" : "dark";
+    this.app.store.set({ page: { theme } });
     try {
       localStorage.setItem("lumen-theme", theme);
     } catch {
@@ -224,7 +234,7 @@ export class Actions {
     const legends = [...document.querySelectorAll<HTMLElement>(".legend")];
     this.app.stage.picture(over, legends, "#07090c").toBlob(blob => {
       if (blob === null) return;
-      saveBlob(`${this.app.store.get().state.title || "lumen"}.png`, blob);
+      saveBlob(`${this.app.store.get().document.state.title || "lumen"}.png`, blob);
     });
   }
 }

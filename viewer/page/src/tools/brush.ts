@@ -20,31 +20,41 @@ export class Brush {
   /** The node whose wall the brush works on at a place: of the selected vessel if one is selected. */
   private nodeAt(p: Vec3): number {
     const view = this.app.store.get(),
-      { tree, selected } = view;
+      {
+        document: { tree },
+        selection: { selected },
+      } = view;
     return tree === null ? -1 : tree.nearest(p, b => (selected >= 0 ? b === selected : isShown(view, b)));
   }
   /** Radius at a node, mm. */
   private radius(node: number): number {
-    const { brush, tree } = this.app.store.get();
+    const {
+      tools: { brush },
+      document: { tree },
+    } = this.app.store.get();
     return brush ?? (node < 0 ? 1 : kUsual * tree!.radius[node]);
   }
 
   show(p: Vec3, slice: SliceView): void {
     const { right, up } = slice.frame;
-    this.app.store.set({ brushLines: [circle(p, this.radius(this.nodeAt(p)), right, up)] });
+    this.app.store.set({ tools: { brushLines: [circle(p, this.radius(this.nodeAt(p)), right, up)] } });
   }
   hide(): void {
-    this.app.store.set({ brushLines: [], stroke: null });
+    this.app.store.set({ tools: { brushLines: [], stroke: null } });
   }
   /** Wider (1) or narrower (-1). */
   grow(p: Vec3, way: number): void {
     const wanted = this.radius(this.nodeAt(p)) * kGrowth ** way;
-    this.app.store.set({ brush: Number(Math.min(kMost, Math.max(kLeast, wanted)).toPrecision(3)) });
+    this.app.store.set({
+      tools: { brush: Number(Math.min(kMost, Math.max(kLeast, wanted)).toPrecision(3)) },
+    });
   }
 
   press(p: Vec3, slice: SliceView): boolean {
     if (!this.app.source.live) return false;
-    const { tree } = this.app.store.get(),
+    const {
+        document: { tree },
+      } = this.app.store.get(),
       node = this.nodeAt(p);
     if (tree === null || node < 0) {
       this.app.inform("There is no vessel whose wall could be pushed.", "warning");
@@ -67,8 +77,10 @@ export class Brush {
       radius = this.radius(held.node);
     held.by = sub(p, held.at);
     this.app.store.set({
-      brushLines: [circle(held.at, radius, right, up), [held.at, p], circle(p, radius, right, up)],
-      stroke: { node: held.node, at: held.at, by: held.by, radius },
+      tools: {
+        brushLines: [circle(held.at, radius, right, up), [held.at, p], circle(p, radius, right, up)],
+        stroke: { node: held.node, at: held.at, by: held.by, radius },
+      },
     });
     return true;
   }
@@ -85,7 +97,7 @@ export class Brush {
   }
   private async push(node: number, at: Vec3, by: Vec3, radius: number): Promise<void> {
     goToNode(this.app, node);
-    this.app.store.set({ crosshair: at }); // the slice stays
+    this.app.store.set({ slices: { crosshair: at } }); // the slice stays
     await this.app.perform({ op: "push", node, at, by, radius });
   }
   giveUp(): void {

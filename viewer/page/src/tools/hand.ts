@@ -49,18 +49,20 @@ export class Hand {
   /** True: the press was used. */
   press(p: Vec3, slice: SliceView | null, hit: Hit | null = null): boolean {
     const { store } = this.app,
-      { tool, pending } = store.get();
+      {
+        tools: { tool, pending },
+      } = store.get();
     switch (tool) {
       case "seed":
         if (slice !== null && this.holdSeed(p, slice)) return true;
-        store.set({ crosshair: p });
+        store.set({ slices: { crosshair: p } });
         this.placing = this.placing.then(() => this.placeSeed(p));
         return true;
       case "distance":
       case "angle": {
         const points = [...pending, p],
           enough = tool === "distance" ? 2 : 3;
-        if (points.length < enough) store.set({ pending: points });
+        if (points.length < enough) store.set({ tools: { pending: points } });
         else this.measured(tool, points);
         return true;
       }
@@ -84,7 +86,7 @@ export class Hand {
     if ("radius" in this.held) this.widen(this.held, p, slice);
     else {
       this.held.to = "seed" in this.held ? this.atDepthOf(this.held.from, p, slice) : p;
-      this.app.store.set({ pending: [this.held.to] });
+      this.app.store.set({ tools: { pending: [this.held.to] } });
     }
     this.app.stage.invalidate(slice);
     return true;
@@ -92,16 +94,18 @@ export class Hand {
   /** A seed that a slab shows keeps its depth. */
   private atDepthOf(from: Vec3, p: Vec3, slice: SliceView): Vec3 {
     const { normal } = slice.frame,
-      isSlab = this.app.store.get().slabs[slice.name].kind !== "off";
+      isSlab = this.app.store.get().slices.slabs[slice.name].kind !== "off";
     return isSlab ? along(p, normal, dot(sub(from, p), normal)) : p;
   }
   release(): boolean {
     if (this.brush.release()) return true;
     const held = this.held,
-      { tree } = this.app.store.get();
+      {
+        document: { tree },
+      } = this.app.store.get();
     if (held === null) return false;
     this.held = null;
-    this.app.store.set({ pending: [] });
+    this.app.store.set({ tools: { pending: [] } });
     if ("radius" in held) void this.setRadius(held.node, held.radius);
     else if ("node" in held)
       void this.app.perform({
@@ -117,7 +121,7 @@ export class Hand {
   // ---- seeds
 
   private holdSeed(p: Vec3, slice: SliceView): boolean {
-    for (const seed of this.app.store.get().state.seeds)
+    for (const seed of this.app.store.get().document.state.seeds)
       for (const [i, point] of seed.points.entries())
         if (
           !seed.tracked &&
@@ -136,7 +140,9 @@ export class Hand {
       app.inform("This page is one file: seeds are placed in lumen view.", "warning");
       return;
     }
-    const { volume, state } = store.get();
+    const {
+      document: { volume, state },
+    } = store.get();
     if (volume !== null && !volume.holds(p)) {
       app.inform("This place is outside of the volume.", "warning");
       return;
@@ -153,7 +159,7 @@ export class Hand {
       return;
     }
     const point = atClick.found ? atClick.position : p;
-    if (store.get().crosshair === p) store.set({ crosshair: point }); // unless the user has gone elsewhere meanwhile
+    if (store.get().slices.crosshair === p) store.set({ slices: { crosshair: point } }); // unless the user has gone elsewhere meanwhile
     if (!atClick.found)
       app.inform(
         `${sentence(atClick.reason ?? "no vessel was found near there")} The seed stays where you clicked.`,
@@ -167,20 +173,20 @@ export class Hand {
     else app.inform(`On the axis of a vessel, radius ${brief(atClick.radius)} mm.`);
     const made = { position: point, radius: atClick.found ? atClick.radius : null };
     if (this.seedKind === "vessel") await this.addSeed([made], "vessel");
-    else store.set({ clicks: [...store.get().clicks, made] });
+    else store.set({ tools: { clicks: [...store.get().tools.clicks, made] } });
   }
 
   /** Ends a vessel through several clicks, or an aneurysm. */
   async finish(): Promise<void> {
     await this.placing;
-    const points = this.app.store.get().clicks;
-    this.app.store.set({ clicks: [] });
+    const points = this.app.store.get().tools.clicks;
+    this.app.store.set({ tools: { clicks: [] } });
     if (points.length > 0) await this.addSeed(points, this.seedKind === "aneurysm" ? "aneurysm" : "vessel");
   }
   giveUp(): void {
     this.held = null;
     this.brush.giveUp();
-    this.app.store.set({ pending: [], clicks: [] });
+    this.app.store.set({ tools: { pending: [], clicks: [] } });
   }
   private async addSeed(points: Seed["points"], kind: string): Promise<void> {
     await this.app.perform({
@@ -193,12 +199,14 @@ export class Hand {
 
   /** A place that the check reports: its seed, with the vessel that it leaves. */
   takePlace(index: number): void {
-    const { state } = this.app.store.get(),
+    const {
+        document: { state },
+      } = this.app.store.get(),
       place = state.check?.missing_vessels?.[index];
     if (place === undefined) return;
     const points = seedPoints(place),
       same = (p: Vec3): boolean => distance(p, points[0].position) < 1e-6;
-    this.app.store.set({ crosshair: place.position });
+    this.app.store.set({ slices: { crosshair: place.position } });
     if (this.app.source.live && !state.seeds.some(seed => same(seed.points[0].position)))
       void this.app.perform({ op: "seedAdd", kind: "vessel", points }).then(done => {
         if (done) this.app.inform("A seed was placed there. Track it with “Track all”, key T.");
@@ -210,8 +218,10 @@ export class Hand {
   private add(kind: Measurement["kind"], points: Vec3[], text: string, detail: string): void {
     const { store } = this.app;
     store.set({
-      pending: [],
-      measurements: [...store.get().measurements, { id: this.nextId++, kind, points, text, detail }],
+      tools: {
+        pending: [],
+        measurements: [...store.get().tools.measurements, { id: this.nextId++, kind, points, text, detail }],
+      },
     });
   }
   private measured(kind: "distance" | "angle", points: Vec3[]): void {
@@ -224,9 +234,9 @@ export class Hand {
     const view = this.app.store.get(),
       a = probe(view, p),
       branch =
-        a.wall === null || view.tree === null
+        a.wall === null || view.document.tree === null
           ? ""
-          : (view.tree.branches[view.tree.branch[a.wall.node]]?.label ?? "");
+          : (view.document.tree.branches[view.document.tree.branch[a.wall.node]]?.label ?? "");
     const texts = [
       Number.isFinite(a.value) ? `value ${brief(a.value)}` : "",
       a.wall === null ? "" : `wall ${a.wall.distance.toFixed(3)} mm`,
@@ -237,13 +247,17 @@ export class Hand {
 
   private nodeAt(p: Vec3, hit: Hit | null): number {
     const view = this.app.store.get(),
-      { tree } = view;
+      {
+        document: { tree },
+      } = view;
     if (tree === null) return -1;
     if (hit !== null && hit.node >= 0 && hit.node < tree.count) return hit.node;
     return tree.nearest(p, b => isShown(view, b));
   }
   section(p: Vec3, hit: Hit | null = null): void {
-    const { blob, tree } = this.app.store.get(),
+    const {
+        document: { blob, tree },
+      } = this.app.store.get(),
       node = this.nodeAt(p, hit);
     if (tree === null || blob === null || node < 0) {
       this.app.inform("A section needs a case with models: fit it first.", "warning");
@@ -259,7 +273,9 @@ export class Hand {
     );
   }
   private touch(p: Vec3, hit: Hit | null): void {
-    const { tree, blob } = this.app.store.get(),
+    const {
+        document: { tree, blob },
+      } = this.app.store.get(),
       node = this.nodeAt(p, hit);
     if (tree === null || node < 0) return;
     const branch = tree.branch[node],
@@ -269,7 +285,7 @@ export class Hand {
     else this.showGap(gap.from, gap.to, gap.gap, tree.branches[gap.a].label, tree.branches[gap.b].label);
   }
   showGap(from: Vec3, to: Vec3, gap: number, a: string, b: string): void {
-    this.app.store.set({ crosshair: from });
+    this.app.store.set({ slices: { crosshair: from } });
     this.add(
       "touch",
       [from, to],
@@ -282,7 +298,10 @@ export class Hand {
 
   private holdNode(p: Vec3): boolean {
     const view = this.app.store.get(),
-      { tree, selected } = view;
+      {
+        document: { tree },
+        selection: { selected },
+      } = view;
     if (tree === null || !this.app.source.live) return false;
     const node = tree.nearest(p, b => (selected >= 0 ? b === selected : isShown(view, b)));
     if (node < 0 || distance(tree.position(node), p) > 2 * tree.radius[node]) {
@@ -298,14 +317,17 @@ export class Hand {
   }
   /** Draws the circle that the wall becomes, in the plane of the slice. */
   private widen(held: { node: number; radius: number }, p: Vec3, slice: SliceView): void {
-    const centre = this.app.store.get().tree!.position(held.node),
+    const centre = this.app.store.get().document.tree!.position(held.node),
       { right, up } = slice.frame;
     held.radius = Math.max(distance(centre, p), slice.mmPerPixel);
-    this.app.store.set({ pending: circle(centre, held.radius, right, up) });
+    this.app.store.set({ tools: { pending: circle(centre, held.radius, right, up) } });
   }
   /** Gives the vessel another radius at a node, which fades along it; with no stretch, that node alone becomes a circle. */
   private async setRadius(node: number, radius: number): Promise<void> {
-    const { tree, stretch } = this.app.store.get(),
+    const {
+        document: { tree },
+        tools: { stretch },
+      } = this.app.store.get(),
       reach = stretch ?? kStretch * tree!.radius[node];
     await this.app.perform(
       reach > 0
@@ -318,7 +340,10 @@ export class Hand {
   }
   /** Asks for the radius of the vessel at the cursor's node. */
   async askRadius(): Promise<void> {
-    const { tree, node } = this.app.store.get();
+    const {
+      document: { tree },
+      selection: { node },
+    } = this.app.store.get();
     if (tree === null || node < 0 || !this.app.source.live) return;
     const label = tree.branches[tree.branch[node]].label,
       now = tree.radius[node].toFixed(2),

@@ -55,9 +55,12 @@ export function ask(model: Model, p: Vec3, cursor = NOWHERE, flags = 0): Wall {
 export function probe(view: View, p: Vec3, cursor = NOWHERE): Answer {
   return {
     position: p,
-    value: view.volume?.sample(p) ?? NaN,
-    second: view.second?.sample(p) ?? NaN,
-    wall: view.blob === null || view.time !== null ? null : ask(view.blob, p, cursor, Flags.DISTANCE_EXACT),
+    value: view.document.volume?.sample(p) ?? NaN,
+    second: view.document.second?.sample(p) ?? NaN,
+    wall:
+      view.document.blob === null || view.motion.time !== null
+        ? null
+        : ask(view.document.blob, p, cursor, Flags.DISTANCE_EXACT),
   };
 }
 

@@ -17,7 +17,7 @@ import { missingPlaces } from "../case/work_items";
 const kVisible = 0.04; // of the window: a grey that the eye tells from black
 
 /** Whether the clip plane cuts a place away. */
-function isCutAway({ clip, frame, crosshair }: View, p: Vec3): boolean {
+function isCutAway({ scene: { clip }, slices: { frame, crosshair } }: View, p: Vec3): boolean {
   return clip.on && (clip.flip ? -1 : 1) * dot(frame.normal, sub(p, crosshair)) > 0;
 }
 
@@ -38,13 +38,13 @@ export class Tools {
 
   /** Whether clicks of a vessel wait for its end. */
   areClicksWaiting(): boolean {
-    return this.app.store.get().clicks.length > 0;
+    return this.app.store.get().tools.clicks.length > 0;
   }
   get tool(): Tool {
-    return this.app.store.get().tool;
+    return this.app.store.get().tools.tool;
   }
   choose(tool: Tool): void {
-    this.app.store.set({ tool, pending: [], brushLines: [], stroke: null });
+    this.app.store.set({ tools: { tool, pending: [], brushLines: [], stroke: null } });
   }
   onProbe(call: (answer: Answer | null) => void): void {
     this.listeners.push(call);
@@ -64,11 +64,14 @@ export class Tools {
       goTo(this.app, p);
       return;
     }
-    if (!this.hand.press(p, slice)) store.set({ crosshair: p });
+    if (!this.hand.press(p, slice)) store.set({ slices: { crosshair: p } });
   }
   /** The place that the check names whose ring is there, or -1. */
   private placeAt(slice: SliceView, p: Vec3): number {
-    const { state, layers } = this.app.store.get(),
+    const {
+        document: { state },
+        scene: { layers },
+      } = this.app.store.get(),
       at = slice.toPixel(p);
     if (!layers.places) return -1;
     const there = missingPlaces(state).find(({ place }) => {
@@ -102,12 +105,12 @@ export class Tools {
     const view = this.app.store.get(); // a click on a vessel selects it
     const tree = shownTree(view);
     if (tree === null) return;
-    const node = tree.nearest(view.crosshair, b => isShown(view, b));
+    const node = tree.nearest(view.slices.crosshair, b => isShown(view, b));
     if (node < 0) return;
-    const away = length(sub(tree.position(node), view.crosshair));
+    const away = length(sub(tree.position(node), view.slices.crosshair));
     if (away <= 1.15 * tree.radius[node]) {
       select(this.app, tree.branch[node]);
-      if (view.planes !== "vessel") this.app.store.set({ node });
+      if (view.slices.planes !== "vessel") this.app.store.set({ selection: { node } });
     }
     this.app.stage.invalidate(slice);
   }
@@ -147,8 +150,8 @@ export class Tools {
     const beyond = (p: Vec3): boolean => !isCutAway(view, p);
     const shown = (b: number): boolean => b < 0 || (isShown(view, b) && opacityOf(view, b) > 0.05);
     const hit =
-      view.surface !== null && view.layers.surface && !view.layers.nodes
-        ? view.surface.pick(camera.ray(x, y), shown, beyond)
+      view.document.surface !== null && view.scene.layers.surface && !view.scene.layers.nodes
+        ? view.document.surface.pick(camera.ray(x, y), shown, beyond)
         : this.pickTube(scene, x, y);
     if (marks !== null && (hit === null || marks.distance < hit.distance + 3)) return marks;
     return hit === null ? null : { ...hit, seed: null, place: -1 };
@@ -175,11 +178,12 @@ export class Tools {
         place,
       };
     };
-    if (view.layers.seeds)
-      for (const seed of view.state.seeds)
+    if (view.scene.layers.seeds)
+      for (const seed of view.document.state.seeds)
         if (!seed.tracked) for (const point of seed.points) consider(point.position, seed.label, -1);
-    if (view.layers.places)
-      for (const { place, index } of missingPlaces(view.state)) consider(place.position, null, index);
+    if (view.scene.layers.places)
+      for (const { place, index } of missingPlaces(view.document.state))
+        consider(place.position, null, index);
     return best;
   }
 
@@ -235,7 +239,7 @@ export class Tools {
       }
     }
     if (hit === null) {
-      const p = this.app.store.get().cast === "off" ? null : this.brightest(scene, x, y);
+      const p = this.app.store.get().scene.cast === "off" ? null : this.brightest(scene, x, y);
       if (p !== null) goTo(this.app, p);
       else if (clicks === 1) select(this.app, -1);
       return;
@@ -257,7 +261,10 @@ export class Tools {
    * it black. What the clip plane cuts away does not count. */
   brightest(scene: SceneView, x: number, y: number): Vec3 | null {
     const view = this.app.store.get(),
-      { volume, window } = view;
+      {
+        document: { volume },
+        slices: { window },
+      } = view;
     if (volume === null) return null;
     const ray = scene.camera.ray(x, y),
       o = ray.origin.toArray() as Vec3,

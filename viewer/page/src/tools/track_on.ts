@@ -29,7 +29,11 @@ export function onward(tree: Tree, branch: number, crosshair: Vec3): Onward {
 }
 
 export async function trackOn(app: App): Promise<void> {
-  const { tree, selected, crosshair, state, volume } = app.store.get();
+  const {
+    document: { tree, state, volume },
+    selection: { selected },
+    slices: { crosshair },
+  } = app.store.get();
   if (tree === null || selected < 0 || !state.hasVolume) {
     app.inform("Select the vessel that goes on, and put the crosshair where it does.", "warning");
     return;
@@ -42,7 +46,7 @@ export async function trackOn(app: App): Promise<void> {
   try {
     const there = await app.source.vesselAtClick(from);
     if (!there.found) {
-      app.store.set({ crosshair: from });
+      app.store.set({ slices: { crosshair: from } });
       app.inform(
         `No vessel was found there: ${there.reason ?? "it is dark"}. Put the crosshair where the vessel goes on.`,
         "warning",
