@@ -68,7 +68,7 @@ export function drawScaleBar(c: Context, mmPerPixel: number, width: number, heig
 /** Measured points and the lines between them, in a slice or a projection. */
 export function drawMeasurements(
   c: Context,
-  view: View,
+  view: Pick<View, "tools">,
   project: (p: Vec3) => Pixel | null,
   reach: number,
 ): void {

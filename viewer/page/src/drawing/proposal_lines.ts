@@ -30,7 +30,10 @@ export function strokeAxis(
 }
 
 /** Calls for each proposed vessel that is shown; the chosen one last, so that it lies on top. */
-function eachShown(view: View, draw: (tree: Tree, branch: Branch, isChosen: boolean) => void): void {
+function eachShown(
+  view: Pick<View, "document" | "selection" | "scene">,
+  draw: (tree: Tree, branch: Branch, isChosen: boolean) => void,
+): void {
   const {
     document: { proposals: tree },
   } = view;
@@ -41,7 +44,11 @@ function eachShown(view: View, draw: (tree: Tree, branch: Branch, isChosen: bool
 }
 
 /** In a slice: a dashed line where the vessel runs near it, and a dashed ring where its axis crosses it. */
-export function drawProposalsInSlice(c: CanvasRenderingContext2D, slice: SliceProjection, view: View): void {
+export function drawProposalsInSlice(
+  c: CanvasRenderingContext2D,
+  slice: SliceProjection,
+  view: Pick<View, "document" | "selection" | "scene">,
+): void {
   c.setLineDash(kDash);
   eachShown(view, (tree, branch, isChosen) => {
     c.strokeStyle = isChosen ? kChosen : kColour;
@@ -71,7 +78,11 @@ export function drawProposalsInSlice(c: CanvasRenderingContext2D, slice: SlicePr
 }
 
 /** In 3D, also through walls: they are no part of the surface yet. */
-export function drawProposalsInScene(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
+export function drawProposalsInScene(
+  c: CanvasRenderingContext2D,
+  camera: OrbitCamera,
+  view: Pick<View, "document" | "selection" | "scene">,
+): void {
   eachShown(view, (tree, branch, isChosen) => {
     c.setLineDash(kDash);
     c.strokeStyle = isChosen ? kChosen : kColour;

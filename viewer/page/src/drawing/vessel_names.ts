@@ -33,7 +33,9 @@ export function namesApart(names: readonly Name[], widthOf: (text: string) => nu
   return kept;
 }
 
-function shownBranches(view: View): (BranchRecord & { index: number })[] {
+function shownBranches(
+  view: Pick<View, "document" | "selection" | "scene">,
+): (BranchRecord & { index: number })[] {
   if (!view.scene.layers.names || view.document.tree === null) return [];
   return [...view.document.tree.branches]
     .filter(b => isShown(view, b.index))
@@ -51,7 +53,11 @@ function draw(c: Context, names: Name[]): void {
 }
 
 /** In the middle of every vessel that is shown. */
-export function drawNamesInScene(c: Context, camera: OrbitCamera, view: View): void {
+export function drawNamesInScene(
+  c: Context,
+  camera: OrbitCamera,
+  view: Pick<View, "document" | "selection" | "motion" | "scene">,
+): void {
   const tree = shownTree(view);
   if (tree === null) return;
   draw(
@@ -64,7 +70,11 @@ export function drawNamesInScene(c: Context, camera: OrbitCamera, view: View): v
 }
 
 /** Beside every vessel that the slice meets: at its node that is nearest to the plane, within a radius. */
-export function drawNamesInSlice(c: Context, slice: SliceProjection, view: View): void {
+export function drawNamesInSlice(
+  c: Context,
+  slice: SliceProjection,
+  view: Pick<View, "document" | "selection" | "motion" | "scene">,
+): void {
   const tree = shownTree(view);
   if (tree === null) return;
   draw(

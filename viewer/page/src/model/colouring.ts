@@ -22,7 +22,7 @@ export const kColourTitles: Record<ColourBy, string> = {
 
 /** The numbers of the nodes (or vertices) that a choice shows; null: none are there. */
 export function numbersOf(
-  view: View,
+  view: Pick<View, "document">,
   by: ColourBy,
 ): { nodes: ArrayLike<number> } | { vertices: Float32Array } | null {
   const {
@@ -50,7 +50,7 @@ export function numbersOf(
 const ranges = new WeakMap<object, Map<string, [number, number]>>();
 
 /** The range of numbers that the map spans, kept as long as the surface. */
-function rangeOf(view: View): [number, number] {
+function rangeOf(view: Pick<View, "document" | "scene">): [number, number] {
   const numbers = numbersOf(view, view.scene.colourBy);
   if (numbers === null || view.document.surface === null) return [0, 1];
   let kept = ranges.get(view.document.surface);
@@ -71,7 +71,7 @@ function rangeOf(view: View): [number, number] {
   return range;
 }
 
-export function colouring(view: View): Colouring {
+export function colouring(view: Pick<View, "document" | "scene">): Colouring {
   const mapped = view.scene.colourBy !== "branch" && numbersOf(view, view.scene.colourBy) !== null;
   return {
     mapped,
@@ -83,7 +83,7 @@ export function colouring(view: View): Colouring {
 }
 
 /** Puts the numbers of the present choice into the surface. */
-export function fillValues(view: View): void {
+export function fillValues(view: Pick<View, "document" | "scene">): void {
   const numbers = numbersOf(view, view.scene.colourBy);
   if (view.document.surface === null || numbers === null) return;
   if ("nodes" in numbers) view.document.surface.fromNodes(numbers.nodes);

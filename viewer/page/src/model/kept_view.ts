@@ -174,7 +174,7 @@ export function keepView(app: App): void {
       return null; // of another version, or a page that may keep nothing
     }
   };
-  const bringBack = ({ document: { state, tree, volume, second } }: View): void => {
+  const bringBack = ({ document: { state, tree, volume, second } }: Pick<View, "document">): void => {
     const isThere =
       (state.hasVolume || state.hasCase) &&
       (!state.hasVolume || volume !== null) &&

@@ -275,18 +275,18 @@ export const shownTree = ({
 }: Pick<View, "document" | "motion">): Tree | null => posed ?? tree;
 
 /** The colour of a branch: chosen, or of the number that its name has. */
-export function colourOf(view: View, branch: number): Rgb {
+export function colourOf(view: Pick<View, "document" | "selection">, branch: number): Rgb {
   const label = view.document.tree?.branches[branch]?.label ?? "";
   return view.selection.colours.get(label) ?? branchColour(view.selection.colourNumbers.get(label) ?? branch);
 }
 
-export function isShown(view: View, branch: number): boolean {
+export function isShown(view: Pick<View, "document" | "selection">, branch: number): boolean {
   const label = view.document.tree?.branches[branch]?.label;
   if (label === undefined) return true;
   return view.selection.solo !== null ? view.selection.solo === label : !view.selection.hidden.has(label);
 }
 
-export function opacityOf(view: View, branch: number): number {
+export function opacityOf(view: Pick<View, "document" | "selection">, branch: number): number {
   return (
     (view.selection.opacity.get(view.document.tree?.branches[branch]?.label ?? "") ?? 1) *
     view.selection.allOpacity

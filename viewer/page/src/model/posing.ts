@@ -91,7 +91,10 @@ export class Posing {
     });
   }
 
-  private pose({ motion: { time, posed }, document: { tree, surface } }: View): void {
+  private pose({
+    motion: { time, posed },
+    document: { tree, surface },
+  }: Pick<View, "document" | "motion">): void {
     const poses = time === null ? null : (tree?.motion?.at(time) ?? null);
     if (tree === null || poses === null) {
       surface?.rest();

@@ -11,7 +11,10 @@ const kLongest = 5000; // ms to wait for the state that an answer announced; wit
 export const namesTree = (operation: Operation): boolean => "branch" in operation || "node" in operation;
 
 /** The revision whose indices an operation has; null: it has none, and is meant for the document as it will be. */
-function seenRevision(operation: Operation, { document: { state, treeRevision } }: View): number | null {
+function seenRevision(
+  operation: Operation,
+  { document: { state, treeRevision } }: Pick<View, "document">,
+): number | null {
   if (namesTree(operation)) return treeRevision;
   return "ignored" in operation ? state.revision : null;
 }

@@ -65,7 +65,7 @@ export function editSection(app: App, hand: Hand): HTMLElement {
     "aria-label": "Vessel to join to",
     title: "Vessel to join to",
   });
-  const branch = (v: View): number => v.selection.selected;
+  const branch = (v: Pick<View, "selection">): number => v.selection.selected;
   const buttons = [
     button(
       { id: "edit-rename", text: "Rename", label: "Rename", icon: "edit", key: "F2", class: "button text" },

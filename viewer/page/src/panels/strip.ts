@@ -151,7 +151,7 @@ export class Strip {
     );
   }
 
-  private take(view: View): void {
+  private take(view: Pick<View, "document" | "selection" | "page">): void {
     const shown = view.page.strip && view.document.tree !== null && view.selection.selected >= 0;
     this.element.hidden = !shown;
     this.straight = null;

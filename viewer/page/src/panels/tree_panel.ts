@@ -129,7 +129,7 @@ export class TreePanel {
       .map(branch => ({ branch, depth: 0 }));
   }
 
-  private fill(view: View): void {
+  private fill(view: Pick<View, "document" | "selection">): void {
     const {
       document: { tree },
     } = view;
@@ -217,7 +217,7 @@ export class TreePanel {
   }
 
   /** Updates selection, visibility and colours without a new list. */
-  private mark(view: View): void {
+  private mark(view: Pick<View, "document" | "selection">): void {
     for (const { branch, element, eye, swatch } of this.rows) {
       const on = branch === view.selection.selected,
         shown = isShown(view, branch);
@@ -252,7 +252,7 @@ export class TreePanel {
     e.stopPropagation();
   }
 
-  private describe(view: View): void {
+  private describe(view: Pick<View, "document" | "selection">): void {
     const b =
         view.selection.selected >= 0 ? view.document.tree?.branches[view.selection.selected] : undefined,
       { app } = this;

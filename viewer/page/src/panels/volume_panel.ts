@@ -165,7 +165,7 @@ function windowControls(
   );
   let drawn: Volume | null = null,
     counts: ReturnType<Volume["histogram"]> | null = null;
-  const draw = (view: View): void => {
+  const draw = (view: Pick<View, "document" | "slices">): void => {
     const volume = view.document[keys.volume],
       window = view.slices[keys.window];
     low.value = brief(window[0]);

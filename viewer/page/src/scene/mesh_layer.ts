@@ -131,7 +131,7 @@ export class MeshLayer {
   }
 
   /** Distances belong to one wall: another asks for others. */
-  private follow({ document: { tree, state } }: View): void {
+  private follow({ document: { tree, state } }: Pick<View, "document">): void {
     const canAsk = tree?.hasModels === true;
     for (const [id, row] of this.rows) {
       if (row === null) continue;

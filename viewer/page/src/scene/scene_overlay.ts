@@ -43,7 +43,11 @@ function drawCompass(c: CanvasRenderingContext2D, camera: OrbitCamera, height: n
   c.globalAlpha = 1;
 }
 
-function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
+function drawPoints(
+  c: CanvasRenderingContext2D,
+  camera: OrbitCamera,
+  view: Pick<View, "document" | "slices" | "scene">,
+): void {
   if (view.scene.layers.seeds)
     for (const seed of view.document.state.seeds) {
       const p = seed.tracked ? null : camera.project(seed.points[0].position);
@@ -67,7 +71,11 @@ function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View
 }
 
 /** The centerline of the selected vessel, also through walls. Here, because a line costs nothing where the scene does. */
-function drawSelected(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
+function drawSelected(
+  c: CanvasRenderingContext2D,
+  camera: OrbitCamera,
+  view: Pick<View, "document" | "selection" | "motion">,
+): void {
   const {
       selection: { selected },
     } = view,

@@ -22,7 +22,7 @@ import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
 
 /** The centerlines of branches that are shown, each in its colour. */
-export function centerlines(view: View): LineSegments {
+export function centerlines(view: Pick<View, "document" | "selection" | "motion" | "scene">): LineSegments {
   const tree = shownTree(view)!,
     position: number[] = [],
     colour: number[] = [],
@@ -96,7 +96,7 @@ export const cylinders = (tree: Tree, sides: number): InstancedMesh[] =>
   tree.branches.map(b => cylindersOf(tree, b.index, sides));
 
 /** Wall points, drawn as squares of a few pixels. */
-export function wallPoints(view: View): Points | null {
+export function wallPoints(view: Pick<View, "document" | "selection" | "motion">): Points | null {
   const tree = shownTree(view)!;
   if (tree.point === null || tree.pointOffset === null) return null;
   const colour = new Uint8Array(tree.point.length),

@@ -131,7 +131,7 @@ export class SceneView implements StageView {
     if (objects.length > 0) group.add(...objects);
   }
 
-  private setSurface(view: View): void {
+  private setSurface(view: Pick<View, "document">): void {
     if (view.document.surface === this.surface) return;
     for (const wall of this.walls) {
       this.scene.remove(wall);
@@ -149,7 +149,7 @@ export class SceneView implements StageView {
     });
   }
 
-  private setTubes(view: View): void {
+  private setTubes(view: Pick<View, "document">): void {
     for (const tube of this.tubes) {
       this.scene.remove(tube);
       tube.dispose();
@@ -161,18 +161,18 @@ export class SceneView implements StageView {
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }
-  private setLines(view: View): void {
+  private setLines(view: Pick<View, "document" | "selection" | "motion" | "scene">): void {
     this.replace(
       this.lines,
       view.document.tree !== null && view.scene.layers.lines ? [centerlines(view)] : [],
     );
   }
-  private setPoints(view: View): void {
+  private setPoints(view: Pick<View, "document" | "selection" | "motion" | "scene">): void {
     const points = view.document.tree !== null && view.scene.layers.points ? wallPoints(view) : null;
     this.replace(this.points, points === null ? [] : [points]);
   }
 
-  private setMarks(view: View): void {
+  private setMarks(view: Pick<View, "document" | "scene">): void {
     const marks: Object3D[] = [],
       least = Math.max(view.document.volume?.spacing[0] ?? 0, view.document.tree?.voxelSize ?? 0, 0.1);
     if (view.scene.layers.seeds)
@@ -193,7 +193,7 @@ export class SceneView implements StageView {
   }
 
   /** The plane that cuts away what is nearer than the crosshair; zero if it is off. */
-  private clip(view: View): Vector4 {
+  private clip(view: Pick<View, "slices" | "scene">): Vector4 {
     if (!view.scene.clip.on) return new Vector4(0, 0, 0, 0);
     const n: Vec3 = scale(view.slices.frame.normal, view.scene.clip.flip ? -1 : 1);
     return new Vector4(...n, -dot(n, view.slices.crosshair));
@@ -314,7 +314,7 @@ export class SceneView implements StageView {
   }
 
   /** Fewer triangles while pictures are coarse, and nothing of what walls hide: their far sides and the centerlines. */
-  private chooseDetail(coarse: boolean, view: View): void {
+  private chooseDetail(coarse: boolean, view: Pick<View, "scene">): void {
     const isSeenFromOutside =
       coarse &&
       !view.scene.clip.on &&

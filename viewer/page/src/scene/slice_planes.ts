@@ -36,7 +36,7 @@ export class SlicePlanes {
     },
   });
 
-  update(view: View, texture: VolumeTexture | null): void {
+  update(view: Pick<View, "document" | "slices" | "scene">, texture: VolumeTexture | null): void {
     for (const child of this.group.children as Mesh[]) child.geometry.dispose();
     this.group.clear();
     const {

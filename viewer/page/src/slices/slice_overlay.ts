@@ -38,7 +38,11 @@ function outlines(slice: SliceProjection, surface: Surface): (number[] | null)[]
 
 type Context = CanvasRenderingContext2D;
 
-function drawOutlines(c: Context, slice: SliceProjection, view: View): void {
+function drawOutlines(
+  c: Context,
+  slice: SliceProjection,
+  view: Pick<View, "document" | "selection" | "scene">,
+): void {
   const {
     document: { surface },
   } = view;
@@ -112,7 +116,11 @@ const kShownReach = 3; // mm from a slice within which the place that is shown h
 /** mm from a slice within which a missing vessel is marked in it. */
 export const placeReach = (place: MissingVessel): number => Math.max(3, place.length_mm / 2);
 
-function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
+function drawSeeds(
+  c: Context,
+  slice: SliceProjection,
+  view: Pick<View, "document" | "selection" | "slices" | "scene">,
+): void {
   const pixel = slice.mmPerPixel;
   if (view.scene.layers.seeds)
     for (const seed of view.document.state.seeds) {
@@ -137,7 +145,12 @@ function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
 
 /** Draws the outlines near the brush where the stroke takes them. `outlines`: segments of each part of the surface, as
  * x y z of both ends. */
-function drawStroke(c: Context, slice: SliceProjection, view: View, outlines: (number[] | null)[]): void {
+function drawStroke(
+  c: Context,
+  slice: SliceProjection,
+  view: Pick<View, "document" | "selection" | "tools">,
+  outlines: (number[] | null)[],
+): void {
   const {
     tools: { stroke },
     document: { tree, surface },
@@ -170,7 +183,11 @@ function drawStroke(c: Context, slice: SliceProjection, view: View, outlines: (n
   c.stroke();
 }
 
-function drawBrush(c: Context, slice: SliceProjection, view: View): void {
+function drawBrush(
+  c: Context,
+  slice: SliceProjection,
+  view: Pick<View, "document" | "selection" | "tools">,
+): void {
   if (view.tools.stroke !== null && view.document.surface !== null)
     drawStroke(c, slice, view, outlines(slice, view.document.surface));
   c.strokeStyle = "#ffd166";
@@ -184,7 +201,13 @@ function drawBrush(c: Context, slice: SliceProjection, view: View): void {
   }
 }
 
-function drawCrosshair(c: Context, slice: SliceProjection, view: View, width: number, height: number): void {
+function drawCrosshair(
+  c: Context,
+  slice: SliceProjection,
+  view: Pick<View, "slices">,
+  width: number,
+  height: number,
+): void {
   const p = slice.toPixel(view.slices.crosshair),
     gap = 9;
   const colours: Record<string, [string, string]> = {
@@ -226,7 +249,7 @@ function drawMarks(c: Context, slice: SliceProjection, width: number, height: nu
 }
 
 /** The name of the slice and its coordinate along the patient axis that it crosses. */
-function title(slice: SliceProjection, view: View): string {
+function title(slice: SliceProjection, view: Pick<View, "slices">): string {
   const name = { axial: "Axial", coronal: "Coronal", sagittal: "Sagittal" }[slice.name],
     n = slice.frame.normal;
   if (view.slices.planes === "vessel")

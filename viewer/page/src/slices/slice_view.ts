@@ -175,7 +175,12 @@ export class SliceView implements StageView, SliceProjection {
   }
 
   /** The volume, and the one beside it; with no more places through a slab than `most`. */
-  private drawVolumes(renderer: WebGLRenderer, view: View, plane: Plane, most: number): void {
+  private drawVolumes(
+    renderer: WebGLRenderer,
+    view: Pick<View, "document" | "slices">,
+    plane: Plane,
+    most: number,
+  ): void {
     const slab = view.slices.slabs[this.name],
       samples = (volume: Volume): number => Math.min(most, samplesOf(slab, volume.spacing)),
       {
@@ -206,7 +211,7 @@ export class SliceView implements StageView, SliceProjection {
   }
 
   /** Whether the next picture is a quick one: a thick slab while something moves. A moment later it is drawn in full. */
-  private isQuick(view: View): boolean {
+  private isQuick(view: Pick<View, "document" | "slices">): boolean {
     window.clearTimeout(this.refining);
     const shown = [view.document.volume!, ...(showsSecond(view) ? [view.document.second!] : [])],
       wanted = shown.map(({ spacing }) => samplesOf(view.slices.slabs[this.name], spacing));

@@ -52,7 +52,7 @@ export function ask(model: Model, p: Vec3, cursor = NOWHERE, flags = 0): Wall {
 
 /** Distance and normal are those of the nearest point of the wall: the form of one evaluation is for contacts, and is
  * wrong by a tenth of the radius near an axis. */
-export function probe(view: View, p: Vec3, cursor = NOWHERE): Answer {
+export function probe(view: Pick<View, "document" | "motion">, p: Vec3, cursor = NOWHERE): Answer {
   return {
     position: p,
     value: view.document.volume?.sample(p) ?? NaN,

@@ -17,7 +17,10 @@ import { missingPlaces } from "../case/work_items";
 const kVisible = 0.04; // of the window: a grey that the eye tells from black
 
 /** Whether the clip plane cuts a place away. */
-function isCutAway({ scene: { clip }, slices: { frame, crosshair } }: View, p: Vec3): boolean {
+function isCutAway(
+  { scene: { clip }, slices: { frame, crosshair } }: Pick<View, "slices" | "scene">,
+  p: Vec3,
+): boolean {
   return clip.on && (clip.flip ? -1 : 1) * dot(frame.normal, sub(p, crosshair)) > 0;
 }
 
