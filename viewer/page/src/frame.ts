@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The inner side of <lumen-case src>: the page in its frame learns what to show, and reports when it is shown. */
 import type { CaseFrame, Framed } from "./lumen_case";
-import type { Layout, View } from "./model/model";
+import { kLayouts, type View } from "./model/model";
 import type { Source } from "./net/source";
 import { openFile } from "./net/source_file";
 import type { Store } from "./base/store";
-
-const kLayouts: readonly string[] = ["four", "scene", "rows", "axial", "coronal", "sagittal"];
 
 export class Frame {
   private constructor(
@@ -36,7 +34,7 @@ export class Frame {
       open = panels !== null && panels !== "none";
     store.set({
       page: {
-        layout: (kLayouts.includes(layout ?? "") ? layout : "scene") as Layout,
+        layout: kLayouts.find(each => each === layout) ?? "scene",
         panels: { left: open && panels !== "right", right: open && panels !== "left" },
         strip: open,
       },

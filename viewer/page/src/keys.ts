@@ -3,15 +3,13 @@
 import type { Actions } from "./tools/actions";
 import { kTools } from "./panels/bar";
 import type { Hand } from "./tools/hand";
-import type { App, Layout } from "./model/model";
+import { kLayouts, type App } from "./model/model";
 import { askPosition } from "./panels/probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
 import { slabKey } from "./slices/slice_controls";
 import { resetPlanes } from "./slices/slice_input";
 import { renameBranch } from "./panels/tree_panel";
 import type { WorkList } from "./panels/work_list";
-
-const kLayouts: Layout[] = ["four", "rows", "scene", "axial", "coronal", "sagittal"];
 
 function typing(e: KeyboardEvent): boolean {
   const t = e.target as HTMLElement;
@@ -198,7 +196,7 @@ function giveUp(app: App, actions: Actions, hand: Hand): boolean {
     tools: { pending, clicks, tool },
     document: { job },
   } = app.store.get();
-  if (actions.flight?.running === true) actions.flight.stop();
+  if (actions.flight.running) actions.flight.stop();
   else if (pending.length + clicks.length > 0) hand.giveUp();
   else if (job !== null) void actions.cancel();
   else if (tool !== "navigate") actions.tool("navigate");

@@ -38,7 +38,7 @@ import { Stage } from "./drawing/stage";
 import { Strip } from "./panels/strip";
 import { Tools } from "./tools/tools";
 import { TreePanel } from "./panels/tree_panel";
-import { h } from "./base/ui";
+import { errorText, h } from "./base/ui";
 import { applyLayout, Watcher } from "./net/watcher";
 import { WorkList } from "./panels/work_list";
 import { workPanel } from "./panels/work_panel";
@@ -58,9 +58,7 @@ function makeApp(source: Source, shell: Shell): App {
         return true;
       } catch (error) {
         app.inform(
-          error instanceof Refused
-            ? error.message
-            : `The operation failed: ${error instanceof Error ? error.message : String(error)}`,
+          error instanceof Refused ? error.message : `The operation failed: ${errorText(error)}`,
           "error",
         );
         return false;
@@ -125,7 +123,7 @@ class PageCase extends LumenCase {
     else if (this.childElementCount === 0) start(this).catch((error: unknown) => this.fail(error));
   }
   private fail(error: unknown): void {
-    const text = error instanceof Error ? error.message : String(error);
+    const text = errorText(error);
     this.append(
       h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)),
     );

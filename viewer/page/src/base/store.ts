@@ -7,7 +7,7 @@ export type Path<T> = {
 }[keyof T & string];
 
 /** Values of any owners. */
-export type Change<T> = { [O in keyof T]?: Partial<T[O]> };
+type Change<T> = { [O in keyof T]?: Partial<T[O]> };
 
 export class Store<T extends { [O in keyof T]: object }> {
   private readonly listeners: { paths: readonly Path<T>[]; call: (value: T) => void }[] = [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Messages between server and page (../../README.md). Lengths in mm, positions in LPS. */
+/** Messages between server and page (viewer/README.md), as far as the page reads them. Lengths in mm, positions in LPS. */
 
 export type Vec3 = [number, number, number];
 
@@ -31,13 +31,10 @@ export interface Proposal {
 
 export interface MissingVessel {
   position: Vec3;
-  start: Vec3;
-  tip: Vec3;
   length_mm: number;
   radius_mm: number;
-  branch: string;
-  /** Clicks that track it, and a node of the vessel that it leaves. */
-  clicks?: { points: Vec3[]; radius: number | null; beside: number | null };
+  /** Clicks that track it. */
+  clicks?: { points: Vec3[]; radius: number | null };
 }
 
 export type WorkKind =
@@ -70,25 +67,16 @@ export interface IgnoredPlace {
   reason: string;
 }
 
-export interface Work {
+interface Work {
   items: WorkItem[];
   /** Their number when the check ended. */
   found: number;
   ignored: IgnoredPlace[];
 }
 
-export interface EndPlace {
-  position: Vec3;
-  branch: string;
-  first: boolean;
-  goes_on_mm: number;
-}
-
-export interface CheckAnswer {
+interface CheckAnswer {
   missing_vessels?: MissingVessel[];
-  ends?: EndPlace[];
   wall?: { offset_mm?: { median?: number; p90_absolute?: number } };
-  dark_places?: { position: Vec3 }[];
 }
 
 export interface UnsavedFile {
@@ -130,7 +118,7 @@ export interface FileEntry {
 }
 
 /** Revisions of the parts of the document; those of packs are their ETags. */
-export interface Revisions {
+interface Revisions {
   case: number;
   surface: number;
   volume: number;
@@ -258,6 +246,5 @@ export interface VesselAtClick {
   found: boolean;
   position: Vec3;
   radius: number;
-  direction: Vec3;
   reason?: string;
 }

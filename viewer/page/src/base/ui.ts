@@ -53,7 +53,6 @@ const kIcons: Record<string, string> = {
   play: "M4 3l9 5-9 5z",
   stop: "M4 4h8v8H4z",
   pause: "M5 3v10M11 3v10",
-  download: "M8 2v8M5 7l3 3 3-3M3 13h10",
   edit: "M3 13l1-3 7-7 2 2-7 7z",
   trash: "M3 4h10M6 4V2.5h4V4M4.5 4l.5 9.5h6l.5-9.5",
   cut: "M5 3l6 7M11 3L5 10M4 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4M12 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4",
@@ -173,6 +172,9 @@ export function brief(value: number | null | undefined): string {
 }
 export const mm = (value: number | null | undefined): string => `${brief(value)} mm`;
 
+/** The words of what was thrown. */
+export const errorText = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
 const kIdleBy = 300; // ms after which idle work is done anyway
 
 /** Calls when nothing else is to be done, or soon. */
@@ -180,6 +182,10 @@ export function idle(call: () => void): void {
   if ("requestIdleCallback" in window) window.requestIdleCallback(call, { timeout: kIdleBy });
   else setTimeout(call, 0);
 }
+
+/** A name in a row of a list, which shows what it names. */
+export const link = (text: string, show: () => void): HTMLButtonElement =>
+  h("button", { type: "button", class: "link", title: "Show it", onclick: show }, text);
 
 /** Asks for one line of text; null: cancelled. */
 export function askText(title: string, label: string, value: string): Promise<string | null> {

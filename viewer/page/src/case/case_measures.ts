@@ -3,7 +3,7 @@
 import type { Vec3 } from "../base/types";
 
 /** A number with half of its 95 % interval, or the reason why there is none. */
-export interface Measured {
+interface Measured {
   value: number | null;
   plus_minus: number | null;
   absent: string | null;
@@ -56,7 +56,7 @@ export function splitColumn(column: string): { name: string; unit: string } {
   return { name: bare.replaceAll("_", " "), unit: found === undefined ? "" : found[1] };
 }
 
-export const isMeasured = (value: MeasureRow[string]): value is Measured =>
+const isMeasured = (value: MeasureRow[string]): value is Measured =>
   typeof value === "object" && !Array.isArray(value);
 
 /** Digits after the point that the interval leaves a meaning, at most four. */

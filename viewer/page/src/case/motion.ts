@@ -3,7 +3,7 @@
 import type { Pack } from "./pack";
 
 /** Two of a motion's times by their indices, and the share of the way from the first to the second. */
-export interface Instant {
+interface Instant {
   from: number;
   to: number;
   share: number;

@@ -4,7 +4,7 @@
 const kTypes = { f32: Float32Array, u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, i32: Int32Array };
 type TypeName = keyof typeof kTypes;
 type ArrayOf = { [K in TypeName]: InstanceType<(typeof kTypes)[K]> };
-export type AnyArray = ArrayOf[TypeName];
+type AnyArray = ArrayOf[TypeName];
 
 interface Place {
   type: TypeName;

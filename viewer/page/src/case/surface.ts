@@ -8,7 +8,7 @@ import type { Pack } from "./pack";
 import { Skin } from "./skin";
 import type { Vec3 } from "../base/types";
 
-export interface Part {
+interface Part {
   name: string;
   branch: number;
   first: number;

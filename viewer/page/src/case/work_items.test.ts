@@ -15,18 +15,14 @@ const item = (kind: WorkKind, missing: number | null = null): WorkItem => ({
 });
 const vessel: MissingVessel = {
   position: [1, 2, 3],
-  start: [0, 0, 0],
-  tip: [2, 4, 6],
   length_mm: 7,
   radius_mm: 0.5,
-  branch: "a",
   clicks: {
     points: [
       [1, 2, 3],
       [2, 3, 4],
     ],
     radius: 0.5,
-    beside: 0,
   },
 };
 const state = (items: WorkItem[]): Pick<State, "check" | "work"> => ({

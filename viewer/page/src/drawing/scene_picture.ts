@@ -28,31 +28,42 @@ function makeTarget(samples: number): WebGLRenderTarget {
   });
 }
 
+/** The vertex shader of a picture over the whole viewport; `at`, in [0, 1], is where its texture is read. */
+export const kWholePicture =
+  "out vec2 at; void main() { at = 0.5 + 0.5 * position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }";
+
+/** Draws one material over the whole viewport. */
+export class WholeViewport {
+  private readonly scene = new Scene();
+  private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
+
+  constructor(material: ShaderMaterial) {
+    const quad = new Mesh(new PlaneGeometry(2, 2), material);
+    quad.frustumCulled = false;
+    this.scene.add(quad);
+  }
+
+  draw(renderer: WebGLRenderer): void {
+    renderer.render(this.scene, this.camera);
+  }
+}
+
 export class ScenePicture {
   private readonly fine = makeTarget(kSamples);
   private readonly coarse = makeTarget(0);
-  private readonly copyScene = new Scene();
-  private readonly copyCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private readonly shown: { value: Texture | null } = { value: null };
-
-  constructor() {
-    const quad = new Mesh(
-      new PlaneGeometry(2, 2),
-      new ShaderMaterial({
-        glslVersion: GLSL3,
-        depthTest: false,
-        depthWrite: false,
-        blending: NoBlending,
-        vertexShader:
-          "out vec2 at; void main() { at = 0.5 + 0.5 * position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }",
-        fragmentShader:
-          "precision highp float; in vec2 at; out vec4 result; uniform sampler2D picture; void main() { result = vec4(texture(picture, at).rgb, 1.0); }",
-        uniforms: { picture: this.shown },
-      }),
-    );
-    quad.frustumCulled = false;
-    this.copyScene.add(quad);
-  }
+  private readonly copy = new WholeViewport(
+    new ShaderMaterial({
+      glslVersion: GLSL3,
+      depthTest: false,
+      depthWrite: false,
+      blending: NoBlending,
+      vertexShader: kWholePicture,
+      fragmentShader:
+        "precision highp float; in vec2 at; out vec4 result; uniform sampler2D picture; void main() { result = vec4(texture(picture, at).rgb, 1.0); }",
+      uniforms: { picture: this.shown },
+    }),
+  );
 
   /** Makes a picture of that size in CSS pixels, on the ground that the renderer clears with, and copies it onto the
    * viewport of the canvas. */
@@ -67,6 +78,6 @@ export class ScenePicture {
     draw();
     renderer.setRenderTarget(null);
     this.shown.value = target.texture;
-    renderer.render(this.copyScene, this.copyCamera);
+    this.copy.draw(renderer);
   }
 }

@@ -24,8 +24,6 @@ export class Stage {
   private readonly frames: (() => void)[] = [];
   private readonly afterwards: (() => void)[] = [];
   private seen = false;
-  /** Milliseconds of the last frame's drawing calls. */
-  lastFrame = 0;
   /** Set when there is something to see; the next frame is the first picture, and marked as such for measuring. */
   firstPicture = false;
 
@@ -95,8 +93,7 @@ export class Stage {
   private frame(): void {
     this.scheduled = false;
     for (const call of this.frames.splice(0)) call();
-    const begin = performance.now(),
-      views = [...this.dirty],
+    const views = [...this.dirty],
       all = this.canvas.getBoundingClientRect();
     this.dirty.clear();
     if (this.clearAll) {
@@ -124,7 +121,6 @@ export class Stage {
       if (box.width >= 1 && box.height >= 1) view.drawOver?.(box.width, box.height);
     }
     this.dirtyOver.clear();
-    this.lastFrame = performance.now() - begin;
     if (this.firstPicture && !this.seen) this.markFirstPicture();
   }
 

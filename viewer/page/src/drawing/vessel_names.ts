@@ -12,7 +12,7 @@ const kMost = 80, // names in one view
   kHeight = 14, // pixels of a line
   kAside = 6; // pixels from the vessel's axis to its name
 
-export interface Name {
+interface Name {
   text: string;
   x: number;
   y: number;

@@ -3,7 +3,7 @@
 import { usualRange, type MapName } from "../base/colour";
 import type { ColourBy, View } from "./model";
 
-export interface Colouring {
+interface Colouring {
   mapped: boolean;
   range: [number, number];
   map: MapName;

@@ -2,7 +2,8 @@
 /** The view of a case: it survives a reload of the page, and may be kept as a small file beside the case. */
 import { isBeside, type Beside } from "../slices/beside";
 import { fromHex, toHex, type Rgb } from "../base/colour";
-import { kInitial, type App, type Measurement, type View } from "./model";
+import { kColourTitles } from "./colouring";
+import { kInitial, kLayouts, type App, type Measurement, type View } from "./model";
 import { areSlabs, type Slabs } from "../slices/slab";
 import type { Vec3 } from "../base/types";
 
@@ -38,11 +39,11 @@ const kLater: readonly string[] = ["slabs", "beside", "secondWindow"];
 /** The words that some of them may be. */
 const kWords: { readonly [name in keyof Flat]?: readonly string[] } = {
   cast: ["off", "mip", "volume"],
-  colourBy: ["branch", "radius", "confidence", "error", "root", "compare"],
-  layout: ["four", "scene", "rows", "axial", "coronal", "sagittal"],
+  colourBy: Object.keys(kColourTitles),
+  layout: kLayouts,
   axes: ["LPS", "RAS"],
 };
-export interface KeptView extends Flat {
+interface KeptView extends Flat {
   format: typeof kFormat;
   version: typeof kVersion;
   /** Labels of vessels that are not shown. */

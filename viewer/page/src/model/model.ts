@@ -27,7 +27,9 @@ export type Tool =
   | "brush";
 export type ColourBy = "branch" | "radius" | "confidence" | "error" | "root" | "compare";
 export type Cast = "off" | "mip" | "volume";
-export type Layout = "four" | "scene" | "rows" | "axial" | "coronal" | "sagittal";
+/** In the order of their keys, from 1. */
+export const kLayouts = ["four", "rows", "scene", "axial", "coronal", "sagittal"] as const;
+export type Layout = (typeof kLayouts)[number];
 /** Axes in which coordinates are shown: x to the patient's left and y to the back, or both the other way. */
 export type Axes = "LPS" | "RAS";
 export type Planes = "patient" | "vessel" | "free";
@@ -55,7 +57,7 @@ export interface Measurement {
 }
 
 /** The document, as far as it has come from the server. */
-export interface DocumentView {
+interface DocumentView {
   state: State;
   tree: Tree | null;
   /** Revision of the document that the tree is of; the state's may be newer while the tree is on its way. */
@@ -75,11 +77,10 @@ export interface DocumentView {
   /** By the number of a mesh: those that are coloured by their distance from the wall. */
   deviations: ReadonlyMap<string, Deviation>;
   job: { job: number; name: string; stage: string; done: number; total: number } | null;
-  lost: boolean;
 }
 
 /** The selected vessel, the cursor on it, and how each vessel looks. */
-export interface SelectionView {
+interface SelectionView {
   selected: number;
   /** Node of the selected vessel that the cursor is at, or -1. */
   node: number;
@@ -97,7 +98,7 @@ export interface SelectionView {
   place: number | null;
 }
 
-export interface MotionView {
+interface MotionView {
   /** Time of the case's motion that is shown, s; null: the case at rest. */
   time: number | null;
   /** The time goes on. */
@@ -107,7 +108,7 @@ export interface MotionView {
 }
 
 /** The place that the three slices share, and how they show volumes. */
-export interface SlicesView {
+interface SlicesView {
   crosshair: Vec3;
   axes: Axes;
   planes: Planes;
@@ -121,7 +122,7 @@ export interface SlicesView {
 }
 
 /** What is drawn in 3D; layers count in slices, too. */
-export interface SceneLook {
+interface SceneLook {
   cast: Cast;
   layers: Layers;
   colourBy: ColourBy;
@@ -129,7 +130,7 @@ export interface SceneLook {
 }
 
 /** The tool of the pointer, and what it has made or is making. */
-export interface ToolsView {
+interface ToolsView {
   tool: Tool;
   measurements: Measurement[];
   /** Points of the measurement that is being made, or of what is dragged. */
@@ -148,7 +149,7 @@ export interface ToolsView {
   seriesAs: OpenAs | null;
 }
 
-export interface PageView {
+interface PageView {
   layout: Layout;
   theme: "dark" | "light";
   strip: boolean;
@@ -186,7 +187,6 @@ export const kInitial: View = {
     figures: null,
     deviations: new Map(),
     job: null,
-    lost: false,
   },
   selection: {
     selected: -1,

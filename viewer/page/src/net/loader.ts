@@ -10,7 +10,7 @@ import type { SliceView } from "../slices/slice_view";
 import { Surface } from "../case/surface";
 import { Tree } from "../case/tree";
 import type { State } from "../base/types";
-import { idle } from "../base/ui";
+import { errorText, idle } from "../base/ui";
 import { VolumeLoader } from "./volume_loader";
 
 const kOutlines = 400, // ms from one drawing of outlines to the next, while they are prepared
@@ -82,9 +82,7 @@ export class Loader {
     const key = `${r.case} ${r.truth ?? 0} ${this.shown.kind} ${this.shown.level}`;
     if (key === this.seen.distance) return;
     this.seen.distance = key;
-    void this.takeDistance(surface).catch((error: unknown) =>
-      this.app.inform(error instanceof Error ? error.message : String(error), "error"),
-    );
+    void this.takeDistance(surface).catch((error: unknown) => this.app.inform(errorText(error), "error"));
   }
 
   /** Once: the crosshair to where the page was sent, or into the middle; the projection where there is no case. */
@@ -153,10 +151,7 @@ export class Loader {
       store.set({ document: { blob: library === null || file === null ? null : library.open(file) } });
     } catch (error) {
       store.set({ document: { blob: null } });
-      inform(
-        `The probe is not available: ${error instanceof Error ? error.message : String(error)}`,
-        "warning",
-      );
+      inform(`The probe is not available: ${errorText(error)}`, "warning");
     }
   }
 
@@ -179,11 +174,7 @@ export class Loader {
         return;
       this.showSurface(await this.pack("surface", { level: String(level) }), ofCase, live);
     } catch (error) {
-      if (live())
-        this.app.inform(
-          `The surface could not be shown: ${error instanceof Error ? error.message : String(error)}`,
-          "warning",
-        );
+      if (live()) this.app.inform(`The surface could not be shown: ${errorText(error)}`, "warning");
     }
   }
 

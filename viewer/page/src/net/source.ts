@@ -7,7 +7,6 @@ export type Received = (bytes: Uint8Array, received: number) => void;
 
 export interface Answer {
   revision?: number;
-  job?: number;
 }
 
 /** The document has changed, or the request is wrong: the sentence is for people. */

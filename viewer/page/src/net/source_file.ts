@@ -16,7 +16,7 @@ async function fetched(address: string): Promise<Uint8Array> {
 }
 
 /** The last part of an address, as people read it. */
-export function nameOf(address: string): string {
+function nameOf(address: string): string {
   const last = new URL(address).pathname.split("/").pop() ?? "";
   try {
     return decodeURIComponent(last);

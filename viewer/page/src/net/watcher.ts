@@ -6,10 +6,11 @@ import type { Loader } from "./loader";
 import type { App } from "../model/model";
 import type { Shell } from "../panels/shell";
 import type { Event, State } from "../base/types";
-import { button, h } from "../base/ui";
+import { button, errorText, h } from "../base/ui";
 
 export class Watcher {
   private taking: Promise<void> = Promise.resolve();
+  private isLost = false; // the server does not answer
 
   constructor(
     private readonly app: App,
@@ -52,12 +53,7 @@ export class Watcher {
   private take(state: State): void {
     this.taking = this.taking
       .then(() => this.loader.take(state))
-      .catch((error: unknown) =>
-        this.app.inform(
-          `Not all could be shown: ${error instanceof Error ? error.message : String(error)}`,
-          "error",
-        ),
-      );
+      .catch((error: unknown) => this.app.inform(`Not all could be shown: ${errorText(error)}`, "error"));
   }
 
   private hear(event: Event): void {
@@ -91,14 +87,14 @@ export class Watcher {
         this.app.inform(event.text, event.severity);
         break;
       case "lost":
-        store.set({ document: { lost: true } });
+        this.isLost = true;
         this.shell.status.textContent =
           "The server does not answer: what you see can be looked at, not changed.";
         break;
       case "back":
-        if (store.get().document.lost) {
+        if (this.isLost) {
           this.shell.status.textContent = "";
-          store.set({ document: { lost: false } });
+          this.isLost = false;
           void this.app.source.state().then(state => this.take(state));
         }
         break;
@@ -217,9 +213,7 @@ export class Watcher {
       end();
       droppedFiles(e.dataTransfer!)
         .then(dropped => this.actions.openDropped(dropped))
-        .catch((error: unknown) =>
-          this.app.inform(error instanceof Error ? error.message : String(error), "error"),
-        );
+        .catch((error: unknown) => this.app.inform(errorText(error), "error"));
     });
   }
 }
@@ -230,7 +224,7 @@ export function applyLayout(app: App, shell: Shell): void {
     shell.views.dataset.layout = view.page.layout;
     app.stage.invalidate();
   });
-  const narrow = window.matchMedia("(max-width: 900px)"), // as page.css has it
+  const narrow = window.matchMedia("(max-width: 900px)"), // as narrow.css has it
     foldIfNarrow = (): void => {
       if (narrow.matches) app.store.set({ page: { panels: { left: false, right: false } } });
     };

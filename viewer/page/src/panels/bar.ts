@@ -2,7 +2,7 @@
 /** The bar on top: files, history, tools, layout. */
 import { kViewFormat } from "../model/kept_view";
 import type { Actions } from "../tools/actions";
-import type { App, Layout, Tool } from "../model/model";
+import { kLayouts, type App, type Layout, type Tool } from "../model/model";
 import { button, h, select } from "../base/ui";
 
 export const kTools: { tool: Tool; label: string; key: string; live?: boolean }[] = [
@@ -17,14 +17,14 @@ export const kTools: { tool: Tool; label: string; key: string; live?: boolean }[
   { tool: "touch", label: "Gap to the vessel that is nearest", key: "G" },
 ];
 
-const kLayouts: [Layout, string][] = [
-  ["four", "Four views"],
-  ["rows", "3D and slices"],
-  ["scene", "3D only"],
-  ["axial", "Axial only"],
-  ["coronal", "Coronal only"],
-  ["sagittal", "Sagittal only"],
-];
+const kLayoutTitles: Record<Layout, string> = {
+  four: "Four views",
+  rows: "3D and slices",
+  scene: "3D only",
+  axial: "Axial only",
+  coronal: "Coronal only",
+  sagittal: "Sagittal only",
+};
 
 export function makeBar(element: HTMLElement, app: App, actions: Actions): void {
   const { store, source } = app,
@@ -73,8 +73,12 @@ export function makeBar(element: HTMLElement, app: App, actions: Actions): void 
     });
   const left = fold("left", "Fold or open the list of vessels"),
     right = fold("right", "Fold or open display and work");
-  const layout = select("layout", "Layout of the views  (1 to 6)", kLayouts, "four", value =>
-    store.set({ page: { layout: value } }),
+  const layout = select(
+    "layout",
+    "Layout of the views  (1 to 6)",
+    kLayouts.map((name): [Layout, string] => [name, kLayoutTitles[name]]),
+    "four",
+    value => store.set({ page: { layout: value } }),
   );
   element.append(
     h("div", { class: "brand" }, h("strong", {}, "lumen"), title, unsaved),

@@ -4,13 +4,13 @@ import type { Actions } from "../tools/actions";
 import type { App } from "../model/model";
 import { goTo } from "../model/selection";
 import type { Proposal, State } from "../base/types";
-import { brief, button, h, mm, replaceRows, section } from "../base/ui";
+import { brief, button, h, link, mm, replaceRows, section } from "../base/ui";
 
 const kConfidence =
   "Confidence, 0 to 1: the share of the measured wall points that lie on the vessel's cylinders, as a mean of its nodes";
 
 /** A sentence on the proposals as they are. */
-export function aboutProposals(state: Pick<State, "hasCase" | "proposals">): string {
+function aboutProposals(state: Pick<State, "hasCase" | "proposals">): string {
   const count = state.proposals.length;
   if (count > 0)
     return `${count === 1 ? "One vessel waits" : `${count} vessels wait`} (dashed). To accept one accepts its parents too; it is then fitted, and part of the case.`;
@@ -97,7 +97,7 @@ function proposalRow(app: App, actions: Actions, proposal: Proposal): HTMLElemen
       h(
         "div",
         { class: "row" },
-        h("button", { type: "button", class: "link", title: "Show it", onclick: show }, label),
+        link(label, show),
         h(
           "span",
           { class: "note", title: parent === null ? "A tree of its own" : `It leaves ${parent}` },

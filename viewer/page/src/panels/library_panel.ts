@@ -3,7 +3,7 @@
 import type { App } from "../model/model";
 import { Refused } from "../net/source";
 import type { Library, LibraryCase } from "../base/types";
-import { askYes, h, mm, section } from "../base/ui";
+import { askYes, errorText, h, mm, section } from "../base/ui";
 
 /** The cases whose names hold every word of what is searched for, with their places in the library. */
 export function found(cases: LibraryCase[], wanted: string): [number, LibraryCase][] {
@@ -67,10 +67,7 @@ export function libraryPanel(app: App): HTMLElement[] {
     }
     seen = now;
     void fetchIt().catch((error: unknown) =>
-      app.inform(
-        `The library could not be read: ${error instanceof Error ? error.message : String(error)}`,
-        "error",
-      ),
+      app.inform(`The library could not be read: ${errorText(error)}`, "error"),
     );
   });
   return [box];
@@ -108,7 +105,7 @@ async function openCase(app: App, index: number): Promise<void> {
   try {
     await source.perform({ op: "openCase", index }, store.get().document.state.revision);
   } catch (error) {
-    const text = error instanceof Error ? error.message : String(error);
+    const text = errorText(error);
     if (!(error instanceof Refused) || error.status !== 409 || !store.get().document.state.unsaved) {
       inform(text, "error");
       return;

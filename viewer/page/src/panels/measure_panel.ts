@@ -6,7 +6,7 @@ import { measurementsCsv } from "../model/kept_view";
 import { gaps } from "../tools/measure";
 import type { App } from "../model/model";
 import { goTo } from "../model/selection";
-import { brief, button, h, saveText, section } from "../base/ui";
+import { brief, button, h, link, saveText, section } from "../base/ui";
 
 const kMostGaps = 40;
 
@@ -64,11 +64,7 @@ function measureSection(app: App, hand: Hand): HTMLElement {
         h(
           "li",
           { class: "row item" },
-          h(
-            "button",
-            { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, m.points[0]) },
-            m.text,
-          ),
+          link(m.text, () => goTo(app, m.points[0])),
           h("span", { class: "note", title: m.detail }, m.detail),
           button({ icon: "close", label: "Remove this measurement", class: "button" }, () =>
             store.set({ tools: { measurements: store.get().tools.measurements.filter(x => x !== m) } }),

@@ -8,6 +8,7 @@ import { findPlaces, reference, type Place } from "../case/narrowing";
 import { followVessel, goToNode, stepAlong } from "../model/selection";
 import { clearedContext, niceLength } from "../drawing/over";
 import { reformat, straighten, type Straight } from "../case/straightened";
+import { distance } from "../base/vec";
 import { brief, button, h, slider } from "../base/ui";
 
 interface Curve {
@@ -164,12 +165,7 @@ export class Strip {
       nodes = Array.from({ length: b.nodeCount }, (_, i) => b.firstNode + i),
       s = [0];
     for (let i = 1; i < nodes.length; ++i)
-      s.push(
-        s[i - 1] +
-          Math.hypot(
-            ...[0, 1, 2].map(a => tree.centre[3 * nodes[i] + a] - tree.centre[3 * nodes[i - 1] + a]),
-          ),
-      );
+      s.push(s[i - 1] + distance(tree.position(nodes[i - 1]), tree.position(nodes[i])));
     const r = nodes.map(n => tree.radius[n]),
       places = b.kind === "vessel" ? findPlaces(s, r, view.document.tree?.voxelSize ?? 0) : [];
     this.curve = { branch: b.index, tree, nodes, s, r, places, reference: reference(s, r) };

@@ -4,7 +4,7 @@ import type { Actions } from "../tools/actions";
 import type { App } from "../model/model";
 import { goTo, goToNode } from "../model/selection";
 import type { IgnoredPlace, State, WorkItem } from "../base/types";
-import { askText, button, h, mm, replaceRows, section } from "../base/ui";
+import { askText, button, h, link, mm, replaceRows, section } from "../base/ui";
 import { countKinds, kWorkTitles, remediesOf, requestOf, type Remedy } from "../case/work_items";
 
 const kRemedyWords: Record<Remedy, { text: string; icon: string; label: string; changes: boolean }> = {
@@ -241,11 +241,7 @@ function ignoredRow(app: App, place: IgnoredPlace, index: number): HTMLElement {
   return h(
     "li",
     { class: "row item" },
-    h(
-      "button",
-      { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, place.position) },
-      kWorkTitles[place.kind]?.[0] ?? place.kind,
-    ),
+    link(kWorkTitles[place.kind]?.[0] ?? place.kind, () => goTo(app, place.position)),
     h("span", { class: "note", title: place.reason }, place.reason),
     button(
       { icon: "undo", label: `Heed it again: ${place.reason}`, class: "button" },

@@ -7,7 +7,7 @@ import type { App } from "../model/model";
 import { openSeriesDialog } from "./series_dialog";
 import { goTo } from "../model/selection";
 import type { Seed } from "../base/types";
-import { askYes, brief, button, h, section, select } from "../base/ui";
+import { askYes, brief, button, h, link, section, select } from "../base/ui";
 import { checkSection, type WorkList } from "./work_list";
 
 export function workPanel(app: App, actions: Actions, hand: Hand, work: WorkList): HTMLElement[] {
@@ -130,11 +130,7 @@ function trackedRow(app: App, seed: Seed): HTMLElement {
   return h(
     "li",
     { class: "row item" },
-    h(
-      "button",
-      { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, seed.points[0].position) },
-      seed.label,
-    ),
+    link(seed.label, () => goTo(app, seed.points[0].position)),
     h("span", { class: "note" }, seed.points.length > 1 ? `${seed.points.length} clicks` : "one click"),
   );
 }
@@ -150,11 +146,7 @@ function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
   return h(
     "li",
     { class: "row item" },
-    h(
-      "button",
-      { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, seed.points[0].position) },
-      seed.label,
-    ),
+    link(seed.label, () => goTo(app, seed.points[0].position)),
     h(
       "span",
       { class: "note" },

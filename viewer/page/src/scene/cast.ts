@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Ray casting: maximum-intensity projection and a shaded volume, at a resolution that the graphics can bear. Blocks
  * whose greatest value cannot show are stepped over. */
+import { kWholePicture, WholeViewport } from "../drawing/scene_picture";
 import {
   BackSide,
   BoxGeometry,
@@ -9,8 +10,6 @@ import {
   Matrix4,
   Mesh,
   NoBlending,
-  OrthographicCamera,
-  PlaneGeometry,
   RGBAFormat,
   Scene,
   ShaderMaterial,
@@ -107,8 +106,16 @@ export class Caster {
     depthBuffer: false,
   });
   private readonly scene = new Scene();
-  private readonly copyScene = new Scene();
-  private readonly copyCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
+  private readonly copy = new WholeViewport(
+    new ShaderMaterial({
+      glslVersion: GLSL3,
+      depthTest: false,
+      depthWrite: false,
+      vertexShader: kWholePicture,
+      fragmentShader: kCopy,
+      uniforms: { picture: { value: this.target.texture } },
+    }),
+  );
   private readonly material: ShaderMaterial;
   private readonly textures: ReturnType<typeof castTextures>;
   private readonly fromTexture: Matrix4;
@@ -148,20 +155,6 @@ export class Caster {
     // a left-handed frame would show the near sides instead
     if (this.fromTexture.determinant() < 0) this.material.side = 0;
     this.scene.add(box);
-    const quad = new Mesh(
-      new PlaneGeometry(2, 2),
-      new ShaderMaterial({
-        glslVersion: GLSL3,
-        depthTest: false,
-        depthWrite: false,
-        vertexShader:
-          "out vec2 at; void main() { at = 0.5 + 0.5 * position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }",
-        fragmentShader: kCopy,
-        uniforms: { picture: { value: this.target.texture } },
-      }),
-    );
-    quad.frustumCulled = false;
-    this.copyScene.add(quad);
   }
 
   /** Draws over the whole of the renderer's target, as the ground for what follows. `share`: of the resolution. */
@@ -195,7 +188,7 @@ export class Caster {
     renderer.clear();
     renderer.render(this.scene, camera);
     renderer.setRenderTarget(ground);
-    renderer.render(this.copyScene, this.copyCamera);
+    this.copy.draw(renderer);
   }
 
   dispose(): void {

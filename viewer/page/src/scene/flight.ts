@@ -7,7 +7,7 @@ import type { Vec3 } from "../base/types";
 import { across, cross, distance, dot, mix, scale, sub, unit } from "../base/vec";
 
 /** Points of a way, smoothed a little, with their distance from its begin. */
-export interface FlightPath {
+interface FlightPath {
   points: Vec3[];
   nodes: number[];
   at: number[];

@@ -5,7 +5,7 @@ import { BufferAttribute, BufferGeometry, Mesh } from "three";
 import { Flags, type Model } from "../../../../libblob/wasm/blob.mjs";
 import { kTetrahedra } from "../case/field_surface";
 import type { App } from "../model/model";
-import { kNoClip, PartMaterial } from "./part_material";
+import { PartMaterial } from "./part_material";
 import type { SceneView } from "./scene_view";
 import type { Tree } from "../case/tree";
 
@@ -107,15 +107,7 @@ export class LocalModel {
         geometry.setAttribute("position", new BufferAttribute(position, 3));
         geometry.setAttribute("normal", new BufferAttribute(normal, 3));
         this.mesh = new Mesh(geometry, new PartMaterial(false));
-        this.mesh.material.look({
-          own: [1, 0.86, 0.35],
-          alpha: 0.8,
-          mapped: false,
-          range: [0, 1],
-          map: "sequential",
-          lit: true,
-          clip: kNoClip,
-        });
+        this.mesh.material.look({ own: [1, 0.86, 0.35], alpha: 0.8, lit: true });
         this.mesh.renderOrder = 4;
         this.mesh.frustumCulled = false;
         scene.extra.add(this.mesh);

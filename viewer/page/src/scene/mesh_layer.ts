@@ -6,7 +6,7 @@ import { deviationOf, deviationText, MeshView, sharedRange, type Deviation } fro
 import { Pack } from "../case/pack";
 import type { SceneView } from "./scene_view";
 import type { Vec3 } from "../base/types";
-import { checkbox, h, section, slider } from "../base/ui";
+import { checkbox, errorText, h, section, slider } from "../base/ui";
 
 const kAlpha = 0.55,
   kFaint = 0.15; // opacity of all vessels where a mesh has colours, as the wall would hide half of it
@@ -82,7 +82,7 @@ export class MeshLayer {
       this.fit(view.position);
       app.stage.invalidate(scene);
     } catch (error) {
-      app.inform(error instanceof Error ? error.message : String(error), "error");
+      app.inform(errorText(error), "error");
     }
   }
 
@@ -160,7 +160,7 @@ export class MeshLayer {
       if (row.waiting !== waiting) return;
       this.clear(id, row);
       row.box.checked = false;
-      app.inform(error instanceof Error ? error.message : String(error), "error");
+      app.inform(errorText(error), "error");
     }
   }
 

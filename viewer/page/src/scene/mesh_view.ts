@@ -4,7 +4,7 @@ import { usualRange, type MapName } from "../base/colour";
 import { mm } from "../base/ui";
 import { BufferAttribute, BufferGeometry, Mesh } from "three";
 import type { Pack } from "../case/pack";
-import { kNoClip, PartMaterial } from "./part_material";
+import { PartMaterial } from "./part_material";
 import { vertexNormals } from "../case/surface";
 
 export interface Deviation {
@@ -86,10 +86,8 @@ export class MeshView {
       own: kGrey,
       alpha,
       mapped: range !== null,
-      range: range ?? [0, 1],
+      range: range ?? undefined,
       map: kDeviationMap,
-      lit: false,
-      clip: kNoClip,
     });
   }
 

@@ -85,14 +85,15 @@ function table(name: MapName): DataTexture {
   return texture;
 }
 
-export interface Look {
+interface Look {
   own: [number, number, number];
   alpha: number;
-  mapped: boolean;
-  range: [number, number];
-  map: MapName;
-  lit: boolean;
-  clip: Vector4;
+  /** Whether colours are those of numbers, of which `range` is spread over `map`. */
+  mapped?: boolean;
+  range?: [number, number];
+  map?: MapName;
+  lit?: boolean;
+  clip?: Vector4;
 }
 
 /** Cuts nothing away; a plane of three.js that nobody set would be (0, 0, 0, 1), and cut everything. */
@@ -122,16 +123,24 @@ export class PartMaterial extends ShaderMaterial {
     this.side = DoubleSide;
   }
 
-  look(look: Look): void {
+  look({
+    own,
+    alpha,
+    mapped = false,
+    range = [0, 1],
+    map = "sequential",
+    lit = false,
+    clip = kNoClip,
+  }: Look): void {
     const u = this.uniforms,
-      clear = look.alpha < 1;
-    (u.own.value as Vector3).set(...look.own);
-    u.alpha.value = look.alpha;
-    u.mapped.value = look.mapped ? 1 : 0;
-    (u.range.value as Vector2).set(...look.range);
-    u.map.value = table(look.map);
-    u.lit.value = look.lit ? 1 : 0;
-    (u.clip.value as Vector4).copy(look.clip);
+      clear = alpha < 1;
+    (u.own.value as Vector3).set(...own);
+    u.alpha.value = alpha;
+    u.mapped.value = mapped ? 1 : 0;
+    (u.range.value as Vector2).set(...range);
+    u.map.value = table(map);
+    u.lit.value = lit ? 1 : 0;
+    (u.clip.value as Vector4).copy(clip);
     if (this.transparent !== clear) {
       this.transparent = clear;
       this.needsUpdate = true;

@@ -20,6 +20,7 @@ import { colourOf, isShown, shownTree, type View } from "../model/model";
 import { kNoClip, PartMaterial } from "./part_material";
 import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
+import { distance } from "../base/vec";
 
 /** The centerlines of branches that are shown, each in its colour. */
 export function centerlines(view: Pick<View, "document" | "selection" | "motion" | "scene">): LineSegments {
@@ -89,7 +90,7 @@ export function placeCylinders(mesh: InstancedMesh, tree: Tree, branch: number):
 function spacing(tree: Tree, node: number): number {
   const p = tree.parent[node];
   if (p < 0 || tree.branch[p] !== tree.branch[node]) return 0;
-  return Math.hypot(...[0, 1, 2].map(a => tree.centre[3 * node + a] - tree.centre[3 * p + a]));
+  return distance(tree.position(node), tree.position(p));
 }
 
 export const cylinders = (tree: Tree, sides: number): InstancedMesh[] =>
@@ -148,15 +149,7 @@ function lineMaterial(depthTest: boolean): ShaderMaterial {
 export function ball(p: Vec3, radius: number, colour: [number, number, number], alpha = 1): Mesh {
   const material = new PartMaterial(false),
     mesh = new Mesh(new SphereGeometry(radius, 18, 12), material);
-  material.look({
-    own: colour,
-    alpha,
-    mapped: false,
-    range: [0, 1],
-    map: "sequential",
-    lit: false,
-    clip: kNoClip,
-  });
+  material.look({ own: colour, alpha });
   mesh.position.set(...p);
   mesh.renderOrder = 5;
   return mesh;

@@ -219,9 +219,6 @@ export class SceneView implements StageView {
         (tube.material as PartMaterial).look({
           own: colourOf(view, branch),
           alpha,
-          mapped: false,
-          range,
-          map,
           lit: branch === view.selection.selected,
           clip,
         });

@@ -2,7 +2,7 @@
 /** A second volume beside the first: blended over it in all slices, or to the right of a line that can be dragged. */
 import type { Volume } from "../case/volume";
 
-export type BesideMode = "off" | "blend" | "split";
+type BesideMode = "off" | "blend" | "split";
 export interface Beside {
   mode: BesideMode;
   /** Of a blend, the share of the second volume; of a split, that of a view's width which the first has. In [0, 1]. */
@@ -23,7 +23,7 @@ export const isBeside = (x: Beside): boolean =>
   kBesideModes.some(([mode]) => mode === x.mode) && x.share >= 0 && x.share <= 1;
 
 /** The volumes that are there, and how they are seen. */
-export interface Both {
+interface Both {
   document: { volume: Volume | null; second: Volume | null };
   slices: { beside: Beside };
 }

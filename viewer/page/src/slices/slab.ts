@@ -5,7 +5,7 @@ import type { Vec3 } from "../base/types";
 import { along, type Frame } from "../base/vec";
 import type { Volume } from "../case/volume";
 
-export type SlabKind = "off" | "max" | "min" | "mean";
+type SlabKind = "off" | "max" | "min" | "mean";
 export interface Slab {
   kind: SlabKind;
   /** Thickness, half of it on either side of the plane. */

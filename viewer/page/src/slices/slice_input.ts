@@ -9,7 +9,7 @@ import type { Tools } from "../tools/tools";
 import type { Vec3 } from "../base/types";
 import { rotate, type Frame } from "../base/vec";
 
-export function turnFrame(frame: Frame, axis: Vec3, angle: number): Frame {
+function turnFrame(frame: Frame, axis: Vec3, angle: number): Frame {
   return {
     right: rotate(frame.right, axis, angle),
     up: rotate(frame.up, axis, angle),

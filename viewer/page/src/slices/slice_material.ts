@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One plane through the volume, drawn on the whole viewport. */
+import { WholeViewport } from "../drawing/scene_picture";
 import {
   GLSL3,
   Matrix4,
-  Mesh,
   NoBlending,
   NormalBlending,
-  OrthographicCamera,
-  PlaneGeometry,
-  Scene,
   ShaderMaterial,
   Vector2,
   Vector3,
@@ -80,7 +77,7 @@ export interface Plane {
 }
 
 /** Look of a volume that is drawn over another. */
-export interface Over {
+interface Over {
   /** Opacity. */
   alpha: number;
   /** Nothing is drawn left of it; in [-1, 1] across the view. */
@@ -93,8 +90,6 @@ export interface Over {
 const kAlone: Over = { alpha: 1, from: -1, warm: false, isSeenThrough: false };
 
 export class SliceMaterial {
-  private readonly scene = new Scene();
-  private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private readonly material = new ShaderMaterial({
     glslVersion: GLSL3,
     vertexShader: kVertex,
@@ -121,11 +116,7 @@ export class SliceMaterial {
     },
   });
 
-  constructor() {
-    const quad = new Mesh(new PlaneGeometry(2, 2), this.material);
-    quad.frustumCulled = false;
-    this.scene.add(quad);
-  }
+  private readonly whole = new WholeViewport(this.material);
 
   /** With `over` on what the viewport has. */
   draw(
@@ -157,6 +148,6 @@ export class SliceMaterial {
     u.over.value = over.isSeenThrough;
     this.material.blending = over.alpha < 1 ? NormalBlending : NoBlending;
     this.material.transparent = over.alpha < 1;
-    renderer.render(this.scene, this.camera);
+    this.whole.draw(renderer);
   }
 }

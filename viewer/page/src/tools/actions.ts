@@ -9,7 +9,7 @@ import { openHelp } from "../panels/help";
 import { applyView, kViewEnding, kViewFormat, readView, takeView } from "../model/kept_view";
 import { askPart } from "../panels/series_dialog";
 import { Refused, type OpenAs } from "../net/source";
-import { askYes, h, saveBlob, saveText } from "../base/ui";
+import { askYes, errorText, h, saveBlob, saveText } from "../base/ui";
 
 const kMostBatch = 999_999_999, // greatest number of a batch of files
   kBetween = 100; // files between two messages
@@ -70,7 +70,7 @@ export class Actions {
     try {
       await source.perform({ op: "save" }, store.get().document.state.revision);
     } catch (error) {
-      const text = error instanceof Error ? error.message : String(error),
+      const text = errorText(error),
         { files, saveAs } = store.get().document.state;
       if (
         !(error instanceof Refused) ||
@@ -139,7 +139,7 @@ export class Actions {
       }
       await this.app.perform({ op: "listSeries", batch, second: part === "second" });
     } catch (error) {
-      inform(error instanceof Error ? error.message : String(error), "error");
+      inform(errorText(error), "error");
     }
   }
   private async openEach(files: File[], as: OpenAs): Promise<void> {
@@ -155,10 +155,7 @@ export class Actions {
         this.app.inform(`Opening ${file.name}…`);
         await this.app.source.open(file.name, part, file);
       } catch (error) {
-        this.app.inform(
-          error instanceof Refused || error instanceof Error ? error.message : String(error),
-          "error",
-        );
+        this.app.inform(errorText(error), "error");
       }
     }
   }
@@ -178,10 +175,7 @@ export class Actions {
       applyView(this.app, readView(await file.text()));
       this.app.inform(`The view of ${file.name} is shown.`);
     } catch (error) {
-      this.app.inform(
-        `${file.name} is no view: ${error instanceof Error ? error.message : String(error)}`,
-        "error",
-      );
+      this.app.inform(`${file.name} is no view: ${errorText(error)}`, "error");
     }
   }
   async cancel(): Promise<void> {

@@ -11,7 +11,7 @@ import type { Hit } from "../case/surface";
 import { trackOn } from "./track_on";
 import type { MissingVessel, Seed, VesselAtClick, Vec3 } from "../base/types";
 import { along, circle, distance, dot, sub } from "../base/vec";
-import { askText, brief } from "../base/ui";
+import { askText, brief, errorText } from "../base/ui";
 
 const kMiddle = 0.6; // radii from the axis within which a press takes the node, and beyond which its wall
 const kRim = 0.75; // radii from the axis from which a click is at the rim
@@ -155,7 +155,7 @@ export class Hand {
     try {
       atClick = await source.vesselAtClick(p);
     } catch (error) {
-      app.inform(error instanceof Error ? error.message : String(error), "error");
+      app.inform(errorText(error), "error");
       return;
     }
     const point = atClick.found ? atClick.position : p;

@@ -12,7 +12,7 @@ export function angle(a: Vec3, corner: Vec3, b: Vec3): number {
   return (180 / Math.PI) * Math.atan2(length(cross(u, v)), dot(u, v));
 }
 
-export interface Section {
+interface Section {
   centre: Vec3;
   normal: Vec3;
   outline: Vec3[];
@@ -68,7 +68,7 @@ export function sectionFigures(
   return { area, perimeter, least, greatest, diameter: 2 * Math.sqrt(area / Math.PI) };
 }
 
-export interface Gap {
+interface Gap {
   a: number;
   b: number;
   nodeA: number;

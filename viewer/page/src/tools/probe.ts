@@ -35,7 +35,7 @@ function batchOf(model: Model): Batch {
 }
 
 /** One query; `cursor` is the node that the point belongs to, if that is known. 0.01 ms or so. */
-export function ask(model: Model, p: Vec3, cursor = NOWHERE, flags = 0): Wall {
+function ask(model: Model, p: Vec3, cursor = NOWHERE, flags = 0): Wall {
   const one = batchOf(model);
   one.points.set(p);
   one.cursors[0] = cursor;

@@ -24,7 +24,7 @@ function isCutAway(
   return clip.on && (clip.flip ? -1 : 1) * dot(frame.normal, sub(p, crosshair)) > 0;
 }
 
-export interface Picked extends Hit {
+interface Picked extends Hit {
   seed: string | null;
   place: number;
 }
@@ -45,9 +45,6 @@ export class Tools {
   }
   get tool(): Tool {
     return this.app.store.get().tools.tool;
-  }
-  choose(tool: Tool): void {
-    this.app.store.set({ tools: { tool, pending: [], brushLines: [], stroke: null } });
   }
   onProbe(call: (answer: Answer | null) => void): void {
     this.listeners.push(call);

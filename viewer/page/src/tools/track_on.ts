@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selected vessel is tracked on: from the crosshair, or beyond its end. */
+import { errorText } from "../base/ui";
 import type { App } from "../model/model";
 import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
@@ -8,7 +9,7 @@ import { along, distance } from "../base/vec";
 const kBeyond = 2; // radii from an end to where the vessel is looked for
 
 /** Where a vessel would go on, and the vessel that it leaves. */
-export interface Onward {
+interface Onward {
   from: Vec3;
   /** Null: the vessel goes on before the first node of a root, so it leaves none. */
   parent: string | null;
@@ -59,6 +60,6 @@ export async function trackOn(app: App): Promise<void> {
       ...(parent === null ? {} : { parent }),
     });
   } catch (error) {
-    app.inform(error instanceof Error ? error.message : String(error), "error");
+    app.inform(errorText(error), "error");
   }
 }
