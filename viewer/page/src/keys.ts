@@ -63,9 +63,7 @@ function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
 
 function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: WorkList): boolean {
   const { store, source } = app,
-    {
-      selection: { selected },
-    } = store.get(),
+    { selected } = store.get().selection,
     key = e.shiftKey ? `Shift+${e.key.toUpperCase()}` : e.key.toLowerCase();
   const onVessel = (act: () => void): boolean => {
     if (selected >= 0) act();

@@ -34,9 +34,7 @@ function eachShown(
   view: Pick<View, "document" | "selection" | "scene">,
   draw: (tree: Tree, branch: Branch, isChosen: boolean) => void,
 ): void {
-  const {
-    document: { proposals: tree },
-  } = view;
+  const { proposals: tree } = view.document;
   if (tree === null || !view.scene.layers.proposals) return;
   const rank = (b: Branch): number => (b.label === view.selection.proposal ? 1 : 0);
   for (const branch of [...tree.branches].sort((a, b) => rank(a) - rank(b)))

@@ -25,9 +25,7 @@ export function numbersOf(
   view: Pick<View, "document">,
   by: ColourBy,
 ): { nodes: ArrayLike<number> } | { vertices: Float32Array } | null {
-  const {
-    document: { tree, surface },
-  } = view;
+  const { tree, surface } = view.document;
   if (tree === null || surface === null) return null;
   switch (by) {
     case "radius":

@@ -24,9 +24,7 @@ export function select(app: App, branch: number): void {
 /** Puts cursor and crosshair on a node of the tree, and turns the planes with it if they follow the vessel. */
 export function goToNode(app: App, node: number): void {
   const { store } = app,
-    {
-      slices: { planes },
-    } = store.get(),
+    { planes } = store.get().slices,
     tree = shownTree(store.get());
   if (tree === null || node < 0 || node >= tree.count) return;
   const branch = tree.branch[node];

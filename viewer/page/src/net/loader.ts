@@ -88,9 +88,7 @@ export class Loader {
   /** Once: the crosshair to where the page was sent, or into the middle; the projection where there is no case. */
   private settle(): void {
     const { store, stage } = this.app,
-      {
-        document: { tree, volume, state },
-      } = store.get();
+      { tree, volume, state } = store.get().document;
     if (!this.first || (tree === null && (volume === null || state.hasCase))) return;
     this.first = false;
     store.set({
@@ -126,9 +124,7 @@ export class Loader {
     const { store } = this.app,
       pack = state.proposals.length > 0 ? await this.pack("proposals") : null,
       tree = pack === null ? null : new Tree(pack),
-      {
-        selection: { proposal },
-      } = store.get();
+      { proposal } = store.get().selection;
     store.set({
       document: { proposals: tree },
       selection: { proposal: tree?.branches.some(b => b.label === proposal) === true ? proposal : null },
@@ -192,9 +188,7 @@ export class Loader {
     this.shown = { case: ofCase, kind, level };
     this.app.store.set({ document: { surface: new Surface(pack), distance: null } });
     document.body.dataset.surface = kind;
-    const {
-      document: { surface },
-    } = this.app.store.get();
+    const { surface } = this.app.store.get().document;
     if (surface !== null) this.buildBoxes(surface, live, performance.now());
   }
 

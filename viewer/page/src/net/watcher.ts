@@ -180,9 +180,7 @@ export class Watcher {
         document.body.dataset.ready === undefined;
     });
     new MutationObserver(() => {
-      const {
-        document: { state },
-      } = app.store.get();
+      const { state } = app.store.get().document;
       empty.hidden = !app.source.live || state.hasCase || state.hasVolume || state.meshes.length > 0;
     }).observe(document.body, { attributes: true, attributeFilter: ["data-ready"] });
   }

@@ -66,9 +66,7 @@ export function makeBar(element: HTMLElement, app: App, actions: Actions): void 
     });
   const fold = (side: "left" | "right", label: string): HTMLButtonElement =>
     button({ icon: side, label, key: "\\", id: `fold-${side}` }, () => {
-      const {
-        page: { panels },
-      } = store.get();
+      const { panels } = store.get().page;
       store.set({ page: { panels: { ...panels, [side]: !panels[side] } } });
     });
   const left = fold("left", "Fold or open the list of vessels"),

@@ -99,9 +99,7 @@ class CaseMeasures {
   }
 
   private say(): void {
-    const {
-        document: { state },
-      } = this.app.store.get(),
+    const { state } = this.app.store.get().document,
       count = this.rows.length;
     this.note.textContent =
       this.seen === 0
@@ -141,9 +139,7 @@ class CaseMeasures {
   private choose(i: number): void {
     this.chosen = i;
     const row = this.rows[i],
-      {
-        document: { tree },
-      } = this.app.store.get();
+      { tree } = this.app.store.get().document;
     const branch = tree?.branches.findIndex(b => b.label === (row.vessel ?? row.end ?? row.parent)) ?? -1;
     if (branch >= 0) select(this.app, branch);
     this.goTo(placeOf(row));

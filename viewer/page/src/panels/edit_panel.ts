@@ -146,9 +146,7 @@ export function editSection(app: App, hand: Hand): HTMLElement {
     "Join to",
     "Make its first node a child of the nearest node of the chosen vessel",
     v => {
-      const {
-          document: { tree },
-        } = v,
+      const { tree } = v.document,
         to = Number(target.value);
       if (tree === null || target.value === "") return null;
       const first = tree.position(tree.branches[v.selection.selected].firstNode);

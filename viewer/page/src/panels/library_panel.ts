@@ -38,9 +38,7 @@ export function libraryPanel(app: App): HTMLElement[] {
   let library: Library | null = null,
     seen = 0;
   const fill = (): void => {
-    const {
-        document: { state },
-      } = app.store.get(),
+    const { state } = app.store.get().document,
       cases = library?.cases ?? [],
       shown = found(cases, search.value);
     box.hidden = library === null;

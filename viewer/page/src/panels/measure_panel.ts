@@ -94,9 +94,7 @@ function gapSection(app: App, hand: Hand): HTMLElement {
   const { store } = app,
     list = h("ul", { class: "list", id: "gap-list", "aria-label": "Vessels that touch or nearly touch" });
   const find = (): void => {
-    const {
-      document: { tree, blob },
-    } = store.get();
+    const { tree, blob } = store.get().document;
     if (tree === null) return;
     const found = gaps(tree, blob, kMostGaps);
     list.replaceChildren(

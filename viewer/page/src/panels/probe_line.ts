@@ -42,9 +42,7 @@ export function parsePosition(text: string): Vec3 | null {
 
 /** Asks for coordinates and goes there. */
 export async function askPosition(app: App): Promise<void> {
-  const {
-      slices: { crosshair, axes },
-    } = app.store.get(),
+  const { crosshair, axes } = app.store.get().slices,
     text = await askText(
       "Go to a place",
       `x, y and z in mm, ${axes}`,

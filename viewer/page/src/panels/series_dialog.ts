@@ -54,9 +54,7 @@ const kParts = [
 /** Asks whether a volume takes the place of the one that is open or is seen beside it; null: neither. Without an open
  * volume there is nothing to ask. */
 export async function askPart(app: App, name: string): Promise<OpenAs | null> {
-  const {
-    document: { volume, state },
-  } = app.store.get();
+  const { volume, state } = app.store.get().document;
   if (!state.hasVolume) return "auto";
   return (await choose(
     "Replace the volume, or put this one over it?",

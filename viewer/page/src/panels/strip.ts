@@ -292,9 +292,7 @@ export class Strip {
 
   private drawImage(curve: Curve): void {
     const view = this.app.store.get(),
-      {
-        document: { volume, tree },
-      } = view;
+      { volume, tree } = view.document;
     this.image.hidden = volume === null || view.document.volumeReady < volume.size[2];
     if (volume === null || tree === null || this.image.hidden || this.image.clientWidth < 2) return;
     const c = clearedContext(this.image, this.image.clientWidth, this.image.clientHeight),

@@ -130,9 +130,7 @@ export class TreePanel {
   }
 
   private fill(view: Pick<View, "document" | "selection">): void {
-    const {
-      document: { tree },
-    } = view;
+    const { tree } = view.document;
     this.rows = [];
     this.list.replaceChildren();
     this.count.textContent = tree === null ? "" : `${tree.branches.length}`;
@@ -237,9 +235,7 @@ export class TreePanel {
 
   private key(e: KeyboardEvent): void {
     const { app } = this,
-      {
-        selection: { selected },
-      } = app.store.get(),
+      { selected } = app.store.get().selection,
       at = this.rows.findIndex(r => r.branch === selected);
     const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: this.rows.length - 1 }[e.key];
     if (to !== undefined) {
@@ -315,9 +311,7 @@ export class TreePanel {
 }
 
 export async function renameBranch(app: App, branch: number): Promise<void> {
-  const {
-      document: { tree },
-    } = app.store.get(),
+  const { tree } = app.store.get().document,
     old = tree?.branches[branch]?.label;
   if (old === undefined || !app.source.live) return;
   const label = (await askText("Rename the vessel", "Name", old))?.trim();

@@ -169,18 +169,14 @@ export class Flight {
   }
 
   private radiusHere(): number {
-    const {
-      document: { tree },
-    } = this.app.store.get();
+    const { tree } = this.app.store.get().document;
     return this.path === null || tree === null
       ? 1
       : tree.radius[this.path.nodes[locate(this.path, this.s).i]];
   }
 
   private show(): void {
-    const {
-      document: { tree },
-    } = this.app.store.get();
+    const { tree } = this.app.store.get().document;
     if (this.path === null || tree === null) return;
     const { i } = locate(this.path, this.s),
       node = this.path.nodes[i],

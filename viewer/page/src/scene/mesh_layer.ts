@@ -195,9 +195,7 @@ export class MeshLayer {
 
   /** The view shows the mesh as a whole if nothing else is open. */
   private fit(position: Float32Array): void {
-    const {
-      document: { tree, volume },
-    } = this.app.store.get();
+    const { tree, volume } = this.app.store.get().document;
     if (tree !== null || volume !== null || position.length === 0) return;
     const low: Vec3 = [Infinity, Infinity, Infinity],
       high: Vec3 = [-Infinity, -Infinity, -Infinity];

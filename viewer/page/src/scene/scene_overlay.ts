@@ -76,9 +76,7 @@ function drawSelected(
   camera: OrbitCamera,
   view: Pick<View, "document" | "selection" | "motion">,
 ): void {
-  const {
-      selection: { selected },
-    } = view,
+  const { selected } = view.selection,
     tree = shownTree(view),
     branch = tree?.branches[selected];
   if (tree === null || branch === undefined || !isShown(view, selected)) return;

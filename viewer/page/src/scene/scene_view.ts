@@ -247,9 +247,7 @@ export class SceneView implements StageView {
 
   /** Shows everything that there is. */
   fit(): void {
-    const {
-        document: { tree, volume },
-      } = this.app.store.get(),
+    const { tree, volume } = this.app.store.get().document,
       box = tree?.box() ?? null;
     if (box !== null) this.camera.fit(box.low, box.high);
     else if (volume !== null) {

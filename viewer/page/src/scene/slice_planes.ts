@@ -39,9 +39,7 @@ export class SlicePlanes {
   update(view: Pick<View, "document" | "slices" | "scene">, texture: VolumeTexture | null): void {
     for (const child of this.group.children as Mesh[]) child.geometry.dispose();
     this.group.clear();
-    const {
-      document: { volume },
-    } = view;
+    const { volume } = view.document;
     if (!view.scene.layers.slices || texture === null || volume === null) return;
     const u = this.material.uniforms;
     (u.toTexture.value as Matrix4).fromArray(volume.toTexture());

@@ -14,9 +14,7 @@ const within = (mm: number): number => Math.min(kMost, Math.max(kLeast, mm));
 
 /** Changes the slabs of the named slices; of all without a name. */
 function change(app: App, name: SliceName | null, to: (slab: Slab) => Slab): void {
-  const {
-    slices: { slabs },
-  } = app.store.get();
+  const { slabs } = app.store.get().slices;
   app.store.set({
     slices: {
       slabs: Object.fromEntries(

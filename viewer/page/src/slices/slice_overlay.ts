@@ -43,9 +43,7 @@ function drawOutlines(
   slice: SliceProjection,
   view: Pick<View, "document" | "selection" | "scene">,
 ): void {
-  const {
-    document: { surface },
-  } = view;
+  const { surface } = view.document;
   if (surface === null || !view.scene.layers.contours) return;
   const parts = outlines(slice, surface),
     map = slice.toPixels(),

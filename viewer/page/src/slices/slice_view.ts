@@ -261,9 +261,7 @@ export class SliceView implements StageView, SliceProjection {
   }
   /** Steps through the volume by a number of voxels: to the head, to the front, to the left. */
   step(count: number): void {
-    const {
-        document: { volume, tree },
-      } = this.app.store.get(),
+    const { volume, tree } = this.app.store.get().document,
       f = this.frame,
       upwards = this.name === "axial" ? -1 : 1; // the view is from the feet
     const each = volume === null ? Math.max(tree?.voxelSize ?? 0, 0.1) : Math.min(...volume.spacing);

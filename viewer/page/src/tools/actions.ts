@@ -55,9 +55,7 @@ export class Actions {
 
   /** To the file that it came from; a case without one is downloaded. */
   async save(): Promise<void> {
-    const {
-      document: { state },
-    } = this.app.store.get();
+    const { state } = this.app.store.get().document;
     if (!state.hasCase) {
       this.app.inform("There is no case to save yet: track a vessel first.", "warning");
       return;
@@ -179,9 +177,7 @@ export class Actions {
     }
   }
   async cancel(): Promise<void> {
-    const {
-      document: { job },
-    } = this.app.store.get();
+    const { job } = this.app.store.get().document;
     if (job !== null) await this.app.source.cancel(job.job);
   }
 
@@ -190,9 +186,7 @@ export class Actions {
       this.flight.stop();
       return;
     }
-    const {
-      page: { layout },
-    } = this.app.store.get();
+    const { layout } = this.app.store.get().page;
     if (layout !== "four" && layout !== "rows" && layout !== "scene")
       this.app.store.set({ page: { layout: "four" } });
     this.flight.start();

@@ -52,9 +52,7 @@ export class Brush {
 
   press(p: Vec3, slice: SliceView): boolean {
     if (!this.app.source.live) return false;
-    const {
-        document: { tree },
-      } = this.app.store.get(),
+    const { tree } = this.app.store.get().document,
       node = this.nodeAt(p);
     if (tree === null || node < 0) {
       this.app.inform("There is no vessel whose wall could be pushed.", "warning");

@@ -49,9 +49,7 @@ export class Hand {
   /** True: the press was used. */
   press(p: Vec3, slice: SliceView | null, hit: Hit | null = null): boolean {
     const { store } = this.app,
-      {
-        tools: { tool, pending },
-      } = store.get();
+      { tool, pending } = store.get().tools;
     switch (tool) {
       case "seed":
         if (slice !== null && this.holdSeed(p, slice)) return true;
@@ -100,9 +98,7 @@ export class Hand {
   release(): boolean {
     if (this.brush.release()) return true;
     const held = this.held,
-      {
-        document: { tree },
-      } = this.app.store.get();
+      { tree } = this.app.store.get().document;
     if (held === null) return false;
     this.held = null;
     this.app.store.set({ tools: { pending: [] } });
@@ -140,9 +136,7 @@ export class Hand {
       app.inform("This page is one file: seeds are placed in lumen view.", "warning");
       return;
     }
-    const {
-      document: { volume, state },
-    } = store.get();
+    const { volume, state } = store.get().document;
     if (volume !== null && !volume.holds(p)) {
       app.inform("This place is outside of the volume.", "warning");
       return;
@@ -199,9 +193,7 @@ export class Hand {
 
   /** A place that the check reports: its seed, with the vessel that it leaves. */
   takePlace(index: number): void {
-    const {
-        document: { state },
-      } = this.app.store.get(),
+    const { state } = this.app.store.get().document,
       place = state.check?.missing_vessels?.[index];
     if (place === undefined) return;
     const points = seedPoints(place),
@@ -247,17 +239,13 @@ export class Hand {
 
   private nodeAt(p: Vec3, hit: Hit | null): number {
     const view = this.app.store.get(),
-      {
-        document: { tree },
-      } = view;
+      { tree } = view.document;
     if (tree === null) return -1;
     if (hit !== null && hit.node >= 0 && hit.node < tree.count) return hit.node;
     return tree.nearest(p, b => isShown(view, b));
   }
   section(p: Vec3, hit: Hit | null = null): void {
-    const {
-        document: { blob, tree },
-      } = this.app.store.get(),
+    const { blob, tree } = this.app.store.get().document,
       node = this.nodeAt(p, hit);
     if (tree === null || blob === null || node < 0) {
       this.app.inform("A section needs a case with models: fit it first.", "warning");
@@ -273,9 +261,7 @@ export class Hand {
     );
   }
   private touch(p: Vec3, hit: Hit | null): void {
-    const {
-        document: { tree, blob },
-      } = this.app.store.get(),
+    const { tree, blob } = this.app.store.get().document,
       node = this.nodeAt(p, hit);
     if (tree === null || node < 0) return;
     const branch = tree.branch[node],
