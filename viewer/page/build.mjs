@@ -26,7 +26,7 @@ const result = await build({
 });
 await build({
   absWorkingDir: here,
-  entryPoints: ["src/page.css"],
+  entryPoints: ["src/style/page.css"],
   outdir,
   bundle: true,
   minify: true,

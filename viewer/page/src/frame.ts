@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The inner side of <lumen-case src>: the page in its frame learns what to show, and reports when it is shown. */
 import type { CaseFrame, Framed } from "./lumen_case";
-import type { Layout, View } from "./model";
-import type { Source } from "./source";
-import { openFile } from "./source_file";
-import type { Store } from "./store";
-
-const kLayouts: readonly string[] = ["four", "scene", "rows", "axial", "coronal", "sagittal"];
+import { kLayouts, type View } from "./model/model";
+import type { Source } from "./net/source";
+import { openFile } from "./net/source_file";
+import type { Store } from "./base/store";
 
 export class Frame {
   private constructor(
@@ -35,15 +33,17 @@ export class Frame {
     const { layout, panels } = this.framed,
       open = panels !== null && panels !== "none";
     store.set({
-      layout: (kLayouts.includes(layout ?? "") ? layout : "scene") as Layout,
-      panels: { left: open && panels !== "right", right: open && panels !== "left" },
-      strip: open,
+      page: {
+        layout: kLayouts.find(each => each === layout) ?? "scene",
+        panels: { left: open && panels !== "right", right: open && panels !== "left" },
+        strip: open,
+      },
     });
   }
 
   ready(store: Store<View>): void {
     const { theme } = this.framed;
-    if (theme === "light" || theme === "dark") store.set({ theme });
+    if (theme === "light" || theme === "dark") store.set({ page: { theme } });
     this.element.dispatchEvent(new CustomEvent("lumen-ready"));
   }
   fail(text: string): void {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Keys that hold everywhere on the page; views and lists have their own. */
-import type { Actions } from "./actions";
-import { kTools } from "./bar";
-import type { Hand } from "./hand";
-import type { App, Layout } from "./model";
-import { askPosition } from "./probe_line";
-import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./selection";
-import { slabKey } from "./slab";
-import { resetPlanes } from "./slice_input";
-import { renameBranch } from "./tree_panel";
-import type { WorkList } from "./work_list";
-
-const kLayouts: Layout[] = ["four", "rows", "scene", "axial", "coronal", "sagittal"];
+import type { Actions } from "./tools/actions";
+import { kTools } from "./panels/bar";
+import type { Hand } from "./tools/hand";
+import { kLayouts, type App } from "./model/model";
+import { askPosition } from "./panels/probe_line";
+import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
+import { slabKey } from "./slices/slice_controls";
+import { resetPlanes } from "./slices/slice_input";
+import { renameBranch } from "./panels/tree_panel";
+import type { WorkList } from "./panels/work_list";
 
 function typing(e: KeyboardEvent): boolean {
   const t = e.target as HTMLElement;
@@ -65,7 +63,7 @@ function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
 
 function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: WorkList): boolean {
   const { store, source } = app,
-    { selected } = store.get(),
+    { selected } = store.get().selection,
     key = e.shiftKey ? `Shift+${e.key.toUpperCase()}` : e.key.toLowerCase();
   const onVessel = (act: () => void): boolean => {
     if (selected >= 0) act();
@@ -82,7 +80,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
   }
   const layout = /^[1-6]$/.test(key) ? kLayouts[Number(key) - 1] : undefined;
   if (layout !== undefined) {
-    store.set({ layout });
+    store.set({ page: { layout } });
     return true;
   }
   switch (key) {
@@ -97,22 +95,26 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       actions.fit();
       return true;
     case "b":
-      store.set({ strip: !store.get().strip });
+      store.set({ page: { strip: !store.get().page.strip } });
       return true;
     case "c":
-      store.set({ clip: { ...store.get().clip, on: !store.get().clip.on } });
+      store.set({ scene: { clip: { ...store.get().scene.clip, on: !store.get().scene.clip.on } } });
       return true;
     case "\\": {
-      const { left, right } = store.get().panels,
+      const { left, right } = store.get().page.panels,
         open = !(left || right);
-      store.set({ panels: { left: open, right: open } });
+      store.set({ page: { panels: { left: open, right: open } } });
       return true;
     }
     case "l":
-      store.set({ layers: { ...store.get().layers, names: !store.get().layers.names } });
+      store.set({
+        scene: { layers: { ...store.get().scene.layers, names: !store.get().scene.layers.names } },
+      });
       return true;
     case "m":
-      store.set({ cast: ({ off: "mip", mip: "volume", volume: "off" } as const)[store.get().cast] });
+      store.set({
+        scene: { cast: ({ off: "mip", mip: "volume", volume: "off" } as const)[store.get().scene.cast] },
+      });
       return true;
     case "f":
       actions.fly();
@@ -128,7 +130,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       actions.theme();
       return true;
     case "q":
-      if (store.get().planes === "vessel") resetPlanes(app);
+      if (store.get().slices.planes === "vessel") resetPlanes(app);
       else followVessel(app);
       return true;
     case "[":
@@ -171,7 +173,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case "Shift+X":
       return working(() => onVessel(() => atCursor(app, at => void app.perform({ op: "cut", node: at }))));
     case "enter": // without clicks that wait it presses the button that has the keys
-      return store.get().clicks.length > 0 && working(() => void hand.finish());
+      return store.get().tools.clicks.length > 0 && working(() => void hand.finish());
     case "escape":
       return giveUp(app, actions, hand);
     case "Shift+T":
@@ -188,8 +190,11 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
 }
 
 function giveUp(app: App, actions: Actions, hand: Hand): boolean {
-  const { pending, clicks, job, tool } = app.store.get();
-  if (actions.flight?.running === true) actions.flight.stop();
+  const {
+    tools: { pending, clicks, tool },
+    document: { job },
+  } = app.store.get();
+  if (actions.flight.running) actions.flight.stop();
   else if (pending.length + clicks.length > 0) hand.giveUp();
   else if (job !== null) void actions.cancel();
   else if (tool !== "navigate") actions.tool("navigate");

@@ -1,47 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page begins here. */
-import { Actions } from "./actions";
-import { makeBar } from "./bar";
-import { caseMeasuresPanel } from "./case_measures_panel";
-import { displayPanel } from "./display_panel";
-import { findPanel } from "./find_panel";
-import { Flight } from "./flight";
+import { Actions } from "./tools/actions";
+import { makeBar } from "./panels/bar";
+import { caseMeasuresPanel } from "./panels/case_measures_panel";
+import { displayPanel } from "./panels/display_panel";
+import { findPanel } from "./panels/find_panel";
+import { Flight } from "./scene/flight";
 import { Frame } from "./frame";
-import { Hand } from "./hand";
+import { Hand } from "./tools/hand";
 import { listenToKeys } from "./keys";
-import { deviationLegend, surfaceLegend } from "./legend";
-import { libraryPanel } from "./library_panel";
-import { Loader } from "./loader";
+import { deviationLegend, surfaceLegend } from "./panels/legend";
+import { libraryPanel } from "./panels/library_panel";
+import { Loader } from "./net/loader";
 import { LumenCase } from "./lumen_case";
-import { keepView } from "./kept_view";
-import { LocalModel } from "./local_model";
-import { MeshLayer } from "./mesh_layer";
-import { measurePanel } from "./measure_panel";
-import { newStore, type App } from "./model";
-import { motionBar } from "./motion_bar";
-import { Performer } from "./performer";
-import { mayChange, Posing } from "./posing";
-import { offerUnsaved } from "./recover";
-import { ProbeLine } from "./probe_line";
-import { listenToScene } from "./scene_input";
-import { assumptionsPanel, oneSourcePanel } from "./one_source";
-import { SceneView } from "./scene_view";
-import { offerSeries } from "./series_dialog";
-import { makeShell, toast, type Shell } from "./shell";
-import { listenToSlice } from "./slice_input";
-import type { SliceName } from "./slice_frame";
-import { SliceView } from "./slice_view";
-import { Refused, type Source } from "./source";
-import { EmbeddedSource } from "./source_embedded";
-import { ServerSource } from "./source_server";
-import { Stage } from "./stage";
-import { Strip } from "./strip";
-import { Tools } from "./tools";
-import { TreePanel } from "./tree_panel";
-import { h } from "./ui";
-import { applyLayout, Watcher } from "./watcher";
-import { WorkList } from "./work_list";
-import { workPanel } from "./work_panel";
+import { keepView } from "./model/kept_view";
+import { LocalModel } from "./scene/local_model";
+import { MeshLayer } from "./scene/mesh_layer";
+import { measurePanel } from "./panels/measure_panel";
+import { newStore, type App } from "./model/model";
+import { motionBar } from "./panels/motion_bar";
+import { Performer } from "./net/performer";
+import { mayChange, Posing } from "./model/posing";
+import { offerUnsaved } from "./panels/recover";
+import { ProbeLine } from "./panels/probe_line";
+import { listenToScene } from "./scene/scene_input";
+import { assumptionsPanel, oneSourcePanel } from "./panels/one_source";
+import { SceneView } from "./scene/scene_view";
+import { offerSeries } from "./panels/series_dialog";
+import { makeShell, toast, type Shell } from "./panels/shell";
+import { listenToSlice } from "./slices/slice_input";
+import { kSliceNames } from "./slices/slice_frame";
+import { SliceView } from "./slices/slice_view";
+import { Refused, type Source } from "./net/source";
+import { EmbeddedSource } from "./net/source_embedded";
+import { ServerSource } from "./net/source_server";
+import { Stage } from "./drawing/stage";
+import { Strip } from "./panels/strip";
+import { Tools } from "./tools/tools";
+import { TreePanel } from "./panels/tree_panel";
+import { errorText, h } from "./base/ui";
+import { applyLayout, Watcher } from "./net/watcher";
+import { WorkList } from "./panels/work_list";
+import { workPanel } from "./panels/work_panel";
 
 function makeApp(source: Source, shell: Shell): App {
   const store = newStore(),
@@ -58,9 +58,7 @@ function makeApp(source: Source, shell: Shell): App {
         return true;
       } catch (error) {
         app.inform(
-          error instanceof Refused
-            ? error.message
-            : `The operation failed: ${error instanceof Error ? error.message : String(error)}`,
+          error instanceof Refused ? error.message : `The operation failed: ${errorText(error)}`,
           "error",
         );
         return false;
@@ -76,9 +74,7 @@ async function start(root: HTMLElement): Promise<void> {
   const state = source.state(); // the request is on its way while the graphics start
   const shell = makeShell(root);
   const app = makeApp(source, shell);
-  const slices = (["axial", "coronal", "sagittal"] as SliceName[]).map(
-      name => new SliceView(name, shell[name], app),
-    ),
+  const slices = kSliceNames.map(name => new SliceView(name, shell[name], app)),
     scene = new SceneView(shell.scene, app);
   for (const view of [...slices, scene]) app.stage.add(view);
   new Posing(app);
@@ -116,52 +112,6 @@ async function start(root: HTMLElement): Promise<void> {
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene),
     watcher = new Watcher(app, shell, loader, actions);
-  app.store.watch(
-    [
-      "crosshair",
-      "frame",
-      "planes",
-      "tree",
-      "window",
-      "layout",
-      "interpolate",
-      "slabs",
-      "second",
-      "secondReady",
-      "secondWindow",
-      "beside",
-    ],
-    view => {
-      for (const slice of slices) {
-        slice.texture?.interpolate(view.interpolate);
-        slice.second?.interpolate(view.interpolate);
-        app.stage.invalidate(slice);
-      }
-    },
-  );
-  app.store.watch(
-    [
-      "surface",
-      "posed",
-      "hidden",
-      "solo",
-      "selected",
-      "colours",
-      "layers",
-      "measurements",
-      "pending",
-      "brushLines",
-      "stroke",
-      "clicks",
-      "state",
-      "proposals",
-      "proposal",
-      "place",
-    ],
-    () => {
-      for (const slice of slices) app.stage.invalidateOver(slice);
-    },
-  );
   await watcher.begin(state);
   frame?.ready(app.store);
 }
@@ -173,7 +123,7 @@ class PageCase extends LumenCase {
     else if (this.childElementCount === 0) start(this).catch((error: unknown) => this.fail(error));
   }
   private fail(error: unknown): void {
-    const text = error instanceof Error ? error.message : String(error);
+    const text = errorText(error);
     this.append(
       h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)),
     );

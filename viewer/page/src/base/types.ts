@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Messages between server and page (viewer/README.md), as far as the page reads them. Lengths in mm, positions in LPS. */
+
+export type Vec3 = [number, number, number];
+
+export interface Seed {
+  label: string;
+  kind: string;
+  parent: string | null;
+  points: { position: Vec3; radius: number | null }[];
+  tracked: boolean;
+}
+
+/** A vessel that was found and waits to be accepted. */
+export interface Proposal {
+  label: string;
+  kind: string;
+  /** mm */
+  length: number;
+  /** Median, mm. */
+  radius: number;
+  /** Mean inlier rate of its nodes, in [0, 1]. */
+  confidence: number | null;
+  /** Vessel of the case, or proposal, that it leaves. */
+  parent: string | null;
+  /** Its parent is a proposal. */
+  parentWaits: boolean;
+  /** In its middle. */
+  position: Vec3;
+}
+
+export interface MissingVessel {
+  position: Vec3;
+  length_mm: number;
+  radius_mm: number;
+  /** Clicks that track it. */
+  clicks?: { points: Vec3[]; radius: number | null };
+}
+
+export type WorkKind =
+  | "blocked"
+  | "loose"
+  | "doubled"
+  | "missing"
+  | "early-end"
+  | "dark"
+  | "wall-off"
+  | "thin";
+
+/** A place that the check leaves to be decided. */
+export interface WorkItem {
+  id: number;
+  kind: WorkKind;
+  position: Vec3;
+  /** The nearest of the case, and its branch. */
+  node: number;
+  branch: number;
+  /** A clause for people. */
+  about: string;
+  /** Number of the missing vessel that may be tracked from there. */
+  missing: number | null;
+}
+
+export interface IgnoredPlace {
+  kind: WorkKind;
+  position: Vec3;
+  reason: string;
+}
+
+interface Work {
+  items: WorkItem[];
+  /** Their number when the check ended. */
+  found: number;
+  ignored: IgnoredPlace[];
+}
+
+interface CheckAnswer {
+  missing_vessels?: MissingVessel[];
+  wall?: { offset_mm?: { median?: number; p90_absolute?: number } };
+}
+
+export interface UnsavedFile {
+  name: string;
+  /** When it was written, ms since 1970. */
+  written: number;
+  /** Whether that was after the file that `save` writes. */
+  newer: boolean;
+}
+
+/** A series of a folder of DICOM. */
+export interface DicomSeries {
+  description: string;
+  modality: string;
+  files: number;
+  /** Columns, rows, slices. */
+  size: Vec3;
+  /** mm; null where `fault` says why it cannot be opened. */
+  spacing: Vec3 | null;
+  fault: string | null;
+}
+
+export interface SeriesList {
+  folder: string;
+  list: DicomSeries[];
+  /** Why files cannot be read, the first ones; `faulty` counts all. */
+  faults: string[];
+  faulty: number;
+  /** Files that are no images. */
+  others: number;
+}
+
+export interface FileEntry {
+  id: number | string;
+  kind: string;
+  name: string;
+  changed: boolean;
+  /** Not dropped: it can be read again. */ named: boolean;
+}
+
+/** Revisions of the parts of the document; those of packs are their ETags. */
+interface Revisions {
+  case: number;
+  surface: number;
+  volume: number;
+  seeds: number;
+  proposals?: number;
+  second?: number;
+  meshes?: number;
+  truth?: number;
+  distance?: number;
+  library?: number;
+  measures?: number;
+  series?: number;
+}
+
+export interface State {
+  revision: number;
+  revisions: Revisions;
+  title: string;
+  files: FileEntry[];
+  hasVolume: boolean;
+  hasCase: boolean;
+  hasTruth: boolean;
+  /** What the reader of the volume took for granted, such as where left and right are. */
+  assumptions: string[];
+  /** A sentence on the volume from which the case was not made, until it is accepted. */
+  otherSource: string | null;
+  /** The volume that is seen beside the first, and a sentence on what speaks against that. */
+  second: { name: string; doubt: string | null } | null;
+  meshes: { id: number | string; name: string }[];
+  seeds: Seed[];
+  proposals: Proposal[];
+  undo: string | null;
+  redo: string | null;
+  unsaved: boolean;
+  saveAs: string | null;
+  /** Files that hold what an earlier program did not save. */
+  unsavedBefore: UnsavedFile[];
+  /** Series that can be opened; null: no folder of DICOM was named or dropped. */
+  series: SeriesList | null;
+  /** Index in the library. */
+  openCase: number | null;
+  job: { job: number; name: string } | null;
+  check: CheckAnswer | null;
+  /** Places that the check leaves to a person; null before a check. */
+  work: Work | null;
+  /** The case has changed since it was checked. */
+  checkIsOld: boolean;
+  /** The case has changed since it was measured. */
+  measuresAreOld: boolean;
+  /** As `lumen compare` answers, or null. */
+  figures: Record<string, unknown> | null;
+  formats: string[];
+  /** Where the page looks first; null: at the widest vessel. */
+  look: Vec3 | null;
+  /** Time of the case's motion that the page shows first, s; null: the case at rest. */
+  time: number | null;
+}
+
+export const kEmptyState: State = {
+  revision: 0,
+  revisions: { case: 0, surface: 0, volume: 0, seeds: 0 },
+  title: "",
+  files: [],
+  hasVolume: false,
+  hasCase: false,
+  hasTruth: false,
+  assumptions: [],
+  otherSource: null,
+  second: null,
+  meshes: [],
+  seeds: [],
+  proposals: [],
+  undo: null,
+  redo: null,
+  unsaved: false,
+  saveAs: null,
+  unsavedBefore: [],
+  series: null,
+  openCase: null,
+  job: null,
+  check: null,
+  work: null,
+  checkIsOld: false,
+  look: null,
+  time: null,
+  measuresAreOld: false,
+  figures: null,
+  formats: [],
+};
+
+export interface LibraryCase {
+  name: string;
+  branches: number | null;
+  length: number | null;
+  error: string | null;
+}
+export interface Library {
+  name: string;
+  cases: LibraryCase[];
+}
+
+export interface BranchRecord {
+  label: string;
+  kind: string;
+  parentNode: number;
+  firstNode: number;
+  nodeCount: number;
+  stopReason: string;
+  confidence: number | null;
+  /** mm, as `lumen info` reports it: with the edge to its parent. */
+  length: number;
+}
+
+export type Event =
+  | { type: "state"; state: State }
+  | { type: "progress"; job: number; stage: string; done: number; total: number }
+  | { type: "message"; severity: "note" | "warning" | "error"; text: string }
+  | { type: "done"; job: number; ok: boolean; text: string }
+  | { type: "lost" }
+  | { type: "back" };
+
+export type Operation = { op: string; [key: string]: unknown };
+
+export interface VesselAtClick {
+  found: boolean;
+  position: Vec3;
+  radius: number;
+  reason?: string;
+}

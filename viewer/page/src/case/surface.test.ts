@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { makePack, Pack } from "./pack";
+import { Surface, vertexNormals } from "./surface";
+
+/** Two squares of two triangles, as parts of one each; `moving` has one triangle of the first. */
+function pack(moving: number[] | null): Pack {
+  const position = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0],
+    triangle = [0, 1, 2, 0, 2, 3, 1, 4, 2];
+  const u32 = (data: number[]): { type: "u32"; shape: number[]; data: Uint32Array<ArrayBuffer> } => ({
+    type: "u32",
+    shape: [data.length / 3, 3],
+    data: new Uint32Array(data),
+  });
+  return new Pack(
+    makePack(
+      {
+        parts: [
+          { name: "a", branch: 0, first: 0, count: 2, movingFirst: 0, movingCount: 1 },
+          { name: "b", branch: 1, first: 2, count: 1, movingFirst: 1, movingCount: 0 },
+        ],
+      },
+      {
+        position: { type: "f32", shape: [5, 3], data: new Float32Array(position) },
+        triangle: u32(triangle),
+        node: { type: "u32", shape: [5], data: new Uint32Array(5) },
+        radius: { type: "f32", shape: [5], data: new Float32Array(5).fill(1) },
+        ...(moving === null ? {} : { moving: u32(moving) }),
+      },
+    ),
+  );
+}
+
+describe("Surface", () => {
+  it("hasFewerTrianglesOfTheSameVerticesForMoving", () => {
+    const [a, b] = new Surface(pack([0, 1, 3])).parts;
+    expect([...a.moving!.getIndex()!.array]).toEqual([0, 1, 3]);
+    expect(a.moving!.getAttribute("position")).toBe(a.geometry.getAttribute("position"));
+    expect(a.geometry.getIndex()!.count).toBe(6);
+    expect(b.moving).toBe(null); // none are left of it: it is drawn as it is
+  });
+  it("needsNone", () => {
+    expect(new Surface(pack(null)).parts.map(p => p.moving)).toEqual([null, null]);
+  });
+  it("refusesAVertexThatDoesNotExist", () => {
+    expect(() => new Surface(pack([0, 1, 5]))).toThrow(/moving/);
+  });
+});
+
+describe("vertexNormals", () => {
+  it("pointOutOfATetrahedron", () => {
+    const normal = vertexNormals(
+      new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
+      new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]),
+    );
+    expect(Array.from(normal.slice(0, 3))).toEqual([-1, -1, -1]);
+  });
+});

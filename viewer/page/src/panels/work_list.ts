@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The check as a list of work: every place with what to do, walked through by keys, until nothing is left. */
+import type { Actions } from "../tools/actions";
+import type { App } from "../model/model";
+import { goTo, goToNode } from "../model/selection";
+import type { IgnoredPlace, State, WorkItem } from "../base/types";
+import { askText, button, h, link, mm, replaceRows, section } from "../base/ui";
+import { countKinds, kWorkTitles, remediesOf, requestOf, type Remedy } from "../case/work_items";
+
+const kRemedyWords: Record<Remedy, { text: string; icon: string; label: string; changes: boolean }> = {
+  track: { text: "Track", icon: "play", label: "Track the vessel from here", changes: false },
+  cut: { text: "Cut", icon: "cut", label: "Cut the vessel here", changes: true },
+  join: { text: "Join", icon: "check", label: "Join it to the nearest vessel", changes: true },
+  delete: { text: "Delete", icon: "trash", label: "Delete the vessel", changes: true },
+};
+
+/** Acts on places and proposals, for buttons and keys alike. */
+export class WorkList {
+  constructor(
+    private readonly app: App,
+    private readonly actions: Actions,
+  ) {}
+
+  /** The item that was shown last and is left, or undefined. */
+  private get current(): WorkItem | undefined {
+    const {
+      document: { state },
+      selection: { place },
+    } = this.app.store.get();
+    return state.work?.items.find(item => item.id === place);
+  }
+
+  /** The label of the proposal that was shown last and waits, or undefined. */
+  private get proposed(): string | undefined {
+    const {
+      document: { state },
+      selection: { proposal },
+    } = this.app.store.get();
+    return state.proposals.find(each => each.label === proposal)?.label;
+  }
+
+  /** Shows a place in every view. */
+  show(item: WorkItem): void {
+    const { store } = this.app;
+    if (item.missing === null) goToNode(this.app, item.node);
+    goTo(this.app, item.position);
+    store.set({ selection: { place: item.id, proposal: null } });
+  }
+
+  /** Goes to the next (1) or the one before (-1): proposals first, then places; round at the ends. */
+  walk(by: 1 | -1): boolean {
+    const {
+        document: { state },
+        selection: { place, proposal },
+      } = this.app.store.get(),
+      items = state.work?.items ?? [],
+      total = state.proposals.length + items.length;
+    if (total === 0) {
+      this.app.inform(
+        state.work === null
+          ? "There is no list yet: find vessels (Shift+F) or check (K)."
+          : "Nothing is left.",
+      );
+      return true;
+    }
+    const proposed = state.proposals.findIndex(p => p.label === proposal),
+      listed = items.findIndex(item => item.id === place),
+      at = proposed >= 0 ? proposed : listed >= 0 ? state.proposals.length + listed : by > 0 ? -1 : 0,
+      next = (at + by + total) % total;
+    if (next < state.proposals.length) {
+      this.app.store.set({ selection: { proposal: state.proposals[next].label, place: null } });
+      goTo(this.app, state.proposals[next].position);
+    } else this.show(items[next - state.proposals.length]);
+    return true;
+  }
+
+  /** The likeliest remedy for what was shown last. */
+  accept(): boolean {
+    const proposal = this.proposed,
+      item = this.current;
+    if (proposal !== undefined) void this.actions.accept([proposal]);
+    else if (item !== undefined) void this.act(item, remediesOf(item)[0]);
+    else return false;
+    return true;
+  }
+  /** Rejects or ignores what was shown last. */
+  dismiss(): boolean {
+    const proposal = this.proposed,
+      item = this.current;
+    if (proposal !== undefined) void this.actions.reject([proposal]);
+    else if (item !== undefined) void this.ignore(item);
+    else return false;
+    return true;
+  }
+
+  /** A remedy that changes a vessel acts only on a place that the views show: elsewhere the first press goes there. */
+  async act(item: WorkItem, remedy: Remedy | undefined): Promise<void> {
+    if (remedy === undefined) return;
+    const {
+      document: { state, tree },
+      selection: { place },
+    } = this.app.store.get();
+    if (kRemedyWords[remedy].changes && place !== item.id) {
+      this.show(item);
+      this.app.inform(
+        `The views show the place now: once more ${remedy === "cut" ? "cuts" : `${remedy}s`}.`,
+        "warning",
+      );
+      return;
+    }
+    const request = requestOf(remedy, item, state, tree);
+    if (request === null) this.app.inform("There is no other tree to join it to.", "warning");
+    else await this.app.perform(request);
+  }
+
+  async ignore(item: WorkItem): Promise<void> {
+    const reason = (await askText("Ignore this place", "Reason, which the case keeps", ""))?.trim();
+    if (reason === undefined || reason === "") return;
+    await this.app.perform({ op: "ignore", item: item.id, reason });
+  }
+}
+
+function sentence(state: State): string {
+  const { check, work } = state,
+    wall = check?.wall?.offset_mm;
+  if (check === null || work === null)
+    return "Lists all that check and reachability find: missing vessels, early ends, dark, blocked and loose places, walls off the volume's edges.";
+  const left = work.items.length === 0 ? "Nothing is left" : countKinds(work.items);
+  return `${left}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
+    state.checkIsOld ? " The case has changed since: check again." : ""
+  }`;
+}
+
+export function checkSection(app: App, actions: Actions, work: WorkList): HTMLElement {
+  const { store } = app,
+    list = h("ul", { class: "list proposals", id: "work-list", "aria-label": "Places to look at" }),
+    about = h("p", { class: "hint", id: "check-about", role: "status" }),
+    bar = h("progress", { id: "work-done", "aria-label": "Places that are done" }),
+    done = h("span", { class: "note", id: "work-count" }),
+    progress = h("div", { class: "row", id: "work-progress" }, bar, done),
+    set = h("ul", { class: "list", id: "ignored-list", "aria-label": "Ignored places" }),
+    ignored = h("details", { id: "ignored" }, h("summary", { class: "hint" }, "Ignored"), set);
+  const run = button(
+    {
+      icon: "check",
+      text: "Check",
+      label: "Compare the case with its volume",
+      key: "K",
+      id: "check",
+      class: "button text",
+    },
+    () => void actions.check(),
+  );
+  const step = (id: string, text: string, label: string, key: string, by: 1 | -1): HTMLButtonElement =>
+    button({ id, text, label, key, class: "button text" }, () => void work.walk(by));
+  const before = step("work-before", "Before", "Show the place before", ",", -1),
+    next = step("work-next", "Next", "Show the next place", ".", 1);
+  store.watch(["document.state"], ({ document: { state } }) => {
+    const items = state.work?.items ?? [],
+      found = state.work?.found ?? 0;
+    run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
+    about.textContent = sentence(state);
+    progress.hidden = found === 0;
+    list.hidden = items.length === 0;
+    before.hidden = next.hidden = items.length + state.proposals.length === 0;
+    bar.max = Math.max(found, 1);
+    bar.value = found - items.length;
+    done.textContent = `${found - items.length} of ${found} done`;
+    replaceRows(
+      list,
+      items.map((item, i) => workRow(app, work, item, i > 0 && items[i - 1].kind === item.kind)),
+    );
+    const places = state.work?.ignored ?? [];
+    ignored.hidden = places.length === 0;
+    ignored.querySelector("summary")!.textContent = `Ignored: ${places.length}`;
+    set.replaceChildren(...places.map((place, i) => ignoredRow(app, place, i)));
+  });
+  store.watch(["selection.place"], ({ selection: { place } }) => {
+    for (const row of list.children) {
+      const isChosen = place !== null && row.id === `work-${place}`;
+      row.classList.toggle("chosen", isChosen);
+      if (isChosen) row.scrollIntoView({ block: "nearest" });
+    }
+  });
+  return section(
+    "section-check",
+    "Check",
+    true,
+    about,
+    progress,
+    list,
+    ignored,
+    h("div", { class: "row end" }, before, next, run),
+  );
+}
+
+function workRow(app: App, work: WorkList, item: WorkItem, goesOn: boolean): HTMLElement {
+  const {
+      document: { state },
+      selection: { place },
+    } = app.store.get(),
+    words = `${item.about.charAt(0).toUpperCase()}${item.about.slice(1)}`,
+    acts = remediesOf(item).map(remedy =>
+      button(
+        {
+          icon: kRemedyWords[remedy].icon,
+          label: `${kRemedyWords[remedy].label}: ${item.about}`,
+          class: `button ${remedy}`,
+        },
+        () => void work.act(item, remedy),
+      ),
+    );
+  const ignore = button(
+    { icon: "close", label: `Ignore, with a reason: ${item.about}`, class: "button ignore" },
+    () => void work.ignore(item),
+  );
+  for (const each of [...acts, ignore]) each.disabled = state.job !== null;
+  return h(
+    "li",
+    {
+      class: place === item.id ? "row item chosen" : "row item",
+      id: `work-${item.id}`,
+      "data-kind": item.kind,
+    },
+    h(
+      "div",
+      { class: "what" },
+      goesOn ? null : h("div", { class: "kind" }, kWorkTitles[item.kind][1]),
+      h(
+        "button",
+        { type: "button", class: "link about", title: "Show it", onclick: () => work.show(item) },
+        words,
+      ),
+    ),
+    ...acts,
+    ignore,
+  );
+}
+
+function ignoredRow(app: App, place: IgnoredPlace, index: number): HTMLElement {
+  return h(
+    "li",
+    { class: "row item" },
+    link(kWorkTitles[place.kind]?.[0] ?? place.kind, () => goTo(app, place.position)),
+    h("span", { class: "note", title: place.reason }, place.reason),
+    button(
+      { icon: "undo", label: `Stop ignoring it: ${place.reason}`, class: "button" },
+      () => void app.perform({ op: "unignore", ignored: index }),
+    ),
+  );
+}
