@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen measure, from outside.
+// lumen measure, and centerlines of other programs in and out, from outside.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -100,7 +100,6 @@ TEST_F(MeasureTest, RefusesWhatItCannotDo) {
 
 }  // namespace
 
-// Centerlines of other programs in and out, from outside.
 using nlohmann::json;
 
 class CenterlineTest : public CliTest {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points beyond 1e9 mm, where f counts as zero, on every back end.
+// Cursors, and points beyond 1e9 mm, where f counts as zero, on every back end.
 #include <algorithm>
 #include <array>
 #include <cmath>
