@@ -52,6 +52,7 @@ private:
 };
 
 // How far the surfaces of adjacent models are apart where one takes over from the other.
+
 /// A seam is the part of the radical plane of a node and its parent that both cells share: where no
 /// other node within two edges of either has a smaller power. The surface of each of the two models
 /// is sampled on it along rays in the plane, from the point where the plane meets the line between

@@ -20,6 +20,7 @@ std::vector<Vector3d> withNoise(const ConvolutionShape& shape, std::vector<Vecto
 
 // Cost of noise alone: the error of a least-squares fit of the family of shapes that the points
 // are of. A fit without bias that does not know the shape has a larger one.
+
 /// A direction in which a shape may change: velocities of its blobs and rates of their widths.
 struct ShapeChange {
   std::vector<Vector3d> velocity;

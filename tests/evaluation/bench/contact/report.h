@@ -41,7 +41,6 @@ CaseResult describeCase(const Vessel& vessel, const std::vector<Truth>& truth,
 /// For report.py.
 std::string json(const std::vector<CaseResult>& results);
 
-// Options of the benchmarks of contact.
 struct ContactOptions {
   std::string json;
   std::size_t environments = 4096;
