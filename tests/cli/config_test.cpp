@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // --config: its syntax, and what wins.
+#include <array>
+#include <bit>
+#include <set>
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "converters/base/option_name.h"
+#include "converters/cli/command_line.h"
+#include "converters/cli/commands.h"
+#include "converters/export/shared/flow_inlets.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
@@ -99,6 +108,154 @@ TEST_F(ConfigTest, AFileThatDoesNotEndIsRefusedAtOnce) {
     EXPECT_NE(refused.err.find("which is no regular file"), std::string::npos) << refused.err;
   }
   EXPECT_EQ(entries(), std::vector<std::string>{"fifo"});
+}
+
+namespace {
+
+// Rules for every option of every command, found in the rows of their tables.
+/// An option or a positional argument of a command.
+struct Argument {
+  std::string command, name, type;
+  bool positional = false;
+  std::size_t before = 0;  ///< positional arguments of the command
+};
+
+std::vector<Argument> everyArgument() {
+  std::vector<Argument> all;
+  const engine::Engine commands = cli::allCommands();
+  cli::CommonOptions common;
+  OptionTable shared;
+  common.addRows(shared);
+  for (const auto& [command, table] : commands.commands()) {
+    std::size_t before = 0;
+    for (const OptionTable* rows :
+         {static_cast<const OptionTable*>(table.get()), static_cast<const OptionTable*>(&shared)})
+      for (const OptionRow& row : rows->rows()) {
+        if (!row.isFlag())
+          all.push_back({command->name(), row.shownName(), row.type, row.isArgument, before});
+        before += row.isArgument ? 1 : 0;
+      }
+  }
+  return all;
+}
+
+bool isNumber(const Argument& argument) {
+  static const std::set<std::string> kWords = {
+      "FILE", "F",   "ID",   "NAME", "UNIT", "FRAME", "PATH",   "LIST", "LABEL",         "TEXT",
+      "SPDX", "DAY", "UUID", "CODE", "DOI",  "WORD",  "LENGTH", "WxH",  "[LABEL=]LENGTH"};
+  return !argument.positional && !kWords.contains(argument.type);
+}
+
+bool isFile(const Argument& argument) {
+  static const std::set<std::string> kWords = {"NAME", "SHELL", "TARGET", "ID"};
+  return argument.positional ? !kWords.contains(argument.name)
+                             : argument.type == "FILE" || argument.type == "PATH";
+}
+
+/// Names of the options of all commands, without dashes.
+std::set<std::string> everyOptionName() {
+  std::set<std::string> names;
+  const auto take = [&names](const OptionTable& table) {
+    for (const OptionRow& row : table.rows())
+      if (!row.isArgument) names.insert(row.name);
+  };
+  const engine::Engine commands = cli::allCommands();
+  for (const auto& [command, table] : commands.commands()) take(*table);
+  cli::CommonOptions common;
+  OptionTable shared;
+  common.addRows(shared);
+  take(shared);
+  return names;
+}
+
+/// Exit code and standard error of a run in this process; the first argument is the name of a command.
+std::pair<int, std::string> runHere(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {"lumen", engine::firstWord(arguments.front())};
+  if (words[1] != arguments.front()) words.push_back(arguments.front().substr(words[1].size() + 1));
+  words.insert(words.end(), arguments.begin() + 1, arguments.end());
+  std::vector<const char*> argv;
+  for (const auto& word : words) argv.push_back(word.c_str());
+  testing::internal::CaptureStderr();
+  const int code = cli::runCommandLine(static_cast<int>(argv.size()), argv.data());
+  return {code, testing::internal::GetCapturedStderr()};
+}
+
+}  // namespace
+
+TEST(OptionsTest, EveryNumberIsRefusedWithWhatWasFoundAndWhatIsExpected) {
+  std::size_t numbers = 0;
+  for (const Argument& argument : everyArgument()) {
+    if (!isNumber(argument)) continue;
+    ++numbers;
+    for (const char* value : {"many", "nan", "inf", "1e999", "-1", "1 2", "0x10", ""}) {
+      const auto [code, text] = runHere({argument.command, argument.name + "=" + value});
+      const std::string found = *value == '\0' ? "nothing" : value;
+      // times of a motion may be before 0
+      if (argument.name == "--time" && std::string_view(value) == "-1") continue;
+      // an empty value that is attached to its option is none at all
+      if (*value == '\0' && text.find("needs a value") != std::string::npos) continue;
+      EXPECT_EQ(code, 2) << argument.command << " " << argument.name << "=" << value;
+      EXPECT_EQ(text.find("lumen: error: " + argument.name + ": found " + found + ", expected "),
+                0U)
+          << argument.command << " " << argument.name << "=" << value << "\n"
+          << text;
+    }
+  }
+  EXPECT_GT(numbers, 50U);
+}
+
+TEST(OptionsTest, EveryNameThatMessagesMentionIsThatOfARow) {
+  using Names = std::array<OptionName, sizeof(OptionNames) / sizeof(OptionName)>;
+  const std::set<std::string> known = everyOptionName();
+  for (const OptionName& option : std::bit_cast<Names>(kOption))
+    EXPECT_TRUE(known.contains(option.name)) << option.shown();
+  using FlowNames = std::array<OptionName, sizeof(convert::FlowOptionNames) / sizeof(OptionName)>;
+  for (const OptionName& option : std::bit_cast<FlowNames>(convert::kFlowOption))
+    EXPECT_TRUE(known.contains(option.name)) << option.shown();
+}
+
+TEST(OptionsTest, ZerosBeforeANumberDoNotMakeItOctal) {
+  EXPECT_EQ(runHere({"convert", "--rays=0162"}).second.find("found 0162, expected 12, 42"), 22U);
+  EXPECT_EQ(runHere({"info", "--threads=01025"}).second.find("found 01025, expected"), 25U);
+}
+
+TEST(OptionsTest, NoFileIsCalledAHyphenOrNothing) {
+  std::size_t files = 0;
+  for (const Argument& argument : everyArgument()) {
+    if (!isFile(argument)) continue;
+    ++files;
+    for (const std::string value : {"-", ""}) {
+      // positional arguments are filled from the first on
+      std::vector<std::string> line = {argument.command};
+      if (!argument.positional) line.push_back(argument.name);
+      for (std::size_t i = 0; argument.positional && i < argument.before; ++i)
+        line.push_back(i > 0                           ? "x"
+                       : argument.command == "phantom" ? "tube"
+                       : argument.command == "export"  ? "sofa"
+                                                       : "x");
+      line.push_back(value);
+      const auto [code, text] = runHere(line);
+      EXPECT_EQ(code, 2) << argument.command << " " << argument.name;
+      EXPECT_NE(text.find(argument.name + ": "), std::string::npos) << text;
+      EXPECT_NE(text.find(value.empty() ? "is empty" : "standard input"), std::string::npos)
+          << text;
+    }
+  }
+  EXPECT_GT(files, 12U);
+}
+
+TEST(OptionsTest, EveryMisspeltOptionGetsItsSuggestion) {
+  for (const Argument& argument : everyArgument()) {
+    if (argument.positional) continue;
+    const std::string typed = argument.name + "e";
+    const auto [code, text] = runHere({argument.command, typed});
+    EXPECT_EQ(code, 2);
+    EXPECT_NE(text.find(typed + ": lumen " + argument.command + " has no such option"),
+              std::string::npos)
+        << text;
+    // another name may be as near, such as --seeds
+    EXPECT_NE(text.find("did you mean --"), std::string::npos) << text;
+  }
 }
 
 }  // namespace lumen::test

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes of every message before it is shown, and suggestions for a slip.
+#include <array>
+#include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/engine/answers/case_losses.h"
+#include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
 
@@ -39,6 +43,91 @@ TEST(Suggestion, NothingNearIsNoSuggestion) {
   EXPECT_EQ(closest("", {"fit"}), "");
   EXPECT_EQ(didYouMean("polish", {"convert"}), "");
   EXPECT_EQ(didYouMean("confert", {"convert"}), "; did you mean convert?");
+}
+
+}  // namespace lumen::test
+
+namespace lumen::engine {
+namespace {
+
+class Warnings : public Progress {
+public:
+  void warn(std::string_view message) override { text += message; }
+  std::string text;
+};
+
+/// Report on a branch whose losses are at nodes of a quarter of a millimetre or more, which
+/// cells up to a millimetre resolve.
+std::string reportedFor(double cell, bool hasSurface) {
+  convert::Patches patches;
+  patches.surface.labels = {"thin"};
+  patches.losses = {{9, hasSurface ? 100U : 0U, 2, 5, 0.25}};
+  Warnings warnings;
+  reportLosses(patches, "out.glb", cell, warnings);
+  return warnings.text;
+}
+
+TEST(LossReport, AsksForFinerCellsOnlyWhereTheseWereTooCoarse) {
+  for (const bool hasSurface : {false, true}) {
+    const std::string coarse = reportedFor(1.5, hasSurface);
+    EXPECT_NE(coarse.find("cells of 1.5 mm are too coarse there: --cell 1 or less"),
+              std::string::npos)
+        << coarse;
+    for (const double cell : {1.0, 0.5}) {
+      const std::string fine = reportedFor(cell, hasSurface);
+      EXPECT_NE(fine.find("finer cells do not help"), std::string::npos) << fine;
+      EXPECT_EQ(fine.find("--cell"), std::string::npos) << fine;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lumen::engine
+
+// Completions that bash offers with the script of `lumen completion bash`.
+namespace lumen::test {
+
+class CompletionTest : public CliTest {
+protected:
+  void SetUp() override {
+    const Outcome script = lumen({"completion", "bash"});
+    ASSERT_EQ(script.code, 0) << script.err;
+    write("script", script.out);
+  }
+
+  /// The words offered for the last of `words`, which follow the program's name.
+  [[nodiscard]] std::string offered(const std::string& words) const {
+    write("ask", "source '" + path("script").string() + "'; COMP_WORDS=(lumen " + words +
+                     "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _lumen; echo \"${COMPREPLY[*]}\"");
+    std::string text;
+    FILE* shell = popen(("bash '" + path("ask").string() + "' 2>&1").c_str(), "r");
+    std::array<char, 256> line{};
+    while (std::fgets(line.data(), line.size(), shell) != nullptr) text += line.data();
+    pclose(shell);
+    return text;
+  }
+};
+
+TEST_F(CompletionTest, Commands) {
+  EXPECT_EQ(offered("comp"), "compare completion\n");
+}
+
+TEST_F(CompletionTest, OptionsOfTheCommand) {
+  EXPECT_EQ(offered("validate --m"), "--max-issues\n");
+  EXPECT_EQ(offered("fit --thr"), "--threads\n");
+}
+
+TEST_F(CompletionTest, FormatsOfFromAndTo) {
+  EXPECT_EQ(offered("convert --to g"), "glb gltf\n");
+  EXPECT_EQ(offered("convert --from nr"), "nrrd\n");
+}
+
+TEST_F(CompletionTest, FileNamesAreLeftToTheShell) {
+  EXPECT_EQ(offered("convert a"), "\n");
+}
+
+TEST_F(CompletionTest, AnotherShellIsAUsageError) {
+  EXPECT_EQ(lumen({"completion", "tcsh"}).code, 2);
 }
 
 }  // namespace lumen::test

@@ -1,22 +1,6 @@
-lumen_test(blob_test
+lumen_test(blob_test FOLDER blob WITHOUT blob_header_cpp.cpp device_agreement.cpp device_cuda.cpp device_opencl.cpp
   LABELS memory threads
-  LIBS lumen_options lumen::blob_static lumen_case
-  SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/allocations.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/batch_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/closed_form_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/cursor_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/derivative_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_exact_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/device_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/far_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/open_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/pose_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/robust_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/seam_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/wall_step_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/wall_test.cpp)
+  LIBS lumen_options lumen::blob_static lumen_case)
 target_include_directories(blob_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
 target_compile_definitions(blob_test PRIVATE LUMEN_CONFORMANCE="${LUMEN_CONFORMANCE_SET}")
 add_dependencies(blob_test conformance_set)

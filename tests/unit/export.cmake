@@ -50,13 +50,8 @@ lumen_test(export_test
   LIBS lumen_export
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/export_case_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/export_text_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/hostile_labels_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/markdown_text_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/paths_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/simvascular_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/wall_files_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/frame_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/named_end_test.cpp)
 
 # One case through every target, located again by the target's own loader; and cases that are hard to export.

@@ -2,7 +2,6 @@ lumen_test(flow_test
   LIBS lumen_export lumen_base
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/flow_inlets_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/flow_pressure_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/network_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/oned_network_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/openfoam_test.cpp

@@ -1,31 +1,6 @@
-lumen_test(formats_test
+lumen_test(formats_test FOLDER formats WITHOUT write_spec.cpp
   LABELS memory
-  LIBS lumen_case nlohmann_json::nlohmann_json
-  SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/allocation_meter.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/atomic_file_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/binary_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/blobby_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/case_view_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/container_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/crc32c_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/encoding_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/file_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/full_case_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_text_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/places_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/memory_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/motion_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/node_origin_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/printable_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/reachability_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/report_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_tables.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/topology_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/validate_test.cpp)
+  LIBS lumen_case nlohmann_json::nlohmann_json)
 target_include_directories(formats_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 # ninja write_spec && tests/write_spec spec tests: makes the generated parts of the specification anew.

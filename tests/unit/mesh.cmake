@@ -8,9 +8,7 @@ lumen_test(mesh_test
     nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/gltf_skin_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_parts_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/sofa_scene_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/vertex_color_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_coded_gltf_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_gltf_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_plain_test.cpp)
@@ -58,7 +56,6 @@ lumen_test(read_mesh_test
   LIBS lumen_repair
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/box_tree_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/convex_hull_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_faults_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp

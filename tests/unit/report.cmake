@@ -1,13 +1,6 @@
 # The pieces of a report, and texts of cases in pages.
-lumen_test(report_test
-  LIBS lumen_report
-  SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/html_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/number_text_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/axis_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/table_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/profile_plot_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/tree_profiles_test.cpp)
+lumen_test(report_test FOLDER report
+  LIBS lumen_report)
 
 # The page in Chromium, from disk and on paper. Its packages are those of the viewer's page.
 if(NODE)

@@ -1,8 +1,5 @@
-lumen_test(sofa_test
-  LIBS lumen_export
-  SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/insertion_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/sofa/scene_test.cpp)
+lumen_test(sofa_test FOLDER sofa
+  LIBS lumen_export)
 
 # Exports for simulators, checked from outside: by SOFA itself where it is, by lists of its components, by a reader of
 # our own.

@@ -1,17 +1,7 @@
 find_package(OpenMesh REQUIRED)
-lumen_test(surface_test
+lumen_test(surface_test FOLDER surface WITHOUT ends_test.cpp extension_test.cpp flat_region_test.cpp random_trees_test.cpp thick_wall_test.cpp
   LABELS threads
-  LIBS lumen_surface OpenMeshCore
-  SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extract_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/decimate_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_table_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/node_field_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/patch_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/remesh_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/to_surface_mesh_test.cpp)
+  LIBS lumen_surface OpenMeshCore)
 
 # Closed surfaces of random trees.
 lumen_test(random_surface_test
@@ -23,10 +13,7 @@ lumen_test(random_surface_test
 lumen_test(ends_test
   LIBS lumen_surface
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/stretches_without_wall_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/crossing_search_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/surface_size_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/thick_wall_test.cpp)

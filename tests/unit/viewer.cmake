@@ -6,7 +6,6 @@ lumen_test(viewer_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/arguments_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/document_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/kept_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/measures_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/mesh_deviation_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/moving_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/proposals_test.cpp

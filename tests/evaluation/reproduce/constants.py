@@ -340,10 +340,6 @@ def report(sources, effects, real_rows):
     head = ["", "| constant | file | value | effect of less | effect of more |", "|---|---|---|---|---|"]
     lines += ["", "## More than chance", *head, *map(both, decide), "", "## No more than chance", *head, *map(both, rest)]
     if real_rows: lines += ["", "## A real volume", "", *real_rows]
-    lines += ["", "## No effect on any phantom", "", "| constant | file | value |", "|---|---|---|"]
-    lines += [f"| {shown(c)} | {c.split(':')[0]} | {value(c)} |" for c in none]
-    lines += ["", "## Not changed", "", "The compiler needs these: sizes of arrays, arguments of templates.", ""]
-    lines += [f"- {shown(c)} ({c.split(':')[0]})" for c in sorted(sources.fixed & set(sources.values))]
     return "\n".join(lines) + "\n", decide + sorted(rest, key=lambda c: -effects.weight(c))
 
 

@@ -14,11 +14,8 @@
 #include <tbb/parallel_for.h>
 
 #include "convolution_shapes.h"
-#include "family_fit.h"
-#include "particles.h"
-#include "plot.h"
+#include "implicit_surface.h"
 #include "report.h"
-#include "seams.h"
 #include "shape_fit.h"
 
 namespace {

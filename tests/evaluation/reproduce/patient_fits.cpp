@@ -19,8 +19,8 @@
 #include "converters/stages/surface/patches/polygonise.h"
 #include "converters/stages/tracking/track_case.h"
 #include "formats/case/case_file.h"
+#include "implicit_surface.h"
 #include "report.h"
-#include "seams.h"
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -51,5 +52,25 @@ void writeText(const std::filesystem::path& file, const std::string& text);
 /// usage.
 int runReport(int argc, char** argv, const std::string& program,
               void (*run)(const std::filesystem::path& folder, Progress& progress));
+
+// The data of line plots, which plots.py draws.
+struct Curve {
+  std::string name;
+  std::vector<std::pair<double, double>> points;
+  bool dashed = false;
+};
+
+struct Plot {
+  std::string title, xLabel, yLabel;
+  bool logarithmic = false;  ///< the y axis; values that are not above zero are left out
+  std::vector<Curve> curves;
+};
+
+/// {"title", "x", "y", "logarithmic", "curves": [{"name", "dashed", "points": [[x, y], ...]},
+/// ...]}; a coordinate that is not finite is null.
+std::string plotJson(const Plot& plot);
+
+/// Writes `name`.plot.json, of which plots.py makes `name`.svg. Throws Error(Failed).
+void writePlot(const std::filesystem::path& folder, const std::string& name, const Plot& plot);
 
 }  // namespace lumen::reproduce

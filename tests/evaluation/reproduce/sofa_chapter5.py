@@ -19,9 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
-import sofa_pictures
 from lumen import blob
-from sofa_run import LEAK, axis_points, depths, run_scene
+from sofa_run import LEAK, axis_points, depths, draw_wires, run_scene, surface_points
 from sofa_scene import Instrument, Scene, Section, scene_text
 
 MESHES = {"mesh 100k": ("--edge", "0.77r"), "mesh 24k": ("--edge", "0.8r", "--max-error", "0.25")}
@@ -173,7 +172,7 @@ def main():
         walls[name] = {"mesh": str(mesh)}
     surface = None
     if MESHES:
-        surface = sofa_pictures.surface_points(folder / (next(iter(MESHES)).replace(" ", "-") + ".obj"))
+        surface = surface_points(folder / (next(iter(MESHES)).replace(" ", "-") + ".obj"))
     for part in sys.argv[6:] or PARTS:
         first, scene, steps = PARTS[part](case)
         wires = {}
@@ -190,7 +189,7 @@ def main():
             if np.isfinite(run.frames[-1]).all():
                 wires[name] = axis_points(run.frames[-1], 5)
             if surface is not None and wires:
-                sofa_pictures.draw(folder / f"{part}.png", part, wires, surface)
+                draw_wires(folder / f"{part}.png", part, wires, surface)
 
 
 if __name__ == "__main__":

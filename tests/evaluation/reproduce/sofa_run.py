@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a scene in SOFA without a display, and measures: times by SOFA's own timers, the instrument's depth in the wall by
-libblob, from the recorded frames."""
+libblob, from the recorded frames. Pictures of the instrument beside the points of the vessel's surface, in two projections."""
 import os
 import re
 import subprocess
@@ -14,6 +14,10 @@ from lumen import blob
 LEAK = 1.0  # mm: no contact is that deep; the wire has gone through the wall
 # of SOFA's timers: finding contacts, and making constraints of them
 COLLISION = ("CollisionDetection", "Build Constraint Matrix")
+COLOURS = {"implicit": "#0072b2", "mesh 100k": "#d55e00", "mesh 24k": "#e69f00",
+           "soft": "#009e73", "mesh": "#d55e00", "soft-stiff": "#cc79a7", "implicit-stiff": "#56b4e9",
+           "vessel at rest": "#999999", "vessel": "#000000", "vessel, stiff wire": "#f0e442"}
+NEAR = 12  # mm: how much of the vessel is drawn around the instrument
 
 
 @dataclass
@@ -129,3 +133,40 @@ def depths(model, run, radius, first):
         cursors = np.concatenate([np.full(max(0, new), cursors[0], dtype=np.uint32), cursors[max(0, -new):]])
         deepest.append(float((distances(model, points, cursors) + radius).max()))
     return np.array(deepest), cursors
+
+
+def surface_points(path):
+    with open(path, encoding="utf-8") as file:
+        return np.array([line.split()[1:4] for line in file if line.startswith("v ")], float)
+
+
+def near(points, wires):
+    every = np.vstack(wires)
+    inside = ((points > every.min(0) - NEAR) & (points < every.max(0) + NEAR)).all(1)
+    points = points[inside]
+    least = np.full(len(points), np.inf)
+    for place in every[:: max(1, len(every) // 200)]:
+        least = np.minimum(least, np.linalg.norm(points - place, axis=1))
+    return points[least < NEAR]
+
+
+def draw_wires(path, title, wires, surface):
+    """`wires`: axis points (n, 3) by the wall's name, mm."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    points = near(surface, list(wires.values()))
+    figure, axes = plt.subplots(1, 2, figsize=(11, 5.5))
+    for axis, (i, j), names in zip(axes, ((0, 2), (1, 2)), (("x, mm (left)", "z, mm (head)"), ("y, mm (back)", "z, mm (head)"))):
+        axis.scatter(points[:, i], points[:, j], s=1.5, c="#999999", linewidths=0)
+        for name, wire in wires.items():
+            axis.plot(wire[:, i], wire[:, j], color=COLOURS.get(name, "k"), linewidth=1.2, label=name)
+            axis.plot(*wire[-1, [i, j]], "o", color=COLOURS.get(name, "k"), markersize=3)
+        axis.set_aspect("equal")
+        axis.set_xlabel(names[0])
+        axis.set_ylabel(names[1])
+    axes[0].legend(loc="best", fontsize=8)
+    figure.suptitle(title)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+    plt.close(figure)

@@ -22,9 +22,8 @@ from pathlib import Path
 import numpy as np
 
 from lumen import read
-import sofa_pictures
 from sofa_chapter5 import GUIDEWIRE, Case
-from sofa_run import axis_points, depths, run_scene
+from sofa_run import axis_points, depths, draw_wires, run_scene, surface_points
 from sofa_scene import Instrument, Scene, Section, SoftVessel, quaternion, scene_text
 
 VOXEL = 0.5      # mm
@@ -261,7 +260,7 @@ def main():
         wires["vessel at rest"], wires["vessel"] = centres, np.array(results["soft"]["vessel"])
     if "soft-stiff" in results:
         wires["vessel, stiff wire"] = np.array(results["soft-stiff"]["vessel"])
-    sofa_pictures.draw(folder / "siphon.png", "siphon", wires, sofa_pictures.surface_points(mesh))
+    draw_wires(folder / "siphon.png", "siphon", wires, surface_points(mesh))
 
 
 if __name__ == "__main__":

@@ -7,16 +7,23 @@
 // LUMEN makes of a case has NAME ("lumen") in its name. Writes NAME.md and NAME.json there.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "converters/base/error.h"
 #include "converters/base/random.h"
@@ -25,7 +32,6 @@
 #include "converters/io/seeds/seeds.h"
 #include "formats/case/case_file.h"
 #include "report.h"
-#include "timed_run.h"
 #include "vessel_score.h"
 
 namespace {
@@ -33,6 +39,52 @@ namespace {
 using namespace lumen;
 using namespace lumen::reproduce;
 namespace fs = std::filesystem;
+
+/// The whole file. Throws Error(Failed).
+std::string readText(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw failed(file.string() + ": cannot be read");
+  return text.str();
+}
+
+struct TimedRun {
+  double wall = 0;       ///< seconds
+  double processor = 0;  ///< seconds of its own, of all cores together
+};
+
+[[noreturn]] void become(std::vector<std::string> words, const fs::path& out, const fs::path& err) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  if (dup2(creat(out.c_str(), 0600), 1) < 0 || dup2(creat(err.c_str(), 0600), 2) < 0) _exit(126);
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Runs `program` with its standard output and error in files, which are overwritten. Throws
+/// Error(Failed) unless it exits with 0; the message ends with what it wrote to standard error.
+TimedRun runTimed(const fs::path& program, const std::vector<std::string>& arguments,
+                  const fs::path& out, const fs::path& err) {
+  std::vector<std::string> words{program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const auto begin = std::chrono::steady_clock::now();
+  const pid_t child = fork();
+  if (child == 0) become(words, out, err);
+  int status = 0;
+  rusage usage{};
+  if (child < 0 || wait4(child, &status, 0, &usage) != child)
+    throw failed(program.string() + ": cannot be run");
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw failed(program.string() + " " + arguments.at(0) + ": failed: " + readText(err));
+  return {wall.count(), seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+}
 
 struct Arguments {
   bool parents = true;

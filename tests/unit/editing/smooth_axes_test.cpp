@@ -5,10 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/base/edit_steps.h"
+#include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
 #include "converters/stages/editing/correct_topology.h"
+#include "converters/stages/editing/inlets.h"
+#include "converters/stages/editing/trim.h"
+#include "formats/case/validate.h"
 #include "unit/formats/beads.h"
+#include "unit/formats/sample_case.h"
 
 namespace lumen::convert {
 namespace {
@@ -125,6 +131,187 @@ TEST(SmoothAxes, BridgedNodesOfABranchLeadFromItsParentsCore) {
     EXPECT_NEAR(edited.nodes[n].centre.x, 10, 0.1);
     EXPECT_NEAR(edited.nodes[n].centre.z, 0, 0.1);
   }
+}
+
+// Ends that are too thin or too short, on a case of beads along x, half a millimetre apart.
+using formats::Case;
+using formats::test::addBeads;
+using formats::test::alongX;
+
+/// "a" has nodes 0 to 20 of radius 1 from x = 0 to 10. "b" leaves its node 10 and has 6 nodes of
+/// radius 0.5, the last two 0.2. "c" hangs on the last node of "b", 4 nodes of radius 0.2. "d"
+/// leaves node 18 of "a", 12 nodes of radius 0.8, so that 1 mm of "a" lies behind it.
+Case makeTree() {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", alongX(0, 0.5F, 21), 1);
+  addBeads(value, "b", alongX(5.5F, 0.5F, 6, 2), 1, 10);
+  addBeads(value, "c", alongX(8.5F, 0.5F, 4, 2), 1, 26);
+  addBeads(value, "d", alongX(9.5F, 0.5F, 12, 3), 1, 18);
+  const auto set = [&](std::uint32_t first, std::uint32_t count, float radius) {
+    for (std::uint32_t n = first; n < first + count; ++n) value.tree.radius[n] = radius;
+  };
+  set(0, 21, 1);
+  set(21, 4, 0.5F);
+  set(25, 6, 0.2F);
+  set(31, 12, 0.8F);
+  return value;
+}
+
+std::vector<std::string> sizes(const Case& value) {
+  std::vector<std::string> all;
+  for (const auto& branch : value.tree.branches)
+    all.push_back(branch.label + " " + std::to_string(branch.nodeCount));
+  return all;
+}
+
+using Sizes = std::vector<std::string>;
+
+}  // namespace
+
+TEST(Trim, RemovesThinEndsUpToTheFirstNodeThatIsWideEnough) {
+  Case value = makeTree();
+  const TrimResult trimmed = trimEnds(value, {0.3, 0});
+  EXPECT_EQ(sizes(value), (Sizes{"a 21", "b 4", "d 12"}));
+  EXPECT_TRUE(formats::validate(value));
+  ASSERT_EQ(trimmed.ends.size(), 2U);
+  EXPECT_EQ(trimmed.ends[0].label, "b");
+  EXPECT_FALSE(trimmed.ends[0].isWhole);
+  EXPECT_EQ(trimmed.ends[0].nodes, 2U);
+  EXPECT_NEAR(trimmed.ends[0].length, 1, 1e-6);
+  EXPECT_NEAR(trimmed.ends[0].radius, 0.2, 1e-6);
+  EXPECT_EQ(trimmed.ends[1].label, "c");
+  EXPECT_TRUE(trimmed.ends[1].isWhole);
+}
+
+TEST(Trim, RemovesShortEndsBehindTheLastBranchAndWholeBranches) {
+  Case value = makeTree();
+  trimEnds(value, {0, 1.9});
+  // 1 mm of "a" lies behind "d", all of it within the ball there; "c" is 1.8 mm long outside of "b"
+  EXPECT_EQ(sizes(value), (Sizes{"a 19", "b 6", "d 12"}));
+  trimEnds(value, {0, 4});
+  EXPECT_EQ(sizes(value), (Sizes{"a 19", "d 12"}));
+}
+
+TEST(Trim, AnEndThatIsShortOnceItsThinPartIsGoneGoesToo) {
+  Case value = makeTree();
+  trimEnds(value, {0.3, 3});
+  EXPECT_EQ(sizes(value), (Sizes{"a 19", "d 12"}));
+}
+
+TEST(Trim, KeepsBranchesThatLeadToALink) {
+  Case value = makeTree();
+  value.tree.links = {{2, 30}};
+  EXPECT_TRUE(trimEnds(value, {0.3, 0}).ends.empty());
+  EXPECT_EQ(sizes(value), (Sizes{"a 21", "b 6", "c 4", "d 12"}));
+}
+
+TEST(Trim, KeepsAneurysmsAndTheVesselThatTheyHangOn) {
+  Case value = makeTree();
+  value.tree.branches[2].kind = formats::BranchKind::Aneurysm;
+  EXPECT_TRUE(trimEnds(value, {0.3, 0}).ends.empty());
+}
+
+TEST(Trim, ATreeOfOneThinVesselGoes) {
+  Case value = makeTree();
+  const auto first = static_cast<std::uint32_t>(value.tree.nodeCount());
+  addBeads(value, "loose", alongX(0, 0.5F, 9, 20), 1);
+  for (std::uint32_t n = first; n < first + 9; ++n) value.tree.radius[n] = 0.25F;
+  trimEnds(value, {0.3, 0});
+  EXPECT_EQ(sizes(value), (Sizes{"a 21", "b 4", "d 12"}));
+}
+
+TEST(Trim, RefusesLimitsThatLeaveNothing) {
+  Case value = makeTree();
+  EXPECT_THROW(trimEnds(value, {2, 0}), Error);
+  EXPECT_EQ(sizes(value), (Sizes{"a 21", "b 6", "c 4", "d 12"}));
+}
+
+TEST(Trim, RecordsAnEditUnlessNothingGoes) {
+  Case value = makeTree();
+  EXPECT_TRUE(trimEnds(value, {0.1, 0}).ends.empty());
+  EXPECT_EQ(lastStep(value.metadata, kEditStep), nullptr);
+  const TrimResult trimmed = trimEnds(value, {0.3, 1.9});
+  EXPECT_EQ(trimmed.change.sentence, "trimmed 3 ends thinner than 0.3 mm or shorter than 1.9 mm");
+  EXPECT_NE(lastStep(value.metadata, kEditStep), nullptr);
+}
+
+namespace {
+
+// Inlets that widths show, on cases of beads.
+using Eigen::Vector3d;
+using formats::Case;
+using formats::kNoParent;
+using formats::Vec3f;
+using formats::test::addBeads;
+
+/// Vessels leave the volume through its lower face.
+bool isInside(const Vector3d& point) {
+  return point.z() > 0;
+}
+
+std::vector<Vec3f> places(const Vector3d& from, const Vector3d& to, int count) {
+  std::vector<Vec3f> out;
+  for (int i = 0; i < count; ++i) out.push_back(toVec3f(from + (to - from) * i / (count - 1.0)));
+  return out;
+}
+
+/// Two vessels upward from the lower face, 10 mm apart, and one of another radius between them, as
+/// a tree from the first vessel's lower end.
+Case bridgedPair(float between) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "left", places({0, 0, 1}, {0, 0, 21}, 21), 2);
+  addBeads(value, "across", places({2.5, 0, 11}, {9.5, 0, 11}, 15), between, 10);
+  addBeads(value, "up", places({10, 0, 12}, {10, 0, 21}, 10), 2, 35);
+  addBeads(value, "down", places({10, 0, 10}, {10, 0, 1}, 10), 2, 35);
+  value.models.reset();
+  return value;
+}
+
+TEST(FurtherInlets, AVesselThatFeedsTwoWiderOnesShowsAnotherInlet) {
+  const Case value = bridgedPair(0.8F);
+  const std::vector<Vector3d> found = furtherInlets(value.tree, isInside);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_LT((found[0] - Vector3d(0, 0, 1)).norm(), 1e-6);
+  EXPECT_LT((found[1] - Vector3d(10, 0, 1)).norm(), 1e-6);
+}
+
+TEST(FurtherInlets, TheTreeIsCutWhereItIsNarrowAndBothPartsKeepTheirRoots) {
+  Case value = bridgedPair(0.8F);
+  EXPECT_TRUE(beginAt(value, furtherInlets(value.tree, isInside)).empty());
+  const auto valid = formats::validate(value);
+  EXPECT_TRUE(valid) << (valid ? "" : valid.error().text());
+  std::vector<Vec3f> roots;
+  for (const formats::Branch& branch : value.tree.branches)
+    if (branch.parentNode == kNoParent) roots.push_back(value.tree.centre[branch.firstNode]);
+  ASSERT_EQ(roots.size(), 2U);
+  for (const Vec3f& root : roots) EXPECT_EQ(root.z, 1);
+  EXPECT_EQ(value.tree.links.size(), 1U);
+}
+
+TEST(FurtherInlets, TheCutLiesInTheMiddleOfAVesselOfEvenWidthWhereverItIsNarrowestByAHair) {
+  for (const std::size_t narrowest : {23U, 28U, 33U}) {
+    Case value = bridgedPair(0.8F);
+    value.tree.radius[narrowest] = 0.799F;
+    EXPECT_TRUE(beginAt(value, furtherInlets(value.tree, isInside)).empty());
+    ASSERT_EQ(value.tree.links.size(), 1U);
+    const auto [a, b] = value.tree.links[0];
+    EXPECT_NEAR(0.5 * double{value.tree.centre[a].x + value.tree.centre[b].x}, 6, 0.5) << narrowest;
+  }
+}
+
+TEST(FurtherInlets, AVesselThatDividesHasOne) {
+  EXPECT_TRUE(furtherInlets(bridgedPair(2.2F).tree, isInside).empty());
+}
+
+TEST(FurtherInlets, AnEndWithinTheVolumeIsNone) {
+  const auto everywhere = [](const Vector3d&) { return true; };
+  EXPECT_TRUE(furtherInlets(bridgedPair(0.8F).tree, everywhere).empty());
+}
+
+TEST(FurtherInlets, AStenosisBeforeAForkIsNoCommunicatingArtery) {
+  Case value = bridgedPair(2.2F);
+  for (std::size_t n = 26; n < 30; ++n) value.tree.radius[n] = 0.6F;
+  EXPECT_TRUE(furtherInlets(value.tree, isInside).empty());
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "method.h"
 #include "signed_mesh.h"
 #include "tally.h"
-#include "tubes.h"
 #include "vessel.h"
 #include "wires.h"
 

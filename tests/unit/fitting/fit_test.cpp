@@ -14,7 +14,7 @@
 #include "formats/case/blobby.h"
 #include "formats/case/topology.h"
 #include "shapes.h"
-#include "tests/evaluation/reproduce/seams.h"
+#include "tests/evaluation/reproduce/implicit_surface.h"
 
 namespace lumen::convert {
 namespace {

@@ -8,9 +8,7 @@
 
 #include "formats/case/blobby.h"
 #include "tests/evaluation/reproduce/convolution_shapes.h"
-#include "tests/evaluation/reproduce/family_fit.h"
-#include "tests/evaluation/reproduce/particles.h"
-#include "tests/evaluation/reproduce/seams.h"
+#include "tests/evaluation/reproduce/implicit_surface.h"
 #include "tests/evaluation/reproduce/shape_fit.h"
 
 namespace lumen::reproduce {

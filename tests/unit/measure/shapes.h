@@ -11,6 +11,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/judge/measure/measure_case.h"
+#include "converters/stages/phantom/design.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert::test {
@@ -48,5 +49,10 @@ Tube straightTube(const Eigen::Vector3d& from, const Eigen::Vector3d& along, dou
                   double radius);
 Tube helixTube(double helixRadius, double rise, double turns, double radius);
 Tube arcTube(double bend, double angle, double radius);
+
+// The design of a phantom as a case: exact nodes and exact wall points, fitted.
+/// Every node of the design that lies `spacing` radii after the one before, with the places where
+/// rays in even directions meet the wall within 2.4 radii, and fitted models. `voxel`: mm.
+formats::Case caseOfDesign(const Design& design, double spacing, double voxel);
 
 }  // namespace lumen::convert::test

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 #include "capped_tube.h"
 #include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
 #include "open_mesh.h"
 
 namespace lumen::convert {
@@ -167,6 +169,96 @@ TEST(PlainFormats, GiveTheSameBytesEachTime) {
   EXPECT_EQ(encodePly(surface), encodePly(surface));
   EXPECT_EQ(encodeStl(surface, false), encodeStl(surface, false));
   EXPECT_EQ(encodeVtp(surface), encodeVtp(surface));
+}
+
+TEST(IsClosed, ATubeWithEndsIsAndOneWithoutIsNot) {
+  EXPECT_TRUE(isClosed(test::cappedTube({"a"})));
+  EXPECT_FALSE(isClosed(test::openTube({"a"})));
+  EXPECT_TRUE(isClosed({}));
+}
+
+TEST(IsClosed, ATurnedFaceOpensASurface) {
+  SurfaceMesh surface = test::cappedTube({"a"});
+  std::swap(surface.triangle[5][0], surface.triangle[5][1]);
+  EXPECT_FALSE(isClosed(surface));
+}
+
+TEST(PartsOf, AFaceBelongsToTheBranchOfTwoOfItsVertices) {
+  SurfaceMesh surface;
+  surface.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  surface.normal.assign(4, {0, 0, 1});
+  surface.radius.assign(4, 1);
+  surface.branch = {0, 1, 1, 2};
+  surface.labels = {"a", "b", "c"};
+  surface.groups = {{"wall", FaceKind::Wall}};
+  // vertices of b twice; of three branches
+  surface.triangle = {{0, 1, 2}, {3, 0, 1}};
+  surface.group = {0, 0};
+  const auto parts = splitMesh(surface, MeshPer::Branch);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].branch, 1U);
+  EXPECT_EQ(parts[0].vertex, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(parts[1].branch, 2U);
+  EXPECT_EQ(parts[1].vertex, (std::vector<std::uint32_t>{3, 0, 1}));
+}
+
+TEST(PartsOf, EachGroupHasItsVerticesOnceAndThoseOfRimsAreInTwo) {
+  const SurfaceMesh surface = test::cappedTube({"a"});
+  const auto parts = splitMesh(surface, MeshPer::Whole);
+  ASSERT_EQ(parts.size(), 3U);
+  std::size_t vertices = 0, triangles = 0;
+  for (const MeshPart& part : parts) {
+    EXPECT_EQ(std::set(part.vertex.begin(), part.vertex.end()).size(), part.vertex.size());
+    EXPECT_EQ(part.isFlat, part.group > 0);
+    vertices += part.vertex.size();
+    triangles += part.triangle.size();
+  }
+  EXPECT_EQ(vertices, surface.position.size() + 2 * 12);
+  EXPECT_EQ(triangles, surface.triangle.size());
+}
+
+SurfaceMesh withRadii(const std::vector<float>& radii) {
+  SurfaceMesh surface;
+  surface.radius = radii;
+  surface.position.resize(radii.size());
+  return surface;
+}
+
+/// ITU-R BT.709.
+double luminance(const Color& c) {
+  return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+
+TEST(VertexColor, GetsLighterWithTheValue) {
+  std::vector<float> radii;
+  for (int i = 0; i <= 100; ++i) radii.push_back(1 + 0.09F * static_cast<float>(i));
+  const SurfaceMesh surface = withRadii(radii);
+  const auto colors = vertexColors(surface, measureColorScale(surface, ColorBy::Radius));
+  for (std::size_t i = 1; i < colors.size(); ++i)
+    EXPECT_GT(luminance(colors[i]), luminance(colors[i - 1])) << i;
+}
+
+TEST(VertexColor, OfARadiusGoesWithItsLogarithm) {
+  // 1 to 100: 10 lies halfway, where viridis is sRGB 33, 145, 140 (linear light by IEC 61966-2-1)
+  const SurfaceMesh surface = withRadii({1, 10, 100});
+  const auto colors = vertexColors(surface, measureColorScale(surface, ColorBy::Radius));
+  EXPECT_NEAR(colors[1][0], 0.0152 * 65535, 10);
+  EXPECT_NEAR(colors[1][1], 0.2832 * 65535, 10);
+  EXPECT_NEAR(colors[1][2], 0.2623 * 65535, 10);
+}
+
+TEST(VertexColor, OfOneRadiusOnlyIsOneColor) {
+  const SurfaceMesh surface = withRadii({2, 2});
+  const auto colors = vertexColors(surface, measureColorScale(surface, ColorBy::Radius));
+  EXPECT_EQ(colors[0], colors[1]);
+}
+
+TEST(VertexColor, SevenBranchesDifferAndTheEighthIsAsTheFirst) {
+  SurfaceMesh surface;
+  surface.branch = {0, 1, 2, 3, 4, 5, 6, 7};
+  const auto colors = vertexColors(surface, measureColorScale(surface, ColorBy::Branch));
+  EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 7U);
+  EXPECT_EQ(colors[7], colors[0]);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/io/seeds/seeds.h"
 #include "fixtures.h"
 #include "formats/case/case_encoding.h"
 #include "formats/case/validate.h"
@@ -128,6 +129,102 @@ TEST(CaseSeeds, SeedsThatStartedNothingWait) {
   const SeedCounts counts = countSeeds(value, "c");
   EXPECT_EQ(counts.tracked, 2U);
   EXPECT_EQ(counts.waiting, 1U);
+}
+
+// The fiducials of 3D Slicer before version 5.
+using Eigen::Vector3d;
+
+const std::string kColumns =
+    "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n";
+
+class Fcsv : public FileTest {
+protected:
+  [[nodiscard]] std::vector<SeedBranch> read(const std::string& text,
+                                             const SeedReading& reading = {}) const {
+    return readSeeds(write("F.fcsv", text), reading);
+  }
+  [[nodiscard]] std::vector<SeedBranch> readRows(const std::string& rows,
+                                                 const std::string& system = "LPS") const {
+    return read("# Markups fiducial file version = 4.11\n# CoordinateSystem = " + system + "\n" +
+                kColumns + rows);
+  }
+  void expectRowsRefused(const std::string& rows, std::vector<std::string> words) const {
+    words.insert(words.begin(), {"3: ", "F.fcsv"});
+    expectRefused(refusal([&] { (void)readRows(rows); }), words);
+  }
+};
+
+TEST_F(Fcsv, EachRowIsAVessel) {
+  const auto seeds = readRows(
+      "1,12.5,-3,4e1,0,0,0,1,1,1,0,ICA,,vtkMRMLScalarVolumeNode1,2,0\r\n"
+      "2,1,2,3,0,0,0,1,1,1,0,MCA,parent=ICA; radius=1.5,,2,0\r\n");
+  ASSERT_EQ(seeds.size(), 2U);
+  EXPECT_EQ(seeds[0].label, "ICA");
+  EXPECT_EQ(seeds[0].points[0].position, Vector3d(12.5, -3, 40));
+  EXPECT_EQ(seeds[1].parent, "ICA");
+  EXPECT_EQ(seeds[1].points[0].radius, 1.5);
+}
+
+TEST_F(Fcsv, AByteOrderMarkAndTinyNumbersAreRead) {
+  const auto seeds = read("\xEF\xBB\xBF# CoordinateSystem = LPS\n" + kColumns +
+                          "1,1e-400,-3,4,0,0,0,1,1,1,0,ICA,,\n");
+  ASSERT_EQ(seeds.size(), 1U);
+  EXPECT_EQ(seeds[0].points[0].position, Vector3d(0, -3, 4));
+}
+
+TEST_F(Fcsv, TheHeaderStatesTheCoordinateSystem) {
+  const std::string row = "1,1,2,3,0,0,0,1,1,1,0,a,,\n";
+  for (const char* lps : {"LPS", "1"})
+    EXPECT_EQ(readRows(row, lps)[0].points[0].position, Vector3d(1, 2, 3)) << lps;
+  for (const char* ras : {"RAS", "0"})
+    EXPECT_EQ(readRows(row, ras)[0].points[0].position, Vector3d(-1, -2, 3)) << ras;
+  for (const char* voxels : {"IJK", "2"})
+    EXPECT_EQ(readRows(row, voxels)[0].frame.system, SeedSystem::Voxel) << voxels;
+  expectRefused(refusal([&] { (void)readRows(row, "MRI"); }),
+                {"3: ", "line 2", "\"MRI\"", "LPS", "--seeds-frame"});
+}
+
+TEST_F(Fcsv, WithoutACoordinateSystemAnOptionIsNeeded) {
+  const std::string text = "# Fiducial List file\n# columns = label,x,y,z,sel,vis\nP1,1,2,3,1,1\n";
+  expectRefused(refusal([&] { (void)read(text); }),
+                {"3: ", "F.fcsv", "line 3", "CoordinateSystem", "--seeds-frame", ".mrk.json"});
+  const auto seeds = read(text, {SeedSystem::Ras, 10.0});
+  EXPECT_EQ(seeds[0].label, "P1");
+  EXPECT_EQ(seeds[0].points[0].position, Vector3d(-10, -20, 30));
+}
+
+TEST_F(Fcsv, AnOptionOverrulesTheCoordinateSystemOfTheFile) {
+  const std::string row = "1,1,2,3,0,0,0,1,1,1,0,a,,\n";
+  const std::string lps = "# CoordinateSystem = LPS\n", other = "# CoordinateSystem = MRI\n";
+  for (const std::string& header : {lps, other})
+    EXPECT_EQ(read(header + kColumns + row, {SeedSystem::Ras, 1.0})[0].points[0].position,
+              Vector3d(-1, -2, 3))
+        << header;
+}
+
+TEST_F(Fcsv, LabelsMayHoldCommasBetweenQuotes) {
+  const auto seeds = readRows("1,1,2,3,0,0,0,1,1,1,0,\"ICA, \"\"left\"\"\",,\n");
+  EXPECT_EQ(seeds[0].label, "ICA, \"left\"");
+}
+
+TEST_F(Fcsv, RowsWithoutALabelAreNumbered) {
+  EXPECT_EQ(readRows("1,1,2,3,0,0,0,1,1,1,0,,,\n2,1,2,3\n")[1].label, "F-2");
+}
+
+TEST_F(Fcsv, FaultsAreNamedWithLineAndColumn) {
+  expectRowsRefused("1,1,nan,3,0,0,0,1,1,1,0,a,,\n", {"line 4", "y is \"nan\"", "finite"});
+  expectRowsRefused("1,1,2,,0,0,0,1,1,1,0,a,,\n", {"line 4", "z is \"\"", "finite"});
+  expectRowsRefused("1,1e999,2,3,0,0,0,1,1,1,0,a,,\n", {"line 4", "x is \"1e999\""});
+  expectRowsRefused("1,1\n", {"line 4", "2 columns", "at least 4"});
+  expectRowsRefused("1,1,2,3,0,0,0,1,1,1,0,a,parnt=b,\n", {"line 4", "parnt=b", "parent=LABEL"});
+  expectRowsRefused("", {"no seeds"});
+  expectRefused(refusal([&] { (void)read("# columns = id,x,y\n1,2,3\n"); }),
+                {"line 1", "expected z among them"});
+}
+
+TEST_F(Fcsv, OtherTextIsToldWhatSeedsAre) {
+  expectRefused(refusal([&] { (void)readSeeds(write("a.csv", "x,y,z\n1,2,3\n")); }),
+                {"3: ", "a.csv", "found \"x,y,z\"", ".mrk.json", ".fcsv"});
 }
 
 }  // namespace

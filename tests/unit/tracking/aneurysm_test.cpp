@@ -13,7 +13,7 @@
 #include "converters/stages/fitting/fit.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
-#include "seeded_tubes.h"
+#include "tube_volume.h"
 
 namespace lumen::convert {
 namespace {

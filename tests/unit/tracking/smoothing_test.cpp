@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/edit_steps.h"
-#include "seeded_tubes.h"
+#include "tube_volume.h"
 
 namespace lumen::convert {
 namespace {

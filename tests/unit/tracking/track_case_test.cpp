@@ -9,7 +9,7 @@
 #include <tbb/global_control.h>
 
 #include "converters/base/vectors.h"
-#include "seeded_tubes.h"
+#include "tube_volume.h"
 
 namespace lumen::convert {
 namespace {

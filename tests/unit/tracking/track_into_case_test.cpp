@@ -11,7 +11,7 @@
 #include "converters/stages/tracking/tracked_branch.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
-#include "seeded_tubes.h"
+#include "tube_volume.h"
 
 namespace lumen::convert {
 namespace {

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "converters/stages/tracking/joining.h"
 #include "converters/stages/tracking/path_rules.h"
-#include "seeded_tubes.h"
+#include "converters/stages/tracking/tracked_branch.h"
+#include "tube_volume.h"
 
 namespace lumen::convert {
 namespace {
@@ -144,6 +148,115 @@ TEST(JoinToParent, AfterACutInTheCoreTheParentIsTheNodeNearestToTheFirstThatIsKe
   const Vector3d first = child.nodes.front().centre;
   EXPECT_GT(first.x(), 6.4 + 0.5 * 1.2);
   EXPECT_EQ(child.parentNode, static_cast<int>(closestOnChain(parent.nodes, first).node));
+}
+
+// The tip of a vessel that ends is dropped where it widens, as nothing holds it; that of one that leaves the volume stays.
+/// A tube of radius 0.8 mm along z, which widens from `from` on by `slope`.
+Volume flaredTube(double from, double slope) {
+  return drawVolume(64, 0.2, [=](const Vector3d& p) {
+    const double radius = 0.8 + slope * std::max(0.0, p.z() - from);
+    const double across = std::hypot(p.x() - 6.4, p.y() - 6.4) - radius;
+    return std::max(across, 0.4 - p.z());
+  });
+}
+
+}  // namespace
+
+TEST(Tip, ThatWidensIsDroppedWhereTheVesselEnds) {
+  for (const double slope : {0.6, 1.0, 2.0}) {
+    const auto tree = trackOne(flaredTube(9, slope), {seedAt("tube", {6.4, 6.4, 4.0})}).result.tree;
+    ASSERT_EQ(tree.branches.size(), 1U);
+    EXPECT_EQ(tree.branches[0].stopReason, formats::StopReason::NoValidCylinder);
+    EXPECT_GT(tree.centre.back().z, 8.0F);
+    EXPECT_LT(tree.radius.back(), 1.12F) << slope;
+  }
+}
+
+TEST(Tip, ThatWidensStaysWhereTheVesselLeavesTheVolume) {
+  const auto tree = trackOne(flaredTube(11, 0.6), {seedAt("tube", {6.4, 6.4, 4.0})}).result.tree;
+  ASSERT_EQ(tree.branches.size(), 1U);
+  EXPECT_EQ(tree.branches[0].stopReason, formats::StopReason::LeftVolume);
+  EXPECT_GT(tree.radius.back(), 1.12F);  // 1.4 times the radius before
+}
+
+namespace {
+
+// Nodes of one vessel that do not lead on: those that turn back, and those in the dome of its end.
+TrackedNode nodeAt(double x, double radius, double inlierRate, double direction = 1) {
+  TrackedNode node;
+  node.centre = {x, 0, 0};
+  node.direction = {direction, 0, 0};
+  node.radius = radius;
+  node.inlierRate = inlierRate;
+  return node;
+}
+
+std::vector<double> placesOf(const TrackedBranch& branch) {
+  std::vector<double> places;
+  for (const TrackedNode& node : branch.nodes) places.push_back(node.centre.x());
+  return places;
+}
+
+TEST(TrackedBranch, OfTwoNodesInTheWrongOrderTheBetterStays) {
+  TrackedBranch branch;
+  branch.nodes = {nodeAt(0, 1, 0.8), nodeAt(2, 1, 0.4), nodeAt(1, 1, 0.9), nodeAt(3, 1, 0.8),
+                  nodeAt(2.5, 1, 0.5)};
+  branch.clickNode = 3;
+  dropTurnedBack(branch);
+  EXPECT_EQ(placesOf(branch), (std::vector<double>{0, 1, 3}));
+  EXPECT_EQ(branch.clickNode, 2U);
+}
+
+TEST(TrackedBranch, ANodeThatPointsBackTurnsBack) {
+  TrackedBranch branch;
+  branch.nodes = {nodeAt(0, 1, 0.8), nodeAt(1, 1, 0.8), nodeAt(2, 1, 0.5, -1)};
+  dropTurnedBack(branch);
+  EXPECT_EQ(placesOf(branch), (std::vector<double>{0, 1}));
+}
+
+/// Nodes along half of a circle, of a rate of 0.8, of which one points across the vessel and has a
+/// rate of 1.
+std::vector<TrackedNode> bendWithOneAcross(std::size_t count, std::size_t across) {
+  std::vector<TrackedNode> nodes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = std::numbers::pi * static_cast<double>(i) / static_cast<double>(count - 1);
+    TrackedNode node = nodeAt(0, 1, i == across ? 1.0 : 0.8);
+    node.centre = 10 * Eigen::Vector3d(std::sin(angle), 1 - std::cos(angle), 0);
+    node.direction = {std::cos(angle), std::sin(angle), 0};
+    if (i == across) node.direction = {-std::sin(angle + 0.2), std::cos(angle + 0.2), 0};
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+TEST(TrackedBranch, OneNodeAcrossABendCostsNoOther) {
+  constexpr std::size_t kCount = 60, kAcross = 5;
+  const std::vector<TrackedNode> nodes = bendWithOneAcross(kCount, kAcross);
+  std::vector<const TrackedNode*> all;
+  for (const TrackedNode& node : nodes) all.push_back(&node);
+  const std::vector<bool> isBack = turnedBack(all);
+  for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(isBack[i], i == kAcross) << i;
+}
+
+TEST(TrackedBranch, NodesThatHaveSlidTogetherAreOne) {
+  TrackedBranch branch;
+  branch.nodes = {nodeAt(0, 1, 0.4), nodeAt(0.1, 1, 0.6), nodeAt(0.5, 1, 0.6),
+                  nodeAt(1, 1, 0.5), nodeAt(1.2, 1, 0.5), nodeAt(1.24, 1, 0.9)};
+  branch.clickNode = 5;
+  dropCrowded(branch);
+  EXPECT_EQ(placesOf(branch), (std::vector<double>{0.1, 0.5, 1.24}));
+  EXPECT_EQ(branch.clickNode, 2U);
+}
+
+TEST(TrackedBranch, ADomeIsCutAndATaperStays) {
+  TrackedBranch dome;
+  dome.nodes = {nodeAt(0, 1, 1), nodeAt(0.5, 1, 1), nodeAt(1, 0.7, 1), nodeAt(1.3, 0.5, 1)};
+  dropDome(dome);
+  EXPECT_EQ(placesOf(dome), (std::vector<double>{0, 0.5, 1}));
+  TrackedBranch taper;
+  for (int i = 0; i < 10; ++i) taper.nodes.push_back(nodeAt(0.5 * i, 1 - 0.05 * i, 1));
+  dropDome(taper);
+  EXPECT_EQ(taper.nodes.size(), 10U);
 }
 
 }  // namespace

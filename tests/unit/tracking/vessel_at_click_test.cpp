@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "seeded_tubes.h"
+#include "converters/stages/phantom/phantom.h"
+#include "tube_volume.h"
 
 namespace lumen::convert {
 namespace {
@@ -65,6 +66,21 @@ TEST(VesselAtClick, IsTheSameEveryTime) {
     EXPECT_EQ(again.position, once.position);
     EXPECT_EQ(again.radius, once.radius);
   }
+}
+
+TEST(ClickLight, CountsTheClicksInVesselsAndNoneBesideThem) {
+  PhantomOptions options;
+  options.name = "bifurcation";
+  options.size = 64;
+  Progress progress;
+  const Phantom phantom = makePhantom(options, progress);
+  const TrackOptions track;
+  const ClickLight light(phantom.volume, track, progress);
+  EXPECT_EQ(light.countInVessels(phantom.seeds), phantom.seeds.size());
+  std::vector<SeedBranch> mirrored = phantom.seeds;
+  for (SeedBranch& seed : mirrored)  // out of the middle, where the vessels are
+    seed.points[0].position = {0.5, 0.5, seed.points[0].position.z()};
+  EXPECT_EQ(light.countInVessels(mirrored), 0U);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "converters/stages/tracking/node_fit.h"
 #include "converters/stages/tracking/wall_review.h"
-#include "seeded_tubes.h"
+#include "tube_volume.h"
 
 namespace lumen::convert {
 namespace {

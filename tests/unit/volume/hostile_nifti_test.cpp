@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
-#include "nifti_fixture.h"
 
 namespace lumen::convert {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "nifti_fixture.h"
+#include "fixtures.h"
 #include "text_volume.h"
 
 namespace lumen::convert {

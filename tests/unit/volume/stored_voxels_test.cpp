@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "nifti_fixture.h"
+#include "fixtures.h"
 #include "text_volume.h"
 
 namespace lumen::convert {

@@ -11,8 +11,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "closed_mesh.h"
-#include "contact_options.h"
 #include "exact_field.h"
 #include "measure.h"
 #include "report.h"

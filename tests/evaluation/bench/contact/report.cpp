@@ -2,8 +2,12 @@
 #include "report.h"
 
 #include <cmath>
+#include <filesystem>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
+
+#include "converters/stages/surface/closed_surface.h"
 
 namespace lumen::bench {
 namespace {
@@ -65,6 +69,37 @@ std::string json(const std::vector<CaseResult>& results) {
                     {"methods", methods}});
   }
   return list.dump(1) + "\n";
+}
+
+ContactOptions contactOptions(int argc, char** argv, ContactOptions options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--json" && i + 1 < argc)
+      options.json = argv[++i];
+    else if (argument == "--environments" && i + 1 < argc)
+      options.environments = std::stoul(argv[++i]);
+    else if (argument == "--turns" && i + 1 < argc)
+      options.turns = std::stoi(argv[++i]);
+    else
+      options.cases.push_back(argument);
+  }
+  if (options.cases.empty() || options.json.empty() || options.environments == 0)
+    throw std::runtime_error("usage: " + std::filesystem::path(argv[0]).filename().string() +
+                             " --json FILE [--environments N] [--turns N] CASE...");
+  return options;
+}
+
+Triangles closedMesh(const formats::Case& source) {
+  convert::ClosedSurfaceOptions options;
+  options.edge.share = 0.5;
+  Progress progress;
+  const convert::SurfaceMesh surface =
+      convert::closedSurface(source, options, progress).levels.front();
+  Triangles result;
+  result.closed = true;
+  for (const convert::Float3& p : surface.position) result.vertex.push_back({p[0], p[1], p[2]});
+  for (const convert::Triangle& t : surface.triangle) result.face.push_back({t[0], t[1], t[2]});
+  return result;
 }
 
 }  // namespace lumen::bench

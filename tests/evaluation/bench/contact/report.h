@@ -41,4 +41,20 @@ CaseResult describeCase(const Vessel& vessel, const std::vector<Truth>& truth,
 /// For report.py.
 std::string json(const std::vector<CaseResult>& results);
 
+struct ContactOptions {
+  std::string json;
+  std::size_t environments = 4096;
+  int turns = 7;
+  std::vector<std::string> cases;
+};
+
+/// `--json FILE [--environments N] [--turns N] CASE...`, what is not given as in `options`. Throws
+/// std::runtime_error with the usage where the file or a case is missing.
+ContactOptions contactOptions(int argc, char** argv, ContactOptions options);
+
+/// The closed surface of a case as `lumen convert CASE MESH --edge 0.5r` makes it: what a simulator would
+/// load, with a quarter of the default's triangles, which makes every search among them faster. Throws as
+/// convert::closedSurface().
+Triangles closedMesh(const formats::Case& source);
+
 }  // namespace lumen::bench

@@ -5,7 +5,6 @@
 
 #include <embree3/rtcore.h>
 
-#include "last_step.h"
 #include "signed_mesh.h"
 
 namespace lumen::bench {

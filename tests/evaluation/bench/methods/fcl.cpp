@@ -6,7 +6,6 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/distance.h>
 
-#include "last_step.h"
 #include "signed_mesh.h"
 
 namespace lumen::bench {

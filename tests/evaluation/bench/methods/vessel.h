@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "formats/case/case.h"
 #include "method.h"
@@ -27,5 +28,9 @@ std::shared_ptr<blob_model> scalarModel(const formats::Case& source);
 
 /// The edge of a dense grid's cells around a model, mm: `wanted`, or as fine as `most` values allow.
 double gridCell(const blob_model* model, double wanted, double most);
+
+/// A tube around a line of nodes, one the parent of the next: each has a model of seven equal blobs on the
+/// line, as wide as puts the wall of the straight tube at `radius`, mm. Lines lie in planes of equal z.
+formats::Case tubeAlong(const std::vector<formats::Vec3f>& line, double spacing, double radius);
 
 }  // namespace lumen::bench

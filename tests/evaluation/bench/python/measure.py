@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Seconds of libblob's queries from Python beside those from C, in turns, so that a busy machine slows both; seconds of processor time.
 
-    PYTHONPATH=build/release/packages/python measure.py build/release/tests/evaluation/bench/python/blob_calls [CASE]
+    PYTHONPATH=build/release/packages/python measure.py build/release/tests/evaluation/bench/blob_calls [CASE]
 
 Without a CASE, the phantom bifurcation is fitted. Points lie about the nodes, out to 1.2 radii. A time is that of the
 fastest of many rounds of each. Prints a table in Markdown."""

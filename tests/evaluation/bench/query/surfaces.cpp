@@ -10,7 +10,7 @@
 
 #include "converters/stages/surface/patches/polygonise.h"
 #include "tests/unit/mesh/open_mesh.h"
-#include "tubes.h"
+#include "vessel.h"
 
 namespace lumen::bench {
 namespace {

@@ -17,8 +17,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "closed_mesh.h"
-#include "contact_options.h"
 #include "device_methods.h"
 #include "exact_field.h"
 #include "report.h"
