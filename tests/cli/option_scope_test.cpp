@@ -26,9 +26,9 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = [
       {"touching", {"thickness", "1"}},
       {"draco-position-bits", {"draco", "true"}},
       {"draco-normal-bits", {"draco", "true"}}};
-  for (const char* const name : {"seeds-frame", "seeds-unit", "seeds-only", "axes", "min-trials",
-                                 "max-trials", "random-seed", "step", "look-ahead", "branch-offset",
-                                 "max-nodes"})
+  for (const char* const name :
+       {"seeds-frame", "seeds-unit", "seeds-only", "axes", "min-trials", "max-trials",
+        "random-seed", "step", "look-ahead", "branch-offset", "max-nodes"})
     companions[name] = {"seeds", "seeds.json"};
   for (const char* const name : {"centerline-frame", "centerline-unit"})
     companions[name] = {"centerline", "truth.swc"};

@@ -69,7 +69,7 @@ void addAdvanceRows(TrackOptions& o, OptionTable& table) {
       .onlyWith(seeds);
   table
       .add("random-seed", &o.seed, "K",
-           "Seed of the random numbers from a seed on, and of --repeat")
+           "Seed of the random numbers from a seed on, and of repeated runs")
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
       .recorded()
       .onlyWith(seeds)
