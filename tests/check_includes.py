@@ -47,6 +47,7 @@ ROOMS = [
     {"export/targets/" + name: [] for name in ("cathsim", "engines", "grid", "isaac", "mujoco", "oned", "openfoam", "print",
                                                "simvascular", "slicer", "sofa", "steve", "svzerod")},
     {"export": []},
+    {"operations": []},
     {"library/index": [], "library/publish": ["library/index"], "library/rows": ["library/index"], "library/site": ["library/index"]},
     {"engine/answers": []},
     {"engine": []},
@@ -83,6 +84,9 @@ def resolve(file, name, files):
 
 # Folders that know the command line. A message below them takes the name of an option from base/option_name.h.
 KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
+# Folders that work on values: they know no file, no text of an option and no JSON.
+ON_VALUES = "converters/operations/"
+FILES_AND_TEXTS = re.compile(r'#\s*include\s+[<"](filesystem|fstream|nlohmann/.*|converters/base/(?:files|option_name|option_table)\.h)[>"]')
 # A character, or a string as the group.
 LITERAL = re.compile(r"""'(?:[^'\\\n]|\\.)'|"((?:[^"\\\n]|\\.)*)\"""")
 
@@ -131,6 +135,8 @@ def main():
         spelled = [] if file.as_posix().startswith(KNOW_OPTIONS) else options_spelled(text[file])
         if spelled:
             wrong.append(f"{file} spells {spelled[0]} in a string; its name is a member of kOption in base/option_name.h")
+        if file.as_posix().startswith(ON_VALUES):
+            wrong += [f"{file} includes {name}, though it works on values alone" for name in FILES_AND_TEXTS.findall(text[file])]
     if options.table:
         print("| folder | files | lines | includes |\n|---|--:|--:|---|")
         for name in MAY_INCLUDE:

@@ -14,12 +14,6 @@ namespace lumen::engine {
 
 namespace {
 
-/// Voxels in the median radius of a tree: the fit is made for vessels of a few voxels in radius.
-constexpr double kVoxelsOfRadius = 5;
-/// Accuracy as a share of the median radius: given radii have no noise to stop at. With twice this
-/// the volume of a narrowing is 1 % short.
-constexpr double kAccuracyOfRadius = 0.005;
-
 std::string unitText(double unit) {
   if (unit == 1) return "mm";
   if (unit == 10) return "cm";
@@ -69,19 +63,6 @@ LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFor
   for (const std::string& remark : loaded.file.remarks)
     progress.warn(formats::printable(file.string()) + ": " + remark);
   return loaded;
-}
-
-convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::FitOptions& options) {
-  if (value.metadata.voxelSize || value.tree.nodeCount() == 0) return options;
-  std::vector<float> radii = value.tree.radius;
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  convert::FitOptions scaled = options;
-  if (!scaled.accuracy) scaled.accuracy = kAccuracyOfRadius * double{*middle};
-  // Cohesion is for blobs that noise would scatter. Here it would draw the wall inwards, by .35 %
-  // of the radius.
-  if (scaled.cohesionWeight == convert::FitOptions{}.cohesionWeight) scaled.cohesionWeight = 0;
-  return scaled.resolved(double{*middle} / kVoxelsOfRadius);
 }
 
 std::string centerlineInfoText(const LoadedCenterline& centerline) {

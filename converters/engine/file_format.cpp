@@ -7,9 +7,9 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
-#include "converters/engine/answers/case_losses.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/mesh_options.h"
+#include "converters/export/shared/paths.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/write_centerline.h"
 #include "converters/io/mesh/read_mesh.h"
@@ -17,6 +17,7 @@
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/surface/to_surface_mesh.h"
+#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
@@ -74,7 +75,10 @@ template <std::string (*encode)(const Levels&, const convert::WriteMeshOptions&)
 std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, const fs::path& file,
                                                   const OutputOptions& options,
                                                   Progress& progress) {
-  CaseMesh mesh = meshOfCase(value, file, options, false, progress);
+  operations::SurfaceOptions surface = options.surface;
+  surface.closed.levels = 1;
+  operations::Surface mesh =
+      operations::surfaceOf(value, surface, file.string(), operationContext(progress));
   writeText(encode(mesh.levels, options.mesh), file);
   return std::move(mesh.report);
 }
@@ -83,7 +87,8 @@ std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, co
 template <bool binary>
 std::optional<convert::SurfaceReport> writeGltf(const formats::Case& value, const fs::path& file,
                                                 const OutputOptions& options, Progress& progress) {
-  CaseMesh mesh = meshOfCase(value, file, options, true, progress);
+  operations::Surface mesh =
+      operations::surfaceOf(value, options.surface, file.string(), operationContext(progress));
   std::optional<convert::MeshSkin> skin;
   if (value.motion && options.mesh.skin) skin = convert::skinOf(value, mesh.levels);
   writeText(convert::encodeGltf(mesh.levels, binary, options.mesh, skin ? &*skin : nullptr), file);
@@ -97,7 +102,8 @@ constexpr auto kWriteVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
 template <std::string (*encode)(const formats::CenterlineTree&)>
 std::optional<convert::SurfaceReport> writeTreeAs(const formats::Case& value, const fs::path& file,
                                                   const OutputOptions&, Progress& progress) {
-  reportTreeLosses(value, file.string(), progress);
+  for (const std::string& loss : treeLosses(value.tree))
+    progress.warn(formats::printable(file.string()) + ": " + loss);
   writeText(encode(value.tree), file);
   return std::nullopt;
 }

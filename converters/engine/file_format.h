@@ -16,8 +16,7 @@
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/io/volume/read_volume.h"
-#include "converters/stages/surface/closed_surface.h"
-#include "converters/stages/surface/patches/polygonise.h"
+#include "converters/operations/surface_of.h"
 #include "formats/case/case.h"
 #include "formats/case/case_file.h"
 
@@ -28,10 +27,8 @@ enum class FormatKind { Volume, Case, Mesh, Centerline };
 /// Options for writing a case; each format takes those that concern it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
-  convert::PolygoniseOptions polygonise;  ///< options of patches
-  convert::ClosedSurfaceOptions surface;  ///< options of the closed surface
+  operations::SurfaceOptions surface;
   convert::WriteMeshOptions mesh;
-  bool patches = false;  ///< the surface in pieces
 };
 
 /// One row. A function is null where the format cannot do its work; each throws lumen::Error with

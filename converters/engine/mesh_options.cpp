@@ -2,16 +2,12 @@
 #include "converters/engine/mesh_options.h"
 
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/parsed_number.h"
-#include "converters/engine/answers/case_losses.h"
-#include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/scope.h"
-#include "converters/stages/surface/patches/polygonise.h"
 
 namespace lumen::engine {
 
@@ -47,11 +43,11 @@ OptionRow& addBound(OptionTable& table, const std::string& name, convert::EdgeLe
 
 /// "0.25r"
 void addPatchRows(OptionTable& table, OutputOptions& output) {
-  table.flag("patches", output.patches,
+  table.flag("patches", output.surface.isInPatches,
              "Write the surface in pieces, one group of faces for each branch, which meet but are "
              "not joined");
   table
-      .add("cell", &output.polygonise.cell, "MM",
+      .add("cell", &output.surface.patches.cell, "MM",
            "Edge of a marching-cubes cell of the patches; 0: the voxel size")
       .in(kNotNegative)
       .onlyWith("patches");
@@ -61,7 +57,7 @@ void addGltfRows(OptionTable& table, OutputOptions& output) {
   convert::WriteMeshOptions& mesh = output.mesh;
   table.scope(kAnyContent, kGltf);
   table
-      .add("lod", &output.surface.levels, "N",
+      .add("lod", &output.surface.closed.levels, "N",
            "Levels of detail in one glTF, each with a quarter of the triangles (MSFT_lod)")
       .in(WholeRange{1, 8});
   table.choice("mesh-per", mesh.per, kMeshPer, "Meshes of a glTF: one, or one for each branch");
@@ -137,7 +133,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
 }
 
 void addMeshFileRows(OptionTable& table, OutputOptions& output) {
-  convert::ClosedSurfaceOptions& surface = output.surface;
+  convert::ClosedSurfaceOptions& surface = output.surface.closed;
   table.group("Mesh");
   table.scope(kAnyContent, kAllMeshes);
   addSurfaceRows(table, surface);
@@ -165,35 +161,6 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
              "it");
   table.scope(kAnyContent);
   table.group("");
-}
-
-namespace {
-
-CaseMesh patchesOfCase(const formats::Case& value, const std::filesystem::path& file,
-                       const OutputOptions& options, int levels, Progress& progress) {
-  CaseMesh result;
-  convert::PolygoniseOptions patches = options.polygonise;
-  patches.cell = convert::chooseCell(value, patches);
-  for (int level = 0; level < levels; ++level) {
-    convert::Patches made = convert::polygonise(value, patches, progress);
-    progress.check();
-    if (level == 0) reportLosses(made, file.string(), patches.cell, progress);
-    result.levels.push_back(std::move(made.surface));
-    patches.cell *= 2;
-  }
-  return result;
-}
-
-}  // namespace
-
-CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& file,
-                    const OutputOptions& options, bool hasLevels, Progress& progress) {
-  convert::ClosedSurfaceOptions surface = options.surface;
-  if (!hasLevels) surface.levels = 1;
-  if (options.patches) return patchesOfCase(value, file, options, surface.levels, progress);
-  convert::ClosedSurface made = convert::closedSurface(value, surface, progress);
-  warnOfSurface(made.report, file.string(), progress);
-  return {std::move(made.levels), std::move(made.report)};
 }
 
 }  // namespace lumen::engine

@@ -109,10 +109,14 @@ convert::SeedReading TrackArguments::reading() const {
   return reading;
 }
 
-std::vector<Eigen::Vector3d> TrackArguments::rootPlaces() const {
-  std::vector<Eigen::Vector3d> places;
-  for (const std::string& text : roots) places.push_back(placeIn(text));
-  return places;
+operations::VesselOptions TrackArguments::vessels() const {
+  operations::VesselOptions vessels;
+  vessels.track = options;
+  vessels.seedsName = seeds;
+  vessels.isSeedsOnly = isSeedsOnly;
+  for (const std::string& text : roots) vessels.roots.push_back(placeIn(text));
+  vessels.isOnlyConnected = isOnlyConnected;
+  return vessels;
 }
 
 void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
@@ -226,7 +230,7 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
       .among(wordsOf(millimetresByUnit()))
       .onlyWith("centerline");
   table
-      .add("mesh", &mesh.scene.mesh, "NAME",
+      .add("mesh", &mesh.sceneMesh, "NAME",
            "Mesh of a scene that the vessels are: the name of its loader or of the loader's node "
            "[the one whose node has vessel in its name, or that does not move]")
       .forInputs(kScene);

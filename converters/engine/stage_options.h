@@ -16,6 +16,7 @@
 #include "converters/engine/mesh_input.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/io/volume/read_volume_options.h"
+#include "converters/operations/tracked_vessels.h"
 #include "converters/stages/fitting/fit_options.h"
 #include "converters/stages/tracking/track_options.h"
 #include "formats/case/case.h"
@@ -44,7 +45,8 @@ struct TrackArguments {
   bool isSeedsOnly = false;   ///< seeds start all tracks; else they are hints on what is found
   convert::TrackOptions options;
   [[nodiscard]] convert::SeedReading reading() const;
-  [[nodiscard]] std::vector<Eigen::Vector3d> rootPlaces() const;
+  /// The vessels that are wanted, without the content of the seeds file.
+  [[nodiscard]] operations::VesselOptions vessels() const;
 };
 
 /// Each adds rows whose values are stored in its second argument, which must outlive the table.

@@ -55,6 +55,9 @@ lumen_test(one_click_test
 lumen_test(trees_from_surfaces_test FOLDER trees_from_surfaces
   LABELS memory_slow threads slow
   LIBS lumen_fitting lumen_trees_from_surfaces lumen_surface)
+lumen_test(operations_test FOLDER operations
+  LABELS threads
+  LIBS lumen_operations lumen_phantom)
 lumen_test(phantom_test FOLDER phantom
   LABELS threads
   LIBS lumen_phantom lumen_geometry)

@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/content/file_content.h"
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/volume/write_volume.h"
-#include "converters/stages/fitting/fit.h"
+#include "converters/operations/case_of.h"
 #include "viewer/session/document_seeds.h"
 #include "viewer/session/surface_pack.h"
 
@@ -42,9 +42,12 @@ formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
                      const engine::VolumeArguments& volume, Progress& progress) {
   if (format.kind == engine::FormatKind::Case) return format.readCase(opening.path);
   const auto loaded = engine::loadCenterline(opening.path, format, volume, {}, progress);
-  formats::Case value = convert::caseOfCenterline(loaded.file, opening.label);
-  convert::fit(value, engine::fitOptionsFor(value, {}), progress);
-  return value;
+  operations::Source source;
+  source.name = opening.label;
+  source.centerline = operations::CenterlinePart{loaded.file, opening.label};
+  operations::CaseOptions options;
+  options.models.emplace();
+  return operations::caseOf(std::move(source), options, engine::operationContext(progress)).value;
 }
 
 /// A mesh in mm. The arguments state its unit, and from where a scene may take it.

@@ -7,12 +7,11 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/check_answer.h"
-#include "converters/engine/centerline_input.h"
-#include "converters/engine/tracking_input.h"
 #include "converters/judge/compare/compare.h"
 #include "converters/judge/measure/measure_case.h"
-#include "converters/stages/fitting/fit.h"
+#include "converters/operations/case_of.h"
 #include "viewer/session/corrections.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/vessel_tracking.h"
@@ -95,7 +94,8 @@ Json StageJobs::accept(const Arguments& request, const Moment& from) {
       "fitting", true, [&workspace, from, acceptance](Progress& progress) mutable {
         formats::Case& value = *acceptance.value;
         if (acceptance.firstNewNode == 0)
-          convert::fit(value, engine::fitOptionsFor(value, workspace.options.fit), progress);
+          value = operations::fitted(std::move(value), {workspace.options.fit},
+                                     engine::operationContext(progress));
         else
           fitNewNodes(value, *from.document.value, acceptance.firstNewNode, progress);
         workspace.commit(acceptance.title, from, acceptance.document);
@@ -110,7 +110,8 @@ Json StageJobs::fit(const Moment& from) {
   Workspace& workspace = m_workspace;
   return workspace.startJob("fitting", true, [&workspace, from](Progress& progress) {
     auto value = std::make_shared<formats::Case>(*from.document.value);
-    convert::fit(*value, engine::fitOptionsFor(*value, workspace.options.fit), progress);
+    *value = operations::fitted(std::move(*value), {workspace.options.fit},
+                                engine::operationContext(progress));
     Document document = from.document;
     document.value = std::move(value);
     workspace.commit("fit", from, std::move(document));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 
@@ -53,6 +54,16 @@ std::string caseLine(const std::string& file, const formats::Case& value) {
          counted(pointCount(value), "point", "points") + ", " +
          counted(blobCount(value), "blob", "blobs") + ", " + fixedText(totalLength(value.tree), 1) +
          " mm\n";
+}
+
+operations::Context operationContext(Progress& progress, const OptionTable* table) {
+  const auto word = [table](std::string_view field, std::optional<std::size_t> value) {
+    std::string text = "--" + std::string(field);
+    if (const OptionRow* row = table && value ? table->find(field) : nullptr)
+      text += " " + row->givenValues.at(*value);
+    return text;
+  };
+  return {progress, word, kOption.json.shown()};
 }
 
 }  // namespace lumen::engine

@@ -14,6 +14,7 @@
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/seeds/case_seeds.h"
+#include "converters/operations/tracked_vessels.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -102,7 +103,8 @@ private:
 
   [[nodiscard]] Answer writeFound(const FileFormat& from, Progress& progress) const {
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    const formats::Case found = findAndTrack(volume, m_input, m_options, progress).result;
+    const formats::Case found =
+        operations::findAndTrack(volume, m_input, m_options, operationContext(progress)).result;
     return answer(seedsOn(found), caseSummary(found)["length_mm"], "vessel", "vessels");
   }
 
