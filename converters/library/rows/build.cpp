@@ -159,7 +159,7 @@ private:
     const RowLock lock(plan.folder, m_progress);
     m_results[i].state = RowState::Running;
     leaveNote(i, &plan);
-    m_results[i] = makeRow(plan, m_library, m_options, m_progress);
+    m_results[i] = makeRow(plan, m_library, m_options);
     leaveNote(i, &plan);
     if (m_results[i].state != RowState::Made) warnOfRow(m_progress, m_results[i]);
   }
