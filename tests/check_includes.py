@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks which way includes go, and that strings do not go the other way: see docs/architecture.md.
+"""Checks which way includes go, that strings do not go the other way (docs/architecture.md), and that no test is left out of the build.
 
 check_includes.py [--table]
 
@@ -114,6 +114,14 @@ def cycles(arrows):
     return found
 
 
+def forgotten_tests():
+    """Sources of unit tests that no list of CMake names, in folders that no list takes whole: nobody would compile them."""
+    lists = "\n".join(file.read_text() for pattern in ("CMakeLists.txt", "*.cmake") for file in (ROOT / "tests").rglob(pattern))
+    return [f"{file.relative_to(ROOT)} is in no list of CMake, so that its tests do not run"
+            for file in sorted((ROOT / "tests/unit").rglob("*_test.cpp"))
+            if not re.search(rf"/{re.escape(file.name)}\b", lists) and not re.search(rf"FOLDER {file.parent.name}\b", lists)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--table", action="store_true", help="the folders, their sizes and what they include")
@@ -131,6 +139,7 @@ def main():
         spelled = [] if file.as_posix().startswith(KNOW_OPTIONS) else options_spelled(text[file])
         if spelled:
             wrong.append(f"{file} spells {spelled[0]} in a string; its name is a member of kOption in base/option_name.h")
+    wrong += forgotten_tests()
     if options.table:
         print("| folder | files | lines | includes |\n|---|--:|--:|---|")
         for name in MAY_INCLUDE:
