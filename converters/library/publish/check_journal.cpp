@@ -11,7 +11,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "formats/case/file_descriptor.h"
 
 namespace lumen::convert {

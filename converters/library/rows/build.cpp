@@ -12,9 +12,9 @@
 #include <thread>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/library/index/change.h"
 #include "converters/library/index/library_file.h"
 #include "converters/library/index/library_lock.h"
@@ -36,7 +36,7 @@ constexpr const char* kMarkText =
 // a batch waits this multiple of the time that the last one took to put in
 constexpr double kPatience = 20;
 
-/// Whether a case records corrections by hand that can be made again (base/edit_steps.h).
+/// Whether a case records corrections by hand that can be made again (base/options/edit_steps.h).
 bool hasCorrections(const CaseRecord& record) {
   for (const auto& step : record.provenance.value("steps", nlohmann::ordered_json::array()))
     if (step.value("name", "") == kEditStep)

@@ -11,8 +11,8 @@
 
 #include "converters/base/csv_rows.h"
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
-#include "converters/base/option_value.h"
+#include "converters/base/options/option_name.h"
+#include "converters/base/options/option_value.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/library/index/record.h"
