@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/stage_options.h"

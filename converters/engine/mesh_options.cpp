@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/option_name.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/engine/scope.h"
 
 namespace lumen::engine {

@@ -2,9 +2,9 @@
 // Rows of the options of a case's surface and of mesh files.
 #pragma once
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/engine/file_format.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 
 namespace lumen::engine {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/io/volume/write_volume.h"

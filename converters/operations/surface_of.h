@@ -8,7 +8,7 @@
 
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/operations/context.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "converters/stages/surface/patches/polygonise.h"
 #include "formats/case/case.h"
 

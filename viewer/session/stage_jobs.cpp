@@ -12,6 +12,7 @@
 #include "converters/judge/compare/compare.h"
 #include "converters/judge/measure/measure_case.h"
 #include "converters/operations/case_of.h"
+#include "converters/stages/fitting/fit.h"
 #include "viewer/session/corrections.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/vessel_tracking.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/base/shown_lines.h"
 #include "converters/base/text.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/surface_answer.h"
