@@ -7,6 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/scope.h"
 #include "formats/container/printable.h"
 
@@ -45,23 +46,24 @@ void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline) {
   table.group("");
 }
 
-LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFormat& format,
+LoadedCenterline loadCenterline(const convert::InputFile& file, const FileFormat& format,
                                 const VolumeArguments& volume,
                                 const CenterlineArguments& centerline, Progress& progress) {
   LoadedCenterline loaded;
   loaded.file = format.readCenterline(file);
   if (!loaded.file.points.empty() && !(convert::measureExtent(loaded.file).length > 0))
     throw invalidInput(
-        formats::printable(file.string()) +
+        formats::printable(file.path().string()) +
         (loaded.file.points.size() == 1 ? ": holds one point" : ": holds lines of no length") +
         "; expected vessels, as lines of at least two places");
   convert::CenterlineReading reading;
   reading.unit = volume.options().unit;
+  reading.word = optionWord();
   if (centerline.frame == "ras") reading.axes = convert::CenterlineAxes::Ras;
   if (centerline.frame == "lps") reading.axes = convert::CenterlineAxes::Lps;
   loaded.unit = convert::toPatientSpace(loaded.file, reading);
   for (const std::string& remark : loaded.file.remarks)
-    progress.warn(formats::printable(file.string()) + ": " + remark);
+    progress.warn(formats::printable(file.path().string()) + ": " + remark);
   return loaded;
 }
 

@@ -56,7 +56,7 @@ std::set<std::int64_t> MaskArguments::chosen() const {
   return values;
 }
 
-convert::LabelNames MaskArguments::names(const std::filesystem::path& file) const {
+convert::LabelNames MaskArguments::names(const convert::InputFile& file) const {
   if (!labels.empty()) return namedLabels(labels);
   if (labelTable.empty()) return convert::segmentNames(file);
   const std::vector<std::string>& known = convert::builtInLabelTables();

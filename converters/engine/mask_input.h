@@ -29,7 +29,7 @@ struct MaskArguments {
   [[nodiscard]] std::set<std::int64_t> chosen() const;
   /// The names of --labels, or else of --label-table, or else those that `file`, the volume of
   /// labels, states itself; empty without all. Throws Error(Usage) and Error(InvalidInput).
-  [[nodiscard]] convert::LabelNames names(const std::filesystem::path& file) const;
+  [[nodiscard]] convert::LabelNames names(const convert::InputFile& file) const;
 };
 
 /// The volume of --label-map with the names of its labels; empty without one. Throws

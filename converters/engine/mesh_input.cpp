@@ -60,14 +60,15 @@ Json meshFrameJson(const std::optional<operations::MeshFrame>& frame) {
           {"frame_stated", frame->frameStated}};
 }
 
-bool isOfSimVascular(const fs::path& file, const convert::MeshFile& read) {
+bool isOfSimVascular(const convert::InputFile& file, const convert::MeshFile& read) {
   std::error_code ignored;
-  const std::string ending = lowerCase(file.extension().string());
+  const std::string ending = lowerCase(file.path().extension().string());
   const bool hasFaceIds = (ending == ".vtp" || ending == ".vtk") && !read.groups.empty();
-  return hasFaceIds || fs::exists(file.string() + ".facenames", ignored);
+  return hasFaceIds ||
+         (!file.isInMemory() && fs::exists(file.path().string() + ".facenames", ignored));
 }
 
-operations::MeshPart loadMesh(const fs::path& file, const FileFormat& format,
+operations::MeshPart loadMesh(const convert::InputFile& file, const FileFormat& format,
                               const SceneArguments& scene, Progress& progress) {
   operations::MeshPart part;
   progress.begin("reading", 0);

@@ -36,10 +36,10 @@ std::string meshFrameLine(const std::optional<operations::MeshFrame>& frame);
 Json meshFrameJson(const std::optional<operations::MeshFrame>& frame);
 
 /// Whether the file is a model of SimVascular, which names its faces in an array or beside it.
-bool isOfSimVascular(const std::filesystem::path& file, const convert::MeshFile& read);
+bool isOfSimVascular(const convert::InputFile& file, const convert::MeshFile& read);
 
 /// The mesh in `file`; shows a stage of progress. Throws as the reader of the format.
-operations::MeshPart loadMesh(const std::filesystem::path& file, const FileFormat& format,
+operations::MeshPart loadMesh(const convert::InputFile& file, const FileFormat& format,
                               const SceneArguments& scene, Progress& progress);
 
 /// The centerline that a mesh comes with, by the user's statements about its unit and axes, or else

@@ -22,11 +22,11 @@ struct SourceArguments {
   MaskArguments mask;
 };
 
-/// The volume, mesh or centerline in `file`, with the parts beside it that the arguments name. A
+/// The volume, mesh or centerline in `file`, or in bytes, with the parts beside it that the arguments name. A
 /// volume holds labels if the arguments state it, or if there are no seeds for it and its voxels
 /// show it. Assumptions of readers become warnings, and so do reasons to doubt voxels that seeds lie
 /// in. Throws Error(InvalidInput) and Error(Unsupported) as the readers.
-operations::Source loadSource(const std::string& file, const FileFormat& format,
+operations::Source loadSource(const convert::InputFile& file, const FileFormat& format,
                               const SourceArguments& arguments, bool isSeeded, Progress& progress);
 
 }  // namespace lumen::engine

@@ -12,6 +12,7 @@
 
 #include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/io/seeds/seeds.h"
@@ -37,6 +38,8 @@ struct VolumeArguments {
 };
 
 struct TrackArguments {
+  TrackArguments() { options.word = optionWord(); }
+
   std::string seeds;
   std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
   std::vector<std::string> roots;     ///< texts "X,Y,Z", mm, LPS

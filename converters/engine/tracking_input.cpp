@@ -13,35 +13,34 @@ namespace {
 /// The result of `read`. An error about a file that is no volume but has other known content names
 /// that content.
 template <class Result>
-Result readAs(Result (*read)(const std::filesystem::path&, const convert::ReadVolumeOptions&,
+Result readAs(Result (*read)(const convert::InputFile&, const convert::ReadVolumeOptions&,
                              const Progress&),
-              const std::filesystem::path& file, const VolumeArguments& volume,
-              Progress& progress) {
+              const convert::InputFile& file, const VolumeArguments& volume, Progress& progress) {
   try {
     return read(file, volume.options(), progress);
   } catch (const Error& error) {
     const std::string other = convert::notA(convert::ContentKind::Volume, file);
     if (error.kind() == ErrorKind::Cancelled || other.empty()) throw;
-    throw invalidInput(file.string() + ": " + other);
+    throw invalidInput(file.path().string() + ": " + other);
   }
 }
 
-void reportAssumptions(const std::filesystem::path& file,
-                       const std::vector<std::string>& assumptions, Progress& progress) {
+void reportAssumptions(const convert::InputFile& file, const std::vector<std::string>& assumptions,
+                       Progress& progress) {
   for (const std::string& assumption : assumptions)
-    progress.warn(file.string() + ": " + assumption);
+    progress.warn(file.path().string() + ": " + assumption);
 }
 
 }  // namespace
 
-convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
+convert::VolumeHeader loadVolumeHeader(const convert::InputFile& file, const FileFormat& format,
                                        const VolumeArguments& volume, Progress& progress) {
   convert::VolumeHeader header = readAs(format.readVolumeHeader, file, volume, progress);
   reportAssumptions(file, header.assumptions, progress);
   return header;
 }
 
-convert::Volume readVolumeFile(const std::filesystem::path& file, const FileFormat& format,
+convert::Volume readVolumeFile(const convert::InputFile& file, const FileFormat& format,
                                const VolumeArguments& volume, Progress& progress) {
   progress.begin("reading", 0);
   convert::Volume result = readAs(format.readVolume, file, volume, progress);
@@ -59,10 +58,10 @@ void warnOfVoxels(const convert::Volume& volume, const std::string& file, Progre
   }
 }
 
-convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
+convert::Volume loadVolume(const convert::InputFile& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress) {
   convert::Volume result = readVolumeFile(file, format, volume, progress);
-  warnOfVoxels(result, file.string(), progress);
+  warnOfVoxels(result, file.path().string(), progress);
   return result;
 }
 

@@ -3,24 +3,14 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "converters/base/field_word.h"
 #include "converters/base/progress.h"
 
 namespace lumen::operations {
-
-/// The word for a field of the options of an operation, or for one of its values, counted from 0.
-/// A field is named as its option: "seeds", "root", "cell".
-using FieldWord =
-    std::function<std::string(std::string_view field, std::optional<std::size_t> value)>;
-
-/// "seeds", "root[2]".
-inline std::string plainFieldWord(std::string_view field, std::optional<std::size_t> value) {
-  return std::string(field) + (value ? "[" + std::to_string(*value) + "]" : "");
-}
 
 /// The caller makes it once; operations pass it on as it is. Operations read no files, keep no state
 /// and run on the threads of the caller's arena of oneTBB. No result depends on their number.
@@ -28,7 +18,7 @@ struct Context {
   /// Hears of stages, warnings and details; cancel() ends the operation with Error(Cancelled). One
   /// whose warn() throws makes a warning an error.
   Progress& progress;
-  FieldWord fieldWord = plainFieldWord;
+  FieldWord fieldWord = {};  ///< how messages name a field of options
   /// Where a reader of warnings finds the remarks that are too many for them.
   std::string allRemarks = "the result";
 

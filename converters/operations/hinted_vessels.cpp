@@ -93,10 +93,12 @@ void apply(formats::Case& target, const std::string& name, std::set<std::string>
 
 /// Tracks the hints that lie in no vessel into the result.
 void addUnusedHints(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
-                    convert::TrackResult& result, Progress& progress) {
+                    convert::TrackResult& result, const Context& context) {
   if (rest.empty()) return;
-  const convert::TrackingVolume tracking(volume, result.result, progress);
-  convert::AddedTracks added = convert::addTracksFromSeeds(tracking, result.result, rest, progress);
+  const convert::TrackingVolume tracking(volume, result.result, context.progress,
+                                         context.fieldWord);
+  convert::AddedTracks added =
+      convert::addTracksFromSeeds(tracking, result.result, rest, context.progress);
   result.result = std::move(added.result);
   append(std::move(added.failures), result.failures);
   append(std::move(added.missedPoints), result.missedPoints);
@@ -121,7 +123,7 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, options.roots);
   append(std::move(hints.missedPoints), result.missedPoints);
   append(std::move(hints.unjoined), result.unjoined);
-  addUnusedHints(volume, hints.rest, result, progress);
+  addUnusedHints(volume, hints.rest, result, context);
   for (const SeedFailure& unused : hints.unused)
     progress.warn(formats::printable(options.seedsName) + ": seed \"" +
                   formats::printable(unused.label) +

@@ -67,7 +67,8 @@ std::string listed(const std::vector<std::string>& sentences) {
 convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const std::string& name,
                                bool isOfSimVascular, const Context& context) {
   convert::UnitGuess guess = convert::guessUnit(size, isOfSimVascular);
-  if (const std::string warning = convert::unitWarning(guess, size, isOfSimVascular);
+  if (const std::string warning =
+          convert::unitWarning(guess, size, isOfSimVascular, context.fieldWord);
       !warning.empty())
     context.progress.warn(formats::printable(name) + ": " + warning);
   return guess;

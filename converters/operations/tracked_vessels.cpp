@@ -43,12 +43,13 @@ std::string share(std::size_t count, std::size_t seeds) {
 std::string doubtAboutSeeds(const convert::Volume& volume,
                             const std::vector<convert::SeedBranch>& seeds,
                             const std::vector<convert::SeedBranch>& placed,
-                            const convert::TrackOptions& options, const Progress& progress) {
-  const convert::ClickLight light(volume, options, progress);
+                            const convert::TrackOptions& options, const Context& context) {
+  const convert::ClickLight light(volume, options, context.progress);
   const std::size_t inVessels = light.countInVessels(placed);
   std::size_t most = inVessels;
   std::string advice;
-  for (const convert::RereadSeeds& other : convert::otherReadings(seeds, volume.geometry)) {
+  for (const convert::RereadSeeds& other :
+       convert::otherReadings(seeds, volume.geometry, context.fieldWord)) {
     const std::size_t count = light.countInVessels(other.seeds);
     if (count <= most || 3 * count < 2 * seeds.size()) continue;
     most = count;
@@ -134,7 +135,7 @@ convert::PlacedSeeds placedSeeds(const convert::Volume& volume, const VesselOpti
                                  const Context& context) {
   const std::string file = formats::printable(options.seedsName);
   convert::PlacedSeeds placed =
-      convert::placeSeeds(options.seeds, volume.geometry, options.seedsName);
+      convert::placeSeeds(options.seeds, volume.geometry, options.seedsName, context.fieldWord);
   if (!placed.advice.empty()) context.progress.warn(file + ": " + placed.advice);
   warnOfSeeds(file, " is left out: ", placed.leftOut, context);
   warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, context);
@@ -152,8 +153,7 @@ void reportOnSeeds(const convert::Volume& volume, const VesselOptions& options,
   const bool isNone =
       result.result.tree.nodeCount() == 0 || result.failures.size() == placed.seeds.size();
   if (isNone || 2 * result.failures.size() > placed.seeds.size()) {
-    const std::string doubt =
-        doubtAboutSeeds(volume, seeds, placed.seeds, options.track, context.progress);
+    const std::string doubt = doubtAboutSeeds(volume, seeds, placed.seeds, options.track, context);
     const std::string count = std::to_string(seeds.size()) + " seeds started ";
     // seeds of one vessel may fail together: without a doubt about them the rest is good
     if (isNone || !doubt.empty())

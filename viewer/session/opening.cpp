@@ -31,7 +31,7 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
   if (!inVoxels) return seeds;
   if (volume == nullptr)
     throw invalidInput(opening.label + ": these seeds are in voxels; open their volume first");
-  auto result = convert::placeSeeds(seeds, volume->geometry, opening.path);
+  auto result = convert::placeSeeds(seeds, volume->geometry, opening.path, engine::optionWord());
   for (const convert::SeedFailure& failure : result.leftOut)
     progress.warn(opening.label + ": seed \"" + failure.label +
                   "\" is left out: " + failure.reason);
@@ -122,7 +122,9 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     }
     case FileRole::Seeds:
       document.seeds =
-          joined(placed(document.volume.get(), convert::readSeeds(opening.path), opening, progress),
+          joined(placed(document.volume.get(),
+                        convert::readSeeds(opening.path, engine::TrackArguments().reading()),
+                        opening, progress),
                  trackedSeeds(document));
       break;
     case FileRole::Mesh:

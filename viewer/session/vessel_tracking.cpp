@@ -169,7 +169,7 @@ std::shared_ptr<const convert::TrackingVolume> TrackingCache::volumeFor(
   if (!m_tracking || m_volume != document.volume || !(m_step == made)) {
     m_tracking.reset();
     m_tracking = step != nullptr ? std::make_shared<const convert::TrackingVolume>(
-                                       *document.volume, *document.value, progress)
+                                       *document.volume, *document.value, progress, options.word)
                                  : std::make_shared<const convert::TrackingVolume>(
                                        *document.volume, clicks, options, progress);
     m_volume = document.volume;

@@ -56,14 +56,17 @@ std::string caseLine(const std::string& file, const formats::Case& value) {
          " mm\n";
 }
 
-operations::Context operationContext(Progress& progress, const OptionTable* table) {
-  const auto word = [table](std::string_view field, std::optional<std::size_t> value) {
+FieldWord optionWord(const OptionTable* table) {
+  return FieldWord([table](std::string_view field, std::optional<std::size_t> value) {
     std::string text = "--" + std::string(field);
     if (const OptionRow* row = table && value ? table->find(field) : nullptr)
       text += " " + row->givenValues.at(*value);
     return text;
-  };
-  return {progress, word, kOption.json.shown()};
+  });
+}
+
+operations::Context operationContext(Progress& progress, const OptionTable* table) {
+  return {progress, optionWord(table), kOption.json.shown()};
 }
 
 }  // namespace lumen::engine

@@ -6,21 +6,18 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/answers/track_answer.h"
+#include "converters/engine/convert_options.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/mesh_options.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/source_input.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/centerline/case_of_centerline.h"
 #include "converters/judge/facts/check_facts.h"
 #include "converters/operations/case_of.h"
-#include "converters/stages/surface/patches/polygonise.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -69,19 +66,7 @@ public:
                        formatEndings(canWriteCenterline));
     addFormatRow(table, "from", m_from, "INPUT");
     addFormatRow(table, "to", m_to, "OUTPUT");
-    addVolumeRows(table, m_source.volume);
-    addCenterlineRows(table, m_source.centerline);
-    addTrackRows(table, m_track);
-    table
-        .file("corrections", m_corrected,
-              "Repeat the manual corrections of this case of the same volume, each at its place; "
-              "corrections that no longer fit are reported, and the case keeps them")
-        .forInputs(kImage);
-    addMeshRows(table, m_source.mesh);
-    addMaskRows(table, m_source.mask);
-    addFitRows(table, m_fit);
-    addMeshFileRows(table, m_outputOptions);
-    addEncodingRows(table, m_outputOptions.encoding);
+    m_options.addRows(table);
     addTimeRow(table, m_time).forInputs(kCases).inGroup("");
   }
 
@@ -90,8 +75,8 @@ public:
     const FileFormat& to = outputFormat(m_output, m_to);
     requireInput(m_input, "input");
     const FileFormat& from = inputFormat(m_input, m_from);
-    FileContents contents{inputContent(from, m_source.mask.isGiven()), outputContent(to), m_input,
-                          m_output};
+    FileContents contents{inputContent(from, m_options.source.mask.isGiven()), outputContent(to),
+                          m_input, m_output};
     const bool isCase = from.kind == FormatKind::Case;
     if (!isCase) requireInScope(*context.table, contents, context.progress);
     operations::CaseOptions options = caseOptions(from);
@@ -99,48 +84,39 @@ public:
 
     operations::Source source =
         isCase ? loadCase(from, to, contents, context) : loadNew(from, options, contents, context);
-    if (!isCase || contents.input == kUnfittedCase) options.models = modelOptions(source, context);
+    if (!isCase || contents.input == kUnfittedCase)
+      options.models = m_options.modelOptions(source, *context.table, context.progress);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
     context.progress.check();
     const std::optional<convert::Reach> reach = convert::measureReach(made.value, context.progress);
     convert::warnOfClosed(reach, context.progress);
     return report(made, reach,
-                  to.writeCase(made.value, m_output, m_outputOptions, context.progress));
+                  to.writeCase(made.value, m_output, m_options.output, context.progress));
   }
 
 private:
   [[nodiscard]] operations::CaseOptions caseOptions(const FileFormat& from) const {
-    operations::CaseOptions options;
-    options.vessels = m_track.vessels();
-    options.repeats = m_track.repeats;
-    if (from.kind == FormatKind::Volume) {
-      if (!m_track.seeds.empty()) options.vessels.seeds = loadSeeds(m_track);
-      options.chosenLabels = m_source.mask.chosen();
-    }
-    if (!m_corrected.empty()) {
-      requireInput(m_corrected, "corrected case");
-      options.corrected = operations::CorrectedCase{readCase(m_corrected), m_corrected};
-    }
-    options.meshUnit = m_source.volume.options().unit;
+    operations::CaseOptions options = m_options.caseOptions(from.kind);
+    if (from.kind == FormatKind::Volume && !m_options.track.seeds.empty())
+      options.vessels.seeds = loadSeeds(m_options.track);
+    const std::string& corrected = m_options.corrected;
+    if (corrected.empty()) return options;
+    requireInput(corrected, "corrected case");
+    options.corrected = operations::CorrectedCase{readCase(corrected), corrected};
     return options;
   }
 
   /// A case is made of this source. A volume may turn out to hold labels.
   operations::Source loadNew(const FileFormat& from, const operations::CaseOptions& options,
                              FileContents& contents, const RunContext& context) {
-    operations::Source source =
-        loadSource(m_input, from, m_source, !options.vessels.seeds.empty(), context.progress);
-    if (source.labels && !m_source.mask.isGiven()) {
+    operations::Source source = loadSource(m_input, from, m_options.source,
+                                           !options.vessels.seeds.empty(), context.progress);
+    if (source.labels && !m_options.source.mask.isGiven()) {
       contents.input = inputContent(from, true);
       requireInScope(*context.table, contents, context.progress);
     }
-    if (from.kind == FormatKind::Centerline) {
-      // there is no voxel that a mesh could take its cells from
-      double& cell = m_outputOptions.surface.patches.cell;
-      const double thinnest = convert::measureExtent(source.centerline->file).least;
-      if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
-    }
+    m_options.takeCellsOf(source);
     return source;
   }
 
@@ -148,7 +124,7 @@ private:
   operations::Source loadCase(const FileFormat& from, const FileFormat& to, FileContents& contents,
                               const RunContext& context) const {
     // rounding and motion make another case; another encoding does not
-    const bool isOther = m_time || m_outputOptions.encoding.pointBits != 0;
+    const bool isOther = m_time || m_options.output.encoding.pointBits != 0;
     operations::Source source;
     source.name = m_input;
     source.value = atTime(isOther ? readParentCase(m_input) : from.readCase(m_input), m_time,
@@ -176,21 +152,6 @@ private:
       refuseUnused(skin, "is for cases with a motion" + none, context.progress);
   }
 
-  /// Refuses the scale of a cohesion that is 0, as it is for a case without voxels.
-  [[nodiscard]] operations::ModelOptions modelOptions(const operations::Source& source,
-                                                      const RunContext& context) const {
-    const bool isStated = context.table->find(kOption.cohesionWeight.name)->isGiven;
-    const bool hasVoxels = source.value ? source.value->metadata.voxelSize.has_value()
-                                        : source.mesh || !source.centerline;
-    const OptionRow& scale = *context.table->find("cohesion-scale");
-    if (scale.isGiven && !(isStated ? m_fit.cohesionWeight > 0 : hasVoxels))
-      refuseUnused(scale,
-                   "does nothing without " + kOption.cohesionWeight.shown() +
-                       ", which is 0 for a case without voxels",
-                   context.progress);
-    return {m_fit, isStated};
-  }
-
   [[nodiscard]] Answer report(const operations::MadeCase& made,
                               const std::optional<convert::Reach>& reach,
                               const std::optional<convert::SurfaceReport>& surface) const {
@@ -207,12 +168,9 @@ private:
                 endLines(made.remarks)};
   }
 
-  std::string m_input, m_output, m_from, m_to, m_corrected;
-  SourceArguments m_source;
-  TrackArguments m_track;
-  convert::FitOptions m_fit;
+  std::string m_input, m_output, m_from, m_to;
+  ConvertOptions m_options;
   std::optional<double> m_time;
-  OutputOptions m_outputOptions;
 };
 
 }  // namespace

@@ -68,6 +68,7 @@ public:
     addVolumeRows(table, m_volume);
     table.scope(kImage);
     table.group("Tracking");
+    m_options.word = optionWord();
     m_options.addFoundRows(table);
     table.scope(kAnyContent);
     table.group("");
@@ -110,7 +111,7 @@ private:
 
   /// The seeds that the case holds, whether they are tracked or wait.
   [[nodiscard]] Answer writeKept(const formats::Case& value) const {
-    std::vector<convert::SeedBranch> seeds = convert::seedsOf(value, m_input);
+    std::vector<convert::SeedBranch> seeds = convert::seedsOf(value, m_input, optionWord());
     if (seeds.empty()) throw failed(formats::printable(m_input) + ": it holds no seeds");
     for (convert::SeedBranch& seed : seeds) seed.isTracked = false;  // counts in a case alone
     convert::dropOtherParents(seeds);

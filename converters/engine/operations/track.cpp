@@ -2,7 +2,6 @@
 // lumen track: a volume and seeds to a tree with wall points.
 #include <utility>
 
-#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/track_answer.h"
@@ -33,7 +32,7 @@ public:
     addVolumeRows(table, m_volume);
     addTrackRows(table, m_track);
     addLabelMapRows(table, m_labels);
-    table.find(kOption.labelTable.name)->onlyWith(kOption.labelMap.name);
+    table.find("label-table")->onlyWith("label-map");
     addFormatRow(table, "from", m_from, "VOLUME");
     addFormatRow(table, "to", m_to, "OUT");
   }
