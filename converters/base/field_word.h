@@ -14,7 +14,9 @@ namespace lumen {
 
 /// "seeds", "root[2]".
 inline std::string plainFieldWord(std::string_view field, std::optional<std::size_t> value) {
-  return std::string(field) + (value ? "[" + std::to_string(*value) + "]" : "");
+  std::string word(field);
+  if (value) word.append("[").append(std::to_string(*value)).append("]");
+  return word;
 }
 
 /// The word for a field of options, or for one of its values, counted from 0. A field is named as

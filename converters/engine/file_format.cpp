@@ -93,12 +93,12 @@ EncodedCase encodeGltfAs(const formats::Case& value, const fs::path& file,
           std::move(mesh.report)};
 }
 
-constexpr auto kGlb = encodeGltfAs<true>;
-constexpr auto kGltf = encodeGltfAs<false>;
-constexpr auto kVtp = encodeMeshAs<encodePlain<convert::encodeVtp>>;
-constexpr auto kObj = encodeMeshAs<encodePlain<convert::encodeObj>>;
-constexpr auto kStl = encodeMeshAs<encodeStl>;
-constexpr auto kPly = encodeMeshAs<encodePlain<convert::encodePly>>;
+constexpr auto kEncodeGlb = encodeGltfAs<true>;
+constexpr auto kEncodeGltf = encodeGltfAs<false>;
+constexpr auto kEncodeVtp = encodeMeshAs<encodePlain<convert::encodeVtp>>;
+constexpr auto kEncodeObj = encodeMeshAs<encodePlain<convert::encodeObj>>;
+constexpr auto kEncodeStl = encodeMeshAs<encodeStl>;
+constexpr auto kEncodePly = encodeMeshAs<encodePlain<convert::encodePly>>;
 
 /// The encoder of a centerline format: the case's tree, encoded.
 template <std::string (*encode)(const formats::CenterlineTree&)>
@@ -120,18 +120,18 @@ std::vector<FileFormat> makeTable() {
        .readCase = readCase, .encodeCase = encodeCaseAs<formats::CaseEncoding::Json>},
       // meshes
       {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"},
-       .readMesh = readMeshAs<MeshFormat::Gltf>, .encodeCase = kGlb},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .encodeCase = kEncodeGlb},
       {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"},
-       .readMesh = readMeshAs<MeshFormat::Gltf>, .encodeCase = kGltf},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .encodeCase = kEncodeGltf},
       {.name = "vtp", .title = "VTK", .kind = Mesh, .endings = {".vtp"},
-       .readMesh = readMeshAs<MeshFormat::Vtp>, .encodeCase = kVtp},
+       .readMesh = readMeshAs<MeshFormat::Vtp>, .encodeCase = kEncodeVtp},
       {.name = "vtk", .title = "VTK", .kind = Mesh, .endings = {".vtk"}, .readMesh = readMeshAs<MeshFormat::Vtk>},
       {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"},
-       .readMesh = readMeshAs<MeshFormat::Obj>, .encodeCase = kObj},
+       .readMesh = readMeshAs<MeshFormat::Obj>, .encodeCase = kEncodeObj},
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"},
-       .readMesh = readMeshAs<MeshFormat::Stl>, .encodeCase = kStl},
+       .readMesh = readMeshAs<MeshFormat::Stl>, .encodeCase = kEncodeStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"},
-       .readMesh = readMeshAs<MeshFormat::Ply>, .encodeCase = kPly},
+       .readMesh = readMeshAs<MeshFormat::Ply>, .encodeCase = kEncodePly},
       {.name = "scn", .title = "a scene of SOFA", .kind = Mesh, .endings = {".scn"},
        .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
       // centerlines

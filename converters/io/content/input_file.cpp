@@ -13,13 +13,12 @@ namespace lumen::convert {
 
 namespace {
 
-/// A stream over bytes that are not copied.
-class MemoryStream : private std::streambuf, public std::istream {
+/// Bytes that are not copied.
+class MemoryBuffer : public std::streambuf {
 public:
-  explicit MemoryStream(std::string_view bytes) : std::istream(nullptr) {
-    char* begin = const_cast<char*>(bytes.data());  // the stream is for reading alone
+  explicit MemoryBuffer(std::string_view bytes) {
+    char* begin = const_cast<char*>(bytes.data());  // the buffer is for reading alone
     setg(begin, begin, begin + bytes.size());
-    init(this);
   }
 
 private:
@@ -35,6 +34,16 @@ private:
   pos_type seekpos(pos_type place, std::ios_base::openmode which) override {
     return seekoff(off_type(place), std::ios_base::beg, which);
   }
+};
+
+class MemoryStream : public std::istream {
+public:
+  explicit MemoryStream(std::string_view bytes) : std::istream(nullptr), m_buffer(bytes) {
+    rdbuf(&m_buffer);
+  }
+
+private:
+  MemoryBuffer m_buffer;
 };
 
 }  // namespace
