@@ -89,6 +89,12 @@ private:
 
 }  // namespace
 
+Options::Options(const lumen_engine_options* given) {
+  if (!given) return;
+  for (const OptionRow& row : given->table.rows())
+    if (row.isGiven) m_held.table.set(row.name, row.givenValues);
+}
+
 lumen_engine_status refuse(lumen_engine_fault* fault, lumen_engine_status status,
                            std::string_view sentence) {
   if (!fault) return status;

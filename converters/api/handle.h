@@ -25,7 +25,7 @@ struct lumen_engine_options {
 struct lumen_engine_source {
   std::optional<lumen::operations::Source> source;  ///< empty once it is used up
   std::vector<lumen::convert::SeedBranch> seeds;
-  std::string seedsName;
+  std::string seedsName, regionsName;               ///< empty without them
   lumen::ContentMask content = lumen::kAnyContent;  ///< bits of engine/scope.h
 };
 
@@ -56,17 +56,19 @@ lumen_engine_status guarded(lumen_engine_fault* fault, const std::function<void(
 /// Does long work on as many threads as the listener says, which hears of it and may end it.
 void listenTo(const lumen_engine_listener* listener, const std::function<void(Progress&)>& work);
 
-/// The caller's options, or those that stand without any.
+/// A copy of the caller's options, or those that stand without any. Files that are among the inputs
+/// count as given.
 class Options {
 public:
-  explicit Options(const lumen_engine_options* given) : m_given(given) {}
-  [[nodiscard]] const ConvertOptions& values() const { return held().values; }
-  [[nodiscard]] const OptionTable& table() const { return held().table; }
+  explicit Options(const lumen_engine_options* given);
+  void give(const char* name, const std::string& file) {
+    if (!file.empty()) m_held.table.set(name, {file});
+  }
+  [[nodiscard]] const ConvertOptions& values() const { return m_held.values; }
+  [[nodiscard]] const OptionTable& table() const { return m_held.table; }
 
 private:
-  [[nodiscard]] const lumen_engine_options& held() const { return m_given ? *m_given : m_none; }
-  const lumen_engine_options* m_given;
-  lumen_engine_options m_none;
+  lumen_engine_options m_held;
 };
 
 }  // namespace lumen::engine::api

@@ -15,10 +15,12 @@ namespace {
 
 constexpr const char* kCaseName = "case";  // in messages
 
-formats::Case caseOf(lumen_engine_source& from, const Options& options, Progress& progress) {
+formats::Case caseOf(lumen_engine_source& from, Options options, Progress& progress) {
   if (!from.source)
     throw Error(ErrorKind::Usage, "the source is used up; expected one that no case was made of");
   operations::Source source = *std::exchange(from.source, std::nullopt);
+  options.give("seeds", from.seedsName);
+  options.give("label-map", from.regionsName);
   requireCompatible(options.table());
   requireInScope(options.table(), {from.content, kAnyContent, source.name, {}}, progress);
   const FormatKind kind = source.grey || source.labels ? FormatKind::Volume : FormatKind::Mesh;

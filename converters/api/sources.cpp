@@ -60,7 +60,7 @@ operations::LabelPart regionsOf(const lumen_engine_file& file, const Options& op
           options.values().source.mask.names(input)};
 }
 
-void load(const lumen_engine_inputs& inputs, const Options& options, lumen_engine_source& to,
+void load(const lumen_engine_inputs& inputs, Options options, lumen_engine_source& to,
           Progress& progress) {
   if (!isThere(inputs.main)) throw Error(ErrorKind::Usage, "the main input is missing");
   const convert::InputFile input = inputOf(inputs.main);
@@ -70,6 +70,8 @@ void load(const lumen_engine_inputs& inputs, const Options& options, lumen_engin
     to.seeds = convert::readSeeds(inputOf(inputs.seeds), track.reading());
     to.seedsName = inputs.seeds.name;
   }
+  if (isThere(inputs.label_map)) to.regionsName = inputs.label_map.name;
+  options.give("label-map", to.regionsName);
   operations::Source& source = to.source.emplace();
   if (format.kind == FormatKind::Case) {
     source.name = inputs.main.name;
@@ -78,7 +80,7 @@ void load(const lumen_engine_inputs& inputs, const Options& options, lumen_engin
     return;
   }
   source = loadSource(input, format, options.values().source, !to.seeds.empty(), progress);
-  if (isThere(inputs.label_map)) source.regions = regionsOf(inputs.label_map, options, progress);
+  if (!to.regionsName.empty()) source.regions = regionsOf(inputs.label_map, options, progress);
   to.content = inputContent(format, source.labels.has_value());
 }
 

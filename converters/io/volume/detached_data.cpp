@@ -83,8 +83,9 @@ std::vector<fs::path> detachedFiles(const InputFile& input, const DetachedNames&
                                     const std::string& what) {
   const fs::path& header = input.path();
   if (input.isInMemory())
-    throw invalidInput(header.string() + ": " + what +
-                       " in another file; expected them behind its header, as it is in memory");
+    throw invalidInput(header.string() + ": " + what + " in " +
+                       formats::printable(names.count > 0 ? names.name(0) : std::string()) +
+                       "; expected them behind its header, as it is in memory");
   std::vector<fs::path> places = {resolved(header.parent_path())};
   for (const fs::path& path : allowed) places.push_back(resolved(path));
   std::erase_if(places, [](const fs::path& place) { return place.empty(); });

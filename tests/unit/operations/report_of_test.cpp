@@ -79,7 +79,7 @@ TEST_F(ReportOfTest, ACaseWithItsVolumeHasAllPartsOfThePage) {
   EXPECT_EQ(page.facts.volume->source.word(), "same");
   EXPECT_EQ(page.facts.volume->projections.size(), 3U);
   ASSERT_TRUE(page.facts.volume->check);
-  EXPECT_GT(page.facts.volume->check->offsets.samples, 1000U);
+  EXPECT_GT(page.facts.volume->check->offsets.samples, 500U);
   EXPECT_EQ(page.facts.warnings(), 0U);
   EXPECT_TRUE(m_warnings.said.empty());
   for (const std::string& words :

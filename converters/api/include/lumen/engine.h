@@ -94,7 +94,7 @@ typedef struct lumen_engine_fault {
  * into lumen. */
 typedef struct lumen_engine_listener {
   void* user; /* handed to each function */
-  /* A stage begins: its name, such as "tracking". */
+  /* A stage begins: its name, such as "track". */
   void (*stage)(void* user, const char* name);
   /* Done so far in this stage, from 0 to 1; not called where the end is not known. */
   void (*progress)(void* user, double done);
