@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input of a reader: a file, or bytes in memory under the name of one.
+// The input of a reader: a file or a folder, or bytes in memory under the name of one.
 #pragma once
 
 #include <concepts>
@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace lumen::convert {
 
@@ -23,10 +24,16 @@ public:
   /// recognised; no file of that name or beside it is opened.
   InputFile(std::filesystem::path name, std::string_view bytes)
       : m_path(std::move(name)), m_bytes(bytes) {}
+  /// A folder in memory, whose files outlive this object. Their names are as messages call them.
+  InputFile(std::filesystem::path name, const std::vector<InputFile>& files)
+      : m_path(std::move(name)), m_files(&files) {}
 
   /// The file, or the name of the bytes.
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
-  [[nodiscard]] bool isInMemory() const { return m_bytes.has_value(); }
+  [[nodiscard]] bool isInMemory() const { return m_bytes || m_files != nullptr; }
+  /// Files of a folder in memory; null for any other input.
+  [[nodiscard]] const std::vector<InputFile>* files() const { return m_files; }
+  [[nodiscard]] bool isFolder() const;
 
   /// Number of bytes. Throws Error(InvalidInput), naming the file.
   [[nodiscard]] std::uint64_t size() const;
@@ -38,6 +45,7 @@ public:
 private:
   std::filesystem::path m_path;
   std::optional<std::string_view> m_bytes;
+  const std::vector<InputFile>* m_files = nullptr;
 };
 
 }  // namespace lumen::convert
