@@ -31,7 +31,8 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
   if (!inVoxels) return seeds;
   if (volume == nullptr)
     throw invalidInput(opening.label + ": these seeds are in voxels; open their volume first");
-  auto result = convert::placeSeeds(seeds, volume->geometry, opening.path, engine::optionWord());
+  auto result =
+      convert::placeSeeds(seeds, volume->geometry, opening.file.path(), engine::optionWord());
   for (const convert::SeedFailure& failure : result.leftOut)
     progress.warn(opening.label + ": seed \"" + failure.label +
                   "\" is left out: " + failure.reason);
@@ -40,8 +41,8 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
 
 formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
                      const engine::VolumeArguments& volume, Progress& progress) {
-  if (format.kind == engine::FormatKind::Case) return format.readCase(opening.path);
-  const auto loaded = engine::loadCenterline(opening.path, format, volume, {}, progress);
+  if (format.kind == engine::FormatKind::Case) return format.readCase(opening.file);
+  const auto loaded = engine::loadCenterline(opening.file, format, volume, {}, progress);
   operations::Source source;
   source.name = opening.label;
   source.centerline = operations::CenterlinePart{loaded.file, opening.label};
@@ -52,10 +53,10 @@ formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
 
 /// A mesh in mm. The arguments state its unit, and from where a scene may take it.
 convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& arguments) {
-  const engine::FileFormat& format = engine::inputFormat(opening.path, "");
+  const engine::FileFormat& format = engine::inputFormat(opening.file, "");
   convert::MeshFile mesh = format.readScene != nullptr
-                               ? format.readScene(opening.path, {{}, arguments.allowDetached})
-                               : format.readMesh(opening.path);
+                               ? format.readScene(opening.file, {{}, arguments.allowDetached})
+                               : format.readMesh(opening.file);
   const auto unit = engine::millimetresByUnit().find(arguments.unit);
   if (unit != engine::millimetresByUnit().end()) mesh.unitMm = unit->second;
   return inMillimetres(std::move(mesh));
@@ -68,7 +69,7 @@ std::shared_ptr<const convert::Volume> volumeOf(const Opening& opening,
   if (!opening.series.empty()) arguments.series = opening.series;
   arguments.skipFaulty = true;
   return std::make_shared<const convert::Volume>(
-      engine::loadVolume(opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
+      engine::loadVolume(opening.file, engine::inputFormat(opening.file, ""), arguments, progress));
 }
 
 /// Options of the command line are for the first volume. A second one keeps where its header may
@@ -91,7 +92,8 @@ void closeSecond(Document& document) {
 
 Document add(Document document, const Opening& opening, FileRole role, int id,
              const engine::VolumeArguments& arguments, Progress& progress) {
-  const FileStamp stamp = readFileStamp(opening.path);
+  const fs::path named = opening.file.isInMemory() ? fs::path() : opening.file.path();
+  const FileStamp stamp = readFileStamp(named);
   switch (role) {
     case FileRole::Volume:
       document.volume = volumeOf(opening, arguments, progress);
@@ -110,7 +112,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Case:
     case FileRole::Truth: {
       auto value = std::make_shared<const formats::Case>(
-          caseOf(opening, engine::inputFormat(opening.path, ""), arguments, progress));
+          caseOf(opening, engine::inputFormat(opening.file, ""), arguments, progress));
       if (role == FileRole::Truth) {
         document.truth = std::move(value);
         break;
@@ -123,7 +125,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Seeds:
       document.seeds =
           joined(placed(document.volume.get(),
-                        convert::readSeeds(opening.path, engine::TrackArguments().reading()),
+                        convert::readSeeds(opening.file, engine::TrackArguments().reading()),
                         opening, progress),
                  trackedSeeds(document));
       break;
@@ -134,18 +136,17 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
       break;
   }
   if (role != FileRole::Mesh) dropFiles(document, role);
-  document.files.push_back({id, role, opening.label, opening.dropped ? fs::path() : opening.path,
-                            stamp, opening.series});
+  document.files.push_back({id, role, opening.label, named, stamp, opening.series});
   return document;
 }
 
 }  // namespace
 
 FileRole openingRole(const Opening& opening) {
-  engine::requireInput(opening.path, "file");
-  if (convert::detectContent(opening.path).kind == convert::ContentKind::Seeds)
+  if (!opening.file.isInMemory()) engine::requireInput(opening.file.path(), "file");
+  if (convert::detectContent(opening.file).kind == convert::ContentKind::Seeds)
     return FileRole::Seeds;
-  const engine::FileFormat& format = engine::inputFormat(opening.path, "");
+  const engine::FileFormat& format = engine::inputFormat(opening.file, "");
   if (opening.as == OpenAs::Truth && format.kind != engine::FormatKind::Case)
     throw Error(ErrorKind::Usage, opening.label + ": the truth must be a case");
   if (opening.as == OpenAs::Second && format.kind != engine::FormatKind::Volume)
