@@ -196,7 +196,7 @@ Json closeSeries(Session& session, const Arguments&, const Moment&) {
 
 Json openCase(Session& session, const Arguments& request, const Moment&) {
   const Library& library = session.library;
-  if (!library.isOpen()) throw Error(ErrorKind::Usage, "no library is open");
+  if (!library.isOpen()) refuse("no library is open");
   const std::size_t index = request.index("index", library.size());
   if (session.hasUnsaved() && !request.flag("force"))
     throw Conflict("the open case has changes that are not saved");
@@ -211,7 +211,7 @@ Json reload(Session& session, const Arguments& request, const Moment& from) {
   const auto file =
       std::find_if(files.begin(), files.end(), [id](const OpenFile& f) { return f.id == id; });
   if (file == files.end() || file->path.empty())
-    throw Error(ErrorKind::Usage, "no file of number " + std::to_string(id) + " was named");
+    refuse("no file of number " + std::to_string(id) + " was named");
   return session.startJob("reading " + file->label + " again", true,
                           [&session, from, file = *file](Progress& progress) {
                             reloadFile(session, file, from, progress);

@@ -14,6 +14,7 @@
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/operations/case_of.h"
+#include "viewer/session/document/arguments.h"
 #include "viewer/session/document/document_seeds.h"
 #include "viewer/session/packs/surface_pack.h"
 
@@ -103,8 +104,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
       break;
     case FileRole::Second:
       if (!document.volume)
-        throw Error(ErrorKind::Usage,
-                    opening.label + ": open the volume first that it is to be seen beside");
+        refuse(opening.label + ": open the volume first that it is to be seen beside");
       document.second = volumeOf(opening, secondArguments(arguments), progress);
       document.secondSource =
           std::make_shared<const formats::SourceVolume>(convert::describeSource(*document.second));
@@ -148,10 +148,9 @@ FileRole openingRole(const Opening& opening) {
     return FileRole::Seeds;
   const engine::FileFormat& format = engine::inputFormat(opening.file, "");
   if (opening.as == OpenAs::Truth && format.kind != engine::FormatKind::Case)
-    throw Error(ErrorKind::Usage, opening.label + ": the truth must be a case");
+    refuse(opening.label + ": the truth must be a case");
   if (opening.as == OpenAs::Second && format.kind != engine::FormatKind::Volume)
-    throw Error(ErrorKind::Usage,
-                opening.label + ": only a volume can be seen beside the first volume");
+    refuse(opening.label + ": only a volume can be seen beside the first volume");
   switch (format.kind) {
     case engine::FormatKind::Volume:
       return opening.as == OpenAs::Second ? FileRole::Second : FileRole::Volume;
@@ -173,8 +172,7 @@ Document withoutFile(const Document& document, int id) {
   Document result = document;
   const auto file = std::find_if(result.files.begin(), result.files.end(),
                                  [id](const OpenFile& f) { return f.id == id; });
-  if (file == result.files.end())
-    throw Error(ErrorKind::Usage, "no file of number " + std::to_string(id) + " is open");
+  if (file == result.files.end()) refuse("no file of number " + std::to_string(id) + " is open");
   const FileRole role = file->role;
   switch (role) {
     case FileRole::Volume:

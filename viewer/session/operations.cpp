@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/error.h"
 #include "formats/container/printable.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/source_match.h"
@@ -49,7 +48,7 @@ Json reject(Session& session, const Arguments& request, const Moment& from) {
 Json step(Session& session, bool forward) {
   History& history = session.history;
   if (!(forward ? history.redo() : history.undo()))
-    throw Error(ErrorKind::Usage, forward ? "nothing to redo" : "nothing to undo");
+    refuse(forward ? "nothing to redo" : "nothing to undo");
   session.announce();
   return session.revision();
 }
@@ -115,7 +114,7 @@ Json runOperation(Session& session, const std::string& op, const Arguments& requ
     return answer;
   }
   auto correction = viewer::correct(op, request, from.document);
-  if (!correction) throw Error(ErrorKind::Usage, "there is no operation \"" + op + "\"");
+  if (!correction) refuse("there is no operation \"" + op + "\"");
   session.warnOfDropped(correction->change.droppedArrays);
   if (!correction->change.stale.empty()) return refit(session, std::move(*correction), from);
   return session.commit(correction->change.sentence, from, std::move(correction->document));

@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include "converters/base/error.h"
 #include "formats/container/printable.h"
 #include "viewer/session/document/arguments.h"
 #include "viewer/session/packs/pack.h"
@@ -24,8 +23,7 @@ Json seriesJson(const convert::DicomSeries& series) {
           {"modality", printable(series.modality)},
           {"files", series.files},
           {"size", series.size},
-          {"spacing", isSound ? Json({series.spacing.x(), series.spacing.y(), series.spacing.z()})
-                              : Json(nullptr)},
+          {"spacing", isSound ? engine::vectorJson(series.spacing) : Json(nullptr)},
           {"fault", isSound ? Json(nullptr) : Json(printable(series.fault))}};
 }
 

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "converters/base/error.h"
 #include "converters/base/text.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/check_answer.h"
@@ -28,7 +27,7 @@ void addClicks(Json& answer, const convert::Missing& missing) {
   for (std::size_t i = 0; i < missing.vessels.size(); ++i) {
     const convert::Clicks clicks = convert::clicksOn(missing.vessels[i]);
     Json points = Json::array();
-    for (const Eigen::Vector3d& p : clicks.points) points.push_back({p.x(), p.y(), p.z()});
+    for (const Eigen::Vector3d& point : clicks.points) points.push_back(engine::vectorJson(point));
     answer["missing_vessels"][i]["clicks"] = {
         {"points", std::move(points)}, {"radius", clicks.radius}, {"beside", clicks.beside}};
   }
@@ -53,21 +52,21 @@ Json trackSeeds(Session& session, const Seeds& seeds, const Moment& from) {
 }  // namespace
 
 Json track(Session& session, const Arguments& request, const Moment& from) {
-  if (!from.document.volume) throw Error(ErrorKind::Usage, "tracking needs a volume");
+  if (!from.document.volume) refuse("tracking needs a volume");
   const Seeds seeds = untrackedSeeds(from.document, request);
-  if (seeds.empty()) throw Error(ErrorKind::Usage, "there is no seed that is not tracked yet");
+  if (seeds.empty()) refuse("there is no seed that is not tracked yet");
   return trackSeeds(session, seeds, from);
 }
 
 Json trackFrom(Session& session, const Arguments& request, const Moment& from) {
-  if (!from.document.volume) throw Error(ErrorKind::Usage, "tracking needs a volume");
+  if (!from.document.volume) refuse("tracking needs a volume");
   Moment seeded = from;
   seeded.document = changeSeeds("seedAdd", request, from.document)->document;
   return trackSeeds(session, {seeded.document.seeds->back()}, seeded);
 }
 
 Json find(Session& session, const Arguments&, const Moment& from) {
-  if (!from.document.volume) throw Error(ErrorKind::Usage, "there is no volume to find vessels in");
+  if (!from.document.volume) refuse("there is no volume to find vessels in");
   return session.startJob("finding vessels", true, [&session, from](Progress& progress) {
     Document document = from.document;
     document.proposals =
@@ -98,7 +97,7 @@ Json accept(Session& session, const Arguments& request, const Moment& from) {
 
 Json fit(Session& session, const Arguments&, const Moment& from) {
   if (!from.document.value || !from.document.value->points)
-    throw Error(ErrorKind::Usage, "there are no wall points to fit to");
+    refuse("there are no wall points to fit to");
   return session.startJob("fitting", true, [&session, from](Progress& progress) {
     auto value = std::make_shared<formats::Case>(*from.document.value);
     *value = operations::fitted(std::move(*value), {session.options.fit},
@@ -122,7 +121,7 @@ Json refit(Session& session, Correction correction, const Moment& from) {
 
 Json check(Session& session, const Arguments&, const Moment& from) {
   if (!from.document.volume || !from.document.hasModels())
-    throw Error(ErrorKind::Usage, "a check needs a volume and a case with models");
+    refuse("a check needs a volume and a case with models");
   return session.startJob("checking", false, [&session, from](Progress& progress) {
     const auto value = from.document.value;
     const convert::Volume& volume = *from.document.volume;
@@ -140,8 +139,7 @@ Json check(Session& session, const Arguments&, const Moment& from) {
 }
 
 Json compare(Session& session, const Arguments&, const Moment& from) {
-  if (!from.document.value || !from.document.truth)
-    throw Error(ErrorKind::Usage, "a comparison needs a case and a truth");
+  if (!from.document.value || !from.document.truth) refuse("a comparison needs a case and a truth");
   return session.startJob("comparing", false, [&session, from](Progress& progress) {
     const auto& [value, truth] = std::tie(from.document.value, from.document.truth);
     const auto comparison = convert::compareCases(*value, *truth, progress);
@@ -151,7 +149,7 @@ Json compare(Session& session, const Arguments&, const Moment& from) {
 }
 
 Json measure(Session& session, const Arguments&, const Moment& from) {
-  if (!from.document.value) throw Error(ErrorKind::Usage, "there is no case to measure");
+  if (!from.document.value) refuse("there is no case to measure");
   return session.startJob("measuring", false, [&session, from](Progress& progress) {
     operations::CaseMeasures measures =
         operations::measuresOf(*from.document.value, {}, engine::operationContext(progress));

@@ -21,12 +21,12 @@ Json orNull(const std::optional<std::string>& text) {
 }
 
 Json seedsJson(const Document& document) {
-  const auto labels = vesselLabels(document);
+  const auto labels = vesselLabels(document.value);
   Json list = Json::array();
   for (const convert::SeedBranch& seed : *document.seeds) {
     Json points = Json::array();
     for (const convert::SeedPoint& point : seed.points)
-      points.push_back({{"position", {point.position.x(), point.position.y(), point.position.z()}},
+      points.push_back({{"position", engine::vectorJson(point.position)},
                         {"radius", point.radius ? Json(*point.radius) : Json(nullptr)}});
     list.push_back({{"label", seed.label},
                     {"kind", formats::enumName(formats::kBranchKindNames, seed.kind)},
@@ -143,12 +143,9 @@ Json Session::state() const {
   json["series"] = series.json();
   json["unsavedBefore"] = unsavedJson(unsavedWork.found(), target);
   json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
-  json["check"] = findings.check();
-  json["work"] = findings.work(document);
-  json["checkIsOld"] = findings.isCheckOld(document);
-  json["figures"] = findings.figures(document);
+  findings.addTo(json, document);
   const auto& look = options.look;
-  json["look"] = look ? Json({look->x(), look->y(), look->z()}) : Json(nullptr);
+  json["look"] = look ? engine::vectorJson(*look) : Json(nullptr);
   const auto& time = options.time;
   json["time"] = time ? Json(*time) : Json(nullptr);
   json["measuresAreOld"] = findings.areMeasuresOld(document);

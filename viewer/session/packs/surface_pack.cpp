@@ -113,11 +113,9 @@ Json overlapsJson(const convert::SurfaceReport& report) {
     list.push_back({{"branch", overlap.branch},
                     {"other", overlap.other},
                     {"depth", overlap.depth},
-                    {"position", {overlap.place.x(), overlap.place.y(), overlap.place.z()}}});
+                    {"position", engine::vectorJson(overlap.place)}});
   return list;
 }
-
-using convert::Triangle;
 
 constexpr double kMostError = 1.0 / 3;     // share of the mean radius by which a wall may move
 constexpr std::size_t kMinTriangles = 16;  // triangles of a run, where it has as many
