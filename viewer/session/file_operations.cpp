@@ -154,16 +154,16 @@ bool Session::offerSeries(const fs::path& folder, Progress& progress) {
   return true;
 }
 
-Json openDropped(Session& session, const std::string& name, std::string bytes, OpenAs as) {
+Json Session::openDropped(const std::string& name, std::string bytes, OpenAs as) {
   auto file = std::make_shared<DroppedFiles>();
   file->add(name, std::move(bytes));
-  return session.startJob("opening " + formats::printable(name), true,
-                          [&session, file = std::move(file), name, as](Progress& progress) mutable {
-                            const auto read = std::exchange(
-                                file, nullptr);  // gone before the job reports its end
-                            session.open({read->first(), name, as, {}, read}, progress);
-                            return formats::printable(name) + " is open";
-                          });
+  const std::lock_guard gate(m_gate);
+  return startJob("opening " + formats::printable(name), true,
+                  [this, file = std::move(file), name, as](Progress& progress) mutable {
+                    const auto read = std::exchange(file, nullptr);  // goes before the job ends
+                    open({read->first(), name, as, {}, read}, progress);
+                    return formats::printable(name) + " is open";
+                  });
 }
 
 Json listSeries(Session& session, const Arguments& request, const Moment&) {

@@ -6,9 +6,9 @@
 
 #include "converters/base/error.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
+#include "converters/engine/source_input.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/content/file_content.h"
 #include "converters/io/seeds/place_seeds.h"
@@ -43,23 +43,21 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
 formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
                      const engine::VolumeArguments& volume, Progress& progress) {
   if (format.kind == engine::FormatKind::Case) return format.readCase(opening.file);
-  const auto loaded = engine::loadCenterline(opening.file, format, volume, {}, progress);
-  operations::Source source;
+  operations::Source source =
+      engine::loadSource(opening.file, format, {volume, {}, {}, {}}, false, progress);
   source.name = opening.label;
-  source.centerline = operations::CenterlinePart{loaded.file, opening.label};
   operations::CaseOptions options;
   options.models.emplace();
   return operations::caseOf(std::move(source), options, engine::operationContext(progress)).value;
 }
 
 /// A mesh in mm. The arguments state its unit, and from where a scene may take it.
-convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& arguments) {
+convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& arguments,
+                         Progress& progress) {
   const engine::FileFormat& format = engine::inputFormat(opening.file, "");
-  convert::MeshFile mesh = format.readScene != nullptr
-                               ? format.readScene(opening.file, {{}, arguments.allowDetached})
-                               : format.readMesh(opening.file);
-  const auto unit = engine::millimetresByUnit().find(arguments.unit);
-  if (unit != engine::millimetresByUnit().end()) mesh.unitMm = unit->second;
+  convert::MeshFile mesh =
+      engine::loadMesh(opening.file, format, {{}, arguments.allowDetached}, progress).file;
+  mesh.unitMm = arguments.options().unit.value_or(mesh.unitMm);
   return inMillimetres(std::move(mesh));
 }
 
@@ -132,7 +130,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Mesh:
       document.meshes.push_back(
           {id, opening.label,
-           std::make_shared<const convert::MeshFile>(meshOf(opening, arguments))});
+           std::make_shared<const convert::MeshFile>(meshOf(opening, arguments, progress))});
       break;
   }
   if (role != FileRole::Mesh) dropFiles(document, role);

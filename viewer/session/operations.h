@@ -19,7 +19,6 @@ Json runOperation(Session& session, const std::string& op, const Arguments& requ
 
 // Files (file_operations.cpp).
 
-Json openDropped(Session& session, const std::string& name, std::string bytes, OpenAs as);
 /// Looks through dropped files of DICOM: opens their only series, or lets pages choose.
 PageOperation listSeries;
 /// One of the listed series, as the volume or as the second one.

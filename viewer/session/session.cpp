@@ -51,11 +51,6 @@ Json Session::run(formats::JsonValue request) {
   return runOperation(*this, op, arguments, from);
 }
 
-Json Session::openDropped(const std::string& name, std::string bytes, OpenAs as) {
-  const std::lock_guard gate(m_gate);
-  return viewer::openDropped(*this, name, std::move(bytes), as);
-}
-
 Json Session::vesselAtClick(formats::JsonValue request) {
   const Arguments arguments(request);
   return vesselNear(arguments.position("position"), now().document, tracking,

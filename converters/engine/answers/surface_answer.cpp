@@ -49,13 +49,6 @@ SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
   }
 }
 
-void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
-                   Progress& progress) {
-  for (const std::string& sentence :
-       operations::surfaceWarnings(report, operationContext(progress)))
-    progress.warn(formats::printable(file) + ": " + sentence);
-}
-
 std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
                          const formats::Case& value) {
   if (!report) return "";
