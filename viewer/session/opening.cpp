@@ -16,7 +16,6 @@
 #include "converters/operations/case_of.h"
 #include "viewer/session/document/arguments.h"
 #include "viewer/session/document/document_seeds.h"
-#include "viewer/session/packs/surface_pack.h"
 
 namespace lumen::viewer {
 
@@ -51,14 +50,18 @@ formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
   return operations::caseOf(std::move(source), options, engine::operationContext(progress)).value;
 }
 
-/// A mesh in mm. The arguments state its unit, and from where a scene may take it.
+/// A mesh in mm, as one without a unit is taken to be. The arguments state its unit, and from where a
+/// scene may take it.
 convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& arguments,
                          Progress& progress) {
   const engine::FileFormat& format = engine::inputFormat(opening.file, "");
   convert::MeshFile mesh =
       engine::loadMesh(opening.file, format, {{}, arguments.allowDetached}, progress).file;
-  mesh.unitMm = arguments.options().unit.value_or(mesh.unitMm);
-  return inMillimetres(std::move(mesh));
+  const double unit = arguments.options().unit.value_or(mesh.unitMm);
+  if (unit > 0)
+    for (Eigen::Vector3d& p : mesh.mesh.position) p *= unit;
+  mesh.unitMm = 1;
+  return mesh;
 }
 
 /// A volume. Files of a folder of DICOM that cannot be read are left out, and reported.

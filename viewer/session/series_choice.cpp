@@ -85,7 +85,7 @@ Opening SeriesChoice::opening(const Arguments& request, const char* name) const 
 
 Json SeriesChoice::json() const {
   const std::lock_guard lock(m_mutex);
-  if (m_folder.label.empty()) return nullptr;
+  if (m_folder.file.path().empty()) return nullptr;
   Json list = Json::array(), faults = Json::array();
   for (const convert::DicomSeries& series : m_listing.series) list.push_back(seriesJson(series));
   for (std::size_t i = 0; i < std::min(m_listing.faults.size(), kMostFaults); ++i)

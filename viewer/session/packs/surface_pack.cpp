@@ -208,13 +208,6 @@ std::string meshPack(const convert::MeshFile& mesh) {
   return pack.bytes();
 }
 
-convert::MeshFile inMillimetres(convert::MeshFile mesh) {
-  if (mesh.unitMm > 0)
-    for (Eigen::Vector3d& p : mesh.mesh.position) p *= mesh.unitMm;
-  mesh.unitMm = 1;
-  return mesh;
-}
-
 MovingSurface movingSurface(std::span<const convert::Float3> position,
                             std::span<const float> radius, std::span<const Triangle> triangle,
                             std::span<const TriangleRun> run, std::size_t most) {
