@@ -276,10 +276,11 @@ typedef struct lumen_engine_mesh {
 } lumen_engine_mesh;
 
 /* Makes the surface of a case with models: closed, one 2-manifold for each connected tree.
- * A vessel ends in a plane, half of the last node's radius beyond that node, or half of its height
- * if that is more; so where the border of the image cuts a vessel, its surface goes on by up to
- * that much. Triangles in the plane close it, a group of their own, and vertices at their rim have
- * the wall's normals. An end that no plane can cut stays round: "cap-..." (docs/method.md, Ends).
+ * A vessel ends in a plane beyond its last node, by half of that node's height and at least half
+ * of its radius, or less where the wall closes before: so the surface goes on by up to a radius or
+ * so where the border of the image cuts the vessel, and also where it ends within the image.
+ * Triangles in the plane close it, a group of their own, and vertices at their rim have the wall's
+ * normals. An end that no plane can cut stays round, "cap-..." (docs/method.md, Ends).
  * Failures are those of lumen_engine_encode(). */
 LUMEN_ENGINE_API lumen_engine_status lumen_engine_surface_of(
     const lumen_engine_case* value, const lumen_engine_options* options,
