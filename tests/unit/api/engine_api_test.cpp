@@ -104,6 +104,11 @@ TEST_F(EngineApi, AnOptionThatDoesNothingForTheSourceIsRefused) {
   EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "\"centerline-frame\" is for meshes"));
 }
 
+TEST_F(EngineApi, StatesTheInterfaceThatRuns) {
+  EXPECT_EQ(lumen_engine_interface(), LUMEN_ENGINE_INTERFACE);
+  EXPECT_STREQ(lumen_engine_version(), LUMEN_VERSION);
+}
+
 TEST_F(EngineApi, ListsItsOptions) {
   lumen_engine_bytes* bytes = nullptr;
   ASSERT_EQ(lumen_engine_list_options(&bytes, &fault), LUMEN_ENGINE_OK);
