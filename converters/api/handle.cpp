@@ -8,11 +8,14 @@
 #include <mutex>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include <tbb/task_arena.h>
 
+#include "converters/api/options.h"
 #include "converters/base/error.h"
 
 namespace lumen::engine::api {
@@ -42,7 +45,7 @@ public:
   }
   void warn(std::string_view message) override {
     const std::lock_guard lock(m_mutex);
-    if (m_listener.warning) m_listener.warning(m_listener.user, std::string(message).c_str());
+    if (m_listener.warning) m_listener.warning(m_listener.user, inWordsOfC(message).c_str());
   }
   /// True if the listener asks for the end.
   bool isAskedToEnd() {
@@ -87,14 +90,7 @@ private:
   std::thread m_thread;
 };
 
-}  // namespace
-
-Options::Options(const lumen_engine_options* given) {
-  if (!given) return;
-  for (const OptionRow& row : given->table.rows())
-    if (row.isGiven) m_held.table.set(row.name, row.givenValues);
-}
-
+/// Fills *fault, if there is one, and returns `status`.
 lumen_engine_status refuse(lumen_engine_fault* fault, lumen_engine_status status,
                            std::string_view sentence) {
   if (!fault) return status;
@@ -107,14 +103,28 @@ lumen_engine_status refuse(lumen_engine_fault* fault, lumen_engine_status status
   return status;
 }
 
-lumen_engine_status refuseNull(lumen_engine_fault* fault, const char* function) {
-  return refuse(fault, LUMEN_ENGINE_USAGE, std::string(function) + "() was handed a null pointer");
+/// Does the work; its errors get the words of this interface.
+void inWords(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    throw Error(error.kind(), inWordsOfC(error.what()));
+  }
+}
+
+}  // namespace
+
+void requireGiven(const char* function, std::initializer_list<Argument> arguments) {
+  for (const Argument& argument : arguments)
+    if (argument.value == nullptr)
+      throw Error(ErrorKind::Usage,
+                  std::string(function) + "(): " + argument.name + " is a null pointer");
 }
 
 lumen_engine_status guarded(lumen_engine_fault* fault, const std::function<void()>& work) {
   if (fault) *fault = {};
   try {
-    work();
+    inWords(work);
     return LUMEN_ENGINE_OK;
   } catch (const Error& error) {
     return refuse(fault, static_cast<lumen_engine_status>(error.kind()), error.what());

@@ -4,28 +4,26 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
-#include "converters/engine/convert_options.h"
 #include "converters/operations/case_of.h"
 #include "converters/operations/source.h"
 #include "converters/operations/surface_of.h"
 #include "formats/case/case.h"
 #include "lumen/engine.h"
 
-struct lumen_engine_options {
-  lumen::engine::ConvertOptions values;
-  lumen::OptionTable table;
-  lumen_engine_options() { values.addRows(table); }
-};
-
 struct lumen_engine_source {
   std::optional<lumen::operations::Source> source;  ///< empty once it is used up
   std::vector<lumen::convert::SeedBranch> seeds;
-  std::string seedsName, regionsName;               ///< empty without them
+  std::optional<lumen::operations::CorrectedCase> corrected;
+  /// Options that name files, and the names of those that were among the inputs.
+  std::vector<std::pair<const char*, std::string>> files;
   lumen::ContentMask content = lumen::kAnyContent;  ///< bits of engine/scope.h
 };
 
@@ -43,32 +41,20 @@ struct lumen_engine_surface {
 
 namespace lumen::engine::api {
 
-/// Fills *fault, if there is one, and returns `status`.
-lumen_engine_status refuse(lumen_engine_fault* fault, lumen_engine_status status,
-                           std::string_view sentence);
+/// An argument of a function, as its declaration calls it.
+struct Argument {
+  const char* name;
+  const void* value;
+};
 
-/// USAGE: `function` was handed a null pointer.
-lumen_engine_status refuseNull(lumen_engine_fault* fault, const char* function);
+/// Throws Error(Usage) that names the function and its first argument that is null.
+void requireGiven(const char* function, std::initializer_list<Argument> arguments);
 
-/// The status of `work`, which may throw: no exception leaves the library.
+/// The status of `work`, which may throw: no exception leaves the library. Fills *fault, if there is
+/// one.
 lumen_engine_status guarded(lumen_engine_fault* fault, const std::function<void()>& work);
 
 /// Does long work on as many threads as the listener says, which hears of it and may end it.
 void listenTo(const lumen_engine_listener* listener, const std::function<void(Progress&)>& work);
-
-/// A copy of the caller's options, or those that stand without any. Files that are among the inputs
-/// count as given.
-class Options {
-public:
-  explicit Options(const lumen_engine_options* given);
-  void give(const char* name, const std::string& file) {
-    if (!file.empty()) m_held.table.set(name, {file});
-  }
-  [[nodiscard]] const ConvertOptions& values() const { return m_held.values; }
-  [[nodiscard]] const OptionTable& table() const { return m_held.table; }
-
-private:
-  lumen_engine_options m_held;
-};
 
 }  // namespace lumen::engine::api

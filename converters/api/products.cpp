@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of lumen/engine.h that make cases and products.
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "converters/api/handle.h"
+#include "converters/api/options.h"
 #include "converters/base/error.h"
 #include "converters/engine/command.h"
 #include "converters/engine/file_access.h"
@@ -19,17 +21,15 @@ formats::Case caseOf(lumen_engine_source& from, Options options, Progress& progr
   if (!from.source)
     throw Error(ErrorKind::Usage, "the source is used up; expected one that no case was made of");
   operations::Source source = *std::exchange(from.source, std::nullopt);
-  options.give("seeds", from.seedsName);
-  options.give("label-map", from.regionsName);
+  for (const auto& [option, name] : from.files) options.give(option, name);
   requireCompatible(options.table());
   requireInScope(options.table(), {from.content, kAnyContent, source.name, {}}, progress);
   const FormatKind kind = source.grey || source.labels ? FormatKind::Volume : FormatKind::Mesh;
   operations::CaseOptions made = options.values().caseOptions(kind);
   made.vessels.seeds = from.seeds;
-  if (!from.seedsName.empty()) made.vessels.seedsName = from.seedsName;
+  made.corrected = std::move(from.corrected);
   made.models = options.values().modelOptions(source, options.table(), progress);
-  return operations::caseOf(std::move(source), made, operationContext(progress, &options.table()))
-      .value;
+  return operations::caseOf(std::move(source), made, options.context(progress)).value;
 }
 
 const FileFormat& formatNamed(const std::string& name) {
@@ -42,7 +42,6 @@ std::string encoded(const formats::Case& value, const std::string& format, const
                     Progress& progress) {
   const FileFormat& writer = formatNamed(format);
   requireCompatible(options.table());
-  requireInScope(options.table(), {kAnyContent, outputContent(writer), {}, format}, progress);
   return writer.encodeCase(value, kCaseName, options.values().output, progress).bytes;
 }
 
@@ -67,8 +66,8 @@ lumen_engine_status lumen_engine_case_of(lumen_engine_source* source,
                                          lumen_engine_case** out,
                                          lumen_engine_fault* fault) noexcept {
   if (out) *out = nullptr;
-  if (!source || !out) return refuseNull(fault, "lumen_engine_case_of");
   return guarded(fault, [&] {
+    requireGiven("lumen_engine_case_of", {{"source", source}, {"out", out}});
     listenTo(listener, [&](Progress& progress) {
       *out = new lumen_engine_case{api::caseOf(*source, Options(options), progress)};
     });
@@ -78,9 +77,10 @@ lumen_engine_status lumen_engine_case_of(lumen_engine_source* source,
 lumen_engine_status lumen_engine_open_case(const lumen_engine_file* file, lumen_engine_case** out,
                                            lumen_engine_fault* fault) noexcept {
   if (out) *out = nullptr;
-  if (!file || !file->name || !file->bytes || !out)
-    return refuseNull(fault, "lumen_engine_open_case");
   return guarded(fault, [&] {
+    requireGiven("lumen_engine_open_case", {{"file", file}, {"out", out}});
+    requireGiven("lumen_engine_open_case",
+                 {{"file->name", file->name}, {"file->bytes", file->bytes}});
     const std::string_view bytes(static_cast<const char*>(file->bytes), file->size);
     *out = new lumen_engine_case{readCase({file->name, bytes})};
   });
@@ -90,11 +90,27 @@ void lumen_engine_free_case(lumen_engine_case* value) noexcept {
   delete value;
 }
 
-const void* lumen_engine_data(const lumen_engine_bytes* bytes) noexcept {
+size_t lumen_engine_branch_count(const lumen_engine_case* value) noexcept {
+  return value ? value->value.tree.branches.size() : 0;
+}
+
+const char* lumen_engine_branch_name(const lumen_engine_case* value, size_t branch) noexcept {
+  if (branch >= lumen_engine_branch_count(value)) return nullptr;
+  return value->value.tree.branches[branch].label.c_str();
+}
+
+size_t lumen_engine_branch_parent(const lumen_engine_case* value, size_t branch) noexcept {
+  if (branch >= lumen_engine_branch_count(value)) return SIZE_MAX;
+  const formats::CenterlineTree& tree = value->value.tree;
+  const std::int32_t node = tree.branches[branch].parentNode;
+  return node == formats::kNoParent ? SIZE_MAX : tree.branch[static_cast<std::size_t>(node)];
+}
+
+const void* lumen_engine_bytes_data(const lumen_engine_bytes* bytes) noexcept {
   return bytes ? bytes->bytes.data() : nullptr;
 }
 
-size_t lumen_engine_size(const lumen_engine_bytes* bytes) noexcept {
+size_t lumen_engine_bytes_size(const lumen_engine_bytes* bytes) noexcept {
   return bytes ? bytes->bytes.size() : 0;
 }
 
@@ -108,8 +124,8 @@ lumen_engine_status lumen_engine_encode(const lumen_engine_case* value, const ch
                                         lumen_engine_bytes** out,
                                         lumen_engine_fault* fault) noexcept {
   if (out) *out = nullptr;
-  if (!value || !format || !out) return refuseNull(fault, "lumen_engine_encode");
   return guarded(fault, [&] {
+    requireGiven("lumen_engine_encode", {{"value", value}, {"format", format}, {"out", out}});
     listenTo(listener, [&](Progress& progress) {
       *out = new lumen_engine_bytes{encoded(value->value, format, Options(options), progress)};
     });
@@ -122,16 +138,15 @@ lumen_engine_status lumen_engine_surface_of(const lumen_engine_case* value,
                                             lumen_engine_surface** out,
                                             lumen_engine_fault* fault) noexcept {
   if (out) *out = nullptr;
-  if (!value || !out) return refuseNull(fault, "lumen_engine_surface_of");
   return guarded(fault, [&] {
+    requireGiven("lumen_engine_surface_of", {{"value", value}, {"out", out}});
     listenTo(listener, [&](Progress& progress) {
       const Options given(options);
       requireCompatible(given.table());
-      requireInScope(given.table(), {kAnyContent, kOtherMesh, {}, "arrays"}, progress);
       operations::SurfaceOptions surface = given.values().output.surface;
       surface.closed.levels = 1;
-      operations::Surface made = operations::surfaceOf(value->value, surface, kCaseName,
-                                                       operationContext(progress, &given.table()));
+      operations::Surface made =
+          operations::surfaceOf(value->value, surface, kCaseName, given.context(progress));
       *out = new lumen_engine_surface{std::move(made.levels.front())};
     });
   });

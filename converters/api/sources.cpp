@@ -1,46 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of lumen/engine.h that take options and inputs.
-#include <algorithm>
+// The functions of lumen/engine.h that take inputs.
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "converters/api/handle.h"
+#include "converters/api/options.h"
 #include "converters/base/error.h"
-#include "converters/base/input_file.h"
+#include "converters/base/text.h"
+#include "converters/engine/command.h"
+#include "converters/engine/file_access.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/source_input.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/seeds/seeds.h"
-#include "converters/io/volume/label_table.h"
+#include "converters/io/content/file_content.h"
 #include "converters/io/volume/volume_checks.h"
-#include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine::api {
 namespace {
 
-/// Options whose value names a file, which this interface opens none of.
-constexpr std::array<std::string_view, 5> kFiles = {"seeds", "label-map", "centerline",
-                                                    "corrections", "allow-detached"};
-
-void refuseFile(std::string_view name, const std::string& value) {
-  const std::vector<std::string>& tables = convert::builtInLabelTables();
-  const bool isTable =
-      name == "label-table" && std::find(tables.begin(), tables.end(), value) == tables.end();
-  if (isTable || std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end())
-    throw Error(ErrorKind::Usage, std::string(name) +
-                                      ": names a file, and this interface opens none; "
-                                      "expected its bytes among the inputs");
-}
+/// Options of files of volumes, which say nothing of an array.
+constexpr std::array<const char*, 5> kOfFiles = {"series", "volume-index", "crop", "spacing",
+                                                 "unit"};
 
 /// Whether a part of the inputs is there. Throws Error(Usage) for one without its bytes or name.
-bool isThere(const lumen_engine_file& file) {
+bool isThere(const lumen_engine_file& file, const char* part) {
   if (!file.name && !file.bytes && file.size == 0) return false;
   if (!file.name || (!file.bytes && file.size > 0))
-    throw Error(ErrorKind::Usage, "an input has no name or no bytes; expected both, or neither");
+    throw Error(ErrorKind::Usage, std::string(part) + " has no " + (file.name ? "bytes" : "name") +
+                                      "; expected both, or neither");
   return true;
 }
 
@@ -49,39 +43,17 @@ InputFile inputOf(const lumen_engine_file& file) {
           std::string_view(static_cast<const char*>(file.bytes), file.size)};
 }
 
-operations::LabelPart regionsOf(const lumen_engine_file& file, const Options& options,
-                                Progress& progress) {
-  const InputFile input = inputOf(file);
-  const FileFormat& format = inputFormat(input, "");
-  if (format.readVolume == nullptr)
-    throw invalidInput(formats::printable(file.name) +
-                       ": is no volume; expected a volume of labels");
-  return {readVolumeFile(input, format, {}, progress), file.name,
-          options.values().source.mask.names(input)};
-}
-
-void load(const lumen_engine_inputs& inputs, Options options, lumen_engine_source& to,
-          Progress& progress) {
-  if (!isThere(inputs.main)) throw Error(ErrorKind::Usage, "the main input is missing");
-  const InputFile input = inputOf(inputs.main);
-  const FileFormat& format = inputFormat(input, "");
-  if (isThere(inputs.seeds)) {
-    const TrackArguments& track = options.values().track;
-    to.seeds = convert::readSeeds(inputOf(inputs.seeds), track.reading());
-    to.seedsName = inputs.seeds.name;
-  }
-  if (isThere(inputs.label_map)) to.regionsName = inputs.label_map.name;
-  options.give("label-map", to.regionsName);
-  operations::Source& source = to.source.emplace();
-  if (format.kind == FormatKind::Case) {
-    source.name = inputs.main.name;
-    source.value = format.readCase(input);
-    to.content = kUnfittedCase;
-    return;
-  }
-  source = loadSource(input, format, options.values().source, !to.seeds.empty(), progress);
-  if (!to.regionsName.empty()) source.regions = regionsOf(inputs.label_map, options, progress);
-  to.content = inputContent(format, source.labels.has_value());
+/// The format by the name's ending, as no option states it.
+const FileFormat& formatOf(const InputFile& file) {
+  const std::string name = lowerCase(file.name());
+  for (const FileFormat& format : fileFormats())
+    for (const std::string_view ending : format.endings)
+      if (canRead(format) && name.ends_with(ending)) return inputFormat(file, "");
+  const convert::FileContent content = convert::detectContent(file);
+  const bool isKnown = content.kind != convert::ContentKind::Unknown;
+  throw unsupported(
+      formats::printable(file.name()) + ": " + (isKnown ? content.sentence() + ", but " : "") +
+      "its name has no ending of a format that lumen reads; expected " + formatEndings(canRead));
 }
 
 template <class T>
@@ -123,6 +95,54 @@ convert::Volume volumeOf(const lumen_engine_volume& from, const std::string& nam
   return volume;
 }
 
+/// An array as a source.
+operations::Source sourceOf(const lumen_engine_volume& array, const Options& options, bool isSeeded,
+                            Progress& progress) {
+  requireGiven("lumen_engine_load",
+               {{"inputs->volume->name", array.name}, {"inputs->volume->data", array.data}});
+  for (const char* const option : kOfFiles)
+    if (const OptionRow& row = *options.table().find(option); row.isGiven)
+      throw Error(ErrorKind::Usage, row.shownName() + " is for files, and " +
+                                        formats::printable(array.name) + " is an array");
+  return volumeSource(volumeOf(array, array.name), InputFile(array.name, std::string_view()),
+                      options.values().source.mask, isSeeded, progress);
+}
+
+void load(const lumen_engine_inputs& inputs, Options options, lumen_engine_source& to,
+          Progress& progress) {
+  if (isThere(inputs.main, "inputs.main") == (inputs.volume != nullptr))
+    throw Error(ErrorKind::Usage, std::string("the inputs have ") +
+                                      (inputs.volume ? "both main and" : "neither main nor") +
+                                      " volume; expected one of them");
+  for (const auto& [option, name, file] : kInputParts) {
+    if (!isThere(inputs.*file, name)) continue;
+    options.give(option, inputOf(inputs.*file));
+    to.files.emplace_back(option, (inputs.*file).name);
+  }
+  requireCompatible(options.table());
+  const ConvertOptions& values = options.values();
+  if (!values.track.seeds.empty()) to.seeds = loadSeeds(values.track);
+  if (const InputFile& file = values.corrected; !file.empty())
+    to.corrected = operations::CorrectedCase{readCase(file), file.name()};
+  if (!values.source.mask.labelMap.empty()) formatOf(values.source.mask.labelMap);
+  operations::Source& source = to.source.emplace();
+  if (inputs.volume) {
+    source = sourceOf(*inputs.volume, options, !to.seeds.empty(), progress);
+    to.content = source.labels ? kFileLabels : kFileImage;
+  } else {
+    const InputFile file = inputOf(inputs.main);
+    const FileFormat& format = formatOf(file);
+    if (format.kind == FormatKind::Case) {
+      source.name = file.name();
+      source.value = format.readCase(file);
+    } else {
+      source = loadSource(file, format, values.source, !to.seeds.empty(), progress);
+    }
+    to.content = source.value ? kUnfittedCase : inputContent(format, source.labels.has_value());
+  }
+  requireInScope(options.table(), {to.content, kAnyContent, source.name, {}}, progress);
+}
+
 }  // namespace
 }  // namespace lumen::engine::api
 
@@ -132,29 +152,12 @@ using namespace lumen::engine::api;
 
 extern "C" {
 
+int lumen_engine_interface(void) noexcept {
+  return LUMEN_ENGINE_INTERFACE;
+}
+
 const char* lumen_engine_version(void) noexcept {
   return LUMEN_VERSION;
-}
-
-lumen_engine_status lumen_engine_options_create(lumen_engine_options** out,
-                                                lumen_engine_fault* fault) noexcept {
-  if (!out) return refuseNull(fault, "lumen_engine_options_create");
-  *out = nullptr;
-  return guarded(fault, [&] { *out = new lumen_engine_options; });
-}
-
-void lumen_engine_options_free(lumen_engine_options* options) noexcept {
-  delete options;
-}
-
-lumen_engine_status lumen_engine_options_set(lumen_engine_options* options, const char* name,
-                                             const char* value,
-                                             lumen_engine_fault* fault) noexcept {
-  if (!options || !name || !value) return refuseNull(fault, "lumen_engine_options_set");
-  return guarded(fault, [&] {
-    refuseFile(name, value);
-    options->table.set(name, {value});
-  });
 }
 
 lumen_engine_status lumen_engine_load(const lumen_engine_inputs* inputs,
@@ -163,34 +166,12 @@ lumen_engine_status lumen_engine_load(const lumen_engine_inputs* inputs,
                                       lumen_engine_source** out,
                                       lumen_engine_fault* fault) noexcept {
   if (out) *out = nullptr;
-  if (!inputs || !out) return refuseNull(fault, "lumen_engine_load");
   return guarded(fault, [&] {
+    requireGiven("lumen_engine_load", {{"inputs", inputs}, {"out", out}});
     auto source = std::make_unique<lumen_engine_source>();
     listenTo(listener,
              [&](Progress& progress) { load(*inputs, Options(options), *source, progress); });
     *out = source.release();
-  });
-}
-
-lumen_engine_status lumen_engine_take_volume(const lumen_engine_volume* volume, const char* name,
-                                             int holds_labels, const lumen_engine_options* options,
-                                             lumen_engine_source** out,
-                                             lumen_engine_fault* fault) noexcept {
-  if (out) *out = nullptr;
-  if (!volume || !volume->data || !name || !out)
-    return refuseNull(fault, "lumen_engine_take_volume");
-  return guarded(fault, [&] {
-    auto made = std::make_unique<lumen_engine_source>();
-    operations::Source& source = made->source.emplace();
-    source.name = name;
-    convert::Volume taken = volumeOf(*volume, name);
-    if (holds_labels != 0)
-      source.labels = operations::LabelPart{
-          std::move(taken), name, Options(options).values().source.mask.names({name, ""})};
-    else
-      source.grey = std::move(taken);
-    made->content = holds_labels != 0 ? kFileLabels : kFileImage;
-    *out = made.release();
   });
 }
 

@@ -22,11 +22,16 @@ struct SourceArguments {
   MaskArguments mask;
 };
 
-/// The volume, mesh or centerline in `file`, or in bytes, with the parts beside it that the arguments name. A
-/// volume holds labels if the arguments state it, or if there are no seeds for it and its voxels
-/// show it. Assumptions of readers become warnings, and so do reasons to doubt voxels that seeds lie
-/// in. Throws Error(InvalidInput) and Error(Unsupported) as the readers.
+/// The volume, mesh or centerline in `file`, with the parts beside it that the arguments name.
+/// Assumptions of readers become warnings. A volume is taken as by volumeSource(). Throws
+/// Error(InvalidInput) and Error(Unsupported) as the readers.
 operations::Source loadSource(const InputFile& file, const FileFormat& format,
                               const SourceArguments& arguments, bool isSeeded, Progress& progress);
+
+/// A volume that was read from `file`, with the label map that the arguments name. It holds labels if
+/// these state it, or if there are no seeds for it and its voxels show it. Reasons to doubt voxels
+/// that seeds lie in become warnings. Throws Error(InvalidInput).
+operations::Source volumeSource(convert::Volume volume, const InputFile& file,
+                                const MaskArguments& mask, bool isSeeded, Progress& progress);
 
 }  // namespace lumen::engine

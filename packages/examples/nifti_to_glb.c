@@ -25,9 +25,9 @@ static void* read_whole(const char* name, size_t* size) {
 }
 
 static int write_whole(const char* name, const lumen_engine_bytes* bytes) {
-  const size_t size = lumen_engine_size(bytes);
+  const size_t size = lumen_engine_bytes_size(bytes);
   FILE* file = fopen(name, "wb");
-  const int is_written = file && fwrite(lumen_engine_data(bytes), 1, size, file) == size;
+  const int is_written = file && fwrite(lumen_engine_bytes_data(bytes), 1, size, file) == size;
   return file && fclose(file) == 0 && is_written;
 }
 
@@ -37,12 +37,12 @@ static void warn(void* user, const char* sentence) {
 }
 
 int main(int count, char** arguments) {
-  lumen_engine_inputs inputs = {{0}, {0}, {0}};
+  lumen_engine_inputs inputs = {0};
   lumen_engine_listener listener = {0};
   lumen_engine_source* source = NULL;
   lumen_engine_case* vessels = NULL;
   lumen_engine_bytes* mesh = NULL;
-  lumen_engine_fault fault = {{0}};
+  lumen_engine_fault fault;
   void* bytes = count == 3 ? read_whole(arguments[1], &inputs.main.size) : NULL;
   int is_done = 0;
   if (!bytes) return fputs("usage: nifti_to_glb IN.nii.gz OUT.glb\n", stderr), 2;

@@ -88,7 +88,7 @@ if(LUMEN_BUILD_NIGHTLY)
 endif()
 # lumen/engine.h: the library from outside, an example in C99, and the names that it exports.
 lumen_test(engine_api_test FOLDER api
-  LIBS lumen_engine_shared lumen_phantom lumen_seeds lumen_volume_io)
+  LIBS lumen_engine_shared lumen_editing lumen_phantom lumen_seeds lumen_volume_io)
 add_executable(nifti_to_glb ${PROJECT_SOURCE_DIR}/packages/examples/nifti_to_glb.c)
 target_link_libraries(nifti_to_glb PRIVATE lumen_engine_shared)
 set_target_properties(nifti_to_glb PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)

@@ -47,7 +47,8 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (geometry.size[a] < 2)
       throw invalidInput(path.string() + ": has " + std::to_string(geometry.size[a]) +
-                         " voxel along axis " + std::to_string(a + 1) +
+                         (geometry.size[a] == 1 ? " voxel" : " voxels") + " along axis " +
+                         std::to_string(a + 1) +
                          ", so it is not 3-D; expected at least 2 along each of three axes");
     voxels *= geometry.size[a];
     const double spacing = geometry.spacing[static_cast<Eigen::Index>(a)];

@@ -1,90 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen/engine.h from outside: bytes in, bytes out, no file.
+#include "engine_api.h"
+
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
-#include <memory>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
-#include "converters/io/seeds/seeds.h"
-#include "converters/io/volume/write_volume.h"
-#include "converters/stages/phantom/phantom.h"
-#include "lumen/engine.h"
-
-namespace lumen {
+namespace lumen::test {
 namespace {
-
-template <class Thing, void (*release)(Thing*)>
-struct Release {
-  void operator()(Thing* thing) const { release(thing); }
-};
-template <class Thing, void (*release)(Thing*)>
-using Held = std::unique_ptr<Thing, Release<Thing, release>>;
-using Options = Held<lumen_engine_options, lumen_engine_options_free>;
-using Source = Held<lumen_engine_source, lumen_engine_free_source>;
-using Made = Held<lumen_engine_case, lumen_engine_free_case>;
-using Bytes = Held<lumen_engine_bytes, lumen_engine_free_bytes>;
-using Surface = Held<lumen_engine_surface, lumen_engine_free_surface>;
-
-const convert::Phantom& fork() {
-  static const convert::Phantom made = [] {
-    convert::PhantomOptions options;
-    options.name = "bifurcation";
-    options.size = 64;
-    Progress progress;
-    return convert::makePhantom(options, progress);
-  }();
-  return made;
-}
-
-const std::string& niftiOfFork() {
-  static const std::string bytes =
-      convert::encodeVolume(fork().volume, convert::VolumeFormat::Nifti, true, "fork.nii.gz");
-  return bytes;
-}
-
-class EngineApi : public testing::Test {
-protected:
-  lumen_engine_fault fault{};
-  lumen_engine_listener listener{};
-
-  static lumen_engine_file fileOf(const char* name, const std::string& bytes) {
-    return {name, bytes.data(), bytes.size()};
-  }
-  Options optionsOf(const std::vector<std::pair<const char*, const char*>>& values) {
-    lumen_engine_options* made = nullptr;
-    EXPECT_EQ(lumen_engine_options_create(&made, &fault), LUMEN_ENGINE_OK);
-    for (const auto& [name, value] : values)
-      EXPECT_EQ(lumen_engine_options_set(made, name, value, &fault), LUMEN_ENGINE_OK)
-          << fault.message;
-    return Options(made);
-  }
-  Source load(const char* name, const std::string& bytes,
-              const lumen_engine_options* options = {}) {
-    lumen_engine_inputs inputs{};
-    inputs.main = fileOf(name, bytes);
-    lumen_engine_source* source = nullptr;
-    m_status = lumen_engine_load(&inputs, options, &listener, &source, &fault);
-    return Source(source);
-  }
-  Made caseOf(const Source& source, const lumen_engine_options* options = {}) {
-    lumen_engine_case* made = nullptr;
-    m_status = lumen_engine_case_of(source.get(), options, &listener, &made, &fault);
-    return Made(made);
-  }
-  std::string encoded(const Made& made, const char* format) {
-    lumen_engine_bytes* bytes = nullptr;
-    m_status = lumen_engine_encode(made.get(), format, nullptr, nullptr, &bytes, &fault);
-    const Bytes held(bytes);
-    return {static_cast<const char*>(lumen_engine_data(bytes)), lumen_engine_size(bytes)};
-  }
-  lumen_engine_status m_status = LUMEN_ENGINE_OK;
-};
 
 TEST_F(EngineApi, TurnsANiftiInMemoryIntoAGlbInMemory) {
   std::set<std::string> stages;
@@ -102,34 +33,6 @@ TEST_F(EngineApi, TurnsANiftiInMemoryIntoAGlbInMemory) {
   caseOf(source);
   EXPECT_EQ(m_status, LUMEN_ENGINE_USAGE);
   EXPECT_NE(std::string_view(fault.message).find("used up"), std::string_view::npos);
-}
-
-TEST_F(EngineApi, GivesTheSameCaseOfBytesAndOfAnArray) {
-  const convert::Volume& volume = fork().volume;
-  const convert::VolumeGeometry& g = volume.geometry;
-  lumen_engine_volume given{};
-  given.data = std::get<std::vector<std::int16_t>>(volume.voxels).data();
-  given.type = LUMEN_ENGINE_INT16;
-  for (int a = 0; a < 3; ++a) {
-    given.size[a] = g.size[static_cast<std::size_t>(a)];
-    for (int r = 0; r < 3; ++r) given.affine[r][a] = g.direction(r, a) * g.spacing[a];
-    given.affine[a][3] = g.origin[a];
-  }
-  lumen_engine_source* taken = nullptr;
-  ASSERT_EQ(lumen_engine_take_volume(&given, "fork.nrrd", 0, nullptr, &taken, &fault),
-            LUMEN_ENGINE_OK)
-      << fault.message;
-  const std::string ofArray = encoded(caseOf(Source(taken)), "lumen.json");
-  // a NIfTI rounds the spacing to a float
-  const std::string nrrd =
-      convert::encodeVolume(volume, convert::VolumeFormat::Nrrd, true, "fork.nrrd");
-  const std::string ofBytes = encoded(caseOf(load("fork.nrrd", nrrd)), "lumen.json");
-  EXPECT_GT(ofArray.size(), 1000U);
-  EXPECT_TRUE(ofArray == ofBytes);
-
-  given.affine[0][0] = NAN;
-  EXPECT_EQ(lumen_engine_take_volume(&given, "x", 0, nullptr, &taken, &fault), LUMEN_ENGINE_INPUT);
-  EXPECT_EQ(taken, nullptr);
 }
 
 TEST_F(EngineApi, GivesTheSurfaceAsArrays) {
@@ -159,35 +62,84 @@ TEST_F(EngineApi, OptionsAreThoseOfConvert) {
   ASSERT_EQ(m_status, LUMEN_ENGINE_OK) << fault.message;
   EXPECT_NE(encoded(made, "lumen.json").find("\"accuracy\": 0.5"), std::string::npos);
   const auto refused = [&](const char* name, const char* value) {
-    EXPECT_EQ(lumen_engine_options_set(coarse.get(), name, value, &fault), LUMEN_ENGINE_USAGE);
+    EXPECT_EQ(lumen_engine_set_option(coarse.get(), name, value, &fault), LUMEN_ENGINE_USAGE);
     return std::string(fault.message);
   };
-  EXPECT_NE(refused("accuraci", "1").find("accuraci"), std::string::npos);
-  EXPECT_NE(refused("accuracy", "thin").find("--accuracy"), std::string::npos);
-  EXPECT_NE(refused("seeds", "a.json").find("opens none"), std::string::npos);
-  EXPECT_NE(refused("label-table", "a.csv").find("opens none"), std::string::npos);
-  // an option for meshes does nothing here, and is refused as on the command line
-  const Options others = optionsOf({{"stl-solids", "true"}});
-  lumen_engine_bytes* bytes = nullptr;
-  EXPECT_EQ(lumen_engine_encode(made.get(), "glb", others.get(), nullptr, &bytes, &fault),
-            LUMEN_ENGINE_USAGE);
-  EXPECT_EQ(bytes, nullptr);
+  EXPECT_EQ(refused("accuraci", "1"),
+            "\"accuraci\": there is no such option; did you mean \"accuracy\"?");
+  EXPECT_EQ(refused("--accuracy", "1").find("--"), std::string::npos);
+  EXPECT_NE(refused("accuracy", "thin").find("\"accuracy\": found thin"), std::string::npos);
+  EXPECT_NE(refused("seeds", "a.json").find("expected its bytes as inputs.seeds"),
+            std::string::npos);
+  EXPECT_NE(refused("label-table", "a.csv").find("inputs.label_table"), std::string::npos);
+  EXPECT_NE(refused("allow-detached", "a").find("opens none"), std::string::npos);
 }
 
-TEST_F(EngineApi, SeedsAmongTheInputsCountAsGiven) {
-  const std::string seeds = convert::encodeSeeds(fork().seeds, "fork.json");
-  const Options alone = optionsOf({{"seeds-only", "true"}});
-  lumen_engine_inputs inputs{};
-  inputs.main = fileOf("fork.nii.gz", niftiOfFork());
-  inputs.seeds = fileOf("fork.json", seeds);
-  lumen_engine_source* source = nullptr;
-  ASSERT_EQ(lumen_engine_load(&inputs, alone.get(), nullptr, &source, &fault), LUMEN_ENGINE_OK)
-      << fault.message;
-  const Made made = caseOf(Source(source), alone.get());
+TEST_F(EngineApi, TheSameOptionsServeEachCall) {
+  const Options same = optionsOf({{"accuracy", "0.5"},
+                                  {"root", "900,0,0"},
+                                  {"root", "0,0,0"},
+                                  {"stl-solids", "true"},
+                                  {"colour", "radius"}});
+  const Source source = load("fork.nii.gz", niftiOfFork(), same.get());
   ASSERT_EQ(m_status, LUMEN_ENGINE_OK) << fault.message;
-  EXPECT_NE(encoded(made, "lumen.json").find(fork().seeds.front().label), std::string::npos);
-  caseOf(load("fork.nii.gz", niftiOfFork()), alone.get());
-  EXPECT_EQ(m_status, LUMEN_ENGINE_USAGE);
+  caseOf(source, same.get());
+  // the second root did not replace the first
+  EXPECT_TRUE(failsWith(LUMEN_ENGINE_FAILED, "\"root\" 900,0,0"));
+  const Options others =
+      optionsOf({{"accuracy", "0.5"}, {"stl-solids", "true"}, {"colour", "radius"}});
+  const Made made = caseOf(load("fork.nii.gz", niftiOfFork(), others.get()), others.get());
+  ASSERT_EQ(m_status, LUMEN_ENGINE_OK) << fault.message;
+  for (const char* const format : {"glb", "stl", "swc", "lumen"}) {
+    encoded(made, format, others.get());
+    EXPECT_EQ(m_status, LUMEN_ENGINE_OK) << format << ": " << fault.message;
+  }
+  EXPECT_NE(encoded(made, "glb", others.get()), encoded(made, "glb"));
+  EXPECT_STREQ(fault.message, "");
+}
+
+TEST_F(EngineApi, AnOptionThatDoesNothingForTheSourceIsRefused) {
+  const Options frame = optionsOf({{"centerline-frame", "ras"}});
+  load("fork.nii.gz", niftiOfFork(), frame.get());
+  EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "\"centerline-frame\" is for meshes"));
+}
+
+TEST_F(EngineApi, StatesTheInterfaceThatRuns) {
+  EXPECT_EQ(lumen_engine_interface(), LUMEN_ENGINE_INTERFACE);
+  EXPECT_STREQ(lumen_engine_version(), LUMEN_VERSION);
+}
+
+TEST_F(EngineApi, ListsItsOptions) {
+  lumen_engine_bytes* bytes = nullptr;
+  ASSERT_EQ(lumen_engine_list_options(&bytes, &fault), LUMEN_ENGINE_OK);
+  const Bytes held(bytes);
+  const std::string list(static_cast<const char*>(lumen_engine_bytes_data(bytes)),
+                         lumen_engine_bytes_size(bytes));
+  const auto json = nlohmann::json::parse(list);
+  std::map<std::string, nlohmann::json> rows;
+  for (const auto& row : json) rows[row.at("name")] = row;
+  EXPECT_EQ(rows.at("accuracy").at("value"), "MM");
+  EXPECT_EQ(rows.at("dark").at("value"), "");
+  EXPECT_EQ(rows.count("seeds") + rows.count("series"), 0U);
+  EXPECT_EQ(rows.count("label-table"), 1U);
+  EXPECT_EQ(list.find("--"), std::string::npos);
+}
+
+TEST_F(EngineApi, StatesTheTreeOfBranches) {
+  const Made made = caseOf(load("fork.nii.gz", niftiOfFork()));
+  const std::size_t count = lumen_engine_branch_count(made.get());
+  ASSERT_GT(count, 1U);
+  std::size_t roots = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_STRNE(lumen_engine_branch_name(made.get(), i), nullptr);
+    const std::size_t parent = lumen_engine_branch_parent(made.get(), i);
+    roots += parent == SIZE_MAX ? 1 : 0;
+    EXPECT_TRUE(parent == SIZE_MAX || parent < i);
+  }
+  EXPECT_EQ(roots, 1U);
+  EXPECT_EQ(lumen_engine_branch_name(made.get(), count), nullptr);
+  EXPECT_EQ(lumen_engine_branch_parent(made.get(), count), SIZE_MAX);
+  EXPECT_EQ(lumen_engine_branch_count(nullptr), 0U);
 }
 
 TEST_F(EngineApi, ReadsBackItsOwnCase) {
@@ -202,18 +154,19 @@ TEST_F(EngineApi, ReadsBackItsOwnCase) {
   EXPECT_EQ(std::string_view(fault.message).find("fork.lumen.json: "), 0U);
 }
 
-TEST_F(EngineApi, SaysWhatIsWrongWithAnInput) {
-  load("fork.nii.gz", niftiOfFork().substr(0, 2000));
-  EXPECT_EQ(m_status, LUMEN_ENGINE_INPUT);
-  EXPECT_EQ(std::string_view(fault.message).find("fork.nii.gz: "), 0U) << fault.message;
-  load("fork.bmp", "BM, which is no volume");
-  EXPECT_EQ(m_status, LUMEN_ENGINE_UNSUPPORTED) << fault.message;
+TEST_F(EngineApi, NamesTheArgumentThatIsNull) {
   lumen_engine_source* source = nullptr;
-  const lumen_engine_inputs none{};
-  EXPECT_EQ(lumen_engine_load(&none, nullptr, nullptr, &source, &fault), LUMEN_ENGINE_USAGE);
+  m_status = lumen_engine_load(nullptr, nullptr, nullptr, &source, &fault);
+  EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "lumen_engine_load(): inputs is a null pointer"));
   EXPECT_EQ(lumen_engine_load(nullptr, nullptr, nullptr, &source, nullptr), LUMEN_ENGINE_USAGE);
-  EXPECT_EQ(lumen_engine_encode(nullptr, "glb", nullptr, nullptr, nullptr, &fault),
-            LUMEN_ENGINE_USAGE);
+  m_status = lumen_engine_encode(nullptr, "glb", nullptr, nullptr, nullptr, &fault);
+  EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "value is a null pointer"));
+  m_status = lumen_engine_set_option(nullptr, "root", "0,0,0", &fault);
+  EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "options is a null pointer"));
+  const lumen_engine_file none{};
+  lumen_engine_case* made = nullptr;
+  m_status = lumen_engine_open_case(&none, &made, &fault);
+  EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "file->name is a null pointer"));
 }
 
 TEST_F(EngineApi, EndsWhenTheListenerAsksForIt) {
@@ -229,4 +182,4 @@ TEST_F(EngineApi, EndsWhenTheListenerAsksForIt) {
 }
 
 }  // namespace
-}  // namespace lumen
+}  // namespace lumen::test
