@@ -84,6 +84,7 @@ int atTerminal(const engine::Engine& commands, const CommonOptions& common, cons
       std::string("lumen " LUMEN_VERSION ", threads: ").append(std::to_string(available)));
   engine::RunContext context(commands, progress);
   context.program = thisProgram();
+  addViewerPage(context);
   context.threads = common.threads;
   context.strict = common.strict;
   context.answerEarly = [&](const engine::Answer& answer) { print(answer, common); };

@@ -4,6 +4,7 @@
 #include "converters/base/options/option_name.h"
 #ifdef LUMEN_WITH_VIEWER
 #include "viewer/server/command_view.h"
+#include "viewer/server/html_page.h"
 #endif
 
 namespace lumen::cli {
@@ -15,6 +16,12 @@ engine::Engine allCommands() {
 #endif
   commands.add(makeCompletionCommand);
   return commands;
+}
+
+void addViewerPage([[maybe_unused]] engine::RunSettings& settings) {
+#ifdef LUMEN_WITH_VIEWER
+  settings.viewerPage = viewer::pageOfCase;
+#endif
 }
 
 const char* groupSummary(const std::string& word) {

@@ -13,6 +13,9 @@ namespace lumen::cli {
 /// The commands of the engine, `lumen view` and `lumen completion`.
 engine::Engine allCommands();
 
+/// Lets the commands that run make pages of the viewer, if the program was built with it.
+void addViewerPage(engine::RunSettings& settings);
+
 /// Summary, in one line, of the commands whose names begin with this word and a space; null for
 /// another word.
 const char* groupSummary(const std::string& word);

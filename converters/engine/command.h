@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct RunSettings {
   std::function<void(const Answer&)> answerEarly = [](const auto&) {};
   /// Inputs and outputs that are in memory; null: all are files.
   MemoryFiles* memory = nullptr;
+  /// Makes the page of `lumen view` of a case's bytes, under a name. Empty: there is no viewer.
+  std::function<std::string(std::string_view bytes, const std::string& name, Progress&)> viewerPage;
   /// The program that runs an operation in a process of its own (operation_process.h). Empty: there
   /// is none, and such operations run in this process.
   std::filesystem::path program;

@@ -16,7 +16,6 @@
 #include "converters/base/number_text.h"
 #include "converters/base/privacy.h"
 #include "converters/base/relayed_progress.h"
-#include "converters/base/run_program.h"
 #include "converters/base/sha256.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/draw/raster/picture.h"
@@ -224,16 +223,13 @@ void addReport(const std::vector<std::byte>& bytes, formats::Case value, Incomin
   incoming.add("report.html", "report", page.html);
 }
 
-/// The page of `lumen view`, a command of the viewer, which is above the engine and reads a file.
+/// The page of `lumen view`. The viewer is above the engine, so the caller hands it over.
 void addViewer(std::string_view caseBytes, IncomingCase& incoming, const RunContext& context) {
-  const convert::PrivateFolder folder;
-  const fs::path file = folder.path() / (incoming.record.id + ".lumen");
-  const fs::path page = folder.path() / "view.html";
-  writeText(caseBytes, file);
+  if (!context.viewerPage)
+    throw unsupported("view.html: this program was built without the viewer");
   QuietProgress quiet(context.progress);
-  (void)context.engine.run(Operation{"view", {file.string()}, {}}.with("html", page.string()),
-                           context.within(quiet));
-  incoming.addFile("view.html", "other", page);
+  incoming.add("view.html", "other",
+               context.viewerPage(caseBytes, incoming.record.id + ".lumen", quiet));
 }
 
 }  // namespace

@@ -219,4 +219,10 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
                 inlineScript(fileOf(page, "page.js")) + "</script>\n");
 }
 
+std::string pageOfCase(std::string_view bytes, const std::string& name, Progress& progress) {
+  Session session({});
+  session.open({InputFile(name, bytes), name}, progress);
+  return htmlPage(session, findPageFiles(), {}, progress);
+}
+
 }  // namespace lumen::viewer

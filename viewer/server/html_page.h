@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,5 +43,9 @@ HtmlOptions htmlOptions(const SavingOptions& options);
 /// there is nothing to show, and Error(Cancelled).
 std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions& options,
                      Progress& progress);
+
+/// The page of a case in memory, called `name`, as `lumen view --html` makes it of a file. Throws as
+/// htmlPage(), and Error(InvalidInput) for bytes that are no case.
+std::string pageOfCase(std::string_view bytes, const std::string& name, Progress& progress);
 
 }  // namespace lumen::viewer

@@ -21,8 +21,8 @@ enum class OpenAs : std::uint8_t {
 };
 
 struct Opening {
-  InputFile file;  ///< in memory if it came from the page
-  std::string label;        ///< its name in messages
+  InputFile file;     ///< in memory if it came from the page
+  std::string label;  ///< its name in messages
   OpenAs as = OpenAs::Auto;
   std::string series{};                         ///< instance UID, of a folder of DICOM
   std::shared_ptr<const DroppedFiles> bytes{};  ///< of a file in memory

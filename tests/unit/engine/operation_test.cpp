@@ -22,15 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Findings of the last run of NotingCommand.
-struct Notes {
-  std::optional<RunSettings> settings;
-};
-
-/// A command in place of lumen view: writes its output, warns, and notes its settings.
-class NotingCommand : public Command {
+/// A command in place of lumen view: writes its output, and warns.
+class WarningCommand : public Command {
 public:
-  explicit NotingCommand(Notes& notes) : m_notes(notes) {}
   [[nodiscard]] std::string name() const override { return "view"; }
   [[nodiscard]] std::string summary() const override { return ""; }
   [[nodiscard]] std::string example() const override { return ""; }
@@ -39,14 +33,12 @@ public:
     table.file("html", m_page, "");
   }
   Answer run(const RunContext& context) override {
-    m_notes.settings = context;
     context.progress.warn("a vessel ends");
     std::ofstream(m_page) << m_case;
     return {Json{{"page", m_page}}, "", 0};
   }
 
 private:
-  Notes& m_notes;
   std::string m_case, m_page;
 };
 
@@ -55,7 +47,7 @@ protected:
   OperationTest() {
     fs::remove_all(m_folder);
     fs::create_directories(m_folder);
-    m_engine.add([this] { return std::make_unique<NotingCommand>(m_notes); });
+    m_engine.add([] { return std::make_unique<WarningCommand>(); });
     std::ofstream(m_case) << "a case";
   }
 
@@ -85,18 +77,19 @@ protected:
   fs::path m_folder = fs::path(testing::TempDir()) / "operation_test";
   fs::path m_case = m_folder / "a.lumen", m_log = m_folder / "log.txt";
   fs::path m_page = m_folder / "page.html";
-  Notes m_notes;
   Engine m_engine;
   Progress m_progress;
   RunContext m_context{m_engine, m_progress};
 };
 
-TEST_F(OperationTest, APageWithinACommandIsMadeWithItsSettings) {
-  std::string answered;
-  m_context.threads = 3;
+TEST_F(OperationTest, APageOfTheViewerIsMadeOfTheBytesOfTheCase) {
+  std::string shown;
+  m_context.viewerPage = [&](std::string_view bytes, const std::string& name, Progress& progress) {
+    progress.warn("a vessel ends");
+    shown = bytes;
+    return "the page of " + name;
+  };
   m_context.strict = true;
-  m_context.program = "/bin/false";
-  m_context.answerEarly = [&](const Answer& answer) { answered = answer.text; };
   writeVessel();
   CaseWishes wishes;
   wishes.id = "siphon-01";
@@ -108,13 +101,10 @@ TEST_F(OperationTest, APageWithinACommandIsMadeWithItsSettings) {
   about.synthetic = true;
   const convert::IncomingCase incoming =
       prepareCase(m_case, about, wishes, m_folder / "library", m_context);
-  EXPECT_TRUE(read(incoming.folder() / "view.html").ends_with("/siphon-01.lumen"));
-  ASSERT_TRUE(m_notes.settings);
-  EXPECT_EQ(m_notes.settings->threads, 3);
-  EXPECT_TRUE(m_notes.settings->strict);
-  EXPECT_EQ(m_notes.settings->program, "/bin/false");
-  m_notes.settings->answerEarly({{}, "early"});
-  EXPECT_EQ(answered, "early");
+  EXPECT_EQ(read(incoming.folder() / "view.html"), "the page of siphon-01.lumen");
+  EXPECT_TRUE(shown == read(m_case));
+  m_context.viewerPage = {};
+  EXPECT_THROW(prepareCase(m_case, about, wishes, m_folder / "library", m_context), Error);
 }
 
 TEST_F(OperationTest, AReportPageIsThatOfLumenReportAndNeedsNoCommand) {
