@@ -2,6 +2,7 @@
 #include "converters/engine/command.h"
 
 #include "converters/base/error.h"
+#include "converters/engine/scope.h"
 
 namespace lumen::engine {
 
@@ -44,14 +45,6 @@ void setRows(OptionTable& table, const Operation& operation) {
   for (const auto& [name, values] : operation.options) table.set(name, values);
   requireGiven(table);
   requireCompatible(table);
-}
-
-void requireCompatible(const OptionTable& table) {
-  for (const OptionRow& row : table.rows())
-    for (const std::string& other : row.excludes)
-      if (const OptionRow* found = table.find(other); row.isGiven && found && found->isGiven)
-        throw Error(ErrorKind::Usage,
-                    row.shownName() + " and " + found->shownName() + " exclude one another");
 }
 
 std::vector<BoundCommand> Engine::commands() const {

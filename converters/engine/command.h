@@ -102,9 +102,6 @@ Engine makeEngine();
 /// Sets the rows by the operation. Throws Error(Usage).
 void setRows(OptionTable& table, const Operation& operation);
 
-/// Throws Error(Usage) for options that are given and exclude one another.
-void requireCompatible(const OptionTable& table);
-
 /// The context of an operation within a command: its rows word fields and values.
 inline operations::Context operationContext(const RunContext& context) {
   return operationContext(context.progress, context.table);

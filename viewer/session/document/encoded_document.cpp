@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "converters/base/error.h"
-#include "converters/engine/command.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/mesh_options.h"
