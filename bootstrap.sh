@@ -18,10 +18,10 @@ TEXT
 
 packages=(
   build-essential cmake ninja-build ccache git ca-certificates python3
-  libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
+  libinsighttoolkit5-dev libgdcm-dev libgdcm-tools zlib1g-dev
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
-  libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev libcsv-dev
-  libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
+  libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev
+  libcli11-dev nlohmann-json3-dev libtbb-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev libbullet-dev python3-vtk9 tetgen
 )

@@ -8,7 +8,6 @@
 #include "converters/api/handle.h"
 #include "converters/api/options.h"
 #include "converters/base/error.h"
-#include "converters/engine/command.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/scope.h"
 

@@ -13,7 +13,6 @@
 #include "converters/api/options.h"
 #include "converters/base/error.h"
 #include "converters/base/text.h"
-#include "converters/engine/command.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/source_input.h"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/base/csv_rows.h"
 
-#include <memory>
 #include <utility>
-
-#include <csv.h>
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
@@ -12,41 +9,75 @@
 namespace lumen::convert {
 namespace {
 
-struct Table {
-  std::vector<CsvRow> rows;
+/// Places between two characters. Closed: behind a quoted text and white space.
+enum class CsvPlace { RowStart, CellStart, Plain, Quoted, QuoteInQuoted, Closed };
+
+class CsvReader {
+public:
+  /// False for a character that RFC 4180 does not allow here.
+  bool take(char c) {
+    if (m_place == CsvPlace::Quoted && c != '"') return keep(c, CsvPlace::Quoted);
+    if (c == '"') return takeQuote();
+    if (c == ',') return endCell();
+    if (c == '\n' || c == '\r') return endRow();
+    const bool isClosed = m_place == CsvPlace::QuoteInQuoted || m_place == CsvPlace::Closed;
+    if (c != ' ' && c != '\t') return !isClosed && keep(c, CsvPlace::Plain);
+    if (m_place == CsvPlace::Plain) return keep(c, CsvPlace::Plain);
+    if (isClosed) m_place = CsvPlace::Closed;
+    return true;
+  }
+  /// False within a quoted text.
+  bool end() { return m_place != CsvPlace::Quoted && endRow(); }
+
   CsvRow row;
+  std::vector<CsvRow> rows;
+
+private:
+  bool keep(char c, CsvPlace next) {
+    m_cell += c;
+    m_place = next;
+    return true;
+  }
+  bool takeQuote() {
+    if (m_place == CsvPlace::QuoteInQuoted) return keep('"', CsvPlace::Quoted);
+    if (m_place == CsvPlace::Plain || m_place == CsvPlace::Closed) return false;
+    m_place = m_place == CsvPlace::Quoted ? CsvPlace::QuoteInQuoted : CsvPlace::Quoted;
+    return true;
+  }
+  bool endCell() {
+    row.cells.push_back(trimmed(std::exchange(m_cell, {})));
+    m_place = CsvPlace::CellStart;
+    return true;
+  }
+  bool endRow() {
+    if (m_place == CsvPlace::RowStart) return true;
+    endCell();
+    rows.push_back(std::exchange(row, {}));
+    m_place = CsvPlace::RowStart;
+    return true;
+  }
+
+  CsvPlace m_place = CsvPlace::RowStart;
+  std::string m_cell;
 };
 
 }  // namespace
 
 std::vector<CsvRow> csvRows(const std::string& text, const std::string& name) {
-  csv_parser parser{};
-  if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL) != 0)
-    throw failed("comma-separated values cannot be read");
-  const std::unique_ptr<csv_parser, void (*)(csv_parser*)> owner(&parser, csv_free);
-  Table table;
-  const auto cell = [](void* bytes, std::size_t size, void* data) {
-    static_cast<Table*>(data)->row.cells.push_back(
-        trimmed(std::string(static_cast<const char*>(bytes), size)));
-  };
-  const auto row = [](int, void* data) {
-    auto& all = *static_cast<Table*>(data);
-    all.rows.push_back(std::exchange(all.row, {}));
-  };
+  CsvReader reader;
   bool isRead = true;
-  // lines are counted here, as libcsv does not report them
   for (std::size_t at = 0, line = 1; isRead && at < text.size(); ++at) {
     const bool isEnd = text[at] == '\n' || text[at] == '\r';
-    if (table.row.line == 0 && !isEnd) table.row.line = line;
-    isRead = csv_parse(&parser, &text[at], 1, cell, row, &table) == 1;
+    if (reader.row.line == 0 && !isEnd) reader.row.line = line;
+    isRead = reader.take(text[at]);
     line += text[at] == '\n' ? 1 : 0;
   }
-  if (!isRead || csv_fini(&parser, cell, row, &table) != 0)
+  if (!isRead || !reader.end())
     throw invalidInput(
-        name + ": " + "line " + std::to_string(table.row.line) + ": " +
+        name + ": " + "line " + std::to_string(reader.row.line) + ": " +
         "found a quote inside of a text, or one without an end; expected comma-" +
         "separated values in which a text with quotes is \"quoted \"\"like this\"\"\"");
-  return std::move(table.rows);
+  return std::move(reader.rows);
 }
 
 }  // namespace lumen::convert

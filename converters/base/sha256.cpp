@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/base/sha256.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <memory>
 #include <vector>
 
-#include <openssl/evp.h>
 #include <sys/stat.h>
 
 #include "converters/base/error.h"
@@ -18,43 +17,46 @@ namespace lumen {
 
 namespace {
 
-[[noreturn]] void refuseDigest() {
-  throw failed("the cryptography library offers no SHA-256");
-}
-
 [[noreturn]] void refuseFile(const std::filesystem::path& file, const std::string& why) {
   throw failed(formats::printable(file.string()) + ": cannot be read: " + why);
 }
 
 }  // namespace
 
-struct Sha256::State {
-  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context{EVP_MD_CTX_new(), EVP_MD_CTX_free};
-};
-
-Sha256::Sha256() : m_state(std::make_unique<State>()) {
-  EVP_MD_CTX* const context = m_state->context.get();
-  if (context == nullptr || EVP_DigestInit_ex(context, EVP_sha256(), nullptr) != 1) refuseDigest();
-}
-
-Sha256::~Sha256() = default;
-
 void Sha256::add(std::span<const std::byte> bytes) {
-  if (EVP_DigestUpdate(m_state->context.get(), bytes.data(), bytes.size()) != 1) refuseDigest();
+  m_size += bytes.size();
+  const auto keep = [&](std::size_t most) {
+    const std::size_t count = std::min(most, bytes.size());
+    std::copy_n(bytes.begin(), count, m_rest.begin() + static_cast<std::ptrdiff_t>(m_restSize));
+    m_restSize += count;
+    bytes = bytes.subspan(count);
+  };
+  if (m_restSize > 0) {
+    keep(kSha256Block - m_restSize);
+    if (m_restSize < kSha256Block) return;
+    addBlocks(m_state, m_rest.data(), 1);
+    m_restSize = 0;
+  }
+  const std::size_t whole = bytes.size() / kSha256Block;
+  addBlocks(m_state, bytes.data(), whole);
+  bytes = bytes.subspan(whole * kSha256Block);
+  keep(kSha256Block);
 }
 
 std::string Sha256::text() {
-  std::array<unsigned char, 32> digest{};
-  unsigned size = 0;
-  if (EVP_DigestFinal_ex(m_state->context.get(), digest.data(), &size) != 1 ||
-      size != digest.size())
-    refuseDigest();
+  constexpr std::size_t kSizeBytes = 8;
+  const std::uint64_t bits = m_size * 8;
+  // a one, zeros, and the number of bits fill up the last block
+  std::array<std::byte, kSha256Block> end{std::byte{0x80}};
+  const std::size_t zerosEnd = 2 * kSha256Block - kSizeBytes - m_restSize;
+  add(std::span(end).first((zerosEnd - 1) % kSha256Block + 1));
+  for (std::size_t i = 0; i < kSizeBytes; ++i)
+    end[i] = static_cast<std::byte>(bits >> (56 - 8 * i) & 0xff);
+  add(std::span(end).first(kSizeBytes));
   constexpr const char* digits = "0123456789abcdef";
   std::string text;
-  for (const unsigned char byte : digest) {
-    text += digits[byte >> 4];
-    text += digits[byte & 0xfu];
-  }
+  for (const std::uint32_t word : m_state)
+    for (int shift = 28; shift >= 0; shift -= 4) text += digits[word >> shift & 0xfU];
   return text;
 }
 

@@ -2,6 +2,7 @@
 #include "converters/engine/command.h"
 
 #include "converters/base/error.h"
+#include "converters/engine/scope.h"
 
 namespace lumen::engine {
 
@@ -45,14 +46,6 @@ void setRows(OptionTable& table, const Operation& operation, MemoryFiles* memory
   for (const auto& [name, values] : operation.options) table.set(name, values);
   requireGiven(table);
   requireCompatible(table);
-}
-
-void requireCompatible(const OptionTable& table) {
-  for (const OptionRow& row : table.rows())
-    for (const std::string& other : row.excludes)
-      if (const OptionRow* found = table.find(other); row.isGiven && found && found->isGiven)
-        throw Error(ErrorKind::Usage,
-                    row.shownName() + " and " + found->shownName() + " exclude one another");
 }
 
 std::vector<BoundCommand> Engine::commands() const {

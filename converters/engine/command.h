@@ -108,9 +108,6 @@ Engine makeEngine();
 /// Sets the rows by the operation, whose files may be in `memory`. Throws Error(Usage).
 void setRows(OptionTable& table, const Operation& operation, MemoryFiles* memory = nullptr);
 
-/// Throws Error(Usage) for options that are given and exclude one another.
-void requireCompatible(const OptionTable& table);
-
 /// The context of an operation within a command: its rows word fields and values.
 inline operations::Context operationContext(const RunContext& context) {
   return operationContext(context.progress, context.table);

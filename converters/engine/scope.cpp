@@ -111,6 +111,14 @@ void refuseUnused(const OptionRow& row, const std::string& reason, Progress& pro
   progress.warn(row.shownName() + " of the configuration file is left out: it " + reason);
 }
 
+void requireCompatible(const OptionTable& table) {
+  for (const OptionRow& row : table.rows())
+    for (const std::string& other : row.excludes)
+      if (const OptionRow* found = table.find(other); row.isGiven && found && found->isGiven)
+        throw Error(ErrorKind::Usage,
+                    row.shownName() + " and " + found->shownName() + " exclude one another");
+}
+
 void requireInScope(const OptionTable& table, const FileContents& contents, Progress& progress) {
   for (const OptionRow& row : table.rows()) {
     if (!row.isGiven || row.isArgument) continue;

@@ -60,6 +60,9 @@ std::string missingNeed(const OptionTable& table, const std::vector<OptionNeed>&
 /// preference of a configuration file is warned of instead, as such a file serves several runs.
 void refuseUnused(const OptionRow& row, const std::string& reason, Progress& progress);
 
+/// Throws Error(Usage) for options that are given and exclude one another.
+void requireCompatible(const OptionTable& table);
+
 /// Refuses, as refuseUnused(), an option that is given and would do nothing: --stl-solids when a
 /// .glb is written. The message states for which inputs or outputs the option is, which other option it
 /// needs, or beside which one it does nothing.

@@ -16,7 +16,7 @@ lumen_test(cli_test
     OptionScopeTest.AnOptionIsRefusedWithEveryInputAndOutputThatItIsNotFor
     ExportScopeTest.AnOptionThatATargetTakesChangesItsFolder CommandScopeTest.EveryOptionChangesEveryPhantom
     ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfAPatient ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfARealAngiogram
-  LIBS run_here lumen_options lumen_terminal lumen_case lumen_base lumen_csv lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
+  LIBS run_here lumen_options lumen_terminal lumen_case lumen_base lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/command_scope_test.cpp

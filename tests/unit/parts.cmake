@@ -73,26 +73,17 @@ lumen_test(gate_test FOLDER gate
   LIBS lumen_gate)
 lumen_test(measure_test FOLDER measure
   LABELS threads
-  LIBS lumen_measure lumen_fitting lumen_phantom lumen_geometry lumen_csv)
+  LIBS lumen_measure lumen_fitting lumen_phantom lumen_geometry)
+find_package(PNG REQUIRED)
 lumen_test(picture_test FOLDER picture
   LABELS threads
-  LIBS lumen_picture lumen::blob_static TBB::tbb)
+  LIBS lumen_picture lumen::blob_static TBB::tbb PNG::PNG)
 target_include_directories(picture_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/check)
 # Operations within commands, and apart from them.
 lumen_test(engine_test FOLDER engine
-  LIBS lumen_engine)
+  LIBS lumen_commands)
 # Counts of the programs of tests/evaluation.
 if(LUMEN_BUILD_NIGHTLY)
   lumen_test(contact_test FOLDER evaluation
     LIBS lumen_options lumen_contact_count)
 endif()
-# lumen/engine.h: the library from outside, an example in C99, and the names that it exports.
-lumen_test(engine_api_test FOLDER api
-  LIBS lumen_engine_shared lumen_editing lumen_phantom lumen_seeds lumen_volume_io)
-add_executable(nifti_to_glb ${PROJECT_SOURCE_DIR}/packages/examples/nifti_to_glb.c)
-target_link_libraries(nifti_to_glb PRIVATE lumen_engine_shared)
-set_target_properties(nifti_to_glb PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
-add_test(NAME EngineApi.ExampleMakesAGlb
-  COMMAND sh -ec "'$<TARGET_FILE:lumen>' phantom bifurcation fork.nii.gz --size 64 --quiet && '$<TARGET_FILE:nifti_to_glb>' fork.nii.gz fork.glb && '$<TARGET_FILE:lumen>' info fork.glb")
-add_test(NAME EngineApi.ExportsItsOwnNamesAlone
-  COMMAND sh -ec "names=$(nm -D --defined-only '$<TARGET_FILE:lumen_engine_shared>' | awk '{print $NF}'); test -n \"$names\"; ! echo \"$names\" | grep -v '^lumen_engine_'")

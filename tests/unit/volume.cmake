@@ -8,6 +8,7 @@ lumen_test(volume_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/detached_data_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/header_geometry_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_volume_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/nifti_rotation_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/nifti_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_types_test.cpp

@@ -4,17 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <optional>
-
-#include <nifti/nifti1_io.h>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/io/volume/image_header.h"
+#include "converters/io/volume/nifti_rotation.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -39,6 +37,10 @@ constexpr double kSameSpacing = 1e-3;
 
 const Vector3d kLpsFromRas(-1, -1, 1);
 
+// NIfTI-1's codes of units and of a scanner's transform.
+constexpr int kMetres = 1, kMillimetres = 2, kMicrometres = 3;
+constexpr std::int16_t kScannerTransform = 1;
+
 /// A transform of the header in RAS and the file's unit; a fault, if it is invalid.
 struct Transform {
   bool stated = false;
@@ -52,7 +54,7 @@ struct Transform {
 
 Transform sformOf(const NiftiHeader& header) {
   Transform sform;
-  sform.stated = header.sformCode > NIFTI_XFORM_UNKNOWN;
+  sform.stated = header.sformCode > 0;
   for (std::size_t r = 0; r < 3; ++r) {
     const auto row = static_cast<Eigen::Index>(r);
     for (std::size_t c = 0; c < 3; ++c)
@@ -75,7 +77,7 @@ Transform sformOf(const NiftiHeader& header) {
 
 Transform qformOf(const NiftiHeader& header) {
   Transform qform;
-  qform.stated = header.qformCode > NIFTI_XFORM_UNKNOWN;
+  qform.stated = header.qformCode > 0;
   const Vector3d quaternion = toEigen(header.quaternion);
   qform.offset = toEigen(header.qOffset);
   if (!quaternion.allFinite() || quaternion.norm() > kLongQuaternion)
@@ -90,11 +92,8 @@ Transform qformOf(const NiftiHeader& header) {
   const auto step = [&](std::size_t a) {
     return std::isfinite(header.pixdim[a]) && header.pixdim[a] > 0 ? header.pixdim[a] : 1.0F;
   };
-  const mat44 m = nifti_quatern_to_mat44(
-      header.quaternion[0], header.quaternion[1], header.quaternion[2], header.qOffset[0],
-      header.qOffset[1], header.qOffset[2], step(0), step(1), step(2), header.handedness);
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) qform.axes(r, c) = static_cast<double>(m.m[r][c]);
+  qform.axes =
+      niftiAxes({header.quaternion, header.handedness}, {step(0), step(1), step(2)}).cast<double>();
   return qform;
 }
 
@@ -163,22 +162,17 @@ void reportOtherSpacing(const Transform& sform, const Vector3d& spacing, const F
                         "; pixdim is used; state another with " + word("spacing"));
 }
 
-/// The nearest orthogonal axes in RAS and floats; no offset.
-mat44 rasAxes(const Matrix3d& direction) {
-  const Eigen::Matrix3f d = (kLpsFromRas.asDiagonal() * direction).cast<float>();
-  const mat44 columns = nifti_make_orthog_mat44(d(0, 0), d(1, 0), d(2, 0), d(0, 1), d(1, 1),
-                                                d(2, 1), d(0, 2), d(1, 2), d(2, 2));
-  mat44 axes{};
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c) axes.m[r][c] = columns.m[c][r];
-  return axes;
+std::optional<double> millimetres(int unitCode) {
+  if (unitCode == kMetres) return 1e3;
+  if (unitCode == kMillimetres) return 1;
+  if (unitCode == kMicrometres) return 1e-3;
+  return std::nullopt;
 }
 
-std::optional<double> millimetres(int unitCode) {
-  if (unitCode == NIFTI_UNITS_METER) return 1e3;
-  if (unitCode == NIFTI_UNITS_MM) return 1;
-  if (unitCode == NIFTI_UNITS_MICRON) return 1e-3;
-  return std::nullopt;
+/// Writes a field of a header in this machine's byte order, which its first number shows.
+template <class T>
+void put(std::string& header, std::size_t at, T value) {
+  std::memcpy(header.data() + at, &value, sizeof(value));
 }
 
 }  // namespace
@@ -213,42 +207,49 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
 }
 
 std::string niftiHeader(const Volume& volume, const std::filesystem::path& path) {
-  constexpr std::array<short, 4> kTypes = {DT_UINT8, DT_INT16, DT_UINT16, DT_FLOAT32};
+  struct StoredType {
+    std::int16_t code, bits;
+  };
+  constexpr std::array<StoredType, 4> kTypes = {{{2, 8}, {4, 16}, {512, 16}, {16, 32}}};
   const VolumeGeometry& geometry = volume.geometry;
   for (const int size : geometry.size)
-    if (size > std::numeric_limits<short>::max())
+    if (size > std::numeric_limits<std::int16_t>::max())
       throw unsupported(path.string() + ": has " + std::to_string(size) +
                         " voxels along an axis; NIfTI-1 holds at most 32767");
-  nifti_1_header header{};
-  header.sizeof_hdr = sizeof(header);
-  header.regular = 'r';  // ANALYZE's mark, which some readers still look for
-  std::memcpy(header.magic, "n+1", 4);
-  header.vox_offset = kNiftiFirstVoxel;
-  std::fill(std::begin(header.dim), std::end(header.dim), short{1});
-  header.dim[0] = 3;
-  int voxelBytes = 0, swapSize = 0;
-  header.datatype = kTypes[volume.voxels.index()];
-  nifti_datatype_sizes(header.datatype, &voxelBytes, &swapSize);
-  header.bitpix = static_cast<short>(8 * voxelBytes);
-  const mat44 axes = rasAxes(geometry.direction);
-  mat44 matrix = axes;
+  std::string header(kNiftiFirstVoxel, '\0');  // zeros behind it: no extensions
+  put(header, 0, std::int32_t{kNiftiHeaderSize});
+  header[38] = 'r';  // ANALYZE's mark, which some readers still look for
+  for (std::size_t axis = 0; axis < 8; ++axis)
+    put(header, 40 + 2 * axis, axis == 0 ? std::int16_t{3} : std::int16_t{1});
+  const StoredType type = kTypes.at(volume.voxels.index());
+  put(header, 70, type.code);
+  put(header, 72, type.bits);
+  put(header, 108, static_cast<float>(kNiftiFirstVoxel));
+  put(header, 112, 1.0F);  // scl_slope
+  header[123] = kMillimetres;
+  put(header, 252, kScannerTransform);
+  put(header, 254, kScannerTransform);
+  std::memcpy(&header[344], "n+1", 4);
+  const Eigen::Matrix3f axes =
+      orthogonalAxes((kLpsFromRas.asDiagonal() * geometry.direction).cast<float>());
   const Eigen::Vector3f offset = kLpsFromRas.cwiseProduct(geometry.origin).cast<float>();
-  float* const rows[] = {header.srow_x, header.srow_y, header.srow_z};
-  for (int r = 0; r < 3; ++r) {
-    header.dim[r + 1] = static_cast<short>(geometry.size[static_cast<std::size_t>(r)]);
-    header.pixdim[r + 1] = static_cast<float>(geometry.spacing[r]);
-    for (int c = 0; c < 3; ++c) rows[r][c] = static_cast<float>(geometry.spacing[c]) * axes.m[r][c];
-    rows[r][3] = matrix.m[r][3] = offset[r];
+  const Eigen::Vector3f spacing = geometry.spacing.cast<float>();
+  const NiftiRotation rotation = niftiRotation(axes);
+  put(header, 76, rotation.handedness);
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    put(header, 42 + 2 * r, static_cast<std::int16_t>(geometry.size[r]));
+    put(header, 80 + 4 * r, spacing[row]);
+    put(header, 256 + 4 * r, rotation.quaternion[r]);
+    put(header, 268 + 4 * r, offset[row]);
+    const std::size_t sform = 280 + 16 * r;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto column = static_cast<Eigen::Index>(c);
+      put(header, sform + 4 * c, spacing[column] * axes(row, column));
+    }
+    put(header, sform + 12, offset[row]);
   }
-  nifti_mat44_to_quatern(matrix, &header.quatern_b, &header.quatern_c, &header.quatern_d,
-                         &header.qoffset_x, &header.qoffset_y, &header.qoffset_z, nullptr, nullptr,
-                         nullptr, &header.pixdim[0]);
-  header.qform_code = header.sform_code = NIFTI_XFORM_SCANNER_ANAT;
-  header.xyzt_units = NIFTI_UNITS_MM;
-  header.scl_slope = 1;
-  std::string bytes(kNiftiFirstVoxel, '\0');  // zeros behind the header: no extensions
-  std::memcpy(bytes.data(), &header, sizeof(header));
-  return bytes;
+  return header;
 }
 
 }  // namespace lumen::convert

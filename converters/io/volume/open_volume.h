@@ -32,10 +32,7 @@ OpenVolume openMetaImage(const InputFile& file, const ReadVolumeOptions& options
 
 /// A file of NIfTI-1, plain or compressed whatever its name. Voxels are scaled by the header's slope
 /// and intercept unless these are 1 and 0 (then they are floats); niftiGeometry() places them.
-/// Error(Unsupported) for NIfTI-2 and pairs of files. The library niftiio provides the formulas of
-/// quaternions only: its own readers choose a file by its name's ending, allocate the announced
-/// sizes before they look at the file, read the header as voxels where an offset points into it,
-/// return zeros for NaN, and verify no checksum.
+/// Error(Unsupported) for NIfTI-2 and pairs of files.
 OpenVolume openNifti(const InputFile& file, const ReadVolumeOptions& options,
                      const Progress& progress);
 

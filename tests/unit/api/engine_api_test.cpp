@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen/engine.h from outside: bytes in, bytes out, no file.
+// lumen/engine.h from outside: bytes in, bytes out; files are those of the example.
 #include "engine_api.h"
 
 #include <atomic>
@@ -7,12 +7,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
+
+#include "converters/base/run_program.h"
 
 namespace lumen::test {
 namespace {
@@ -33,6 +37,21 @@ TEST_F(EngineApi, TurnsANiftiInMemoryIntoAGlbInMemory) {
   caseOf(source);
   EXPECT_EQ(m_status, LUMEN_ENGINE_USAGE);
   EXPECT_NE(std::string_view(fault.message).find("used up"), std::string_view::npos);
+}
+
+TEST_F(EngineApi, TheExampleWritesTheSameGlb) {
+  const convert::PrivateFolder folder;
+  const std::filesystem::path in = folder.path() / "fork.nii.gz", out = folder.path() / "fork.glb";
+  std::ofstream(in, std::ios::binary) << niftiOfFork();
+  constexpr unsigned kSeconds = 300;
+  const convert::ProgramResult result = convert::runProgram(
+      {NIFTI_TO_GLB, {in.string(), out.string()}, folder.path(), kSeconds, {}}, Progress());
+  ASSERT_EQ(result.end, convert::ProgramEnd::Done) << result.errors;
+  std::ifstream file(out, std::ios::binary);
+  const std::string written{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_TRUE(written == encoded(caseOf(load("fork.nii.gz", niftiOfFork())), "glb"));
+  load("fork.glb", written);
+  EXPECT_EQ(m_status, LUMEN_ENGINE_OK) << fault.message;
 }
 
 TEST_F(EngineApi, GivesTheSurfaceAsArrays) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "converters/engine/command.h"
+#include "converters/base/error.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/mesh_options.h"
