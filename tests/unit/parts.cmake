@@ -74,10 +74,9 @@ lumen_test(gate_test FOLDER gate
 lumen_test(measure_test FOLDER measure
   LABELS threads
   LIBS lumen_measure lumen_fitting lumen_phantom lumen_geometry)
-find_package(PNG REQUIRED)
 lumen_test(picture_test FOLDER picture
   LABELS threads
-  LIBS lumen_picture lumen::blob_static TBB::tbb PNG::PNG)
+  LIBS lumen_picture lumen::blob_static TBB::tbb)
 target_include_directories(picture_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/check)
 # Operations within commands, and apart from them.
 lumen_test(engine_test FOLDER engine

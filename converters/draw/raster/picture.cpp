@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <png.h>
+
+#include "converters/base/error.h"
+
 namespace lumen::convert {
 namespace {
 
@@ -103,6 +107,27 @@ int Picture::text(int x, int y, int scale, std::string_view letters, const Rgb& 
 
 int textWidth(std::string_view letters, int scale) {
   return static_cast<int>(letters.size()) * (kColumns + 1) * scale - scale;
+}
+
+std::string encodePng(const Picture& picture) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(picture.width);
+  image.height = static_cast<png_uint_32>(picture.height);
+  image.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = 0;
+  const auto write = [&](void* to) {
+    return png_image_write_to_memory(&image, to, &size, 0, picture.pixels.data(), 0, nullptr);
+  };
+  std::string bytes;
+  bool written = write(nullptr) != 0;
+  if (written) {
+    bytes.resize(size);
+    written = write(bytes.data()) != 0;
+  }
+  if (!written) throw failed(std::string("the picture cannot be encoded: ") + image.message);
+  bytes.resize(size);
+  return bytes;
 }
 
 }  // namespace lumen::convert
