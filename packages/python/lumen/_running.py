@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs of the program's commands."""
+"""Runs of the program's commands, and the files through which they take and give values."""
 from __future__ import annotations
 
 import json
 import logging
 import os
-import sys
-import types
-import warnings as python_warnings
-from typing import Optional
+import tempfile
+from typing import Any, Dict, Mapping
 
-from . import _lumen
-from ._errors import Error, Warning  # pylint: disable=redefined-builtin
-from ._inputs import Staging
-from ._options import commands, in_python, texts_of
+from . import _images, _lumen
+from ._calls import called, warn
+from ._errors import Error
+from ._exchange import tables_of
+from ._inputs import Volume
+from ._options import commands, option_of, texts_of
 
 _LOG = logging.getLogger("lumen")
 
@@ -36,46 +36,108 @@ class Answer(dict):
     code: int
     warnings: list
 
+    def tables(self) -> Dict[str, Any]:
+        """The tables of :meth:`lumen.Case.measure` as pandas.DataFrames.
 
-def warn(messages) -> None:
-    """Shows warnings at the line that called lumen."""
-    folder, level = os.path.dirname(__file__), 2
-    frame: Optional[types.FrameType] = sys._getframe(1)  # pylint: disable=protected-access
-    while frame is not None and os.path.dirname(frame.f_code.co_filename) == folder:
-        frame, level = frame.f_back, level + 1
-    for message in messages:
-        python_warnings.warn(in_python(message), Warning, stacklevel=level)
+        Returns
+        -------
+        dict of DataFrames
+            "stations", "vessels", "paths", "forks", "narrowings" and "sacs", and the changes against an earlier case,
+            with the columns that ``lumen measure --out`` writes: units in their names, ``_pm`` for the uncertainty,
+            NaN for what is absent, with the reason in the column "absent".
 
-
-def called(function, *arguments, staging=None, known=()):
-    """The result of a function of the module. Messages of errors have keywords for options."""
-    try:
-        return function(*arguments)
-    except Error as error:
-        raise _worded(error, staging, known) from None
-
-
-def _worded(error: Error, staging, known) -> Error:
-    message = in_python(staging.without_folder(str(error)) if staging else str(error))
-    file = error.file or next((name for name in known if str(error).startswith(name + ":")), None)
-    if staging and file:
-        file = staging.without_folder(file)
-    return Error(message, error.exit_code, file=file, place=error.place, code=error.code,
-                 number=error.number, found=error.found and in_python(error.found),
-                 expected=error.expected and in_python(error.expected))
+        Examples
+        --------
+        >>> stations = case.measure().tables()["stations"]
+        >>> stations.plot("along_mm", "area_mm2", yerr="area_mm2_pm")
+        """
+        return tables_of(self)
 
 
-def run_staged(staging: Staging, command: str, arguments, options, progress=None, threads=None,
-               strict=False) -> Answer:
+def seeds_document(seeds: Any) -> dict:
+    """Seeds as lumen's JSON (spec/seeds.md): a document as it is, a list of branches, or a mapping
+    of labels to points (n, 3)."""
+    if isinstance(seeds, dict) and "format" in seeds:
+        return seeds
+    if isinstance(seeds, dict):
+        seeds = [{"label": label, "points": points} for label, points in seeds.items()]
+    branches = [{key: _plain(value) for key, value in branch.items()} for branch in seeds]
+    return {"format": "lumen-seeds", "version": 1, "coordinateSystem": "LPS", "units": "mm",
+            "branches": branches}
+
+
+def _plain(value):
+    """Arrays as nested lists, a single point as a list of one."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    return value
+
+
+class Staging:
+    """A folder for what a command reads and writes by name, removed at the end."""
+
+    def __init__(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="lumen-")
+        self._count = 0
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._folder.cleanup()
+
+    def name(self, name: str) -> str:
+        """A new file's name in the folder."""
+        self._count += 1
+        folder = os.path.join(self._folder.name, str(self._count))
+        os.mkdir(folder)
+        return os.path.join(folder, name)
+
+    def path_of(self, value: Any) -> str:
+        """The file of an argument: a path as it is, a case, a volume or an image written for it."""
+        if not isinstance(value, (str, os.PathLike)) and (_images.package_of(value) or hasattr(value, "__array__")):
+            value = Volume.of(value)
+        if hasattr(value, "_staged"):
+            return value._staged(self)  # pylint: disable=protected-access
+        if isinstance(value, (str, bytes, os.PathLike)):
+            return os.fsdecode(value)
+        raise TypeError(f"found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, a "
+                        "lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
+
+    def json_of(self, name: str, content: Any) -> str:
+        """A new file with a content as JSON."""
+        path = self.name(name)
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(content, file)
+        return path
+
+    def option(self, row: Dict[str, Any], value: Any) -> Any:
+        """The value of an option as texts can state it: names of files in place of values in memory."""
+        if value is None or isinstance(value, (str, os.PathLike)):
+            return value
+        if row["name"] == "seeds":
+            return self.json_of("seeds.json", seeds_document(value))
+        if row["name"] == "label-table":
+            return self.json_of("labels.json", {str(int(label)): name for label, name in value.items()})
+        if row["name"] == "labels" and isinstance(value, Mapping):
+            return ",".join(f"{int(label)}={name}" for label, name in value.items())
+        return self.path_of(value) if row["placeholder"] == "FILE" else value
+
+    def without_folder(self, message: str) -> str:
+        """A message without the folder: names of its files alone."""
+        parts = message.split(self._folder.name + os.sep)
+        return parts[0] + "".join(part.partition(os.sep)[2] for part in parts[1:])
+
+
+def run_staged(staging: Staging, command: str, *arguments, progress=None, threads=None, strict=False,
+               **options) -> Answer:
     """Runs a command whose arguments and options may be cases, volumes and seeds in memory."""
     names = [staging.path_of(argument) for argument in arguments]
-    files = {row["name"] for row in commands()[command]["rows"] if row["placeholder"] == "FILE"}
-    given = dict(options)
-    for word, value in options.items():
-        if word == "seeds":
-            given[word] = staging.seeds(value)
-        elif word in files and value is not None:
-            given[word] = staging.path_of(value)
+    rows = {row["name"]: row for row in commands()[command]["rows"]}
+    given = {word: staging.option(rows.get(option_of(word), {"name": word, "placeholder": ""}), value)
+             for word, value in options.items()}
     texts = texts_of(command, given)
     words = [row["name"] for row in commands()[command]["rows"] if row["argument"]]
     known = [name for name, word in zip(names, words + words[-1:] * len(names))
@@ -118,4 +180,4 @@ def run(command: str, *arguments, progress=None, threads=None, strict=False, **o
     if command not in commands():
         raise Error(f"{command}: there is no such command", 2)
     with Staging() as staging:
-        return run_staged(staging, command, arguments, options, progress, threads, strict)
+        return run_staged(staging, command, *arguments, progress=progress, threads=threads, strict=strict, **options)

@@ -69,12 +69,13 @@ class VolumeTest(unittest.TestCase):
         self.assertEqual(array.ndim, 3)
 
     def test_other_arrays_are_refused(self):
-        for array in (np.zeros((2, 2)), np.zeros((2, 2, 0)), np.zeros((2, 2, 2), complex)):
+        for array in (np.zeros((2, 2)), np.zeros((2, 2, 0)), np.zeros((2, 2, 2), complex),
+                      np.full((2, 2, 2), 2**31)):
             with self.assertRaises(ValueError):
                 lumen.Volume(array)
 
     def test_every_type_of_voxels_gives_its_values(self):
-        for kind in ("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8", ">i2", "?"):
+        for kind in ("i1", "u1", "i2", "u2", "i4", "u4", "i8", ">u8", "f4", "f8", ">i2", "?"):
             array = np.array([[[0, 1], [1, 0]]] * 2).astype(kind)
             with tempfile.TemporaryDirectory() as folder:
                 lumen.Volume(array).write(os.path.join(folder, "a.nrrd"))
@@ -212,21 +213,46 @@ class OptionsTest(unittest.TestCase):
         made = lumen.convert(lumen.Volume(labels.array > 0, labels.spacing, labels.origin), mask=True)
         self.assertLess(made.compare(sample().phantom.truth)["assd_mm"], 0.1)
 
-    def test_options_are_in_signatures_docstrings_and_stubs(self):
-        for function, command in ((lumen.track, "track"), (lumen.convert, "convert"),
+    def test_options_are_in_docstrings_groups_and_stubs(self):
+        members = {name: group for name, group in vars(lumen.options).items() if inspect.isclass(group)}
+        for function, command in ((lumen.track, "track"), (lumen.convert, "convert"), (lumen.fit, "fit"),
                                   (lumen.Case.fit, "fit"), (lumen.Case.picture, "picture")):
-            parameters = inspect.signature(function).parameters
+            self.assertEqual(list(inspect.signature(function).parameters)[-4:],
+                             ["progress", "threads", "strict", "options"])
             for row in lumen.options_of(command):
                 if row["keyword"] in ("to", "turntable"):
                     continue
-                self.assertIn(row["keyword"], parameters)
-                self.assertIn(row["keyword"] + " : ", function.__doc__)
-        stub = os.path.join(os.path.dirname(lumen.__file__), "__init__.pyi")
-        with open(stub, encoding="utf-8") as file:
-            text = file.read()
-        self.assertNotIn("{", text)
-        self.assertIn("inlier_rate: Optional[float] = None", text)
-        compile(text, stub, "exec")
+                self.assertRegex(function.__doc__, rf"(?m)(^|\W){row['keyword']}\b")
+                if row["keyword"] + " : " not in function.__doc__:
+                    named = [name for name in members if f"lumen.options.{name}\n" in function.__doc__]
+                    self.assertTrue(any(f"{row['keyword']} : " in members[name].__doc__ and
+                                        row["keyword"] in inspect.signature(members[name]).parameters
+                                        for name in named), row["keyword"])
+        folder = os.path.dirname(lumen.__file__)
+        for name, line in (("__init__", "inlier_rate: Optional[float] = None"), ("options", "inlier_rate: float")):
+            with open(os.path.join(folder, name + ".pyi"), encoding="utf-8") as file:
+                text = file.read()
+            self.assertNotIn("{", text)
+            self.assertIn(line, text)
+            compile(text, name, "exec")
+
+    def test_groups_of_options_are_keywords(self):
+        group = lumen.options.Fitting(max_subdivisions=-3)
+        with self.assertRaisesRegex(lumen.Error, "^max_subdivisions: found -3, expected "):
+            self.case.fit(**group)
+        with self.assertRaisesRegex(lumen.Error, "max_subdivision: .*did you mean max_subdivisions"):
+            self.case.fit(**lumen.options.Fitting(max_subdivision=3))
+        self.assertEqual(lumen.options.Mesh.__module__, "lumen.options")
+
+    def test_functions_of_a_case_take_its_path(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.lumen")
+            self.case.write(path)
+            np.testing.assert_array_equal(lumen.fit(path).models.width, self.case.models.width)
+            np.testing.assert_array_equal(lumen.mesh(case=path).vertices, self.case.mesh().vertices)
+            self.assertEqual(lumen.measure(path)["cases"][0]["case"], path)
+            self.assertEqual(lumen.check(sample().phantom.volume, path).code, 0)
+            self.assertEqual(lumen.picture(path, size=(320, 240)), self.case.picture(size=(320, 240)))
 
     def test_what_the_package_offers_is_in_the_stubs(self):
         stub = os.path.join(os.path.dirname(lumen.__file__), "__init__.pyi")
