@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks which way includes go, and that strings do not go the other way: see docs/architecture.md.
+"""Checks which way includes go, that strings do not go the other way (docs/architecture.md), and that no test is left out of the build.
 
 check_includes.py [--table]
 
@@ -15,26 +15,29 @@ MAY_INCLUDE = {
     "formats/container": [],
     "formats/field": [],
     "formats/view": ["formats/container", "formats/field"],
-    "formats/case": ["formats/container", "formats/field", "formats/view"],
+    "formats/json": ["formats/container", "formats/field", "formats/view"],
+    "formats/case": ["formats/container", "formats/field", "formats/view", "formats/json"],
     "formats/include/lumen": [],
-    "formats/api": ["formats/include/lumen", "formats/container", "formats/field", "formats/view", "formats/case"],
+    "formats/api": ["formats/include/lumen", "formats/container", "formats/field", "formats/view", "formats/json", "formats/case"],
     "libblob/include": [],
     "libblob/src": ["libblob/include", "libblob/src/simd", "formats/container", "formats/field", "formats/view"],
     "libblob/cuda": ["libblob/include"],
     "libblob/src/simd": ["libblob/include", "libblob/src", "formats/field"],
 }
-FORMATS = ["formats/container", "formats/field", "formats/view", "formats/case"]
+FORMATS = ["formats/container", "formats/field", "formats/view", "formats/json", "formats/case"]
 
 # The rooms of the converters from the bottom up. A folder may include the formats, libblob's header, all folders of the
 # rooms before its own, and in its own room those that are named beside it.
 ROOMS = [
     {"base": []},
+    {"base/options": []},
     {"geometry": []},
     {"voxels": []},
-    {"io/content": [], "io/vtk": [], "io/volume": [], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
+    {"io/content": [], "io/vtk": [], "io/volume": [], "io/volume/dicom": ["io/volume"], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
      "io/centerline": ["io/seeds", "io/vtk", "io/volume"]},
-    {"stages/finding": [], "stages/tracking": [], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
-     "stages/surface": [], "stages/surface/patches": ["stages/surface"],
+    {"stages/finding": [], "stages/tracking/cylinders": [], "stages/tracking": ["stages/tracking/cylinders"], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
+     "stages/surface": [], "stages/surface/remesh": ["stages/surface"], "stages/surface/closing": ["stages/surface", "stages/surface/remesh"],
+     "stages/surface/patches": ["stages/surface", "stages/surface/closing"],
      "stages/trees_from_surfaces": ["stages/repair"], "stages/motion": ["stages/fitting/image"], "stages/phantom": ["stages/motion"]},
     {"judge/compare": [], "judge/check": []},
     {"judge/measure": []},
@@ -61,11 +64,13 @@ MAY_INCLUDE["converters/export/sofa_plugin/src/LumenSofa"] = ["libblob/include",
 MAY_INCLUDE["converters/export/sofa_plugin/tests"] = []
 
 # The viewer and the command line stand beside one another on the engine; only the list of commands names both.
-MAY_INCLUDE["viewer/session"] = FORMATS + ["libblob/include"] + CONVERTERS
+MAY_INCLUDE["viewer/session/packs"] = FORMATS + ["libblob/include"] + CONVERTERS
+MAY_INCLUDE["viewer/session/document"] = MAY_INCLUDE["viewer/session/packs"]
+MAY_INCLUDE["viewer/session"] = MAY_INCLUDE["viewer/session/packs"] + ["viewer/session/packs", "viewer/session/document"]
 MAY_INCLUDE["viewer/server"] = MAY_INCLUDE["viewer/session"] + ["viewer/session"]
 MAY_INCLUDE["converters/cli"] = MAY_INCLUDE["viewer/server"] + ["viewer/server"]
 # The Python module stands beside them.
-MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session"]
+MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session/packs"]
 
 
 def sources():
@@ -81,7 +86,7 @@ def resolve(file, name, files):
     return None
 
 
-# Folders that know the command line. A message below them takes the name of an option from base/option_name.h.
+# Folders that know the command line. A message below them takes the name of an option from base/options/option_name.h.
 KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
 # A character, or a string as the group.
 LITERAL = re.compile(r"""'(?:[^'\\\n]|\\.)'|"((?:[^"\\\n]|\\.)*)\"""")
@@ -114,6 +119,14 @@ def cycles(arrows):
     return found
 
 
+def forgotten_tests():
+    """Sources of unit tests that no list of CMake names, in folders that no list takes whole: nobody would compile them."""
+    lists = "\n".join(file.read_text() for pattern in ("CMakeLists.txt", "*.cmake") for file in (ROOT / "tests").rglob(pattern))
+    return [f"{file.relative_to(ROOT)} is in no list of CMake, so that its tests do not run"
+            for file in sorted((ROOT / "tests/unit").rglob("*_test.cpp"))
+            if not re.search(rf"/{re.escape(file.name)}\b", lists) and not re.search(rf"FOLDER {file.parent.name}\b", lists)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--table", action="store_true", help="the folders, their sizes and what they include")
@@ -130,7 +143,8 @@ def main():
     for file in sorted(files):
         spelled = [] if file.as_posix().startswith(KNOW_OPTIONS) else options_spelled(text[file])
         if spelled:
-            wrong.append(f"{file} spells {spelled[0]} in a string; its name is a member of kOption in base/option_name.h")
+            wrong.append(f"{file} spells {spelled[0]} in a string; its name is a member of kOption in base/options/option_name.h")
+    wrong += forgotten_tests()
     if options.table:
         print("| folder | files | lines | includes |\n|---|--:|--:|---|")
         for name in MAY_INCLUDE:

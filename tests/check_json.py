@@ -11,9 +11,9 @@ FORBIDDEN = re.compile(r"[Jj]son::(parse|accept)\(|\bis_(number|binary)\w*\(|"
 
 # Readers of values that lumen itself has made in memory, and the reader itself.
 ALLOWED = {
-    "formats/case/json_value.cpp": "the reader",
+    "formats/json/json_value.cpp": "the reader",
     "converters/library/publish/record_faults.cpp": "facts of two records, which lumen made",
-    "viewer/session/case_pack.cpp": "a pack of this program",
+    "viewer/session/packs/case_pack.cpp": "a pack of this program",
 }
 
 

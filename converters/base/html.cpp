@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
-#include "formats/case/base64.h"
 #include "formats/container/printable.h"
 #include "formats/container/utf8.h"
+#include "formats/json/base64.h"
 
 namespace lumen {
 

@@ -2,8 +2,8 @@
 #include "converters/base/json_place.h"
 
 #include "converters/base/shown_text.h"
-#include "formats/case/json_document.h"
 #include "formats/container/printable.h"
+#include "formats/json/json_document.h"
 
 namespace lumen::convert {
 namespace {

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/error.h"
-#include "formats/case/json_place.h"
+#include "formats/json/json_place.h"
 
 namespace lumen::convert {
 

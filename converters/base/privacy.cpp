@@ -7,7 +7,7 @@
 
 #include "formats/case/case_file.h"
 #include "formats/case/chunk_codec.h"
-#include "formats/case/json_document.h"
+#include "formats/json/json_document.h"
 #include "formats/view/case_chunks.h"
 #include "formats/view/text_rules.h"
 

@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/engine/command.h"
 
 namespace lumen::cli {

@@ -14,7 +14,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/cli/commands.h"
 #include "converters/cli/help_text.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/cli/commands.h"
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #ifdef LUMEN_WITH_VIEWER
 #include "viewer/server/command_view.h"
 #endif

@@ -10,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/cli/command_config.h"
 #include "converters/engine/command.h"
 

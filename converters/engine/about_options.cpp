@@ -8,7 +8,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/library/index/json_values.h"
 #include "converters/library/index/spdx.h"
 #include "formats/container/printable.h"

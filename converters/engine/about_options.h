@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/library/index/record.h"
 
 namespace lumen::engine {

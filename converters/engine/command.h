@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/operation.h"
-#include "converters/base/option_table.h"
+#include "converters/base/options/operation.h"
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/engine/answers/answer_text.h"
 

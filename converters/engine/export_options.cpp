@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
-#include "converters/base/option_value.h"
+#include "converters/base/options/option_value.h"
 #include "converters/base/sha256.h"
 #include "formats/case/atomic_file.h"
 #include "formats/case/file_descriptor.h"

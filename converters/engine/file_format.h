@@ -16,7 +16,7 @@
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/io/volume/read_volume.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "converters/stages/surface/patches/polygonise.h"
 #include "formats/case/case.h"
 #include "formats/case/case_file.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/random.h"
 #include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"

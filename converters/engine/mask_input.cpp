@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/engine/file_access.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/option_name.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/engine/answers/case_losses.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/scope.h"

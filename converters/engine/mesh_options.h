@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/engine/file_format.h"
 #include "converters/io/mesh/surface_mesh.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case.h"
 
 namespace lumen::engine {

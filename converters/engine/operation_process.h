@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "converters/base/operation.h"
+#include "converters/base/options/operation.h"
 #include "converters/engine/command.h"
 
 namespace lumen::engine {

@@ -30,7 +30,7 @@
 #include "converters/library/index/change.h"
 #include "converters/library/index/library_file.h"
 #include "converters/library/index/record_of_case.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case_file.h"
 #include "formats/container/container.h"
 #include "formats/container/printable.h"

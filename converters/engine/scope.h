@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/engine/file_format.h"
 

@@ -10,14 +10,14 @@
 
 #include <Eigen/Core>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/stages/fitting/fit_options.h"
-#include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/cylinders/track_options.h"
 #include "formats/case/case.h"
 #include "formats/case/case_encoding.h"
 

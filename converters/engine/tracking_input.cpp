@@ -6,7 +6,7 @@
 #include <span>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/case_seeds.h"

@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/options/option_name.h"
 #include "converters/export/shared/text_files.h"
 
 namespace lumen::convert {

@@ -12,15 +12,9 @@
 #include <vector>
 
 #include "formats/field/kernel.h"
+#include "formats/field/vec3f.h"
 
 namespace lumen::formats {
-
-/// A position (mm) or a unit direction in LPS patient coordinates: +x left, +y posterior, +z
-/// superior.
-struct Vec3f {
-  float x = 0, y = 0, z = 0;
-  friend bool operator==(const Vec3f&, const Vec3f&) = default;
-};
 
 enum class BranchKind : std::uint8_t { Vessel = 0, Aneurysm = 1 };
 

@@ -3,14 +3,14 @@
 #include <charconv>
 #include <cmath>
 
-#include "formats/case/base64.h"
 #include "formats/case/case_encoding.h"
-#include "formats/case/json_document.h"
 #include "formats/case/json_fields.h"
 #include "formats/case/json_motion.h"
 #include "formats/case/metadata_json.h"
 #include "formats/case/motion.h"
 #include "formats/case/validate.h"
+#include "formats/json/base64.h"
+#include "formats/json/json_document.h"
 #include "formats/view/case_chunks.h"
 #include "formats/view/limits.h"
 

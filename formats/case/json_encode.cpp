@@ -2,13 +2,13 @@
 // Declared in case_encoding.h.
 #include <variant>
 
-#include "formats/case/base64.h"
 #include "formats/case/case_encoding.h"
 #include "formats/case/enum_names.h"
-#include "formats/case/json_writer.h"
 #include "formats/case/metadata_json.h"
 #include "formats/case/motion.h"
 #include "formats/container/container.h"
+#include "formats/json/base64.h"
+#include "formats/json/json_writer.h"
 
 namespace lumen::formats {
 namespace {

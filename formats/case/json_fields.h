@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "formats/case/enum_names.h"
-#include "formats/case/json_document.h"
-#include "formats/case/json_place.h"
 #include "formats/container/issue.h"
+#include "formats/json/json_document.h"
+#include "formats/json/json_place.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::formats {

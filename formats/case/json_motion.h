@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "formats/case/case.h"
-#include "formats/case/json_document.h"
 #include "formats/case/json_fields.h"
+#include "formats/json/json_document.h"
 
 namespace lumen::formats {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metadata from JSON; declared in metadata_json.h.
-#include "formats/case/json_document.h"
 #include "formats/case/metadata_json.h"
+#include "formats/json/json_document.h"
 
 namespace lumen::formats {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "formats/case/case.h"
 #include "formats/case/json_fields.h"
-#include "formats/case/json_writer.h"
+#include "formats/json/json_writer.h"
 
 namespace lumen::formats {
 

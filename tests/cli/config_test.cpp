@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/cli/command_line.h"
 #include "converters/cli/commands.h"
 #include "converters/export/shared/flow_inlets.h"

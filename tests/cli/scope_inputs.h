@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/operation.h"
+#include "converters/base/options/operation.h"
 #include "converters/cli/commands.h"
 #include "converters/engine/command.h"
 #include "converters/engine/scope.h"

@@ -21,7 +21,7 @@
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/grid_files.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case_file.h"
 #include "tests/unit/export/kissing.h"
 

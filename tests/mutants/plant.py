@@ -55,8 +55,10 @@ class Checkout:
         return run("ninja", "-j", self.jobs, "-C", self.build, target)
 
     def passes(self, fault):
-        return run(self.build / "tests" / fault.target, "--gtest_brief=1", f"--gtest_filter={fault.cases}",
-                   folder=self.build / "tests", seconds=SECONDS)
+        """(whether the fault's cases pass, and are not none, their output)."""
+        done, output = run(self.build / "tests" / fault.target, "--gtest_brief=1", f"--gtest_filter={fault.cases}",
+                           folder=self.build / "tests", seconds=SECONDS)
+        return done and "] 0 tests from" not in output, output
 
     def is_sound(self, fault):
         """Whether the fault's test passes without it."""

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "viewer/session/arguments.h"
+#include "viewer/session/document/arguments.h"
 #include "viewer/session/session.h"
 
 // after Eigen, which the macros of <resolv.h> break

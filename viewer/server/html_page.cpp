@@ -12,10 +12,10 @@
 #include "converters/base/error.h"
 #include "converters/base/html.h"
 #include "converters/base/vectors.h"
-#include "formats/case/base64.h"
 #include "formats/case/case_encoding.h"
 #include "formats/case/case_file.h"
-#include "viewer/session/case_pack.h"
+#include "formats/json/base64.h"
+#include "viewer/session/packs/case_pack.h"
 
 namespace lumen::viewer {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "converters/stages/editing/edit.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/document.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/document.h"
 
 namespace lumen::viewer {
 

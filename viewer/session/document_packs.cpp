@@ -8,10 +8,10 @@
 
 #include "converters/geometry/tube_tree_distance.h"
 #include "formats/case/case_encoding.h"
-#include "viewer/session/case_pack.h"
-#include "viewer/session/mesh_deviation.h"
-#include "viewer/session/pack.h"
-#include "viewer/session/surface_pack.h"
+#include "viewer/session/packs/case_pack.h"
+#include "viewer/session/packs/mesh_deviation.h"
+#include "viewer/session/packs/pack.h"
+#include "viewer/session/packs/surface_pack.h"
 
 namespace lumen::viewer {
 

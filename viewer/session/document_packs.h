@@ -7,11 +7,11 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/history.h"
-#include "viewer/session/pack.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/history.h"
+#include "viewer/session/packs/pack.h"
+#include "viewer/session/packs/volume_pack.h"
 #include "viewer/session/surfaces.h"
-#include "viewer/session/volume_pack.h"
 
 namespace lumen::viewer {
 

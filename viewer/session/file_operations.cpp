@@ -6,10 +6,10 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
-#include "converters/io/volume/dicom_series.h"
+#include "converters/io/volume/dicom/dicom_series.h"
 #include "formats/container/printable.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/document_seeds.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/document_seeds.h"
 #include "viewer/session/proposals.h"
 
 namespace lumen::viewer {

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "viewer/session/arguments.h"
+#include "viewer/session/document/arguments.h"
 #include "viewer/session/events.h"
 
 namespace lumen::viewer {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "converters/judge/measure/measure_case.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/document.h"
-#include "viewer/session/pack.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/document.h"
+#include "viewer/session/packs/pack.h"
 #include "viewer/session/work_list.h"
 
 namespace lumen::viewer {

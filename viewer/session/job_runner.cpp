@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "viewer/session/arguments.h"
+#include "viewer/session/document/arguments.h"
 
 namespace lumen::viewer {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "converters/engine/answers/answer_text.h"
-#include "viewer/session/pack.h"
+#include "viewer/session/packs/pack.h"
 
 namespace lumen::viewer {
 

@@ -14,8 +14,8 @@
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/fitting/fit.h"
-#include "viewer/session/document_seeds.h"
-#include "viewer/session/surface_pack.h"
+#include "viewer/session/document/document_seeds.h"
+#include "viewer/session/packs/surface_pack.h"
 
 namespace lumen::viewer {
 

@@ -9,8 +9,8 @@
 
 #include "converters/base/progress.h"
 #include "converters/engine/stage_options.h"
-#include "viewer/session/document.h"
-#include "viewer/session/dropped_files.h"
+#include "viewer/session/document/document.h"
+#include "viewer/session/document/dropped_files.h"
 
 namespace lumen::viewer {
 

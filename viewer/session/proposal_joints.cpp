@@ -6,7 +6,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "converters/stages/tracking/tracked_tree.h"
+#include "converters/stages/tracking/cylinders/tracked_tree.h"
 #include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"

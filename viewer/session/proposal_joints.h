@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "formats/case/case.h"
-#include "viewer/session/document.h"
+#include "viewer/session/document/document.h"
 
 namespace lumen::viewer {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/text.h"
 #include "converters/base/tree_figures.h"
 #include "converters/geometry/tube_tree_distance.h"

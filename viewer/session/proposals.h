@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "viewer/session/arguments.h"
-#include "viewer/session/document.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/document.h"
 
 namespace lumen::viewer {
 

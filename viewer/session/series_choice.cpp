@@ -9,8 +9,8 @@
 
 #include "converters/base/error.h"
 #include "formats/container/printable.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/pack.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/packs/pack.h"
 
 namespace lumen::viewer {
 

@@ -9,11 +9,11 @@
 #include <mutex>
 #include <string>
 
-#include "converters/io/volume/dicom_series.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/dropped_files.h"
+#include "converters/io/volume/dicom/dicom_series.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/dropped_files.h"
 #include "viewer/session/opening.h"
-#include "viewer/session/pack.h"
+#include "viewer/session/packs/pack.h"
 
 namespace lumen::viewer {
 

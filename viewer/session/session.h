@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/session/encoded_document.h"
+#include "viewer/session/document/encoded_document.h"
 #include "viewer/session/operations.h"
 #include "viewer/session/workspace.h"
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/judge/check/check.h"
 #include "formats/container/printable.h"
 

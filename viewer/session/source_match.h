@@ -6,7 +6,7 @@
 #include <string>
 
 #include "converters/voxels/volume.h"
-#include "viewer/session/document.h"
+#include "viewer/session/document/document.h"
 
 namespace lumen::viewer {
 

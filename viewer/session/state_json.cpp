@@ -3,11 +3,11 @@
 #include <set>
 #include <string_view>
 
-#include "converters/base/edit_steps.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/engine/file_format.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
-#include "viewer/session/document_seeds.h"
+#include "viewer/session/document/document_seeds.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/source_match.h"
 #include "viewer/session/workspace.h"

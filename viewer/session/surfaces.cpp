@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/stages/surface/to_surface_mesh.h"
-#include "viewer/session/surface_pack.h"
+#include "viewer/session/packs/surface_pack.h"
 
 namespace lumen::viewer {
 

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "converters/base/progress.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case.h"
 
 namespace lumen::viewer {

@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/engine/centerline_input.h"
@@ -16,7 +16,7 @@
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
-#include "viewer/session/document_seeds.h"
+#include "viewer/session/document/document_seeds.h"
 #include "viewer/session/proposals.h"
 
 namespace lumen::viewer {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/cylinders/track_options.h"
 #include "converters/stages/tracking/tracking_volume.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/document.h"
-#include "viewer/session/encoded_document.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/document.h"
+#include "viewer/session/document/encoded_document.h"
 
 namespace lumen::viewer {
 

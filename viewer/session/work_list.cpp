@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/judge/check/tree_places.h"

@@ -14,8 +14,8 @@
 
 #include "converters/judge/check/check.h"
 #include "converters/judge/facts/reachable.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/document.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/document.h"
 
 namespace lumen::viewer {
 

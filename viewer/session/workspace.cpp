@@ -5,7 +5,7 @@
 
 #include "converters/base/shown_text.h"
 #include "formats/case/motion.h"
-#include "viewer/session/arguments.h"
+#include "viewer/session/document/arguments.h"
 
 namespace lumen::viewer {
 

@@ -11,19 +11,19 @@
 #include <string_view>
 #include <vector>
 
-#include "viewer/session/arguments.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/dropped_files.h"
+#include "viewer/session/document/encoded_document.h"
+#include "viewer/session/document/history.h"
+#include "viewer/session/document/saving.h"
+#include "viewer/session/document/unsaved_work.h"
 #include "viewer/session/document_packs.h"
-#include "viewer/session/dropped_files.h"
-#include "viewer/session/encoded_document.h"
 #include "viewer/session/events.h"
 #include "viewer/session/findings.h"
-#include "viewer/session/history.h"
 #include "viewer/session/job_runner.h"
 #include "viewer/session/library.h"
-#include "viewer/session/saving.h"
 #include "viewer/session/series_choice.h"
 #include "viewer/session/surfaces.h"
-#include "viewer/session/unsaved_work.h"
 #include "viewer/session/vessel_tracking.h"
 
 namespace lumen::viewer {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/draw/picture/marks.h"
 #include "converters/draw/picture/trace.h"

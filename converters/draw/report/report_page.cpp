@@ -8,7 +8,7 @@
 
 #include "converters/base/html.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/tree_profiles.h"

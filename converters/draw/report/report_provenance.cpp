@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/report_page.h"
 #include "formats/case/enum_names.h"

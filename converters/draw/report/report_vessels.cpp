@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/report_page.h"

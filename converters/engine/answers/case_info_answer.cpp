@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "converters/base/edit_steps.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/engine/answers/volume_info.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/judge/facts/check_facts.h"
 #include "formats/container/printable.h"

@@ -8,7 +8,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case.h"
 
 namespace lumen::engine {

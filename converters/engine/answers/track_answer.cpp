@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "formats/case/enum_names.h"

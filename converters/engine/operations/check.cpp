@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/overlay/overlay.h"

@@ -2,7 +2,7 @@
 // lumen convert: a volume, tracked and fitted, a centerline, fitted, or a case, as a case, a mesh
 // or a centerline.
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/surface_answer.h"

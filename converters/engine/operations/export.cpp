@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/export_options.h"

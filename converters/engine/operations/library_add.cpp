@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/answers/library_answer.h"

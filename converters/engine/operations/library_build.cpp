@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"

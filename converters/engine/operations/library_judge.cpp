@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/answers/library_answer.h"
 #include "converters/engine/operations/operations.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/library_build.h"
 #include "converters/engine/operations/operations.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/files.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/option_name.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/option_name.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"

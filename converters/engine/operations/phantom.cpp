@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"

@@ -11,7 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"

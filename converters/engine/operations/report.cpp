@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/edit_steps.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/privacy.h"
 #include "converters/base/sha256.h"
 #include "converters/draw/overlay/overlay.h"

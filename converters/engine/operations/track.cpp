@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen track: a volume and seeds to a tree with wall points.
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/track_answer.h"

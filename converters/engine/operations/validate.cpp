@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/operations/operations.h"

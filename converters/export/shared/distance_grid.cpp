@@ -10,7 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/grid_shortcuts.h"
 

@@ -12,7 +12,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/disjoint_sets.h"

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
-// Names of the options of flow solvers' targets, which rows and messages share (base/option_name.h).
+// Names of the options of flow solvers' targets, which rows and messages share (base/options/option_name.h).
 
 struct FlowOptionNames {
   OptionName inlets{"inlets"};

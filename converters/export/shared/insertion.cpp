@@ -15,7 +15,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/mesh_edges.h"
 #include "formats/container/printable.h"

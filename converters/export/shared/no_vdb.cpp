@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replacement of vdb.cpp where lumen is built without OpenVDB.
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/export/shared/grid_files.h"
 
 namespace lumen::convert {

@@ -14,7 +14,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/run_program.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/disjoint_sets.h"

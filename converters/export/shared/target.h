@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "converters/base/option_name.h"
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_name.h"
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/insertion.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

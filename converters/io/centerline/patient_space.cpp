@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/io/centerline/case_of_centerline.h"
 #include "formats/view/text_rules.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"

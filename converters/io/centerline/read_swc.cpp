@@ -14,7 +14,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"

@@ -17,7 +17,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/number_text.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/centerline_readers.h"

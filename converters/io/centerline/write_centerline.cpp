@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "converters/io/centerline/centerline_file.h"
-#include "formats/case/json_writer.h"
+#include "formats/json/json_writer.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {

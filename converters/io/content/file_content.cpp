@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "formats/container/container.h"
 

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/read_mesh.h"
-#include "formats/case/base64.h"
-#include "formats/case/json_document.h"
 #include "formats/container/printable.h"
+#include "formats/json/base64.h"
+#include "formats/json/json_document.h"
 #include "formats/view/limits.h"
 
 namespace lumen::convert {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/case/json_value.h"
+#include "formats/json/json_value.h"
 
 namespace lumen::convert {
 

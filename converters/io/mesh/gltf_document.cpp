@@ -8,7 +8,7 @@
 
 #include "converters/base/error.h"
 #include "converters/io/mesh/meshopt_codec.h"
-#include "formats/case/base64.h"
+#include "formats/json/base64.h"
 
 namespace lumen::convert {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/vtk/xml_events.h"

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/io/mesh/mesh_builder.h"
 
 namespace lumen::convert {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 
 namespace lumen::convert {
 

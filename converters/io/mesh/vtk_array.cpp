@@ -9,7 +9,7 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
-#include "formats/case/base64.h"
+#include "formats/json/base64.h"
 
 namespace lumen::convert {
 namespace {

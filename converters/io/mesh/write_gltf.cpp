@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/io/mesh/draco_mesh.h"
 #include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_parts.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "formats/container/printable.h"
 

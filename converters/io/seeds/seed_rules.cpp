@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/option_name.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seeds_parse.h"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/seeds/seeds_parse.h"
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seeds_parse.h"
 

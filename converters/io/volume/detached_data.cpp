@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/volume/text_header.h"
 #include "formats/container/printable.h"

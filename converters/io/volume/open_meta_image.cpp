@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/detached_data.h"

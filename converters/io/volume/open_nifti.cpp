@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/packed_file.h"

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/open_volume.h"
 

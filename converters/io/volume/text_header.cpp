@@ -7,7 +7,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "formats/container/printable.h"

@@ -8,7 +8,7 @@
 #include <Eigen/SVD>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 
 namespace lumen::convert {

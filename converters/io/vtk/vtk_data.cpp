@@ -9,7 +9,7 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
-#include "converters/base/parsed_number.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/vtk/vtk_xml.h"
 

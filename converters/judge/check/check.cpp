@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "formats/case/case_field.h"

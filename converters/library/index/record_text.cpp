@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/library/index/json_values.h"
 #include "converters/library/index/record.h"

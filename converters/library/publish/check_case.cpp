@@ -94,7 +94,8 @@ FolderState walkFolder(const PlainFolder& library, const std::string& folder,
 void checkKinds(const PlainFolder& library, const std::string& folder, FaultList& faults) {
   std::vector<std::pair<std::string, std::size_t>> folders{{folder, 0}};
   while (!folders.empty()) {
-    const auto [path, depth] = folders.back();
+    const std::string path = folders.back().first;
+    const std::size_t depth = folders.back().second;
     folders.pop_back();
     Entries others;
     std::set<std::string, std::greater<>> below;  // the first name is looked into first

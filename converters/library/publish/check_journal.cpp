@@ -11,7 +11,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "formats/case/file_descriptor.h"
 
 namespace lumen::convert {
@@ -19,7 +19,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::string_view kJournalFormat = "lumen library check, ";
-constexpr std::size_t kMark = 64;  // digits of a digest
+constexpr std::size_t kDigestDigits = 64;  // digits of a digest
 constexpr std::size_t kMostJournalBytes = std::size_t{1}
                                           << 28;  // more than all cases that a library may have
 
@@ -57,8 +57,9 @@ void CheckJournal::read(const std::string& text, const std::string& head) {
   }
   std::size_t begin = head.size();
   for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    if (end - begin < kMark + 2 || text[begin + kMark] != ' ') continue;
-    m_marks[text.substr(begin + kMark + 1, end - begin - kMark - 1)] = text.substr(begin, kMark);
+    if (end - begin < kDigestDigits + 2 || text[begin + kDigestDigits] != ' ') continue;
+    m_marks[text.substr(begin + kDigestDigits + 1, end - begin - kDigestDigits - 1)] =
+        text.substr(begin, kDigestDigits);
   }
   if (begin < text.size() && ftruncate(m_descriptor.get(), static_cast<off_t>(begin)) != 0)
     throw failed(m_file.string() + ": cannot be written: " + formats::systemErrorText(errno));

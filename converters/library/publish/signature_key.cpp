@@ -12,7 +12,7 @@
 #include "converters/base/files.h"
 #include "converters/base/text.h"
 #include "converters/library/publish/signature.h"
-#include "formats/case/base64.h"
+#include "formats/json/base64.h"
 
 namespace lumen::convert {
 

@@ -12,7 +12,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/sha256.h"
 #include "converters/base/state_folder.h"
 #include "converters/base/text.h"

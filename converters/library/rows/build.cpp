@@ -12,9 +12,9 @@
 #include <thread>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/library/index/change.h"
 #include "converters/library/index/library_file.h"
 #include "converters/library/index/library_lock.h"
@@ -36,7 +36,7 @@ constexpr const char* kMarkText =
 // a batch waits this multiple of the time that the last one took to put in
 constexpr double kPatience = 20;
 
-/// Whether a case records corrections by hand that can be made again (base/edit_steps.h).
+/// Whether a case records corrections by hand that can be made again (base/options/edit_steps.h).
 bool hasCorrections(const CaseRecord& record) {
   for (const auto& step : record.provenance.value("steps", nlohmann::ordered_json::array()))
     if (step.value("name", "") == kEditStep)
@@ -159,7 +159,7 @@ private:
     const RowLock lock(plan.folder, m_progress);
     m_results[i].state = RowState::Running;
     leaveNote(i, &plan);
-    m_results[i] = makeRow(plan, m_library, m_options, m_progress);
+    m_results[i] = makeRow(plan, m_library, m_options);
     leaveNote(i, &plan);
     if (m_results[i].state != RowState::Made) warnOfRow(m_progress, m_results[i]);
   }

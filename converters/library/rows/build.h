@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/operation.h"
+#include "converters/base/options/operation.h"
 #include "converters/base/progress.h"
 #include "converters/library/rows/build_list.h"
 

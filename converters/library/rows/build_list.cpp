@@ -11,8 +11,8 @@
 
 #include "converters/base/csv_rows.h"
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
-#include "converters/base/option_value.h"
+#include "converters/base/options/option_name.h"
+#include "converters/base/options/option_value.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/library/index/record.h"
@@ -182,9 +182,9 @@ void requireNoFaults(std::vector<RowFault> faults, const fs::path& file) {
 BuildList readBuildList(const std::string& text, const fs::path& file,
                         const std::set<std::size_t>& lines) {
   const std::string name = formats::printable(file.string());
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // spreadsheets write it
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write it
   std::vector<CsvRow> table =
-      csvRows(text.starts_with(kMark) ? text.substr(kMark.size()) : text, name);
+      csvRows(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text, name);
   if (table.empty()) throw invalidInput(name + ": is empty; expected a row of names first");
   const Cells names = namesOf(std::move(table.front()), name);
   BuildList list;

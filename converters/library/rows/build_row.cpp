@@ -14,7 +14,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/json_place.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/sha256.h"
 #include "converters/base/text.h"
 #include "formats/case/atomic_file.h"
@@ -73,9 +73,8 @@ std::vector<fs::path> filesOfHeader(const fs::path& header) {
 /// The operations of one row.
 class RowMaker {
 public:
-  RowMaker(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
-           const Progress& progress)
-      : m_plan(plan), m_library(library), m_options(options), m_progress(progress) {
+  RowMaker(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options)
+      : m_plan(plan), m_library(library), m_options(options) {
     m_result.line = plan.row->line;
     m_result.id = plan.id;
     m_result.log = options.work / "logs" / (plan.id + ".log");
@@ -214,7 +213,6 @@ private:
   const PlannedRow& m_plan;
   const LibraryFile& m_library;
   const BuildOptions& m_options;
-  const Progress& m_progress;
   RowResult m_result;
 };
 
@@ -292,9 +290,8 @@ void warnOfRow(Progress& progress, const RowResult& result) {
                 "): " + result.why);
 }
 
-RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
-                  const Progress& progress) {
-  return RowMaker(plan, library, options, progress).made();
+RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options) {
+  return RowMaker(plan, library, options).made();
 }
 
 }  // namespace lumen::convert

@@ -68,7 +68,6 @@ void warnOfRow(Progress& progress, const RowResult& result);
 
 /// Runs lumen until `staged` is complete; continues with the files that are there. Throws
 /// Error(Cancelled); any other failure is in the result.
-RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
-                  const Progress& progress);
+RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options);
 
 }  // namespace lumen::convert

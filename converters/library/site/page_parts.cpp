@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "converters/base/html.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/library/site/pages.h"
 
 namespace lumen::convert {

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
 #include "converters/base/json_place.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/edit.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/fitting/fit.h"
 #include "formats/case/motion.h"

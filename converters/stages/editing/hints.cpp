@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/statistics.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"

@@ -17,7 +17,7 @@
 
 namespace lumen::convert {
 
-/// What the two sides of a gap in one vessel have: the cosine between the directions out of one and
+/// Limits on both sides of a gap in one vessel: the cosine between the directions out of one and
 /// into the other, that between each and the way to the other, and the ratio of their radii.
 constexpr double kFacingCosine = 0.7, kAheadOfEnd = 0.8, kLikeRadii = 1.4;
 

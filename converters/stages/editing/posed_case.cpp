@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/stages/fitting/fit.h"
 #include "formats/case/motion.h"
 #include "formats/case/validate.h"

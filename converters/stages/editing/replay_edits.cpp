@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/stages/editing/edit_request.h"
 
 namespace lumen::convert {

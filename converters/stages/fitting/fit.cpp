@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "converters/base/edit_steps.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/stages/fitting/node_models.h"
 #include "converters/stages/fitting/open_edges.h"
 #include "formats/case/enum_names.h"

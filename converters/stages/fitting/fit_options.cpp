@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "formats/field/kernel.h"
 #include "formats/view/text_rules.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

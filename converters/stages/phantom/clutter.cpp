@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/stages/phantom/clutter_shapes.h"
 #include "formats/container/printable.h"

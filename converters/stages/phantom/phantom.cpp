@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/motion/posing.h"
 #include "converters/stages/phantom/clutter.h"

@@ -68,7 +68,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/stages/phantom/moving.h"

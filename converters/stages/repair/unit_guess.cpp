@@ -13,7 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/mesh_edges.h"
 #include "converters/geometry/mesh_measures.h"

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "converters/geometry/box.h"
-#include "converters/stages/tracking/tracked_branch.h"
+#include "converters/stages/tracking/cylinders/tracked_branch.h"
 
 namespace lumen::convert {
 

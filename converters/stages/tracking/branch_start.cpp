@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "converters/stages/tracking/cylinders/smoothing.h"
 #include "converters/stages/tracking/lumen_paths.h"
-#include "converters/stages/tracking/smoothing.h"
 #include "converters/stages/tracking/track_steps.h"
 
 namespace lumen::convert {

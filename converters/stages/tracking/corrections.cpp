@@ -12,7 +12,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
-#include "converters/stages/tracking/wall_ellipse.h"
+#include "converters/stages/tracking/cylinders/wall_ellipse.h"
 
 namespace lumen::convert {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "converters/stages/tracking/tracked_branch.h"
+#include "converters/stages/tracking/cylinders/tracked_branch.h"
 #include "converters/voxels/bspline.h"
 
 namespace lumen::convert {

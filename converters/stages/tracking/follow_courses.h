@@ -9,9 +9,9 @@
 #include <Eigen/Core>
 
 #include "converters/stages/tracking/corrections.h"
+#include "converters/stages/tracking/cylinders/tracked_branch.h"
+#include "converters/stages/tracking/cylinders/tracked_tree.h"
 #include "converters/stages/tracking/track_run.h"
-#include "converters/stages/tracking/tracked_branch.h"
-#include "converters/stages/tracking/tracked_tree.h"
 
 namespace lumen::convert {
 

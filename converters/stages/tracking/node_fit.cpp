@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
-#include "converters/stages/tracking/cylinder_equations.h"
+#include "converters/stages/tracking/cylinders/cylinder_equations.h"
 #include "converters/stages/tracking/wall_review.h"
 
 namespace lumen::convert {

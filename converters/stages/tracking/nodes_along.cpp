@@ -9,6 +9,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
+#include "converters/stages/tracking/cylinders/cylinder_equations.h"
 #include "converters/stages/tracking/follow_courses.h"
 #include "converters/stages/tracking/node_fit.h"
 

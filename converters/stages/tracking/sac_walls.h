@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "converters/io/seeds/seeds.h"
+#include "converters/stages/tracking/cylinders/tracked_tree.h"
 #include "converters/stages/tracking/sac_region.h"
 #include "converters/stages/tracking/track_run.h"
-#include "converters/stages/tracking/tracked_tree.h"
 
 namespace lumen::convert {
 

@@ -6,9 +6,9 @@
 #include <span>
 
 #include "converters/base/progress.h"
+#include "converters/stages/tracking/cylinders/tracked_tree.h"
 #include "converters/stages/tracking/lumen_paths.h"
 #include "converters/stages/tracking/track_run.h"
-#include "converters/stages/tracking/tracked_tree.h"
 
 namespace lumen::convert {
 

@@ -10,7 +10,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/base/edit_steps.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"

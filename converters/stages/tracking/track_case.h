@@ -11,9 +11,9 @@
 
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
-#include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/cylinders/track_options.h"
+#include "converters/stages/tracking/cylinders/tracked_tree.h"
 #include "converters/stages/tracking/track_run.h"
-#include "converters/stages/tracking/tracked_tree.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "converters/voxels/cube_search.h"
 #include "converters/voxels/volume.h"

@@ -14,10 +14,10 @@
 #include "converters/base/progress.h"
 #include "converters/base/random.h"
 #include "converters/geometry/icosphere.h"
-#include "converters/stages/tracking/cylinder.h"
-#include "converters/stages/tracking/rays.h"
-#include "converters/stages/tracking/track_options.h"
-#include "converters/stages/tracking/tracked_branch.h"
+#include "converters/stages/tracking/cylinders/cylinder.h"
+#include "converters/stages/tracking/cylinders/rays.h"
+#include "converters/stages/tracking/cylinders/track_options.h"
+#include "converters/stages/tracking/cylinders/tracked_branch.h"
 #include "converters/voxels/bspline.h"
 
 namespace lumen::convert {

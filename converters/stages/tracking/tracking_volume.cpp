@@ -6,11 +6,11 @@
 #include <utility>
 #include <variant>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
-#include "converters/stages/tracking/tracked_tree.h"
+#include "converters/stages/tracking/cylinders/tracked_tree.h"
 
 namespace lumen::convert {
 namespace {

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/stages/tracking/joining.h"
+#include "converters/stages/tracking/path_rules.h"
 #include "converters/stages/tracking/track_by_depth.h"
 
 namespace lumen::convert {

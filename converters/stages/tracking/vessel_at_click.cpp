@@ -11,7 +11,7 @@
 #include "converters/base/random.h"
 #include "converters/base/statistics.h"
 #include "converters/stages/tracking/branch_start.h"
-#include "converters/stages/tracking/smoothing.h"
+#include "converters/stages/tracking/cylinders/smoothing.h"
 
 namespace lumen::convert {
 

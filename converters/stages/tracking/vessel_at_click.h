@@ -10,7 +10,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
-#include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/cylinders/track_options.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "converters/voxels/bspline.h"
 

@@ -16,9 +16,9 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/stages/tracking/cylinders/wall_ellipse.h"
 #include "converters/stages/tracking/node_fit.h"
 #include "converters/stages/tracking/path_rules.h"
-#include "converters/stages/tracking/wall_ellipse.h"
 
 namespace lumen::convert {
 

@@ -60,7 +60,7 @@ async function pageCode(folder) {
   const page = join(kRoot, "viewer/page"),
     { build } = createRequire(join(page, "build.mjs"))("esbuild"),
     outfile = join(folder, "code.mjs"),
-    contents = ["./src/case_file", "./src/field_surface", "./src/pack", "./src/tree", "../../libblob/wasm/blob.mjs"]
+    contents = ["./src/case/case_file", "./src/case/field_surface", "./src/case/pack", "./src/case/tree", "../../libblob/wasm/blob.mjs"]
       .map(name => `export * from "${name}";`)
       .join("\n");
   await build({ stdin: { contents, resolveDir: page }, bundle: true, format: "esm", platform: "node", outfile, logLevel: "error" });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/base/option_table.h"
+#include "converters/base/options/option_table.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "formats/case/validate.h"
 #include "unit/formats/beads.h"
 #include "unit/formats/sample_case.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "formats/case/case_file.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/base/edit_steps.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/topology.h"

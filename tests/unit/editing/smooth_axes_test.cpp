@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/axis_curve.h"
 #include "converters/stages/editing/correct_topology.h"

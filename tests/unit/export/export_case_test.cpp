@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/progress.h"
 
 namespace lumen::convert {

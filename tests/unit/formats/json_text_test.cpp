@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Our reader of JSON text against another: what it takes, and the byte at which it stops.
-#include "formats/case/json_text.h"
+#include "formats/json/json_text.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "formats/case/json_document.h"
 #include "formats/container/printable.h"
 #include "formats/container/utf8.h"
+#include "formats/json/json_document.h"
 #include "unit/formats/json_samples.h"
 #include "unit/formats/sample_case.h"
 

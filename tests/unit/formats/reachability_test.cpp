@@ -56,6 +56,21 @@ TEST(Reachability, MissesNoWallOfAFifthOfTheRadius) {
   EXPECT_TRUE(reach(beadsWithGap(1.9F)).barriers.empty());
 }
 
+TEST(Reachability, StepsByAThirtySecondOfTheThinnerNode) {
+  // beads of radius 2 and 1 with a way of 8 outside of both: each step there is reported
+  Case value = noBeads();
+  addBeads(value, "wide", {{0, 0, 0}, {0.5F, 0, 0}}, 2);
+  addBeads(value, "thin", {{11.5F, 0, 0}, {12, 0, 0}}, 1, 1);
+  ASSERT_TRUE(validate(value));
+  std::size_t steps = 0;
+  findClosedPlaces(value.tree, caseField(value), [&](const ClosedPlace& place) {
+    EXPECT_EQ(place.node, 2U);
+    ++steps;
+    return true;
+  });
+  EXPECT_NEAR(static_cast<double>(steps), 8 * 32, 8);
+}
+
 TEST(Reachability, NamesTheFirstBarrierOfEachWayOnly) {
   Case value = beadsWithGap(3);
   addBeads(value, "open", {{2, 1.5F, 0}, {2, 2, 0}}, 1, 4);

@@ -11,7 +11,7 @@
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
 #include "converters/geometry/self_intersections.h"
-#include "converters/stages/surface/cut_ends.h"
+#include "converters/stages/surface/closing/cut_ends.h"
 #include "converters/stages/surface/extract.h"
 #include "formats/case/case_field.h"
 

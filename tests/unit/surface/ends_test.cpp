@@ -9,9 +9,9 @@
 #include "closed_cases.h"
 #include "converters/base/error.h"
 #include "converters/geometry/self_intersections.h"
-#include "converters/stages/surface/closed_surface.h"
-#include "converters/stages/surface/cut_ends.h"
-#include "converters/stages/surface/remesh_target.h"
+#include "converters/stages/surface/closing/closed_surface.h"
+#include "converters/stages/surface/closing/cut_ends.h"
+#include "converters/stages/surface/remesh/remesh_target.h"
 #include "converters/stages/surface/reported_places.h"
 
 namespace lumen::convert {

@@ -7,7 +7,7 @@
 #include "closed_cases.h"
 #include "converters/base/error.h"
 #include "converters/geometry/self_intersections.h"
-#include "converters/stages/surface/flow_extension.h"
+#include "converters/stages/surface/closing/flow_extension.h"
 
 namespace lumen::convert {
 namespace {

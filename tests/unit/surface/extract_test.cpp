@@ -11,7 +11,7 @@
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
 #include "converters/geometry/disjoint_sets.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "converters/stages/surface/marching_tetrahedra.h"
 #include "converters/stages/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"

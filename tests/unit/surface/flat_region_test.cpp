@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/flat_region.h"
+#include "converters/stages/surface/closing/flat_region.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/stages/surface/mend_crossings.h"
+#include "converters/stages/surface/closing/mend_crossings.h"
 #include "converters/stages/surface/surface_options.h"
 
 namespace lumen::convert {

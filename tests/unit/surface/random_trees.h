@@ -14,7 +14,7 @@
 #include "converters/base/error.h"
 #include "converters/base/random.h"
 #include "converters/geometry/self_intersections.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 
 namespace lumen::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/remesh.h"
+#include "converters/stages/surface/remesh/remesh.h"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +19,9 @@
 #include "../mesh/synthetic.h"
 #include "closed_surface.h"
 #include "converters/geometry/triangle_quality.h"
-#include "converters/stages/surface/decimate.h"
-#include "converters/stages/surface/remesh_moves.h"
-#include "converters/stages/surface/remesh_pieces.h"
+#include "converters/stages/surface/remesh/decimate.h"
+#include "converters/stages/surface/remesh/remesh_moves.h"
+#include "converters/stages/surface/remesh/remesh_pieces.h"
 
 namespace lumen::convert {
 namespace {

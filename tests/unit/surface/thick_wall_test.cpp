@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/thick_wall.h"
+#include "converters/stages/surface/closing/thick_wall.h"
 
 #include <algorithm>
 #include <atomic>
@@ -15,8 +15,8 @@
 #include "converters/base/error.h"
 #include "converters/geometry/self_intersections.h"
 #include "converters/geometry/triangle_tree.h"
-#include "converters/stages/surface/closed_surface.h"
-#include "converters/stages/surface/flow_extension.h"
+#include "converters/stages/surface/closing/closed_surface.h"
+#include "converters/stages/surface/closing/flow_extension.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/cylinder.h"
+#include "converters/stages/tracking/cylinders/cylinder.h"
 
 #include <cmath>
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
-#include "converters/stages/tracking/cylinder_equations.h"
+#include "converters/stages/tracking/cylinders/cylinder_equations.h"
 
 namespace lumen::convert {
 namespace {

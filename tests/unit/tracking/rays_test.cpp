@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/rays.h"
+#include "converters/stages/tracking/cylinders/rays.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 
 #include "converters/base/error.h"
 #include "converters/io/volume/read_volume.h"
+#include "converters/stages/tracking/cylinders/tracked_branch.h"
 #include "converters/stages/tracking/track_case.h"
-#include "converters/stages/tracking/tracked_branch.h"
 #include "converters/stages/tracking/tracking_volume.h"
 
 namespace lumen::convert {

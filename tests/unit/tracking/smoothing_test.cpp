@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/smoothing.h"
+#include "converters/stages/tracking/cylinders/smoothing.h"
 
 #include <gtest/gtest.h>
 
-#include "converters/base/edit_steps.h"
+#include "converters/base/options/edit_steps.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {

@@ -7,8 +7,8 @@
 
 #include "converters/base/vectors.h"
 #include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/cylinders/tracked_branch.h"
 #include "converters/stages/tracking/track_case.h"
-#include "converters/stages/tracking/tracked_branch.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "tube_volume.h"

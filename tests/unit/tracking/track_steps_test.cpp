@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/stages/tracking/cylinders/tracked_branch.h"
 #include "converters/stages/tracking/joining.h"
 #include "converters/stages/tracking/path_rules.h"
-#include "converters/stages/tracking/tracked_branch.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {

@@ -14,7 +14,7 @@
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/repair/repair.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "converters/stages/surface/patches/polygonise.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "formats/case/reachability.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values that a page may write in a request.
-#include "viewer/session/arguments.h"
+#include "viewer/session/document/arguments.h"
 
 #include <string>
 

@@ -5,12 +5,12 @@
 
 #include "converters/base/error.h"
 #include "served.h"
-#include "viewer/session/arguments.h"
-#include "viewer/session/history.h"
+#include "viewer/session/document/arguments.h"
+#include "viewer/session/document/history.h"
 #include "viewer/session/job_runner.h"
 #include "viewer/session/opening.h"
-#include "viewer/session/pack.h"
-#include "viewer/session/volume_pack.h"
+#include "viewer/session/packs/pack.h"
+#include "viewer/session/packs/volume_pack.h"
 
 namespace lumen::test {
 

@@ -3,7 +3,7 @@
 #include "converters/base/error.h"
 #include "converters/library/index/library_file.h"
 #include "served.h"
-#include "viewer/session/arguments.h"
+#include "viewer/session/document/arguments.h"
 #include "viewer/session/file_operations.h"
 
 namespace lumen::test {

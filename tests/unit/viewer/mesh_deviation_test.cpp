@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far meshes lie from the wall of the open case.
-#include "viewer/session/mesh_deviation.h"
+#include "viewer/session/packs/mesh_deviation.h"
 
 #include <cmath>
 #include <sstream>

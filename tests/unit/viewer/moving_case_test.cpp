@@ -6,7 +6,7 @@
 #include <set>
 
 #include "served.h"
-#include "viewer/session/case_pack.h"
+#include "viewer/session/packs/case_pack.h"
 
 namespace lumen::test {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viewer/session/surface_pack.h"
+#include "viewer/session/packs/surface_pack.h"
 
 namespace lumen::test {
 

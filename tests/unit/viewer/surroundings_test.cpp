@@ -8,8 +8,8 @@
 #include "served.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/http_server.h"
-#include "viewer/session/case_pack.h"
-#include "viewer/session/pack.h"
+#include "viewer/session/packs/case_pack.h"
+#include "viewer/session/packs/pack.h"
 
 namespace lumen::test {
 

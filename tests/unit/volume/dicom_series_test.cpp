@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The listing of a folder of DICOM, and folders with files that cannot be read.
-#include "converters/io/volume/dicom_series.h"
+#include "converters/io/volume/dicom/dicom_series.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen as it is built with LUMEN_WITH_DICOM=OFF.
-#include "converters/io/volume/dicom_series.h"
+#include "converters/io/volume/dicom/dicom_series.h"
 #include "fixtures.h"
 
 namespace lumen::convert {

@@ -11,7 +11,7 @@
 #include "blob.h"
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/export/shared/mujoco_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"

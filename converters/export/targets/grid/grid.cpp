@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/grid_files.h"
@@ -20,7 +20,7 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/volume/write_volume.h"
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/distance_grid.h"

@@ -13,7 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/paths.h"

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/base/xml_text.h"
 #include "converters/export/shared/paths.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/distance_grid.h"

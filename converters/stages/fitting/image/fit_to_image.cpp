@@ -11,9 +11,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
-#include "converters/base/option_name.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/fitting/image/section_fit.h"

@@ -9,7 +9,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/disjoint_sets.h"
-#include "converters/stages/surface/end_planes.h"
+#include "converters/stages/surface/closing/end_planes.h"
 
 namespace lumen::convert {
 

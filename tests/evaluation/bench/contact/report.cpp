@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/closing/closed_surface.h"
 
 namespace lumen::bench {
 namespace {

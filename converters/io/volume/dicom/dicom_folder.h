@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The DICOM series of a folder and of all folders below it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/io/volume/dicom/dicom_image.h"
+#include "converters/io/volume/read_volume_options.h"
+
+namespace lumen::convert {
+
+/// The files of a folder and of all folders below it, in the order of their paths. Links to folders
+/// and hidden folders are passed over.
+struct DicomFolder {
+  std::map<std::string, std::vector<DicomImage>> series;  ///< by instance UID
+  std::vector<DicomScan> faulty;
+  std::vector<std::filesystem::path> others;  ///< files that are no DICOM images
+};
+
+/// Throws Error(InvalidInput) for a folder that cannot be listed, and one with more than half a
+/// million files below it; Error(Cancelled).
+DicomFolder scanDicomFolder(const std::filesystem::path& folder, const Progress& progress);
+
+/// The images of one series.
+struct DicomChoice {
+  std::vector<DicomImage> images;
+  std::vector<std::string> assumptions;  ///< files that were left out (`skipFaulty`)
+};
+
+/// The series that the options name (its instance UID, or its number in the listing, from 1; empty:
+/// the only one). Throws Error(InvalidInput) if there is no such series or several (the message
+/// lists them); the fault of a file that belongs to the series, or that names none and lies in
+/// a folder of the series, unless the options leave such files out; Error(Cancelled).
+DicomChoice findDicomSeries(const std::filesystem::path& folder, const ReadVolumeOptions& options,
+                            const Progress& progress);
+
+}  // namespace lumen::convert

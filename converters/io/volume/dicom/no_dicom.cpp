@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Replacement of the DICOM reader where lumen is built without it.
+#include "converters/base/error.h"
+#include "converters/io/volume/dicom/dicom_series.h"
+#include "converters/io/volume/open_volume.h"
+
+namespace lumen::convert {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path) {
+  throw unsupported(path.string() +
+                    ": DICOM is not read, because this lumen was built without it "
+                    "(LUMEN_WITH_DICOM); convert the series to NRRD or NIfTI first");
+}
+
+}  // namespace
+
+OpenVolume openDicom(const std::filesystem::path& path, const ReadVolumeOptions& /*options*/,
+                     const Progress& /*progress*/) {
+  refuse(path);
+}
+
+DicomListing listDicomSeries(const std::filesystem::path& folder,
+                             const ReadVolumeOptions& /*options*/, Progress& /*progress*/) {
+  refuse(folder);
+}
+
+}  // namespace lumen::convert

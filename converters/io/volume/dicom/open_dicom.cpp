@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// DICOM of open_volume.h.
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "converters/io/volume/dicom/dicom_folder.h"
+#include "converters/io/volume/dicom/dicom_pixels.h"
+#include "converters/io/volume/dicom/dicom_stack.h"
+#include "converters/io/volume/open_volume.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<float> asFloats(const Voxels& voxels) {
+  return std::visit([](const auto& v) { return std::vector<float>(v.begin(), v.end()); }, voxels);
+}
+
+/// Slices may differ in type, where each has its own rescale slope; then all become float.
+void append(Voxels& all, Voxels slice, std::size_t count) {
+  if (all.index() != slice.index()) {
+    all = asFloats(all);
+    slice = asFloats(slice);
+  }
+  std::visit(
+      [&](auto& to) {
+        to.reserve(count);
+        const auto& from = std::get<std::decay_t<decltype(to)>>(slice);
+        to.insert(to.end(), from.begin(), from.end());
+      },
+      all);
+}
+
+std::string encodingName(DicomPacking packing) {
+  switch (packing) {
+    case DicomPacking::Jpeg:
+      return "JPEG";
+    case DicomPacking::JpegLs:
+      return "JPEG-LS";
+    case DicomPacking::Jpeg2000:
+      return "JPEG 2000";
+    case DicomPacking::RunLength:
+      return "RLE";
+    default:
+      return "raw";
+  }
+}
+
+Voxels readSlices(const DicomStack& stack, const Progress& progress) {
+  Voxels all;
+  bool first = true;
+  for (const DicomFrame& slice : stack.slices) {
+    progress.check();
+    Voxels voxels = readDicomFrame(*slice.image, slice.frame, progress);
+    if (std::exchange(first, false))
+      all = std::visit([](auto& v) -> Voxels { return std::decay_t<decltype(v)>(); }, voxels);
+    append(all, std::move(voxels), stack.geometry.voxelCount());
+  }
+  return all;
+}
+
+}  // namespace
+
+OpenVolume openDicom(const fs::path& path, const ReadVolumeOptions& options,
+                     const Progress& progress) {
+  // shared, because slices point to its images
+  const auto stack = std::make_shared<const DicomStack>(
+      stackOf(findDicomSeries(path, options, progress), options, path));
+  const DicomImage& first = stack->images[0];
+  OpenVolume open;
+  VolumeHeader& header = open.header;
+  header.geometry = stack->geometry;
+  header.storedType = (first.isSigned ? "int" : "uint") + std::to_string(first.bitsAllocated);
+  header.encoding = encodingName(first.packing);
+  header.voxelBytes = first.frameBytes() * stack->slices.size();
+  for (const DicomImage& image : stack->images) header.storedBytes += fs::file_size(image.file);
+  header.assumptions = stack->assumptions;
+  open.readVoxels = [stack](const Progress& running, std::vector<std::string>&) {
+    return readSlices(*stack, running);
+  };
+  return open;
+}
+
+}  // namespace lumen::convert

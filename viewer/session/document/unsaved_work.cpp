@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/document/unsaved_work.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/engine/file_access.h"
+#include "converters/io/seeds/seeds.h"
+#include "formats/container/printable.h"
+#include "viewer/session/document/document_seeds.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kCase = ".lumen", *kSeeds = ".seeds.json", *kProposals = ".proposals.lumen";
+
+// Endings of two parts; of any other name the last part is its ending.
+constexpr std::array<std::string_view, 2> kDoubleEndings = {".lumen.json", ".nii.gz"};
+
+/// "head.v1.unsaved" of "head.v1.lumen".
+std::string stem(const fs::path& file) {
+  const std::string name = file.filename().string();
+  for (const std::string_view ending : kDoubleEndings)
+    if (name.size() > ending.size() && name.ends_with(ending))
+      return name.substr(0, name.size() - ending.size()) + ".unsaved";
+  return file.stem().string() + ".unsaved";
+}
+
+/// A link counts by itself: one that leads nowhere is not free, as writing would follow it.
+bool isFree(const fs::path& file) {
+  std::error_code ignored;
+  return !fs::exists(fs::symlink_status(file, ignored));
+}
+
+fs::path freeName(const fs::path& place, const std::string& ending) {
+  const fs::path folder = place.parent_path();
+  fs::path file = folder / (stem(place) + ending);
+  for (int i = 2; !isFree(file); ++i)
+    file = folder / (stem(place) + "." + std::to_string(i) + ending);
+  return file;
+}
+
+/// Makes a folder of the user's own where there is none; a failure shows when a file is written.
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  if (folder.empty() || !fs::create_directories(folder, error)) return;
+  fs::permissions(folder, fs::perms::owner_all, error);
+}
+
+void removeFile(fs::path& file) {
+  std::error_code ignored;
+  if (!file.empty()) fs::remove(file, ignored);
+  file.clear();
+}
+
+}  // namespace
+
+std::vector<fs::path> findUnsavedWork(const fs::path& file) {
+  std::vector<fs::path> found;
+  const fs::path folder = file.parent_path();
+  const std::string begin = stem(file) + ".";
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(begin) && (name.ends_with(kCase) || name.ends_with(kSeeds)))
+      found.push_back(folder / name);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool holdsProposals(const fs::path& file) {
+  return file.filename().string().ends_with(kProposals);
+}
+
+template <class Part, class Write>
+void UnsavedWork::writePart(fs::path& file, std::shared_ptr<const Part>& written,
+                            const std::shared_ptr<const Part>& part, const char* ending,
+                            const Write& write) {
+  if (!part) removeFile(file);
+  if (part && part != written) {
+    if (file.empty()) {
+      makeFolder(m_place.parent_path());
+      file = freeName(m_place, ending);
+    }
+    write(part, file);
+  }
+  written = part;
+}
+
+void UnsavedWork::forgetPlace(const fs::path& place) {
+  m_place = place;
+  m_caseFile.clear();
+  m_seedsFile.clear();
+  m_proposalsFile.clear();
+  m_case = nullptr;
+  m_caseSeeds = nullptr;
+  m_seeds = nullptr;
+  m_proposals = nullptr;
+}
+
+void UnsavedWork::writeCasePart(const std::shared_ptr<const formats::Case>& value,
+                                const std::shared_ptr<const Seeds>& seeds) {
+  if (seeds != m_caseSeeds) m_case = nullptr;  // written anew
+  writePart(m_caseFile, m_case, value, kCase, [&seeds](const auto& part, const fs::path& file) {
+    Document document;
+    document.value = part;
+    document.seeds = seeds;
+    engine::writeCase(*caseWithSeeds(document), file, formats::CaseEncoding::Binary, {});
+  });
+  m_caseSeeds = seeds;
+}
+
+std::vector<fs::path> UnsavedWork::keep(const fs::path& place, const Document& document,
+                                        const UnsavedParts& parts) {
+  const std::lock_guard lock(m_keepMutex);
+  if (place != m_place) forgetPlace(place);
+  writeCasePart(parts.hasCase ? document.value : nullptr, document.seeds);
+  writePart(m_proposalsFile, m_proposals, parts.hasProposals ? document.proposals : nullptr,
+            kProposals, [](const auto& part, const fs::path& file) {
+              engine::writeCase(*part, file, formats::CaseEncoding::Binary, {});
+            });
+  writePart(m_seedsFile, m_seeds, parts.hasSeeds ? document.seeds : nullptr, kSeeds,
+            [](const auto& part, const fs::path& file) { convert::writeSeeds(*part, file); });
+  std::vector<fs::path> copies;
+  for (const fs::path& file : {m_caseFile, m_seedsFile, m_proposalsFile})
+    if (!file.empty()) copies.push_back(file);
+  return copies;
+}
+
+std::vector<fs::path> UnsavedWork::find(const fs::path& place) {
+  std::vector<fs::path> found = findUnsavedWork(place);
+  const std::lock_guard lock(m_foundMutex);
+  return m_found = std::move(found);
+}
+
+std::vector<fs::path> UnsavedWork::found() const {
+  const std::lock_guard lock(m_foundMutex);
+  return m_found;
+}
+
+void UnsavedWork::remove(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error)
+    throw failed(formats::printable(file.filename().string()) +
+                 " cannot be removed: " + error.message());
+  const std::lock_guard lock(m_foundMutex);
+  std::erase(m_found, file);
+}
+
+}  // namespace lumen::viewer
