@@ -33,7 +33,8 @@ ROOMS = [
     {"base/options": []},
     {"geometry": []},
     {"voxels": []},
-    {"io/content": [], "io/vtk": [], "io/volume": [], "io/volume/dicom": ["io/volume"], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
+    {"io/content": []},
+    {"io/vtk": [], "io/volume": [], "io/volume/dicom": ["io/volume"], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
      "io/centerline": ["io/seeds", "io/vtk", "io/volume"]},
     {"stages/finding": [], "stages/tracking/cylinders": [], "stages/tracking": ["stages/tracking/cylinders"], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
      "stages/surface": [], "stages/surface/remesh": ["stages/surface"], "stages/surface/closing": ["stages/surface", "stages/surface/remesh"],
@@ -50,6 +51,7 @@ ROOMS = [
     {"export/targets/" + name: [] for name in ("cathsim", "engines", "grid", "isaac", "mujoco", "oned", "openfoam", "print",
                                                "simvascular", "slicer", "sofa", "steve", "svzerod")},
     {"export": []},
+    {"operations": []},
     {"library/index": [], "library/publish": ["library/index"], "library/rows": ["library/index"], "library/site": ["library/index"]},
     {"engine/answers": []},
     {"engine": []},
@@ -64,6 +66,9 @@ MAY_INCLUDE["converters/export/sofa_plugin/src/LumenSofa"] = ["libblob/include",
 MAY_INCLUDE["converters/export/sofa_plugin/tests"] = []
 
 # The viewer and the command line stand beside one another on the engine; only the list of commands names both.
+# The C interface of the engine.
+MAY_INCLUDE["converters/api/include/lumen"] = []
+MAY_INCLUDE["converters/api"] = FORMATS + ["libblob/include", "converters/api/include/lumen"] + CONVERTERS
 MAY_INCLUDE["viewer/session/packs"] = FORMATS + ["libblob/include"] + CONVERTERS
 MAY_INCLUDE["viewer/session/document"] = MAY_INCLUDE["viewer/session/packs"]
 MAY_INCLUDE["viewer/session"] = MAY_INCLUDE["viewer/session/packs"] + ["viewer/session/packs", "viewer/session/document"]
@@ -81,13 +86,16 @@ def sources():
 
 def resolve(file, name, files):
     """The file that an include names, or None for one of another project."""
-    for base in (pathlib.Path(), file.parent, pathlib.Path("libblob/src"), pathlib.Path("libblob/include"), pathlib.Path("formats/include")):
+    for base in (pathlib.Path(), file.parent, pathlib.Path("libblob/src"), pathlib.Path("libblob/include"), pathlib.Path("formats/include"), pathlib.Path("converters/api/include")):
         if base / name in files: return base / name
     return None
 
 
-# Folders that know the command line. A message below them takes the name of an option from base/options/option_name.h.
+# Folders that know the command line. A message below them names a field of its options by their word (base/field_word.h).
 KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
+# Folders that work on values: they know no file, no text of an option and no JSON.
+ON_VALUES = "converters/operations/"
+FILES_AND_TEXTS = re.compile(r'#\s*include\s+[<"](filesystem|fstream|nlohmann/.*|converters/base/(?:files|options/option_name|options/option_table)\.h)[>"]')
 # A character, or a string as the group.
 LITERAL = re.compile(r"""'(?:[^'\\\n]|\\.)'|"((?:[^"\\\n]|\\.)*)\"""")
 
@@ -99,6 +107,14 @@ def options_spelled(text):
     strings = LITERAL.findall(re.sub(r"//[^\n]*", "", text))
     found = (re.search(r"--[a-z][a-z-]+|(?<=[^-])--$", string) for string in strings if not string.lstrip().startswith("curl "))
     return [option.group() for option in found if option]
+
+
+def unknown_fields(text):
+    """Fields that messages name, field("edge") or word("edge"), and that no row of an option is called."""
+    rows = set(re.findall(r'\b(?:add|flag|file|choice|scaled|add\w*Choice)\(\s*(?:table,\s*)?"([a-z][a-z-]*)"', "\n".join(text.values())))
+    rows |= set(re.findall(r'OptionName \w+{"([a-z-]+)"}', "\n".join(text.values())))
+    return [f"{file} names the field {name}, and no option is called so"
+            for file in sorted(text) if file.parts[0] == "converters" for name in re.findall(r'\b(?:field|word|fieldWord)\(\s*"([a-z][a-z-]*)"', text[file]) if name not in rows]
 
 
 def cycles(arrows):
@@ -143,8 +159,10 @@ def main():
     for file in sorted(files):
         spelled = [] if file.as_posix().startswith(KNOW_OPTIONS) else options_spelled(text[file])
         if spelled:
-            wrong.append(f"{file} spells {spelled[0]} in a string; its name is a member of kOption in base/options/option_name.h")
-    wrong += forgotten_tests()
+            wrong.append(f"{file} spells {spelled[0]} in a string; base/field_word.h names a field, base/options/option_name.h the option of a command")
+        if file.as_posix().startswith(ON_VALUES):
+            wrong += [f"{file} includes {name}, though it works on values alone" for name in FILES_AND_TEXTS.findall(text[file])]
+    wrong += unknown_fields(text) + forgotten_tests()
     if options.table:
         print("| folder | files | lines | includes |\n|---|--:|--:|---|")
         for name in MAY_INCLUDE:

@@ -47,15 +47,21 @@ std::string readWholeFile(const fs::path& file, std::string_view role, std::uint
                        (S_ISDIR(status.st_mode) ? "a folder" : "a device or a pipe") +
                        ", expected a file");
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (size > most)
-    throw invalidInput(name + ": has " + std::to_string(size) + " bytes; expected at most " +
-                       sizeText(most) + " for a " + what);
+  requireAtMost(most, size, file, role);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   const std::ptrdiff_t got =
       formats::readInto(std::as_writable_bytes(std::span(bytes)), open.get());
   if (got < 0) throw invalidInput(name + ": this " + what + " cannot be read: " + reason());
   bytes.resize(static_cast<std::size_t>(got));
   return bytes;
+}
+
+void requireAtMost(std::uint64_t most, std::uint64_t size, const fs::path& file,
+                   std::string_view role) {
+  if (size > most)
+    throw invalidInput(nameOf(file) + ": has " + std::to_string(size) +
+                       " bytes; expected at most " + sizeText(most) + " for a " +
+                       std::string(role));
 }
 
 NewFile::NewFile(const fs::path& file, const fs::path& target)

@@ -22,6 +22,10 @@ inline constexpr std::uint64_t kMostText = std::uint64_t{64} << 20;  // bytes of
 std::string readWholeFile(const std::filesystem::path& file, std::string_view role,
                           std::uint64_t most = kAnySize);
 
+/// Throws Error(InvalidInput) if a `role` of `size` bytes, called `file`, has more than `most`.
+void requireAtMost(std::uint64_t most, std::uint64_t size, const std::filesystem::path& file,
+                   std::string_view role);
+
 /// A new file that is not in its place yet, or whose folder is not, written piece by piece. Throws
 /// Error(Failed), naming the file.
 class NewFile {

@@ -7,18 +7,13 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/scope.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
 
 namespace {
-
-/// Voxels in the median radius of a tree: the fit is made for vessels of a few voxels in radius.
-constexpr double kVoxelsOfRadius = 5;
-/// Accuracy as a share of the median radius: given radii have no noise to stop at. With twice this
-/// the volume of a narrowing is 1 % short.
-constexpr double kAccuracyOfRadius = 0.005;
 
 std::string unitText(double unit) {
   if (unit == 1) return "mm";
@@ -51,37 +46,25 @@ void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline) {
   table.group("");
 }
 
-LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFormat& format,
+LoadedCenterline loadCenterline(const convert::InputFile& file, const FileFormat& format,
                                 const VolumeArguments& volume,
                                 const CenterlineArguments& centerline, Progress& progress) {
   LoadedCenterline loaded;
   loaded.file = format.readCenterline(file);
   if (!loaded.file.points.empty() && !(convert::measureExtent(loaded.file).length > 0))
     throw invalidInput(
-        formats::printable(file.string()) +
+        formats::printable(file.path().string()) +
         (loaded.file.points.size() == 1 ? ": holds one point" : ": holds lines of no length") +
         "; expected vessels, as lines of at least two places");
   convert::CenterlineReading reading;
   reading.unit = volume.options().unit;
+  reading.word = optionWord();
   if (centerline.frame == "ras") reading.axes = convert::CenterlineAxes::Ras;
   if (centerline.frame == "lps") reading.axes = convert::CenterlineAxes::Lps;
   loaded.unit = convert::toPatientSpace(loaded.file, reading);
   for (const std::string& remark : loaded.file.remarks)
-    progress.warn(formats::printable(file.string()) + ": " + remark);
+    progress.warn(formats::printable(file.path().string()) + ": " + remark);
   return loaded;
-}
-
-convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::FitOptions& options) {
-  if (value.metadata.voxelSize || value.tree.nodeCount() == 0) return options;
-  std::vector<float> radii = value.tree.radius;
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  convert::FitOptions scaled = options;
-  if (!scaled.accuracy) scaled.accuracy = kAccuracyOfRadius * double{*middle};
-  // Cohesion is for blobs that noise would scatter. Here it would draw the wall inwards, by .35 %
-  // of the radius.
-  if (scaled.cohesionWeight == convert::FitOptions{}.cohesionWeight) scaled.cohesionWeight = 0;
-  return scaled.resolved(double{*middle} / kVoxelsOfRadius);
 }
 
 std::string centerlineInfoText(const LoadedCenterline& centerline) {

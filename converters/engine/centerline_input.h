@@ -9,7 +9,6 @@
 #include "converters/engine/file_format.h"
 #include "converters/engine/stage_options.h"
 #include "converters/io/centerline/case_of_centerline.h"
-#include "converters/stages/fitting/fit_options.h"
 
 namespace lumen::engine {
 
@@ -25,13 +24,9 @@ struct LoadedCenterline {
 };
 
 /// The centerline in `file`. Assumptions become warnings. Throws Error(InvalidInput).
-LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFormat& format,
+LoadedCenterline loadCenterline(const convert::InputFile& file, const FileFormat& format,
                                 const VolumeArguments& volume,
                                 const CenterlineArguments& centerline, Progress& progress);
-
-/// Options for a case that has no voxels: lengths scale with a fifth of the tree's median radius,
-/// but for the accuracy, which is a hundredth of it.
-convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::FitOptions& options);
 
 /// The facts of `lumen info`.
 std::string centerlineInfoText(const LoadedCenterline& centerline);

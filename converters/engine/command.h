@@ -105,6 +105,11 @@ void setRows(OptionTable& table, const Operation& operation);
 /// Throws Error(Usage) for options that are given and exclude one another.
 void requireCompatible(const OptionTable& table);
 
+/// The context of an operation within a command: its rows word fields and values.
+inline operations::Context operationContext(const RunContext& context) {
+  return operationContext(context.progress, context.table);
+}
+
 /// The first word of a command's name.
 inline std::string firstWord(const std::string& name) {
   return name.substr(0, name.find(' '));

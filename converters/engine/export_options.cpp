@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"
-#include "converters/export/shared/flow_inlets.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -56,34 +55,32 @@ const std::map<std::string, convert::Axes> kUp = {{"z", convert::Axes::Lps},
 void addSofaRows(OptionTable& table, convert::ExportOptions& options) {
   convert::SofaOptions& sofa = options.sofa;
   table.group("SOFA");
-  table.choice(kOption.instrument.name, sofa.instrument, kInstruments,
+  table.choice("instrument", sofa.instrument, kInstruments,
                "Instrument that is inserted; a guidewire lies within a catheter");
   table.choice(
-      kOption.wall.name, sofa.wall, kWalls,
+      "wall", sofa.wall, kWalls,
       "Wall that it touches: triangles, the models by the plugin LumenSofa, distances on a "
       "grid, or the models of vessels that give way (soft), by LumenSofa");
-  table.choice(kOption.dialect.name, sofa.dialect, kDialects, "Version of SOFA");
-  table
-      .add(kOption.step.name, &sofa.step, "MM",
-           "Distance that it advances in a time step of 0.01 s")
+  table.choice("dialect", sofa.dialect, kDialects, "Version of SOFA");
+  table.add("step", &sofa.step, "MM", "Distance that it advances in a time step of 0.01 s")
       .in(NumberRange{0.001, 1});
-  table.add(kOption.insert.name, &options.insert, "LABEL",
+  table.add("insert", &options.insert, "LABEL",
             "Branch at whose beginning it is inserted [the root]");
 }
 
 void addFlowRows(OptionTable& table, convert::ExportOptions& options) {
   table.group("Flow");
   table
-      .add(convert::kFlowOption.inlets.name, &options.inlets, "LABEL",
+      .add("inlets", &options.inlets, "LABEL",
            "Branches of roots through which blood comes in, each with its mean flow in ml/s if it "
            "is known, as in ICA=4.2; parts of the case that no inlet leads to are left out [roots "
            "at the volume's border, 20 cm/s]")
       .many()
       .delimiter = ',';
   table.choice(
-      convert::kFlowOption.cells.name, options.foam.cells, kGrains,
+      "cells", options.foam.cells, kGrains,
       "Cells of the mesh: 6, 9 or 14 across each vessel, and 0.3, 1.2 or 5 million at most");
-  table.choice(convert::kFlowOption.flow.name, options.foam.flow, kFlows,
+  table.choice("flow", options.foam.flow, kFlows,
                "Flow at the ends: its mean, or two cycles of the heart");
 }
 
@@ -98,25 +95,23 @@ void addGridRows(OptionTable& table, convert::ExportOptions& options) {
   for (const auto& entry : kGridFormats) formats.push_back(entry.first);
   table.group("Grid");
   table
-      .add(kOption.grid.name, &options.spacing, "MM",
+      .add("grid", &options.spacing, "MM",
            "Distance between the samples of a grid; 0: by the size of the vessels")
       .in(kNotNegative);
   OptionRow& format = table.add(
-      kOption.format.name,
-      [&grid](const std::vector<std::string>& words) { setFormats(grid, words); }, "WORD",
+      "format", [&grid](const std::vector<std::string>& words) { setFormats(grid, words); }, "WORD",
       "File formats, one or more: " + alternatives(formats));
   format.among(formats).defaults("nrrd").many().delimiter = ',';
   table
-      .add(kOption.band.name, &grid.band, "MM",
+      .add("band", &grid.band, "MM",
            "Distance from the wall beyond which values are clamped, or left out [everywhere; vdb: "
            "3 samples]")
       .in(kPositive);
-  table.flag(kOption.half.name, grid.half, "vdb: distances of 16 bits")
-      .onlyWith(kOption.format.name, "vdb");
-  table.flag(kOption.perBranch.name, grid.perBranch,
+  table.flag("half", grid.half, "vdb: distances of 16 bits").onlyWith("format", "vdb");
+  table.flag("per-branch", grid.perBranch,
              "A grid for each branch and its neighbourhood along the tree, instead of one, in "
              "which vessels that touch are merged");
-  table.flag(kOption.exact.name, grid.exact,
+  table.flag("exact", grid.exact,
              "Distances to the nearest point of the wall in the lumen, too, with a kink at its "
              "axis, instead of libblob's, which are smooth, and right to first order");
 }
@@ -138,9 +133,9 @@ void addOptionalChoice(OptionTable& table, const std::string& name, std::optiona
 
 /// The row's option as the target takes it; null if it does not.
 const convert::TakenOption* takenBy(const convert::ExportTarget& target, const OptionRow& row) {
-  const auto found = std::find_if(
-      target.options.begin(), target.options.end(),
-      [&row](const convert::TakenOption& taken) { return row.name == taken.option.name; });
+  const auto found =
+      std::find_if(target.options.begin(), target.options.end(),
+                   [&row](const convert::TakenOption& taken) { return row.name == taken.name; });
   return found == target.options.end() ? nullptr : &*found;
 }
 
@@ -159,15 +154,16 @@ std::string unusedReason(const OptionTable& table, const OptionRow& row,
 }  // namespace
 
 void addExportRows(OptionTable& table, convert::ExportOptions& options) {
+  options.word = optionWord();
   table.group("");
-  addOptionalChoice(table, kOption.unit.name, options.unit, kUnits,
+  addOptionalChoice(table, "unit", options.unit, kUnits,
                     "Length unit, where the target leaves a choice [its first of --list]");
-  addOptionalChoice(table, kOption.up.name, options.axes, kUp,
+  addOptionalChoice(table, "up", options.axes, kUp,
                     "Axis that looks up (superior), where the target leaves a choice");
   table.group("Surface");
   addSurfaceRows(table, options.surface);
   table
-      .add(kOption.maxPieces.name, &options.maxPieces, "N",
+      .add("max-pieces", &options.maxPieces, "N",
            "Greatest number of pieces of the wall, which is simplified until it has no more; 0: "
            "20000 for cathsim, as many as 64 cells a side need for mujoco")
       .in(WholeRange{0, 1'000'000});

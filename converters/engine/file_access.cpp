@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/options/option_value.h"
 #include "converters/base/sha256.h"
 #include "formats/case/atomic_file.h"
@@ -33,6 +34,18 @@ std::string errorText(const fs::path& file, formats::Issue error) {
   return prefix + error.message + (isLimit ? " (ulimit -f prints the shell's limit)" : "");
 }
 
+std::vector<std::byte> bytesOfCase(const convert::InputFile& file) {
+  if (file.isInMemory()) {
+    const std::string text = file.read("case file", kAnySize);
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+  }
+  requireInput(file.path(), "case file");
+  auto bytes = formats::readFileBytes(file.path());
+  if (!bytes) throw invalidInput(errorText(file.path(), bytes.error()));
+  return std::move(*bytes);
+}
+
 /// Files that somebody made or measured are not replaced by files of another kind.
 bool isPrecious(convert::ContentKind kind) {
   return kind == convert::ContentKind::Volume || kind == convert::ContentKind::Seeds ||
@@ -41,19 +54,17 @@ bool isPrecious(convert::ContentKind kind) {
 
 }  // namespace
 
-std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const fs::path& file) {
-  requireInput(file, "case file");
-  auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
-  auto value = formats::decodeCase(*bytes);
-  if (value) return {std::move(*bytes), std::move(*value)};
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const convert::InputFile& file) {
+  std::vector<std::byte> bytes = bytesOfCase(file);
+  auto value = formats::decodeCase(bytes);
+  if (value) return {std::move(bytes), std::move(*value)};
   const std::string other = convert::notA(convert::ContentKind::Case, file);
   if (value.error().code == formats::ErrorCode::NotLumen && !other.empty())
-    throw invalidInput(file.string() + ": " + other);
-  throw invalidInput(errorText(file, value.error()));
+    throw invalidInput(file.path().string() + ": " + other);
+  throw invalidInput(errorText(file.path(), value.error()));
 }
 
-formats::Case readCase(const fs::path& file) {
+formats::Case readCase(const convert::InputFile& file) {
   return readCaseAndBytes(file).second;
 }
 
@@ -64,10 +75,16 @@ formats::Case readParentCase(const fs::path& file) {
   return std::move(value);
 }
 
+std::string encodeCase(const formats::Case& value, const fs::path& file,
+                       formats::CaseEncoding encoding, const formats::EncodeOptions& options) {
+  const auto bytes = formats::encodeCase(value, encoding, options);
+  if (!bytes) throw failed(errorText(file, bytes.error()));
+  return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
+}
+
 void writeCase(const formats::Case& value, const fs::path& file, formats::CaseEncoding encoding,
                const formats::EncodeOptions& options) {
-  const auto written = formats::writeCaseFile(value, file, encoding, options);
-  if (!written) throw failed(errorText(file, written.error()));
+  writeText(encodeCase(value, file, encoding, options), file);
 }
 
 void writeText(std::string_view text, const fs::path& file) {

@@ -16,15 +16,18 @@ namespace lumen::engine {
 
 /// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
 /// the fault.
-formats::Case readCase(const std::filesystem::path& file);
+formats::Case readCase(const convert::InputFile& file);
 /// A case in either encoding, by its content, with the bytes of the whole file. Throws as
 /// readCase().
-std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
-    const std::filesystem::path& file);
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const convert::InputFile& file);
 
 /// The case, to be changed and written as another: it states the digest of `file`, and has no chunk
 /// of others that a change would make wrong.
 formats::Case readParentCase(const std::filesystem::path& file);
+
+/// The bytes of a case's file, after validation. Throws Error(Failed) with the file's name.
+std::string encodeCase(const formats::Case& value, const std::filesystem::path& file,
+                       formats::CaseEncoding encoding, const formats::EncodeOptions& options);
 
 /// Validates and writes atomically; throws Error(Failed) with the file's name.
 void writeCase(const formats::Case& value, const std::filesystem::path& file,

@@ -7,9 +7,9 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
-#include "converters/engine/answers/case_losses.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/mesh_options.h"
+#include "converters/export/shared/paths.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/write_centerline.h"
 #include "converters/io/mesh/read_mesh.h"
@@ -17,6 +17,7 @@
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/surface/to_surface_mesh.h"
+#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
@@ -27,36 +28,36 @@ using convert::VolumeFormat;
 namespace {
 
 template <VolumeFormat format>
-convert::Volume readVolumeAs(const fs::path& file, const convert::ReadVolumeOptions& options,
-                             const Progress& progress) {
+convert::Volume readVolumeAs(const convert::InputFile& file,
+                             const convert::ReadVolumeOptions& options, const Progress& progress) {
   return convert::readVolume(file, format, options, progress);
 }
 
 template <VolumeFormat format>
-convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolumeOptions& options,
+convert::VolumeHeader readHeaderAs(const convert::InputFile& file,
+                                   const convert::ReadVolumeOptions& options,
                                    const Progress& progress) {
   return convert::readVolumeHeader(file, format, options, progress);
 }
 
 template <VolumeFormat format, bool compressed>
-void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
-  writeText(convert::encodeVolume(volume, format, compressed, file), file);
+std::string encodeVolumeAs(const convert::Volume& volume, const fs::path& file) {
+  return convert::encodeVolume(volume, format, compressed, file);
 }
 
 template <convert::MeshFormat format>
-convert::MeshFile readMeshAs(const fs::path& file) {
+convert::MeshFile readMeshAs(const convert::InputFile& file) {
   return convert::readMesh(file, format);
 }
 
-convert::MeshFile readVesselsOfScene(const fs::path& file) {
+convert::MeshFile readVesselsOfScene(const convert::InputFile& file) {
   return readSceneMesh(file, {});
 }
 
 template <formats::CaseEncoding encoding>
-std::optional<convert::SurfaceReport> writeCaseAs(const formats::Case& value, const fs::path& file,
-                                                  const OutputOptions& options, Progress&) {
-  writeCase(value, file, encoding, options.encoding);
-  return std::nullopt;
+EncodedCase encodeCaseAs(const formats::Case& value, const fs::path& file,
+                         const OutputOptions& options, Progress&) {
+  return {encodeCase(value, file, encoding, options.encoding), {}};
 }
 
 using Levels = std::vector<convert::SurfaceMesh>;
@@ -69,42 +70,44 @@ std::string encodePlain(const Levels& levels, const convert::WriteMeshOptions&) 
   return encode(levels.front());
 }
 
-/// The writer of a mesh format: the case's surface as triangles, encoded.
+/// The encoder of a mesh format: the case's surface as triangles, encoded.
 template <std::string (*encode)(const Levels&, const convert::WriteMeshOptions&)>
-std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, const fs::path& file,
-                                                  const OutputOptions& options,
-                                                  Progress& progress) {
-  CaseMesh mesh = meshOfCase(value, file, options, false, progress);
-  writeText(encode(mesh.levels, options.mesh), file);
-  return std::move(mesh.report);
+EncodedCase encodeMeshAs(const formats::Case& value, const fs::path& file,
+                         const OutputOptions& options, Progress& progress) {
+  operations::SurfaceOptions surface = options.surface;
+  surface.closed.levels = 1;
+  operations::Surface mesh =
+      operations::surfaceOf(value, surface, file.string(), operationContext(progress));
+  return {encode(mesh.levels, options.mesh), std::move(mesh.report)};
 }
 
-/// The writer of glTF, which alone holds the motion of a case.
+/// The encoder of glTF, which alone holds the motion of a case.
 template <bool binary>
-std::optional<convert::SurfaceReport> writeGltf(const formats::Case& value, const fs::path& file,
-                                                const OutputOptions& options, Progress& progress) {
-  CaseMesh mesh = meshOfCase(value, file, options, true, progress);
+EncodedCase encodeGltfAs(const formats::Case& value, const fs::path& file,
+                         const OutputOptions& options, Progress& progress) {
+  operations::Surface mesh =
+      operations::surfaceOf(value, options.surface, file.string(), operationContext(progress));
   std::optional<convert::MeshSkin> skin;
   if (value.motion && options.mesh.skin) skin = convert::skinOf(value, mesh.levels);
-  writeText(convert::encodeGltf(mesh.levels, binary, options.mesh, skin ? &*skin : nullptr), file);
-  return std::move(mesh.report);
+  return {convert::encodeGltf(mesh.levels, binary, options.mesh, skin ? &*skin : nullptr),
+          std::move(mesh.report)};
 }
 
-constexpr auto kWriteGlb = writeGltf<true>;
-constexpr auto kWriteGltf = writeGltf<false>;
-constexpr auto kWriteVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
-/// The writer of a centerline format: the case's tree, encoded.
+constexpr auto kEncodeGlb = encodeGltfAs<true>;
+constexpr auto kEncodeGltf = encodeGltfAs<false>;
+constexpr auto kEncodeVtp = encodeMeshAs<encodePlain<convert::encodeVtp>>;
+constexpr auto kEncodeObj = encodeMeshAs<encodePlain<convert::encodeObj>>;
+constexpr auto kEncodeStl = encodeMeshAs<encodeStl>;
+constexpr auto kEncodePly = encodeMeshAs<encodePlain<convert::encodePly>>;
+
+/// The encoder of a centerline format: the case's tree, encoded.
 template <std::string (*encode)(const formats::CenterlineTree&)>
-std::optional<convert::SurfaceReport> writeTreeAs(const formats::Case& value, const fs::path& file,
-                                                  const OutputOptions&, Progress& progress) {
-  reportTreeLosses(value, file.string(), progress);
-  writeText(encode(value.tree), file);
-  return std::nullopt;
+EncodedCase encodeTreeAs(const formats::Case& value, const fs::path& file, const OutputOptions&,
+                         Progress& progress) {
+  for (const std::string& loss : treeLosses(value.tree))
+    progress.warn(formats::printable(file.string()) + ": " + loss);
+  return {encode(value.tree), {}};
 }
-
-constexpr auto kWriteObj = writeMeshAs<encodePlain<convert::encodeObj>>;
-constexpr auto kWriteStl = writeMeshAs<encodeStl>;
-constexpr auto kWritePly = writeMeshAs<encodePlain<convert::encodePly>>;
 
 // clang-format off
 std::vector<FileFormat> makeTable() {
@@ -112,49 +115,49 @@ std::vector<FileFormat> makeTable() {
   return {
       // cases
       {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"},
-       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Binary>},
+       .readCase = readCase, .encodeCase = encodeCaseAs<formats::CaseEncoding::Binary>},
       {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
-       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
+       .readCase = readCase, .encodeCase = encodeCaseAs<formats::CaseEncoding::Json>},
       // meshes
       {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"},
-       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kWriteGlb},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .encodeCase = kEncodeGlb},
       {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"},
-       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kWriteGltf},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .encodeCase = kEncodeGltf},
       {.name = "vtp", .title = "VTK", .kind = Mesh, .endings = {".vtp"},
-       .readMesh = readMeshAs<MeshFormat::Vtp>, .writeCase = kWriteVtp},
+       .readMesh = readMeshAs<MeshFormat::Vtp>, .encodeCase = kEncodeVtp},
       {.name = "vtk", .title = "VTK", .kind = Mesh, .endings = {".vtk"}, .readMesh = readMeshAs<MeshFormat::Vtk>},
       {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"},
-       .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kWriteObj},
+       .readMesh = readMeshAs<MeshFormat::Obj>, .encodeCase = kEncodeObj},
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"},
-       .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kWriteStl},
+       .readMesh = readMeshAs<MeshFormat::Stl>, .encodeCase = kEncodeStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"},
-       .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kWritePly},
+       .readMesh = readMeshAs<MeshFormat::Ply>, .encodeCase = kEncodePly},
       {.name = "scn", .title = "a scene of SOFA", .kind = Mesh, .endings = {".scn"},
        .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
       // centerlines
       {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc,
-       .writeCase = writeTreeAs<convert::encodeSwc>},
+       .encodeCase = encodeTreeAs<convert::encodeSwc>},
       {.name = "tre", .title = "TubeTK", .kind = Centerline, .endings = {".tre"}, .readCenterline = convert::readTre,
-       .writeCase = writeTreeAs<convert::encodeTre>},
+       .encodeCase = encodeTreeAs<convert::encodeTre>},
       {.name = "centerline.vtp", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtp"},
-       .readCenterline = convert::readVtpCenterline, .writeCase = writeTreeAs<convert::encodeVtpCenterline>},
+       .readCenterline = convert::readVtpCenterline, .encodeCase = encodeTreeAs<convert::encodeVtpCenterline>},
       {.name = "mrk.json", .title = "Slicer curves", .kind = Centerline, .endings = {".mrk.json"},
-       .readCenterline = convert::readCurves, .writeCase = writeTreeAs<convert::encodeCurves>},
+       .readCenterline = convert::readCurves, .encodeCase = encodeTreeAs<convert::encodeCurves>},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
-       .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
+       .encodeVolume = encodeVolumeAs<VolumeFormat::Nrrd, true>},
       {.name = "nhdr", .title = "NRRD", .kind = Volume, .endings = {".nhdr"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>},
       {.name = "nii", .title = "NIfTI", .kind = Volume, .endings = {".nii"},
        .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
-       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
+       .encodeVolume = encodeVolumeAs<VolumeFormat::Nifti, false>},
       {.name = "nii.gz", .title = "NIfTI", .kind = Volume, .endings = {".nii.gz"},
        .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
-       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
+       .encodeVolume = encodeVolumeAs<VolumeFormat::Nifti, true>},
       {.name = "mha", .title = "MetaImage", .kind = Volume, .endings = {".mha"},
        .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>,
-       .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
+       .encodeVolume = encodeVolumeAs<VolumeFormat::MetaImage, true>},
       {.name = "mhd", .title = "MetaImage", .kind = Volume, .endings = {".mhd"},
        .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>},
       {.name = "dicom", .title = "a folder of DICOM", .kind = Volume,
@@ -178,9 +181,9 @@ const FileFormat* findFolder(const fs::path& folder) {
 }
 
 /// The format of a file whose name may stand for several kinds.
-const FileFormat* findByContent(const fs::path& path) {
-  const convert::FileContent content = convert::detectContent(path);
-  const bool isVtk = lowerCase(path.extension().string()) == ".vtp";
+const FileFormat* findByContent(const convert::InputFile& file) {
+  const convert::FileContent content = convert::detectContent(file);
+  const bool isVtk = lowerCase(file.path().extension().string()) == ".vtp";
   return isVtk && content.kind == convert::ContentKind::Centerline ? findByName("centerline.vtp")
                                                                    : nullptr;
 }
@@ -238,8 +241,9 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
 }
 
 /// Refuses an input whose format its content shows, though its name does not.
-void refuseByContent(const fs::path& path) {
-  const convert::FileContent content = convert::detectContent(path);
+void refuseByContent(const convert::InputFile& file) {
+  const fs::path& path = file.path();
+  const convert::FileContent content = convert::detectContent(file);
   if (content.kind == convert::ContentKind::Volume || content.kind == convert::ContentKind::Case ||
       content.kind == convert::ContentKind::Mesh ||
       content.kind == convert::ContentKind::Centerline)
@@ -247,7 +251,7 @@ void refuseByContent(const fs::path& path) {
                       ", but its name does not show it; --from states the format, one of " +
                       formatNames(canRead));
   if (content.kind != convert::ContentKind::Unknown)
-    throw unsupported(path.string() + ": " + convert::notA(convert::ContentKind::Volume, path));
+    throw unsupported(path.string() + ": " + convert::notA(convert::ContentKind::Volume, file));
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& last) {
@@ -260,6 +264,19 @@ std::string joined(const std::vector<std::string>& words, const std::string& las
 }
 
 }  // namespace
+
+std::optional<convert::SurfaceReport> FileFormat::writeCase(const formats::Case& value,
+                                                            const fs::path& file,
+                                                            const OutputOptions& options,
+                                                            Progress& progress) const {
+  EncodedCase encoded = encodeCase(value, file, options, progress);
+  writeText(encoded.bytes, file);
+  return std::move(encoded.surface);
+}
+
+void FileFormat::writeVolume(const convert::Volume& volume, const fs::path& file) const {
+  writeText(encodeVolume(volume, file), file);
+}
 
 const std::vector<FileFormat>& fileFormats() {
   static const std::vector<FileFormat> table = makeTable();
@@ -302,7 +319,7 @@ bool canWriteCenterline(const FileFormat& format) {
 }
 
 bool canWrite(const FileFormat& format) {
-  return format.writeCase != nullptr;
+  return format.encodeCase != nullptr;
 }
 
 bool canWriteCase(const FileFormat& format) {
@@ -314,7 +331,7 @@ bool canWriteMesh(const FileFormat& format) {
 }
 
 bool canWriteVolume(const FileFormat& format) {
-  return format.writeVolume != nullptr;
+  return format.encodeVolume != nullptr;
 }
 
 std::string formatNames(FormatTest test) {
@@ -329,13 +346,15 @@ std::string formatTitles(FormatTest test) {
   return joined(listed(test, [](const FileFormat& format) { return format.title; }), " or ");
 }
 
-const FileFormat& inputFormat(const fs::path& path, std::string_view override) {
+const FileFormat& inputFormat(const convert::InputFile& file, std::string_view override) {
+  const fs::path& path = file.path();
   std::error_code ignored;
-  const FileFormat* format = !override.empty()                 ? findByName(override)
-                             : fs::is_directory(path, ignored) ? findFolder(path)
-                                                               : findByContent(path);
+  const bool isFolder = !file.isInMemory() && fs::is_directory(path, ignored);
+  const FileFormat* format = !override.empty() ? findByName(override)
+                             : isFolder        ? findFolder(path)
+                                               : findByContent(file);
   if (format == nullptr && override.empty()) format = findByEnding(path);
-  if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(path);
+  if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(file);
   return require(format, path, override, canRead, "read", "--from");
 }
 

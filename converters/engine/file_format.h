@@ -16,8 +16,7 @@
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/io/volume/read_volume.h"
-#include "converters/stages/surface/closing/closed_surface.h"
-#include "converters/stages/surface/patches/polygonise.h"
+#include "converters/operations/surface_of.h"
 #include "formats/case/case.h"
 #include "formats/case/case_file.h"
 
@@ -28,29 +27,31 @@ enum class FormatKind { Volume, Case, Mesh, Centerline };
 /// Options for writing a case; each format takes those that concern it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
-  convert::PolygoniseOptions polygonise;  ///< options of patches
-  convert::ClosedSurfaceOptions surface;  ///< options of the closed surface
+  operations::SurfaceOptions surface;
   convert::WriteMeshOptions mesh;
-  bool patches = false;  ///< the surface in pieces
+};
+
+/// A case, its surface or its tree as the bytes of a file.
+struct EncodedCase {
+  std::string bytes;
+  std::optional<convert::SurfaceReport> surface;  ///< of a closed surface
 };
 
 /// One row. A function is null where the format cannot do its work; each throws lumen::Error with
 /// the file's name.
 struct FileFormat {
-  using CaseReader = formats::Case (*)(const std::filesystem::path&);
-  using VolumeReader = convert::Volume (*)(const std::filesystem::path&,
+  using CaseReader = formats::Case (*)(const convert::InputFile&);
+  using VolumeReader = convert::Volume (*)(const convert::InputFile&,
                                            const convert::ReadVolumeOptions&, const Progress&);
-  using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
+  using VolumeHeaderReader = convert::VolumeHeader (*)(const convert::InputFile&,
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
-  using CenterlineReader = convert::CenterlineFile (*)(const std::filesystem::path&);
-  using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
-  using SceneReader = convert::MeshFile (*)(const std::filesystem::path&, const SceneArguments&);
-  /// Returns null unless a closed surface was made.
-  using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
-                                                               const std::filesystem::path&,
-                                                               const OutputOptions&, Progress&);
-  using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
+  using CenterlineReader = convert::CenterlineFile (*)(const convert::InputFile&);
+  using MeshReader = convert::MeshFile (*)(const convert::InputFile&);
+  using SceneReader = convert::MeshFile (*)(const convert::InputFile&, const SceneArguments&);
+  using CaseEncoder = EncodedCase (*)(const formats::Case&, const std::filesystem::path&,
+                                      const OutputOptions&, Progress&);
+  using VolumeEncoder = std::string (*)(const convert::Volume&, const std::filesystem::path&);
 
   std::string_view name;   ///< as --from and --to take it
   std::string_view title;  ///< as a help text calls it; rows of one title are listed once
@@ -61,9 +62,18 @@ struct FileFormat {
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
   MeshReader readMesh = nullptr;
   CenterlineReader readCenterline = nullptr;
-  SceneReader readScene = nullptr;     ///< for files with several meshes, or that name others
-  CaseWriter writeCase = nullptr;      ///< atomically
-  VolumeWriter writeVolume = nullptr;  ///< atomically
+  SceneReader readScene = nullptr;  ///< for files with several meshes, or that name others
+  // The bytes of a file. Its name serves messages, and nothing is written.
+  CaseEncoder encodeCase = nullptr;
+  VolumeEncoder encodeVolume = nullptr;
+
+  /// Writes what encodeCase gives atomically. The report is that of the surface, if one was made.
+  std::optional<convert::SurfaceReport> writeCase(const formats::Case& value,
+                                                  const std::filesystem::path& file,
+                                                  const OutputOptions& options,
+                                                  Progress& progress) const;
+  /// Writes what encodeVolume gives atomically.
+  void writeVolume(const convert::Volume& volume, const std::filesystem::path& file) const;
 };
 
 const std::vector<FileFormat>& fileFormats();
@@ -92,7 +102,7 @@ std::string formatTitles(FormatTest test);
 /// The format that `override` names if it is not empty, otherwise that of the path's name. Throws
 /// Error(Unsupported) if there is none that can be read (or written as a case, or as a volume); the
 /// message lists those that can. `what` is the subject of a sentence, such as "the truth".
-const FileFormat& inputFormat(const std::filesystem::path& path, std::string_view override);
+const FileFormat& inputFormat(const convert::InputFile& file, std::string_view override);
 const FileFormat& outputFormat(const std::filesystem::path& path, std::string_view override);
 const FileFormat& caseOutputFormat(const std::filesystem::path& path, std::string_view override,
                                    const std::string& what);

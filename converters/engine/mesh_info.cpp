@@ -2,7 +2,6 @@
 #include "converters/engine/mesh_info.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "converters/base/shown_text.h"
+#include "converters/engine/stage_options.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -19,23 +19,15 @@ namespace {
 
 constexpr std::size_t kShownRows = 12;
 
-constexpr std::array<std::pair<const char*, double>, 4> kNamedUnits = {
-    {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}}};
-
-void chooseUnit(MeshInfo& info, const std::string& name, const std::string& unit,
-                Progress& progress) {
-  for (const auto& [word, millimetres] : kNamedUnits)
-    if (unit.empty() ? info.file.unitMm == millimetres : unit == word) {
-      info.unit = word;
-      info.millimetres = millimetres;
-      info.unitFrom = unit.empty() ? "file" : "option";
-      return;
-    }
+operations::MeshFrame chooseFrame(const MeshInfo& info, const std::string& name,
+                                  const std::string& unit, Progress& progress) {
+  const bool isStated = info.file.frameStated;
+  if (!unit.empty()) return {millimetresByUnit().at(unit), "option", isStated};
+  if (info.file.unitMm > 0) return {info.file.unitMm, "file", isStated};
   const convert::UnitGuess guess =
-      guessUnitOf(convert::vesselSize(info.report), name, info.file, progress);
-  info.unit = guess.unit;
-  info.millimetres = guess.millimetres;
-  info.unitFrom = "guess";
+      operations::guessUnitOf(convert::vesselSize(info.report), name,
+                              isOfSimVascular(name, info.file), operationContext(progress));
+  return {guess.millimetres, "guess", isStated};
 }
 
 Json pointJson(const Eigen::Vector3d& point, double scale) {
@@ -64,7 +56,7 @@ std::vector<std::size_t> groupSizes(const convert::MeshFile& file) {
 }
 
 Json componentsJson(const MeshInfo& info) {
-  const double mm = info.millimetres;
+  const double mm = info.frame.unit;
   Json list = Json::array();
   for (const convert::MeshComponent& c : info.report.components)
     list.push_back({{"vertices", c.vertices},
@@ -118,7 +110,7 @@ std::string defectsText(const convert::MeshReport& r) {
 }
 
 void addRows(Lines& lines, const MeshInfo& info) {
-  const double mm = info.millimetres;
+  const double mm = info.frame.unit;
   std::size_t shown = 0;
   for (const convert::BoundaryLoop& loop : info.report.boundaryLoops) {
     if (++shown > kShownRows) break;
@@ -151,13 +143,13 @@ MeshInfo describeMesh(convert::MeshFile file, const std::string& name, const std
   info.report = convert::diagnoseMesh(file.mesh, progress);
   progress.end();
   info.file = std::move(file);
-  chooseUnit(info, name, unit, progress);
+  info.frame = chooseFrame(info, name, unit, progress);
   return info;
 }
 
 Json meshInfoJson(const MeshInfo& info) {
   const convert::MeshReport& r = info.report;
-  const double mm = info.millimetres;
+  const double mm = info.frame.unit;
   Json json = {{"vertices", r.vertices},
                {"triangles", r.triangles},
                {"closed", r.closed},
@@ -178,8 +170,8 @@ Json meshInfoJson(const MeshInfo& info) {
                {"volume_mm3", jsonNumber(r.volume * mm * mm * mm)},
                {"low_mm", pointJson(r.low, mm)},
                {"high_mm", pointJson(r.high, mm)},
-               {"unit", info.unit},
-               {"unit_from", info.unitFrom},
+               {"unit", unitName(info.frame.unit)},
+               {"unit_from", info.frame.unitFrom},
                {"frame_stated", info.file.frameStated}};
   json["components"] = componentsJson(info);
   json["boundary_loops"] = Json::array();
@@ -198,7 +190,7 @@ Json meshInfoJson(const MeshInfo& info) {
 
 std::string meshInfoText(const MeshInfo& info) {
   const convert::MeshReport& r = info.report;
-  const double mm = info.millimetres;
+  const double mm = info.frame.unit;
   const auto box = [&](Eigen::Index a) {
     return shownNumber(r.low[a] * mm) + " to " + shownNumber(r.high[a] * mm);
   };
@@ -206,9 +198,8 @@ std::string meshInfoText(const MeshInfo& info) {
   Lines lines;
   lines.add("mesh", counted(r.triangles, "triangle", "triangles") + ", " +
                         counted(r.vertices, "point", "points"));
-  const MeshFrame frame{info.unit, info.unitFrom, info.file.frameStated};
-  lines.add("unit", frame.unitText());
-  lines.add("axes", frame.axesText());
+  lines.add("unit", unitText(info.frame));
+  lines.add("axes", axesText(info.frame));
   lines.add("closed",
             r.closed ? "yes"
                      : "no, " + counted(r.boundaryLoops.size(), "boundary loop", "boundary loops"));

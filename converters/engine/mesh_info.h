@@ -15,9 +15,7 @@ namespace lumen::engine {
 struct MeshInfo {
   convert::MeshFile file;
   convert::MeshReport report;  ///< in the file's unit
-  std::string unit;            ///< mm, cm, m or um
-  double millimetres = 1;      ///< length of one unit of the file
-  std::string unitFrom;        ///< "option", "file" or "guess"
+  operations::MeshFrame frame;
 };
 
 /// `unit` is the user's, or empty. Warns where the unit is a guess that is not mm.

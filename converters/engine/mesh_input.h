@@ -9,53 +9,43 @@
 #include "converters/base/progress.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_format.h"
-#include "converters/io/mesh/read_mesh.h"
-#include "converters/stages/repair/unit_guess.h"
-#include "converters/stages/trees_from_surfaces/case_of_mesh.h"
+#include "converters/operations/mesh_vessels.h"
+#include "converters/operations/source.h"
 
 namespace lumen::engine {
 
 /// The user's statements about a mesh.
 struct MeshArguments {
-  std::string unit;             ///< empty: the file's, or the one that makes vessels plausible
   std::string centerline;       ///< a file; empty: the tree is found
   std::string centerlineFrame;  ///< lps or ras; empty: the file's, or the mesh's
   std::string centerlineUnit;   ///< empty: the file's, or the mesh's
-  SceneArguments scene;         ///< options of a scene
+  std::string sceneMesh;        ///< the vessels' mesh of a scene; empty: as the scene shows it
 };
 
-/// Unit and axes that were taken for a mesh.
-struct MeshFrame {
-  std::string unit;          ///< mm, cm, m or um
-  std::string unitFrom;      ///< "option", "file" or "guess"
-  bool frameStated = false;  ///< the file names its axes
+/// "mm", for 1 mm.
+std::string unitName(double millimetres);
 
-  /// "mm, by its size".
-  [[nodiscard]] std::string unitText() const;
-  /// "LPS", or "not stated; taken as LPS".
-  [[nodiscard]] std::string axesText() const;
-};
+/// "mm, by its size".
+std::string unitText(const operations::MeshFrame& frame);
+/// "LPS", or "not stated; taken as LPS".
+std::string axesText(const operations::MeshFrame& frame);
 
 /// A line for the answer; empty without a mesh.
-std::string meshFrameLine(const std::optional<MeshFrame>& frame);
+std::string meshFrameLine(const std::optional<operations::MeshFrame>& frame);
 /// The frame as an object; null without a mesh.
-Json meshFrameJson(const std::optional<MeshFrame>& frame);
+Json meshFrameJson(const std::optional<operations::MeshFrame>& frame);
 
-/// The case of a mesh, and the frame that the mesh was taken to have.
-struct CaseOfMeshFile {
-  formats::Case value;
-  MeshFrame frame;
-};
+/// Whether the file is a model of SimVascular, which names its faces in an array or beside it.
+bool isOfSimVascular(const convert::InputFile& file, const convert::MeshFile& read);
 
-/// The unit of a mesh of this size whose file states none. Warns where another unit is plausible,
-/// too, where it is not mm, and where none is plausible.
-convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const std::filesystem::path& file,
-                               const convert::MeshFile& read, Progress& progress);
+/// The mesh in `file`; shows a stage of progress. Throws as the reader of the format.
+operations::MeshPart loadMesh(const convert::InputFile& file, const FileFormat& format,
+                              const SceneArguments& scene, Progress& progress);
 
-/// Tree and wall points of the mesh in `file`. Repairs and assumptions become warnings. Throws
-/// Error(InvalidInput) for a mesh that is no surface of vessels, and for a centerline that does not
-/// belong to it.
-CaseOfMeshFile caseOfMeshFile(const std::filesystem::path& file, const FileFormat& format,
-                              const MeshArguments& arguments, Progress& progress);
+/// The centerline that a mesh comes with, by the user's statements about its unit and axes, or else
+/// by those of its file; empty without a file. Remarks of the reader become warnings. Throws
+/// Error(InvalidInput), and Error(Unsupported) for the name of no such file.
+std::optional<operations::CenterlinePart> loadGivenCenterline(const MeshArguments& arguments,
+                                                              Progress& progress);
 
 }  // namespace lumen::engine

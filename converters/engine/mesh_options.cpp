@@ -2,16 +2,13 @@
 #include "converters/engine/mesh_options.h"
 
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "converters/base/number_text.h"
 #include "converters/base/options/option_name.h"
 #include "converters/base/options/parsed_number.h"
-#include "converters/engine/answers/case_losses.h"
-#include "converters/engine/answers/surface_answer.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/scope.h"
-#include "converters/stages/surface/patches/polygonise.h"
 
 namespace lumen::engine {
 
@@ -29,7 +26,7 @@ const std::map<std::string, convert::Touching> kTouching = {{"share", convert::T
                                                             {"apart", convert::Touching::Apart}};
 
 void setEdge(convert::EdgeLength& edge, const std::string& text) {
-  const convert::Length length = convert::parseLength(text, kOption.edge.shown());
+  const convert::Length length = convert::parseLength(text, "--edge");
   edge.share = length.radii;
   if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
 }
@@ -41,17 +38,17 @@ OptionRow& addBound(OptionTable& table, const std::string& name, convert::EdgeLe
     if (edge.share > 0) bound = parsedNumber(texts.back()).value_or(bound);
   };
   return table.add(name, OptionTarget(store), "MM", help).without("patches").unusedIf([&edge] {
-    return edge.share > 0 ? "" : "does nothing with " + kOption.edge.shown() + " in mm";
+    return edge.share > 0 ? "" : "does nothing with --edge in mm";
   });
 }
 
 /// "0.25r"
 void addPatchRows(OptionTable& table, OutputOptions& output) {
-  table.flag("patches", output.patches,
+  table.flag("patches", output.surface.isInPatches,
              "Write the surface in pieces, one group of faces for each branch, which meet but are "
              "not joined");
   table
-      .add("cell", &output.polygonise.cell, "MM",
+      .add("cell", &output.surface.patches.cell, "MM",
            "Edge of a marching-cubes cell of the patches; 0: the voxel size")
       .in(kNotNegative)
       .onlyWith("patches");
@@ -59,9 +56,10 @@ void addPatchRows(OptionTable& table, OutputOptions& output) {
 
 void addGltfRows(OptionTable& table, OutputOptions& output) {
   convert::WriteMeshOptions& mesh = output.mesh;
+  mesh.word = optionWord();
   table.scope(kAnyContent, kGltf);
   table
-      .add("lod", &output.surface.levels, "N",
+      .add("lod", &output.surface.closed.levels, "N",
            "Levels of detail in one glTF, each with a quarter of the triangles (MSFT_lod)")
       .in(WholeRange{1, 8});
   table.choice("mesh-per", mesh.per, kMeshPer, "Meshes of a glTF: one, or one for each branch");
@@ -76,22 +74,22 @@ void addGltfRows(OptionTable& table, OutputOptions& output) {
       .forInputs(kCases)
       .notBeside("time")
       .negative = "no-skin";
-  table.flag(kOption.meshopt.name, mesh.meshopt,
+  table.flag("meshopt", mesh.meshopt,
              "Compress glTF with EXT_meshopt_compression, to a micrometre; not for the f3d of "
              "Debian 12, which crashes on any such file");
   table
-      .flag(kOption.draco.name, mesh.draco,
+      .flag("draco", mesh.draco,
             "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, which "
             "crashes on any such file")
-      .without(kOption.meshopt.name);
+      .without("meshopt");
   table
       .add("draco-position-bits", &mesh.dracoPositionBits, "N",
            "Bits of a position in the bounding box of the mesh")
       .in(WholeRange{1, 30})
-      .onlyWith(kOption.draco.name);
+      .onlyWith("draco");
   table.add("draco-normal-bits", &mesh.dracoNormalBits, "N", "Bits of a normal")
       .in(WholeRange{2, 30})
-      .onlyWith(kOption.draco.name);
+      .onlyWith("draco");
 }
 
 }  // namespace
@@ -100,17 +98,16 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
   using Texts = std::vector<std::string>;
   table
       .add(
-          kOption.edge.name,
-          [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
+          "edge", [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
           "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
       .defaults(shownNumber(surface.edge.share) + "r")
       .without("patches");
   table
       .add(
-          kOption.extend.name,
+          "extend",
           [&surface](const Texts& texts) {
             for (const std::string& text : texts)
-              surface.extend.push_back(convert::parseEndLength(text, kOption.extend.shown()));
+              surface.extend.push_back(convert::parseEndLength(text, "--extend"));
           },
           "[LABEL=]LENGTH",
           "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
@@ -118,9 +115,9 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
       .without("patches");
   table
       .add(
-          kOption.thickness.name,
+          "thickness",
           [&surface](const Texts& texts) {
-            surface.thickness = convert::parseLength(texts.back(), kOption.thickness.shown());
+            surface.thickness = convert::parseLength(texts.back(), "--thickness");
           },
           "LENGTH",
           "Thickness of a solid wall around the lumen, such as 0.5 (mm) or 0.2r; between lumens "
@@ -128,7 +125,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
           "touch it is down to half, and lumen reports where")
       .without("patches");
   table
-      .add(kOption.maxError.name, &surface.maxError, "MM",
+      .add("max-error", &surface.maxError, "MM",
            "Drop triangles while the surface stays within this distance of the full one, both "
            "ways; 0: none")
       .in(kNotNegative)
@@ -137,7 +134,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
 }
 
 void addMeshFileRows(OptionTable& table, OutputOptions& output) {
-  convert::ClosedSurfaceOptions& surface = output.surface;
+  convert::ClosedSurfaceOptions& surface = output.surface.closed;
   table.group("Mesh");
   table.scope(kAnyContent, kAllMeshes);
   addSurfaceRows(table, surface);
@@ -146,14 +143,14 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
           "touching", surface.touching, kTouching,
           "Walls of vessels that touch: they share one, or keep apart, each a sixth as thick as "
           "asked for or more")
-      .onlyWith(kOption.thickness.name);
+      .onlyWith("thickness");
   convert::EdgeLength& edge = surface.edge;
   addBound(table, "edge-min", edge, edge.minimum, "Least length of edges")
       .in(kNotNegative)
       .defaults("0");
   addBound(table, "edge-max", edge, edge.maximum, "Greatest length of edges").in(kPositive);
   table
-      .scaled(kOption.gap.name, surface.gap, "Distance that touching vessels keep",
+      .scaled("gap", surface.gap, "Distance that touching vessels keep",
               "0.1 voxels, or 0.05 of the least radius")
       .without("patches");
   table.flag("open", surface.open, "Leave the flat ends of vessels open").without("patches");
@@ -165,35 +162,6 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
              "it");
   table.scope(kAnyContent);
   table.group("");
-}
-
-namespace {
-
-CaseMesh patchesOfCase(const formats::Case& value, const std::filesystem::path& file,
-                       const OutputOptions& options, int levels, Progress& progress) {
-  CaseMesh result;
-  convert::PolygoniseOptions patches = options.polygonise;
-  patches.cell = convert::chooseCell(value, patches);
-  for (int level = 0; level < levels; ++level) {
-    convert::Patches made = convert::polygonise(value, patches, progress);
-    progress.check();
-    if (level == 0) reportLosses(made, file.string(), patches.cell, progress);
-    result.levels.push_back(std::move(made.surface));
-    patches.cell *= 2;
-  }
-  return result;
-}
-
-}  // namespace
-
-CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& file,
-                    const OutputOptions& options, bool hasLevels, Progress& progress) {
-  convert::ClosedSurfaceOptions surface = options.surface;
-  if (!hasLevels) surface.levels = 1;
-  if (options.patches) return patchesOfCase(value, file, options, surface.levels, progress);
-  convert::ClosedSurface made = convert::closedSurface(value, surface, progress);
-  warnOfSurface(made.report, file.string(), progress);
-  return {std::move(made.levels), std::move(made.report)};
 }
 
 }  // namespace lumen::engine

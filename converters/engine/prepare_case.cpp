@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
@@ -30,6 +29,8 @@
 #include "converters/library/index/change.h"
 #include "converters/library/index/library_file.h"
 #include "converters/library/index/record_of_case.h"
+#include "converters/operations/naming.h"
+#include "converters/operations/report_of.h"
 #include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case_file.h"
 #include "formats/container/container.h"
@@ -200,7 +201,7 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
   convert::ExportOptions options;
   OptionTable defaults;
   addExportRows(defaults, options);
-  try {
+  operations::naming(printable(file) + ": --export " + name, [&] {
     const convert::ExportResult result =
         convert::exportCase(target, value, options, exportOptionTexts(defaults, target), progress);
     for (const std::string& loss : result.losses) progress.warn("exports/" + name + ": " + loss);
@@ -209,37 +210,30 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
       incoming.add(path, "export", one.bytes, name);
       if (one.isProgram) allowRunning(incoming.folder() / path);
     }
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::InvalidInput) throw;
-    throw invalidInput(printable(file) + ": --export " + name + ": " + error.what());
-  }
+  });
 }
 
-/// A page that another command makes of the case, which it sees under its id.
-void addPage(const std::string& name, const std::string& role, std::string_view caseBytes,
-             const std::function<Operation(const std::string& file, const std::string& page)>& made,
-             IncomingCase& incoming, const RunContext& context) {
+/// The page of the case under its id, without a word to the listener.
+void addReport(const std::vector<std::byte>& bytes, formats::Case value, IncomingCase& incoming,
+               const Progress& progress) {
+  const convert::CaseRecord& record = incoming.record;
+  QuietProgress quiet(progress);
+  const operations::Page page =
+      operations::reportOf({std::move(value), bytes, record.id + ".lumen", record.about.title}, {},
+                           operationContext(quiet));
+  incoming.add("report.html", "report", page.html);
+}
+
+/// The page of `lumen view`, a command of the viewer, which is above the engine and reads a file.
+void addViewer(std::string_view caseBytes, IncomingCase& incoming, const RunContext& context) {
   const convert::PrivateFolder folder;
   const fs::path file = folder.path() / (incoming.record.id + ".lumen");
-  const fs::path page = folder.path() / name;
+  const fs::path page = folder.path() / "view.html";
   writeText(caseBytes, file);
   QuietProgress quiet(context.progress);
-  (void)context.engine.run(made(file.string(), page.string()), context.within(quiet));
-  incoming.addFile(name, role, page);
-}
-
-void addReport(std::string_view caseBytes, IncomingCase& incoming, const RunContext& context) {
-  const auto made = [&](const std::string& file, const std::string& page) {
-    return Operation{"report", {file, page}, {}}.with("title", incoming.record.about.title);
-  };
-  addPage("report.html", "report", caseBytes, made, incoming, context);
-}
-
-void addViewer(std::string_view caseBytes, IncomingCase& incoming, const RunContext& context) {
-  const auto made = [](const std::string& file, const std::string& page) {
-    return Operation{"view", {file}, {}}.with("html", page);
-  };
-  addPage("view.html", "other", caseBytes, made, incoming, context);
+  (void)context.engine.run(Operation{"view", {file.string()}, {}}.with("html", page.string()),
+                           context.within(quiet));
+  incoming.addFile("view.html", "other", page);
 }
 
 }  // namespace
@@ -267,7 +261,8 @@ void warnOfPersonsIn(const convert::CaseAbout& about, Progress& progress) {
 }
 
 void addReportPage(const fs::path& caseFile, IncomingCase& incoming, const RunContext& context) {
-  addReport(readWholeFile(caseFile, "case"), incoming, context);
+  auto [bytes, value] = readCaseAndBytes(caseFile);
+  addReport(bytes, std::move(value), incoming, context.progress);
 }
 
 IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
@@ -291,12 +286,9 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   incoming.record.id = id;
   incoming.record.about = std::move(about);
   incoming.add(convert::kCaseFile, "case", asText(bytes));
-  try {
-    convert::describe(value, digest, incoming.record, progress);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::InvalidInput) throw;
-    throw invalidInput(printable(file) + ": " + error.what());
-  }
+  operations::naming(printable(file), [&, &made = value] {
+    convert::describe(made, digest, incoming.record, progress);
+  });
   if (!wishes.recipe.empty()) incoming.record.provenance["recipe_sha256"] = wishes.recipe;
   for (const std::string& one : wishes.files) incoming.addFile(pathOfFile(one), "other", one);
   convert::warnOfClosed(convert::measureReach(value, progress), progress);
@@ -304,7 +296,7 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   if (value.models) addPictures(value, wishes, incoming, progress);
   for (const std::string& target : wishes.targets)
     addExport(target, value, file, incoming, progress);
-  if (wishes.report) addReport(asText(bytes), incoming, context);
+  if (wishes.report) addReport(bytes, value, incoming, progress);
   if (wishes.viewer) addViewer(asText(bytes), incoming, context);
   return incoming;
 }

@@ -4,6 +4,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/sofa_scene.h"
 #include "converters/io/volume/detached_data.h"
@@ -13,15 +14,15 @@ namespace lumen::engine {
 
 namespace fs = std::filesystem;
 
-convert::MeshFile readSceneMesh(const fs::path& file, const SceneArguments& arguments) {
-  const std::string name = formats::printable(file.string());
+convert::MeshFile readSceneMesh(const convert::InputFile& file, const SceneArguments& arguments) {
+  const std::string name = formats::printable(file.path().string());
   const std::vector<convert::SofaLoader> loaders =
-      convert::sofaLoaders(readWholeFile(file, "scene"), name);
+      convert::sofaLoaders(file.read("scene", kAnySize), name);
   const convert::SofaLoader& loader = convert::vesselLoader(loaders, arguments.mesh, name);
   const fs::path mesh =
       convert::detachedFiles(file, convert::namesOfList({loader.filename}),
                              {arguments.allowDetached.begin(), arguments.allowDetached.end()},
-                             "the vessels' mesh is")
+                             optionWord(), "the vessels' mesh is")
           .front();
   const bool isObj = lowerCase(loader.component) == "meshobjloader";
   convert::MeshFile read =

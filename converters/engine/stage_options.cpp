@@ -82,6 +82,7 @@ const std::map<std::string, double>& millimetresByUnit() {
 
 convert::ReadVolumeOptions VolumeArguments::options() const {
   convert::ReadVolumeOptions options;
+  options.word = optionWord();
   options.series = series;
   options.skipFaulty = skipFaulty;
   if (const std::vector<double> mm = spacingIn(spacing); !mm.empty())
@@ -102,6 +103,7 @@ convert::ReadVolumeOptions VolumeArguments::options() const {
 
 convert::SeedReading TrackArguments::reading() const {
   convert::SeedReading reading;
+  reading.word = optionWord();
   if (const auto system = kSeedSystems.find(seedsFrame); system != kSeedSystems.end())
     reading.system = system->second;
   if (const auto unit = millimetresByUnit().find(seedsUnit); unit != millimetresByUnit().end())
@@ -109,17 +111,21 @@ convert::SeedReading TrackArguments::reading() const {
   return reading;
 }
 
-std::vector<Eigen::Vector3d> TrackArguments::rootPlaces() const {
-  std::vector<Eigen::Vector3d> places;
-  for (const std::string& text : roots) places.push_back(placeIn(text));
-  return places;
+operations::VesselOptions TrackArguments::vessels() const {
+  operations::VesselOptions vessels;
+  vessels.track = options;
+  vessels.seedsName = seeds;
+  vessels.isSeedsOnly = isSeedsOnly;
+  for (const std::string& text : roots) vessels.roots.push_back(placeIn(text));
+  vessels.isOnlyConnected = isOnlyConnected;
+  return vessels;
 }
 
 void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
   table.group("Volume");
   table.scope(kVolumes);
   table
-      .add(kOption.series.name, &volume.series, "ID",
+      .add("series", &volume.series, "ID",
            "DICOM series: its instance UID, or its number in the list that is printed when a "
            "folder holds several")
       .forInputs(kDicom);
@@ -134,7 +140,7 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
   crop.count = 6;
   crop.delimiter = ',';
   table
-      .add(kOption.spacing.name, &volume.spacing, "MM or MM,MM,MM",
+      .add("spacing", &volume.spacing, "MM or MM,MM,MM",
            "Distance of voxels along i, j and k, or of all, in mm, whatever the file states")
       .checkedBy(spacingFault);
   table
@@ -144,7 +150,7 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
       .among(wordsOf(millimetresByUnit()))
       .forInputs(kFileVolumes | kMeshes | kCenterline);
   table
-      .add(kOption.allowDetached.name, &volume.allowDetached, "PATH",
+      .add("allow-detached", &volume.allowDetached, "PATH",
            "Allow a header to take its voxels, or a scene its mesh, from this file, or from below "
            "this folder; otherwise only from its own folder. May be given several times")
       .checkedBy(fileName())
@@ -168,30 +174,30 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
       "Hints on the vessels that are found (name, parent, kind, inlet), and starts of others: "
       "lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv) [none]");
   table
-      .add(kOption.seedsFrame.name, &track.seedsFrame, "FRAME",
+      .add("seeds-frame", &track.seedsFrame, "FRAME",
            "Frame of the seeds' coordinates, whatever their file states: lps, ras, or voxel "
            "(indices; radii in the file's unit)")
       .among(wordsOf(kSeedSystems))
       .onlyWith(kOption.seeds.name);
   table
-      .add(kOption.seedsUnit.name, &track.seedsUnit, "UNIT",
+      .add("seeds-unit", &track.seedsUnit, "UNIT",
            "Unit of the seeds' positions and radii, whatever their file states: mm, cm, m or um")
       .among(wordsOf(millimetresByUnit()))
       .onlyWith(kOption.seeds.name);
   table
       .add(
-          kOption.root.name, &track.roots, "X,Y,Z",
+          "root", &track.roots, "X,Y,Z",
           "Place near the end of a vessel through which blood comes in, mm, LPS [the widest end of "
           "each tree]. May be given several times")
       .checkedBy(placeFault)
       .many()
       .forInputs(kImage | kLabels | kMeshes);
   table
-      .flag(kOption.onlyConnected.name, track.isOnlyConnected,
+      .flag("only-connected", track.isOnlyConnected,
             "Leave out trees in which no seed and no root lies")
       .forInputs(kImage | kLabels | kMeshes)
       .onlyWith(kOption.seeds.name)
-      .onlyWith(kOption.root.name);
+      .onlyWith("root");
   table
       .flag("seeds-only", track.isSeedsOnly,
             "Track from the seeds alone, instead of taking them as hints on the vessels that are "
@@ -226,7 +232,7 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
       .among(wordsOf(millimetresByUnit()))
       .onlyWith("centerline");
   table
-      .add("mesh", &mesh.scene.mesh, "NAME",
+      .add("mesh", &mesh.sceneMesh, "NAME",
            "Mesh of a scene that the vessels are: the name of its loader or of the loader's node "
            "[the one whose node has vessel in its name, or that does not move]")
       .forInputs(kScene);
@@ -237,18 +243,18 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
 void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
   table
       .file(
-          kOption.labelMap.name, mask.labelMap,
+          "label-map", mask.labelMap,
           "Volume of labels by which the branches that are found get their names; its grid may be "
           "another")
       .forInputs(kVolumes)
       .without(kOption.seeds.name)
-      .without(kOption.labels.name);
+      .without("labels");
   table
       .file(
-          kOption.labelTable.name, mask.labelTable,
+          "label-table", mask.labelTable,
           "Names of the labels: a JSON object, comma-separated values, a colour table of 3D Slicer "
           "(.ctbl), or topcow [those in the header of a .seg.nrrd]")
-      .without(kOption.labels.name);
+      .without("labels");
 }
 
 void addMaskRows(OptionTable& table, MaskArguments& mask) {
@@ -260,7 +266,7 @@ void addMaskRows(OptionTable& table, MaskArguments& mask) {
       .in(WholeRange{1, 1 << 24})
       .without("mask");
   table
-      .add(kOption.labels.name, &mask.labels, "LIST",
+      .add("labels", &mask.labels, "LIST",
            "The volume holds labels, and these are of vessels, such as 1=ica,2=mca; branches get "
            "their names")
       .without("mask")

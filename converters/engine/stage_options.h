@@ -12,10 +12,12 @@
 
 #include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/io/volume/read_volume_options.h"
+#include "converters/operations/tracked_vessels.h"
 #include "converters/stages/fitting/fit_options.h"
 #include "converters/stages/tracking/cylinders/track_options.h"
 #include "formats/case/case.h"
@@ -36,6 +38,8 @@ struct VolumeArguments {
 };
 
 struct TrackArguments {
+  TrackArguments() { options.word = optionWord(); }
+
   std::string seeds;
   std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
   std::vector<std::string> roots;     ///< texts "X,Y,Z", mm, LPS
@@ -44,7 +48,8 @@ struct TrackArguments {
   bool isSeedsOnly = false;   ///< seeds start all tracks; else they are hints on what is found
   convert::TrackOptions options;
   [[nodiscard]] convert::SeedReading reading() const;
-  [[nodiscard]] std::vector<Eigen::Vector3d> rootPlaces() const;
+  /// The vessels that are wanted, without the content of the seeds file.
+  [[nodiscard]] operations::VesselOptions vessels() const;
 };
 
 /// Each adds rows whose values are stored in its second argument, which must outlive the table.

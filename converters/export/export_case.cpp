@@ -8,7 +8,6 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/options/edit_steps.h"
-#include "converters/base/options/option_name.h"
 #include "converters/export/shared/text_files.h"
 
 namespace lumen::convert {
@@ -65,8 +64,8 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
                         Progress& progress) {
   requireParts(target, source);
   ExportFrame frame;
-  frame.unit = choice(options.unit, target.units, kOption.unit.shown(), unitName, target.name);
-  frame.axes = choice(options.axes, target.axes, kOption.up.shown(), upName, target.name);
+  frame.unit = choice(options.unit, target.units, options.word("unit"), unitName, target.name);
+  frame.axes = choice(options.axes, target.axes, options.word("up"), upName, target.name);
   ExportResult result = target.write({source, options, frame, progress}, options);
   result.assumptions = recordedAssumptions(source.metadata);
   for (const std::string& assumption : result.assumptions)

@@ -81,15 +81,14 @@ Expected<Case> readCaseFile(const fs::path& file) {
   return error;
 }
 
-Status writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encoding,
-                     const EncodeOptions& options) {
+Expected<std::vector<std::byte>> encodeCase(const Case& value, CaseEncoding encoding,
+                                            const EncodeOptions& options) {
   if (const auto valid = validate(value); !valid) {
     Issue error = valid.error();
     error.message = "the case is not valid and is not written: " + error.message;
     return error;
   }
-  if (encoding == CaseEncoding::Binary)
-    return writeFileAtomically(encodeBinary(value, options), file);
+  if (encoding == CaseEncoding::Binary) return encodeBinary(value, options);
   std::string text;
   if (options.pointBits == 0) {
     text = encodeJson(value);
@@ -98,7 +97,15 @@ Status writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encod
     quantisePoints(rounded, options.pointBits);
     text = encodeJson(rounded);
   }
-  return writeFileAtomically(std::as_bytes(std::span(text)), file);
+  const auto bytes = std::as_bytes(std::span(text));
+  return std::vector<std::byte>(bytes.begin(), bytes.end());
+}
+
+Status writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encoding,
+                     const EncodeOptions& options) {
+  const auto bytes = encodeCase(value, encoding, options);
+  if (!bytes) return bytes.error();
+  return writeFileAtomically(*bytes, file);
 }
 
 Status writeCaseFile(const Case& value, const fs::path& file) {

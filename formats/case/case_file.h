@@ -27,7 +27,12 @@ Expected<Case> readCaseFile(const std::filesystem::path& file);
 
 enum class CaseEncoding : std::uint8_t { Binary, Json };
 
-/// Validates, then writes atomically; JSON uses only the points' rounding among the options.
+/// The bytes of a case in a file, after validation; JSON uses only the points' rounding among the
+/// options.
+Expected<std::vector<std::byte>> encodeCase(const Case& value, CaseEncoding encoding,
+                                            const EncodeOptions& options = {});
+
+/// Writes what encodeCase() gives atomically.
 Status writeCaseFile(const Case& value, const std::filesystem::path& file, CaseEncoding encoding,
                      const EncodeOptions& options = {});
 /// Validates, then writes atomically: JSON if the name ends in ".json", binary otherwise.

@@ -11,7 +11,6 @@
 #include "converters/base/options/option_name.h"
 #include "converters/cli/command_line.h"
 #include "converters/cli/commands.h"
-#include "converters/export/shared/flow_inlets.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
@@ -208,9 +207,6 @@ TEST(OptionsTest, EveryNameThatMessagesMentionIsThatOfARow) {
   using Names = std::array<OptionName, sizeof(OptionNames) / sizeof(OptionName)>;
   const std::set<std::string> known = everyOptionName();
   for (const OptionName& option : std::bit_cast<Names>(kOption))
-    EXPECT_TRUE(known.contains(option.name)) << option.shown();
-  using FlowNames = std::array<OptionName, sizeof(convert::FlowOptionNames) / sizeof(OptionName)>;
-  for (const OptionName& option : std::bit_cast<FlowNames>(convert::kFlowOption))
     EXPECT_TRUE(known.contains(option.name)) << option.shown();
 }
 

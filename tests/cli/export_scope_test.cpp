@@ -40,7 +40,7 @@ bool takes(const ExportTarget& target, const std::string& option) {
   if (option == "unit") return target.units.size() > 1;
   if (option == "up") return target.axes.size() > 1;
   return std::any_of(target.options.begin(), target.options.end(),
-                     [&](const convert::TakenOption& one) { return option == one.option.name; });
+                     [&](const convert::TakenOption& one) { return option == one.name; });
 }
 
 /// A value that the target does not take.

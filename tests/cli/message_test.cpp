@@ -3,12 +3,13 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
-#include "converters/engine/answers/case_losses.h"
+#include "converters/engine/answers/answer_text.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
@@ -48,40 +49,19 @@ TEST(Suggestion, NothingNearIsNoSuggestion) {
 }  // namespace lumen::test
 
 namespace lumen::engine {
-namespace {
 
-class Warnings : public Progress {
-public:
-  void warn(std::string_view message) override { text += message; }
-  std::string text;
-};
-
-/// Report on a branch whose losses are at nodes of a quarter of a millimetre or more, which
-/// cells up to a millimetre resolve.
-std::string reportedFor(double cell, bool hasSurface) {
-  convert::Patches patches;
-  patches.surface.labels = {"thin"};
-  patches.losses = {{9, hasSurface ? 100U : 0U, 2, 5, 0.25}};
-  Warnings warnings;
-  reportLosses(patches, "out.glb", cell, warnings);
-  return warnings.text;
+TEST(OperationMessage, WordsAFieldAsItsOptionAndAValueAsItWasGiven) {
+  std::vector<std::string> roots;
+  OptionTable table;
+  table.add("root", &roots, "X,Y,Z", "").many();
+  table.set("root", {"1,2,3", "4.50,5,6"});
+  Progress progress;
+  const operations::Context context = operationContext(progress, &table);
+  EXPECT_EQ(context.field("root", 1), "--root 4.50,5,6");
+  EXPECT_EQ(context.field("root"), "--root");
+  EXPECT_EQ(context.field("seeds"), "--seeds");
 }
 
-TEST(LossReport, AsksForFinerCellsOnlyWhereTheseWereTooCoarse) {
-  for (const bool hasSurface : {false, true}) {
-    const std::string coarse = reportedFor(1.5, hasSurface);
-    EXPECT_NE(coarse.find("cells of 1.5 mm are too coarse there: --cell 1 or less"),
-              std::string::npos)
-        << coarse;
-    for (const double cell : {1.0, 0.5}) {
-      const std::string fine = reportedFor(cell, hasSurface);
-      EXPECT_NE(fine.find("finer cells do not help"), std::string::npos) << fine;
-      EXPECT_EQ(fine.find("--cell"), std::string::npos) << fine;
-    }
-  }
-}
-
-}  // namespace
 }  // namespace lumen::engine
 
 // Completions that bash offers with the script of `lumen completion bash`.

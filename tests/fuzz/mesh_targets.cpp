@@ -52,7 +52,7 @@ void checkRepaired(const TriangleMesh& mesh) {
 template <MeshFormat kFormat>
 void mesh(std::span<const std::byte> input) {
   try {
-    const MeshFile file = parseMesh(textOf(input), "mesh", kFormat);
+    const MeshFile file = readMesh({"mesh", textOf(input)}, kFormat);
     checkFile(file);
     if (file.mesh.triangle.size() <= kMostRepaired) checkRepaired(file.mesh);
   } catch (const Error& error) {

@@ -55,6 +55,9 @@ lumen_test(one_click_test
 lumen_test(trees_from_surfaces_test FOLDER trees_from_surfaces
   LABELS memory_slow threads slow
   LIBS lumen_fitting lumen_trees_from_surfaces lumen_surface)
+lumen_test(operations_test FOLDER operations
+  LABELS threads
+  LIBS lumen_operations lumen_phantom)
 lumen_test(phantom_test FOLDER phantom
   LABELS threads
   LIBS lumen_phantom lumen_geometry)
@@ -83,3 +86,13 @@ if(LUMEN_BUILD_NIGHTLY)
   lumen_test(contact_test FOLDER evaluation
     LIBS lumen_options lumen_contact_count)
 endif()
+# lumen/engine.h: the library from outside, an example in C99, and the names that it exports.
+lumen_test(engine_api_test FOLDER api
+  LIBS lumen_engine_shared lumen_phantom lumen_seeds lumen_volume_io)
+add_executable(nifti_to_glb ${PROJECT_SOURCE_DIR}/packages/examples/nifti_to_glb.c)
+target_link_libraries(nifti_to_glb PRIVATE lumen_engine_shared)
+set_target_properties(nifti_to_glb PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+add_test(NAME EngineApi.ExampleMakesAGlb
+  COMMAND sh -ec "'$<TARGET_FILE:lumen>' phantom bifurcation fork.nii.gz --size 64 --quiet && '$<TARGET_FILE:nifti_to_glb>' fork.nii.gz fork.glb && '$<TARGET_FILE:lumen>' info fork.glb")
+add_test(NAME EngineApi.ExportsItsOwnNamesAlone
+  COMMAND sh -ec "names=$(nm -D --defined-only '$<TARGET_FILE:lumen_engine_shared>' | awk '{print $NF}'); test -n \"$names\"; ! echo \"$names\" | grep -v '^lumen_engine_'")

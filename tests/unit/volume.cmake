@@ -11,6 +11,7 @@ lumen_test(volume_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/nifti_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_types_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/memory_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_voxels_test.cpp)
 if(LUMEN_WITH_DICOM)
   target_sources(volume_test PRIVATE

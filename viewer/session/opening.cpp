@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/content/file_content.h"
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/volume/write_volume.h"
-#include "converters/stages/fitting/fit.h"
+#include "converters/operations/case_of.h"
 #include "viewer/session/document/document_seeds.h"
 #include "viewer/session/packs/surface_pack.h"
 
@@ -31,7 +31,7 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
   if (!inVoxels) return seeds;
   if (volume == nullptr)
     throw invalidInput(opening.label + ": these seeds are in voxels; open their volume first");
-  auto result = convert::placeSeeds(seeds, volume->geometry, opening.path);
+  auto result = convert::placeSeeds(seeds, volume->geometry, opening.path, engine::optionWord());
   for (const convert::SeedFailure& failure : result.leftOut)
     progress.warn(opening.label + ": seed \"" + failure.label +
                   "\" is left out: " + failure.reason);
@@ -42,9 +42,12 @@ formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
                      const engine::VolumeArguments& volume, Progress& progress) {
   if (format.kind == engine::FormatKind::Case) return format.readCase(opening.path);
   const auto loaded = engine::loadCenterline(opening.path, format, volume, {}, progress);
-  formats::Case value = convert::caseOfCenterline(loaded.file, opening.label);
-  convert::fit(value, engine::fitOptionsFor(value, {}), progress);
-  return value;
+  operations::Source source;
+  source.name = opening.label;
+  source.centerline = operations::CenterlinePart{loaded.file, opening.label};
+  operations::CaseOptions options;
+  options.models.emplace();
+  return operations::caseOf(std::move(source), options, engine::operationContext(progress)).value;
 }
 
 /// A mesh in mm. The arguments state its unit, and from where a scene may take it.
@@ -119,7 +122,9 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     }
     case FileRole::Seeds:
       document.seeds =
-          joined(placed(document.volume.get(), convert::readSeeds(opening.path), opening, progress),
+          joined(placed(document.volume.get(),
+                        convert::readSeeds(opening.path, engine::TrackArguments().reading()),
+                        opening, progress),
                  trackedSeeds(document));
       break;
     case FileRole::Mesh:

@@ -37,8 +37,7 @@ Tagged Session::distancePack(int level, bool quick, Progress& progress) {
 
 std::string Session::encoded(const std::string& format, const SavingOptions& options,
                              Progress& progress) {
-  return viewer::encoded(now().document, format, options, m_workspace.options, m_workspace.dropped,
-                         progress);
+  return viewer::encoded(now().document, format, options, m_workspace.options, progress);
 }
 
 Json Session::vesselAtClick(formats::JsonValue request) {

@@ -7,11 +7,12 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/check_answer.h"
-#include "converters/engine/centerline_input.h"
-#include "converters/engine/tracking_input.h"
 #include "converters/judge/compare/compare.h"
-#include "converters/judge/measure/measure_case.h"
+#include "converters/operations/case_of.h"
+#include "converters/operations/check_of.h"
+#include "converters/operations/measures_of.h"
 #include "converters/stages/fitting/fit.h"
 #include "viewer/session/corrections.h"
 #include "viewer/session/proposals.h"
@@ -31,14 +32,6 @@ void addClicks(Json& answer, const convert::Missing& missing) {
     answer["missing_vessels"][i]["clicks"] = {
         {"points", std::move(points)}, {"radius", clicks.radius}, {"beside", clicks.beside}};
   }
-}
-
-/// Whether the case was made from the document's volume, for the answer of a check.
-std::string sourceOf(const Document& document) {
-  if (!document.value->metadata.source) return "unknown";
-  const auto difference =
-      convert::sourceDifference(*document.volumeSource, *document.value->metadata.source);
-  return difference ? "other " + difference->what : "same";
 }
 
 }  // namespace
@@ -95,7 +88,8 @@ Json StageJobs::accept(const Arguments& request, const Moment& from) {
       "fitting", true, [&workspace, from, acceptance](Progress& progress) mutable {
         formats::Case& value = *acceptance.value;
         if (acceptance.firstNewNode == 0)
-          convert::fit(value, engine::fitOptionsFor(value, workspace.options.fit), progress);
+          value = operations::fitted(std::move(value), {workspace.options.fit},
+                                     engine::operationContext(progress));
         else
           fitNewNodes(value, *from.document.value, acceptance.firstNewNode, progress);
         workspace.commit(acceptance.title, from, acceptance.document);
@@ -110,7 +104,8 @@ Json StageJobs::fit(const Moment& from) {
   Workspace& workspace = m_workspace;
   return workspace.startJob("fitting", true, [&workspace, from](Progress& progress) {
     auto value = std::make_shared<formats::Case>(*from.document.value);
-    convert::fit(*value, engine::fitOptionsFor(*value, workspace.options.fit), progress);
+    *value = operations::fitted(std::move(*value), {workspace.options.fit},
+                                engine::operationContext(progress));
     Document document = from.document;
     document.value = std::move(value);
     workspace.commit("fit", from, std::move(document));
@@ -136,12 +131,12 @@ Json StageJobs::check(const Moment& from) {
   return workspace.startJob("checking", false, [&workspace, from](Progress& progress) {
     const auto value = from.document.value;
     const convert::Volume& volume = *from.document.volume;
-    const auto result =
-        convert::checkCase(volume, *value, convert::recordedEdgeOptions(*value), progress);
-    Json answer = engine::checkJson(result.report, value->tree, sourceOf(from.document));
-    addClicks(answer, result.report.missing);
+    const operations::Checked made = operations::checked(
+        *value, volume, *from.document.volumeSource, {}, engine::operationContext(progress));
+    Json answer = engine::checkJson(made.report, value->tree, made.source.word());
+    addClicks(answer, made.report.missing);
     std::vector<WorkItem> work =
-        listWork(*value, result.report, convert::measureReach(*value, progress), volume.geometry);
+        listWork(*value, made.report, convert::measureReach(*value, progress), volume.geometry);
     const std::size_t places = work.size();
     workspace.findings.setCheck(std::move(answer), std::move(work), value);
     return places == 0 ? "the check found nothing to do"
@@ -165,13 +160,11 @@ Json StageJobs::measure(const Moment& from) {
   if (!from.document.value) throw Error(ErrorKind::Usage, "there is no case to measure");
   Workspace& workspace = m_workspace;
   return workspace.startJob("measuring", false, [&workspace, from](Progress& progress) {
-    progress.begin("measure", 0);
-    const formats::Case& value = *from.document.value;
-    const convert::CaseMeasures measures = convert::measureCase(value, {}, progress);
-    progress.end();
+    operations::CaseMeasures measures =
+        operations::measuresOf(*from.document.value, {}, engine::operationContext(progress));
     workspace.findings.setMeasures(from.document.labelOf(FileRole::Case),
-                                   convert::measureTables(value, measures), from.document.value);
-    return counted(measures.vessels.size(), "branch is", "branches are") + " measured";
+                                   std::move(measures.tables), from.document.value);
+    return counted(measures.values.vessels.size(), "branch is", "branches are") + " measured";
   });
 }
 

@@ -9,8 +9,8 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
-#include "converters/engine/centerline_input.h"
-#include "converters/engine/tracking_input.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/operations/case_of.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/vessel_at_click.h"
@@ -36,11 +36,12 @@ void warnAbout(const std::vector<convert::SeedFailure>& failures, const std::str
 /// A case that has its tree, wall points and models from these seeds alone.
 formats::Case trackNewCase(const Document& document, const Seeds& seeds,
                            const SessionOptions& options, Progress& progress) {
-  engine::TrackArguments arguments = options.track;
-  arguments.seeds = "the seeds";
-  formats::Case value = engine::placeAndTrack(*document.volume, seeds, arguments, progress).result;
-  convert::fit(value, engine::fitOptionsFor(value, options.fit), progress);
-  return value;
+  operations::VesselOptions vessels = options.track.vessels();
+  vessels.seeds = seeds;
+  vessels.seedsName = "the seeds";
+  const operations::Context context = engine::operationContext(progress);
+  return operations::fitted(operations::placeAndTrack(*document.volume, vessels, context).result,
+                            {options.fit}, context);
 }
 
 /// The case with further vessels, to which `seeds` lead; it keeps those that it had.
@@ -123,12 +124,13 @@ std::shared_ptr<const formats::Case> findProposals(const Document& document, Tra
   if (hasVessels(document)) {
     const auto& known = *document.value;
     const auto tracking = cache.volumeFor(document, clicksOn(known.tree), options, progress);
-    convert::AddedTracks added = engine::findAndAdd(*tracking, *document.volume, known, progress);
+    convert::AddedTracks added = operations::findAndAdd(*tracking, *document.volume, known,
+                                                        engine::operationContext(progress));
     return proposalsFor(document, proposalsBehind(std::move(added.result), added.firstNewBranch));
   }
   std::size_t candidates = 0;
-  convert::TrackResult found =
-      engine::findAndTrackIfAny(*document.volume, options, candidates, progress);
+  convert::TrackResult found = operations::findAndTrackIfAny(*document.volume, options, candidates,
+                                                             engine::operationContext(progress));
   if (found.result.tree.nodeCount() == 0)
     throw failed("no vessels are found in " + name +
                  (candidates == 0 ? ", as nothing long and thin stands out of its noise"
@@ -167,7 +169,7 @@ std::shared_ptr<const convert::TrackingVolume> TrackingCache::volumeFor(
   if (!m_tracking || m_volume != document.volume || !(m_step == made)) {
     m_tracking.reset();
     m_tracking = step != nullptr ? std::make_shared<const convert::TrackingVolume>(
-                                       *document.volume, *document.value, progress)
+                                       *document.volume, *document.value, progress, options.word)
                                  : std::make_shared<const convert::TrackingVolume>(
                                        *document.volume, clicks, options, progress);
     m_volume = document.volume;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/report_page.h"
@@ -60,8 +59,7 @@ std::span<const convert::Agreement> agreementOf(const ReportFacts& facts,
 /// The inlier rate that tracking required, from the newest step that has one.
 std::optional<double> acceptedRate(const formats::Metadata& metadata) {
   for (auto step = metadata.steps.rbegin(); step != metadata.steps.rend(); ++step)
-    if (const auto found = step->parameters.find(kOption.inlierRate.name);
-        found != step->parameters.end())
+    if (const auto found = step->parameters.find("inlier-rate"); found != step->parameters.end())
       if (const auto* value = std::get_if<double>(&found->second)) return *value;
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "converters/base/number_text.h"
+#include "converters/base/options/option_name.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 
@@ -53,6 +54,19 @@ std::string caseLine(const std::string& file, const formats::Case& value) {
          counted(pointCount(value), "point", "points") + ", " +
          counted(blobCount(value), "blob", "blobs") + ", " + fixedText(totalLength(value.tree), 1) +
          " mm\n";
+}
+
+FieldWord optionWord(const OptionTable* table) {
+  return FieldWord([table](std::string_view field, std::optional<std::size_t> value) {
+    std::string text = "--" + std::string(field);
+    if (const OptionRow* row = table && value ? table->find(field) : nullptr)
+      text += " " + row->givenValues.at(*value);
+    return text;
+  });
+}
+
+operations::Context operationContext(Progress& progress, const OptionTable* table) {
+  return {progress, optionWord(table), kOption.json.shown()};
 }
 
 }  // namespace lumen::engine

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
@@ -107,6 +108,110 @@ Json checkJson(const convert::CheckReport& report, const formats::CenterlineTree
     json["branches"].push_back(std::move(entry));
   }
   return json;
+}
+
+namespace {
+
+constexpr std::size_t kPlacesShown = 10;  // places of each kind; --json has all
+
+std::vector<std::string> offsetsRow(const std::string& label, const convert::Offsets& o,
+                                    double voxel) {
+  return {label,
+          std::to_string(o.samples),
+          fixedText(o.median, 3),
+          fixedText(o.median / voxel, 2),
+          fixedText(o.absoluteMedian / voxel, 2),
+          fixedText(o.absoluteP90 / voxel, 2),
+          convert::percentText(o.beyondVoxel),
+          convert::percentText(o.noEdge),
+          convert::percentText(o.wrongPolarity),
+          std::to_string(o.beside)};
+}
+
+/// The lines of the first kPlacesShown of `list`, and how many more there are.
+template <class List, class Line>
+std::string firstLines(const List& list, const std::string& singular, const std::string& plural,
+                       Line&& line) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kPlacesShown, list.size()); ++i)
+    text += line(list[i]) + "\n";
+  if (list.size() > kPlacesShown)
+    text += counted(list.size() - kPlacesShown, singular, plural) + "; " + kOption.json.shown() +
+            " lists them\n";
+  return text;
+}
+
+/// "1.5 mm3 ", "1520 mm3"
+std::string volumeText(double mm3) {
+  return fixedText(mm3, mm3 < 100 ? 1 : 0) + " mm3";
+}
+
+std::string darkText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
+  return convert::percentText(convert::share(report.dark.volume, report.lumenVolume)) +
+         " of the lumen's volume is dark and farther than a voxel from its wall\n" +
+         firstLines(report.dark.regions, "smaller dark place", "smaller dark places",
+                    [&](const convert::Region& region) {
+                      return "the lumen of " +
+                             formats::printable(convert::labelOf(tree, region.node)) + " at " +
+                             convert::placeText(region.position) + " is dark over " +
+                             volumeText(region.volume);
+                    });
+}
+
+std::string endsText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
+  const std::vector<convert::OpenEnd> onward = convert::endsThatStopShort(report);
+  return counted(report.ends.size() - onward.size(), "open end", "open ends") + " of " +
+         std::to_string(report.ends.size()) + " reach as far as the volume shows their vessel\n" +
+         firstLines(onward, "more end stops short", "more ends stop short",
+                    [&](const convert::OpenEnd& end) {
+                      return formats::printable(convert::labelOf(tree, end.node)) +
+                             (end.first ? " begins at " : " ends at ") +
+                             convert::placeText(toEigen(tree.centre[end.node])) +
+                             ", and the vessel goes on for about " + fixedText(end.goesOn, 0) +
+                             " mm";
+                    });
+}
+
+std::string missingText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
+  const double missing = report.missingLength(), whole = report.shownLength + missing;
+  return "the case has " + fixedText(report.shownLength, 1) + " of " + fixedText(whole, 1) +
+         " mm (" + convert::percentText(convert::share(report.shownLength, whole)) +
+         ") of the vessels that are connected with it in the volume\n" +
+         firstLines(report.missing.vessels, "shorter vessel is not in the case",
+                    "shorter vessels are not in the case",
+                    [&](const convert::MissingVessel& vessel) {
+                      return "a vessel of " + fixedText(vessel.length, 1) + " mm and radius " +
+                             fixedText(vessel.radius, 1) + " mm at " +
+                             convert::placeText(convert::middleOf(vessel)) + ", beside " +
+                             formats::printable(convert::labelOf(tree, vessel.path.front().node)) +
+                             ", is not in the case";
+                    }) +
+         firstLines(report.missing.wide.regions, "smaller wide region", "smaller wide regions",
+                    [&](const convert::Region& region) {
+                      return "a bright region of " + volumeText(region.volume) + " at " +
+                             convert::placeText(region.position) + ", beside " +
+                             formats::printable(convert::labelOf(tree, region.node)) +
+                             ", is wider than every vessel of the case";
+                    });
+}
+
+}  // namespace
+
+std::string checkText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"branch", "samples", "offset", "voxels", "median", "p90", "beyond", "no edge",
+                  "reversed", "beside"});
+  for (const auto& branch : report.branches)
+    rows.push_back(offsetsRow(formats::printable(branch.label), branch.offsets, report.voxelSize));
+  rows.push_back(offsetsRow("(all)", report.offsets, report.voxelSize));
+  return alignColumns(rows) +
+         "\noffset of the wall from the half-maximum edge: median in mm and voxels, positive where "
+         "the model\nis too wide; median and 90th percentile of its size in voxels. Shares of the "
+         "samples: farther than\na voxel, without an edge, dark inside and bright outside. Beside: "
+         "samples where another part of the\ntree begins, not judged. One voxel is " +
+         fixedText(report.voxelSize, 3) + " mm; blur taken as " +
+         fixedText(report.options.pointSpread, 3) + " mm.\n\n" + darkText(report, tree) +
+         endsText(report, tree) + missingText(report, tree);
 }
 
 namespace {

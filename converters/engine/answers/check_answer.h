@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answer of `lumen check --json`.
+// Answers of `lumen check` and `lumen compare --json`.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,8 @@ namespace lumen::engine {
 /// spec/answers/check.schema.json. `source`: whether the volume is the one that the case is of.
 Json checkJson(const convert::CheckReport& report, const formats::CenterlineTree& tree,
                const std::string& source);
+/// A table of the wall's offsets by branch, and lines on dark places, ends and missing vessels.
+std::string checkText(const convert::CheckReport& report, const formats::CenterlineTree& tree);
 
 // Answers about verdicts on checked cases.
 

@@ -8,6 +8,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/judge/facts/check_facts.h"
+#include "converters/operations/surface_of.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -39,28 +40,12 @@ std::string wallLine(const convert::WallThickness& wall) {
 
 }  // namespace
 
-std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report) {
-  std::vector<std::string> sentences = report.messages;
-  if (report.openedEdges > 0)
-    sentences.push_back(
-        counted(report.openedEdges, "edge", "edges") +
-        " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
-  if (report.crossings > 0)
-    sentences.push_back(
-        counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
-        " through each other; a greater " + kOption.gap.shown() + " or a smaller " +
-        kOption.edge.shown() + " may help");
-  for (const Eigen::Vector3d& place : report.cuts)
-    sentences.push_back("the lumen runs into itself at " + convert::placeText(place) +
-                        " mm, where no link joins it; it is cut there");
-  return sentences;
-}
-
 SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
   if (!value.models || value.tree.nodeCount() == 0) return {};
   try {
     convert::SurfaceReport report = convert::closedSurface(value, {}, progress).report;
-    std::vector<std::string> warnings = surfaceWarnings(report);
+    std::vector<std::string> warnings =
+        operations::surfaceWarnings(report, operationContext(progress));
     return {std::move(report), std::move(warnings)};
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Cancelled) throw;
@@ -70,7 +55,8 @@ SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
 
 void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
                    Progress& progress) {
-  for (const std::string& sentence : surfaceWarnings(report))
+  for (const std::string& sentence :
+       operations::surfaceWarnings(report, operationContext(progress)))
     progress.warn(formats::printable(file) + ": " + sentence);
 }
 

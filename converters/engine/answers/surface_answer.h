@@ -13,21 +13,17 @@
 
 namespace lumen::engine {
 
-/// Sentences about parts that a user should look at: ends that are not flat, stretches of branches
-/// without a surface, vessels that had to be opened or cut, triangles that pass through each other.
-std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report);
-
 /// Results of examineSurface().
 struct SurfaceFindings {
   std::optional<convert::SurfaceReport> report;  ///< absent if there is no surface
-  std::vector<std::string> warnings;  ///< surfaceWarnings(), or the reason why there is no surface
+  std::vector<std::string> warnings;             ///< about it, or the reason why there is none
 };
 
 /// Makes the closed surface that `lumen convert` makes of a case by default. Finds nothing in a case
 /// without models. Takes as long as the surface. Throws Error(Cancelled).
 SurfaceFindings examineSurface(const formats::Case& value, Progress& progress);
 
-/// Warns with surfaceWarnings(), after the name of the file.
+/// Warns with operations::surfaceWarnings(), after the name of the file.
 void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
                    Progress& progress);
 

@@ -9,7 +9,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
-#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/export_options.h"
@@ -17,10 +16,9 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
-#include "converters/export/export_case.h"
 #include "converters/judge/facts/reachable.h"
+#include "converters/operations/exported.h"
 #include "formats/case/atomic_file.h"
-#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
@@ -39,8 +37,13 @@ std::string joined(const std::vector<Word>& words) {
 
 std::vector<std::string> shownNames(const std::vector<convert::TakenOption>& options) {
   std::vector<std::string> names;
-  for (const convert::TakenOption& taken : options) names.push_back(taken.option.shown());
+  for (const convert::TakenOption& taken : options) names.push_back(optionWord()(taken.name));
   return names;
+}
+
+std::string lackedParts(const ExportTarget& target) {
+  return std::string(target.lacks) +
+         (target.unless.empty() ? "" : ", but for " + optionWord()(target.unless));
 }
 
 template <class Value>
@@ -112,32 +115,15 @@ public:
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
     convert::warnOfClosed(convert::measureReach(value, context.progress), context.progress);
-    const ExportResult result = made(target, value, context);
-    warnOfLosses(result, context.progress);
+    const ExportResult result = operations::exported(
+        value, m_input, {target, m_options, exportOptionTexts(*context.table, target), m_output},
+        operationContext(context));
     context.progress.check();
     writeFolder(result.files, *folder);
     return report(result, value);
   }
 
 private:
-  /// Adds the file's name to the error of a target about a case.
-  [[nodiscard]] ExportResult made(const ExportTarget& target, const formats::Case& value,
-                                  const RunContext& context) const {
-    try {
-      return convert::exportCase(target, value, m_options,
-                                 exportOptionTexts(*context.table, target), context.progress);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::InvalidInput) throw;
-      throw invalidInput(m_input + ": " + error.what());
-    }
-  }
-
-  void warnOfLosses(const ExportResult& result, Progress& progress) const {
-    if (result.surface) warnOfSurface(*result.surface, m_output, progress);
-    for (const std::string& loss : result.losses)
-      progress.warn(formats::printable(m_output) + ": " + loss);
-  }
-
   /// Before anything is made: the folder is not there, or is empty.
   void requireRoom() const {
     std::error_code error;
@@ -167,7 +153,7 @@ private:
                          {"units", namesOf(target.units, convert::unitName)},
                          {"axes", namesOf(target.axes, convert::axesName)},
                          {"holds", target.holds},
-                         {"lacks", target.lacks},
+                         {"lacks", lackedParts(target)},
                          {"options", shownNames(target.options)}});
       text += (text.empty() ? "" : "\n") +
               Lines()
@@ -176,7 +162,7 @@ private:
                   .add("unit, axes", joined(namesOf(target.units, convert::unitName)) + "; " +
                                          joined(namesOf(target.axes, convert::axesName)))
                   .add("holds", target.holds)
-                  .add("lacks", target.lacks)
+                  .add("lacks", lackedParts(target))
                   .add("options", joined(shownNames(target.options)))
                   .text();
     }

@@ -10,13 +10,24 @@
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/volume/write_volume.h"
-#include "converters/judge/facts/check_facts.h"
-#include "converters/stages/fitting/image/fit_to_image.h"
+#include "converters/operations/image_fit.h"
 
 namespace lumen::engine {
 
 namespace {
+
+Json imageJson(const std::optional<convert::ImageFitReport>& report) {
+  if (!report) return nullptr;
+  return {{"nodes", report->nodes}, {"kept", report->kept}, {"blur_mm", jsonNumber(report->blur)}};
+}
+
+std::string imageLine(const std::string& file,
+                      const std::optional<convert::ImageFitReport>& report) {
+  if (!report) return {};
+  return formats::printable(file) + ": " + counted(report->nodes, "node", "nodes") +
+         " fitted to the image, " + std::to_string(report->kept) + " left as they were; blur " +
+         fixedText(report->blur, 3) + " mm\n";
+}
 
 class FitCommand : public Command {
 public:
@@ -58,19 +69,24 @@ public:
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
     std::optional<convert::ImageFitReport> image;
-    if (from != nullptr) image = fitToImage(value, *from, context.progress);
-    convert::fit(value, m_fit, context.progress);
+    if (from != nullptr) {
+      operations::ImageFittedCase made = operations::fittedToImage(
+          std::move(value), m_input,
+          {loadVolume(m_image, *from, m_volume, context.progress), m_image}, m_fit,
+          operationContext(context));
+      value = std::move(made.value);
+      image = made.report;
+    } else {
+      convert::fit(value, m_fit, context.progress);
+    }
     const std::optional<convert::Reach> reach = convert::measureReach(value, context.progress);
     convert::warnOfClosed(reach, context.progress);
     to.writeCase(value, m_output, {}, context.progress);
     Json json = caseSummary(value);
     json["reachable"] = reachJson(reach);
-    json["image"] = nullptr;
-    if (image)
-      json["image"] = {
-          {"nodes", image->nodes}, {"kept", image->kept}, {"blur_mm", jsonNumber(image->blur)}};
-    return {std::move(json), (image ? imageLine(*image) : "") + caseLine(m_output, value) +
-                                 convert::reachLine(reach)};
+    json["image"] = imageJson(image);
+    return {std::move(json),
+            imageLine(m_image, image) + caseLine(m_output, value) + convert::reachLine(reach)};
   }
 
 private:
@@ -81,25 +97,6 @@ private:
       throw unsupported(m_image + ": this is no volume; expected the one that " + m_input +
                         " was tracked in");
     return from;
-  }
-
-  [[nodiscard]] convert::ImageFitReport fitToImage(formats::Case& value, const FileFormat& from,
-                                                   Progress& progress) const {
-    const convert::Volume volume = loadVolume(m_image, from, m_volume, progress);
-    const auto source = convert::sourceRelation(convert::describeSource(volume), value.metadata);
-    if (const auto text = source.warning(m_image)) progress.warn(m_input + ": " + *text);
-    try {
-      return convert::fitToImage(value, volume, convert::recordedImageFit(value, volume), progress);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::InvalidInput) throw;
-      throw invalidInput(m_input + " and " + m_image + ": " + error.what());
-    }
-  }
-
-  [[nodiscard]] std::string imageLine(const convert::ImageFitReport& report) const {
-    return formats::printable(m_image) + ": " + counted(report.nodes, "node", "nodes") +
-           " fitted to the image, " + std::to_string(report.kept) + " left as they were; blur " +
-           fixedText(report.blur, 3) + " mm\n";
   }
 
   std::string m_input, m_output, m_to, m_image, m_from;

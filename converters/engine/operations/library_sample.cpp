@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/library_build.h"
 #include "converters/engine/operations/operations.h"
@@ -75,7 +74,7 @@ private:
       if (!fs::exists(work / volume) || !fs::exists(work / seeds))
         (void)context.engine.run(Operation{"phantom", {"patient", (work / volume).string()}, {}}
                                      .with("seeds", (work / seeds).string())
-                                     .with(kOption.size.name, std::to_string(m_size))
+                                     .with("size", std::to_string(m_size))
                                      .with("seed", std::to_string(k)),
                                  context);
       text += volume + "," + seeds + "," + name + ",sofa;svzerod,Arteries grown from seed " +

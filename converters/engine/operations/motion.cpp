@@ -1,25 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen motion: one case with the motion of its nodes through a series of volumes.
-#include <algorithm>
-#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "converters/base/options/option_name.h"
 #include "converters/base/options/parsed_number.h"
-#include "converters/base/shown_text.h"
-#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/motion_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/stages/fitting/image/fit_to_image.h"
-#include "converters/stages/motion/track_motion.h"
+#include "converters/operations/moved.h"
+#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
 namespace {
+
+/// Seconds of phases that lie evenly in a cycle.
+std::vector<double> evenTimes(double period, std::size_t count) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < count; ++i)
+    times.push_back(period * static_cast<double>(i) / static_cast<double>(count));
+  return times;
+}
+
+/// Seconds of as many phases, as --times states them.
+std::vector<double> parseTimes(const std::vector<std::string>& texts, std::size_t count) {
+  std::vector<double> times;
+  for (const std::string& text : texts) {
+    const auto time = parsedNumber(text);
+    if (!time || (!times.empty() && *time <= times.back()))
+      throw Error(ErrorKind::Usage, kOption.times.shown() + ": found '" + formats::printable(text) +
+                                        "', expected seconds that ascend, such as 0,0.1,0.25");
+    times.push_back(*time);
+  }
+  if (times.size() != count)
+    throw Error(ErrorKind::Usage,
+                kOption.times.shown() + ": found " + counted(times.size(), "time", "times") +
+                    " for " + counted(count, "volume", "volumes") + ", expected one for each");
+  return times;
+}
 
 class MotionCommand : public Command {
 public:
@@ -59,7 +82,7 @@ public:
         .in(WholeRange{1, 4096})
         .notBeside(kOption.volumeIndex.name);
     table
-        .add("reach", &m_options.reach, "MM",
+        .add("reach", &m_reach, "MM",
              "Longest displacement of a vessel from one phase to the next along each axis")
         .in(NumberRange{0.1, 100});
     addFormatRow(table, "from", m_from, "the phases");
@@ -75,99 +98,48 @@ public:
       throw Error(ErrorKind::Usage, kOption.frames.shown() + ": found " +
                                         counted(m_phases.size(), "file", "files") +
                                         " of phases beside it, expected one that holds them all");
-    const std::vector<double> times = phaseTimes();
+    const operations::PhaseSeries series = phases(context);
     requireWritable(m_output, convert::ContentKind::Case);
 
-    formats::Case value = readParentCase(m_rest);
-    const convert::TrackedMotion tracked = track(value, times, context.progress);
-    value.motion = tracked.motion;
-    value.metadata.steps.push_back({"motion",
-                                    "lumen " LUMEN_VERSION,
-                                    {{"phases", static_cast<std::int64_t>(times.size())},
-                                     {"reach", m_options.reach},
-                                     {kOption.dark.name, m_options.dark}}});
-    to.writeCase(value, m_output, {}, context.progress);
-    return report(value, tracked);
+    const operations::MovedCase moved =
+        operations::moved(readParentCase(m_rest), m_rest, series, operationContext(context));
+    to.writeCase(moved.value, m_output, {}, context.progress);
+    Json json = caseSummary(moved.value);
+    json["period_s"] = jsonNumber(moved.value.motion->period);
+    json["phases"] = phasesJson(moved);
+    return {std::move(json), phaseLines(moved, phaseNames()) + caseLine(m_output, moved.value)};
   }
 
 private:
-  [[nodiscard]] std::size_t phaseCount() const {
-    return m_frames > 0 ? static_cast<std::size_t>(m_frames) : m_phases.size();
-  }
   [[nodiscard]] const std::string& fileOf(std::size_t phase) const {
     return m_phases[m_frames > 0 ? 0 : phase];
   }
 
-  [[nodiscard]] std::vector<double> phaseTimes() const {
-    const std::size_t count = phaseCount();
-    std::vector<double> times;
-    if (m_times.empty()) {
-      for (std::size_t i = 0; i < count; ++i)
-        times.push_back(m_period * static_cast<double>(i) / static_cast<double>(count));
-      return times;
-    }
-    for (const std::string& part : m_times) {
-      const auto time = parsedNumber(part);
-      if (!time || (!times.empty() && *time <= times.back()))
-        throw Error(ErrorKind::Usage, kOption.times.shown() + ": found '" +
-                                          formats::printable(part) +
-                                          "', expected seconds that ascend, such as 0,0.1,0.25");
-      times.push_back(*time);
-    }
-    if (times.size() != count)
-      throw Error(ErrorKind::Usage,
-                  kOption.times.shown() + ": found " + counted(times.size(), "time", "times") +
-                      " for " + counted(count, "volume", "volumes") + ", expected one for each");
-    return times;
+  [[nodiscard]] std::vector<std::string> phaseNames() const {
+    if (m_frames == 0) return m_phases;
+    std::vector<std::string> names;
+    for (std::int64_t i = 0; i < m_frames; ++i)
+      names.push_back(m_phases.front() + ", volume " + std::to_string(i));
+    return names;
   }
 
-  convert::TrackedMotion track(const formats::Case& rest, const std::vector<double>& times,
-                               Progress& progress) {
-    std::size_t current = 0;
-    const auto read = [&](std::size_t phase) {
-      current = phase;
+  [[nodiscard]] operations::PhaseSeries phases(const RunContext& context) const {
+    const std::size_t count = m_frames > 0 ? static_cast<std::size_t>(m_frames) : m_phases.size();
+    operations::PhaseSeries series;
+    series.times = m_times.empty() ? evenTimes(m_period, count) : parseTimes(m_times, count);
+    series.period = m_times.empty() ? m_period : 0.0;
+    series.reach = m_reach;
+    series.name = [this](std::size_t phase) { return fileOf(phase); };
+    series.read = [this, &progress = context.progress](std::size_t phase) {
       const std::string& file = fileOf(phase);
       const FileFormat& from = inputFormat(file, m_from);
       if (from.kind != FormatKind::Volume)
         throw unsupported(file + ": this is no volume; expected one for each phase");
       VolumeArguments which = m_volume;
       if (m_frames > 0) which.volumeIndex = static_cast<std::int64_t>(phase);
-      convert::Volume volume = loadVolume(file, from, which, progress);
-      if (phase == 0) m_options.dark = convert::recordedImageFit(rest, volume).dark;
-      return volume;
+      return loadVolume(file, from, which, progress);
     };
-    try {
-      return convert::trackMotion(rest, times, m_times.empty() ? m_period : 0.0, read, m_options,
-                                  progress);
-    } catch (const Error& error) {
-      const std::string& file = fileOf(current);
-      if (error.kind() != ErrorKind::InvalidInput ||
-          std::string_view(error.what()).find(file) != std::string_view::npos)
-        throw;
-      throw invalidInput(m_rest + " and " + file + ": " + error.what());
-    }
-  }
-
-  [[nodiscard]] Answer report(const formats::Case& value,
-                              const convert::TrackedMotion& tracked) const {
-    Json json = caseSummary(value), phases = Json::array();
-    std::string text;
-    for (std::size_t i = 0; i < tracked.phases.size(); ++i) {
-      const convert::PhaseReport& p = tracked.phases[i];
-      phases.push_back({{"time_s", jsonNumber(tracked.motion.time[i])},
-                        {"farthest_mm", jsonNumber(p.farthest)},
-                        {"seen", jsonNumber(p.seen)},
-                        {"correction_mm", jsonNumber(p.correction)},
-                        {"fitted_nodes", p.fitted}});
-      text += formats::printable(fileOf(i)) +
-              (m_frames > 0 ? ", volume " + std::to_string(i) : std::string()) + ": " +
-              fixedText(tracked.motion.time[i], 3) + " s, moved by up to " +
-              fixedText(p.farthest, 2) + " mm, " + fixedText(100 * p.seen, 1) +
-              " % of the length seen\n";
-    }
-    json["period_s"] = jsonNumber(tracked.motion.period);
-    json["phases"] = std::move(phases);
-    return {std::move(json), text + caseLine(m_output, value)};
+    return series;
   }
 
   std::string m_rest, m_output, m_from;
@@ -175,7 +147,7 @@ private:
   std::int64_t m_frames = 0;
   double m_period = 1;
   VolumeArguments m_volume;
-  convert::MotionOptions m_options;
+  double m_reach = operations::PhaseSeries{}.reach;
 };
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
@@ -35,17 +34,19 @@ public:
     // with --tree the first name is that of the output: sortArguments() decides which is which
     table
         .argument("NAME", &m_options.name,
-                  alternatives(convert::phantomNames()) + "; left out with " + kOption.tree.shown())
+                  alternatives(convert::phantomNames()) + "; left out with --tree")
         .isRequired = false;
     table
         .argument("OUT", &m_output,
-                  "Volume to write: " + formatEndings(canWriteVolume) + "; with " +
-                      kOption.motion.shown() + " the first of OUT-00, OUT-01 and so on")
+                  "Volume to write: " + formatEndings(canWriteVolume) +
+                      "; with --motion the first of OUT-00, "
+                      "OUT-01 and so on")
         .isRequired = false;
-    table.file(kOption.tree.name, m_tree,
+    table.file("tree", m_tree,
                "Draw the arteries of this SWC file, lengths in mm, instead of a named phantom");
     table.file("truth", m_truth, "Also write the true tree, as a case");
-    table.file(kOption.seeds.name, m_seeds, "Also write the seeds that a user would click");
+    table.file("seeds", m_seeds, "Also write the seeds that a user would click");
+    m_options.word = optionWord();
     m_options.addRows(table);
   }
 
@@ -81,12 +82,11 @@ private:
   }
 
   void sortArguments() {
-    const std::string usage =
-        "; usage: lumen phantom NAME OUT, or lumen phantom " + kOption.tree.shown() + " FILE OUT";
+    const std::string usage = "; usage: lumen phantom NAME OUT, or lumen phantom --tree FILE OUT";
     if (!m_tree.empty()) {
       if (!m_output.empty())
-        throw Error(ErrorKind::Usage, m_options.name + " and " + kOption.tree.shown() +
-                                          " are two phantoms, expected one" + usage);
+        throw Error(ErrorKind::Usage,
+                    m_options.name + " and --tree are two phantoms, expected one" + usage);
       m_options.tree = m_tree;
       m_output = std::exchange(m_options.name, {});
     } else if (m_options.name.empty()) {

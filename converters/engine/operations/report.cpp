@@ -1,72 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen report: a case as a page to print.
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "converters/base/options/edit_steps.h"
 #include "converters/base/options/option_name.h"
-#include "converters/base/privacy.h"
-#include "converters/base/sha256.h"
-#include "converters/draw/overlay/overlay.h"
-#include "converters/draw/picture/draw_case.h"
-#include "converters/draw/report/report_page.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/volume/write_volume.h"
-#include "converters/judge/check/check.h"
-#include "converters/judge/measure/measure_case.h"
-#include "converters/stages/tracking/tracking_volume.h"
+#include "converters/operations/report_of.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
 
 namespace {
 
-using convert::DrawnView, convert::ReportFacts, convert::ReportVolume, convert::View;
-
-constexpr int kSideWidth = 900, kSideHeight = 600;  // pixels: 260 to an inch on paper
-constexpr std::size_t kRemarksListed = 200;
-constexpr std::array<std::pair<View, const char*>, 4> kSides = {{
-    {View::Anterior, "anterior: from the front"},
-    {View::Posterior, "posterior: from behind"},
-    {View::Left, "left: from the patient's left"},
-    {View::Right, "right: from the patient's right"},
-}};
-
 std::string nameOf(const std::string& file) {
   return std::filesystem::path(file).filename().string();
-}
-
-DrawnView viewOf(const std::string& title, const convert::Picture& picture) {
-  return {title, convert::encodePng(picture), picture.width, picture.height};
-}
-
-DrawnView drawn(const formats::Case& value, View view, convert::ColorBy colour, const char* title,
-                Progress& progress) {
-  convert::PictureOptions options;
-  options.view = view;
-  options.colour = colour;
-  options.allTurns = view != View::Best;  // the sides at one scale
-  options.width = kSideWidth;
-  options.height = kSideHeight;
-  return viewOf(title, convert::drawCase(value, options, nullptr, progress));
-}
-
-/// An empty check, for the projections of a case that has no wall to judge.
-convert::CheckReport nothingJudged(const formats::CenterlineTree& tree) {
-  convert::CheckReport report;
-  report.nodes.assign(tree.nodeCount(), convert::Agreement::NotJudged);
-  return report;
 }
 
 class ReportCommand : public Command {
@@ -101,19 +55,21 @@ public:
 
   Answer run(const RunContext& context) override {
     checkNames(context);
-    ReportFacts facts = factsOfCase(context);
+    auto [bytes, value] = readCaseAndBytes(m_case);
+    value = atTime(std::move(value), m_time, m_case, *context.table, context.progress);
     const OptionRow& spread = *context.table->find("point-spread");
-    if (spread.isGiven && !facts.value.models)
+    if (spread.isGiven && !value.models)
       refuseUnused(spread,
                    "is for cases with models, and " + formats::printable(m_case) + " has none",
                    context.progress);
-    if (!m_input.empty()) addVolume(facts, context.progress);
-    if (const std::size_t count = facts.warnings(); count > 0)
+    const operations::Page page =
+        operations::reportOf({std::move(value), bytes, nameOf(m_case), m_title},
+                             reportedVolume(context.progress), operationContext(context));
+    if (const std::size_t count = page.facts.warnings(); count > 0)
       context.progress.warn(m_case + ": " + counted(count, "warning", "warnings") +
                             ", which the page lists");
-    const std::string page = convert::reportPage(facts);
-    writeText(page, m_output);
-    return report(facts, page.size());
+    writeText(page.html, m_output);
+    return report(page.facts, page.html.size());
   }
 
 private:
@@ -138,87 +94,15 @@ private:
     requireWritable(m_output, convert::ContentKind::Other);
   }
 
-  [[nodiscard]] ReportFacts factsOfCase(const RunContext& context) const {
-    Progress& progress = context.progress;
-    ReportFacts facts;
-    auto [bytes, value] = readCaseAndBytes(m_case);
-    facts.caseName = nameOf(m_case);
-    facts.title = m_title.empty() ? facts.caseName : m_title;
-    facts.bytes = bytes.size();
-    facts.sha256 = sha256(bytes);
-    facts.examination = convert::examineBytes(bytes, m_case, kRemarksListed, true, progress);
-    facts.value = atTime(std::move(value), m_time, m_case, *context.table, progress);
-    facts.info = convert::describeCase(facts.value, progress);
-    facts.measures = convert::measureCase(facts.value, {}, progress);
-    addNames(facts);
-    // a volume that is given states its own
-    if (m_input.empty())
-      for (const std::string& assumption : recordedAssumptions(facts.value.metadata))
-        facts.otherWarnings.push_back("the volume of the case: " + assumption);
-    if (!facts.value.models || facts.value.tree.nodeCount() == 0) return facts;
-    for (const std::string& sentence : examineSurface(facts.value, progress).warnings)
-      facts.otherWarnings.push_back("the surface that lumen convert makes: " + sentence);
-    for (const auto& [view, title] : kSides)
-      facts.sides.push_back(drawn(facts.value, view, convert::ColorBy::None, title, progress));
-    if (!facts.value.tree.inlierRate.empty())
-      facts.confidence = drawn(facts.value, View::Best, convert::ColorBy::Confidence, "", progress);
-    return facts;
-  }
-
-  /// The page shows names of files, too.
-  void addNames(ReportFacts& facts) const {
-    std::vector<std::string> names = {facts.caseName};
-    if (!m_title.empty()) names.push_back(m_title);
-    if (!m_input.empty()) names.push_back(nameOf(m_input));
-    for (const std::string& words : names)
-      for (const PrivacyFinding& finding : scanText(words, ""))
-        facts.otherWarnings.push_back(std::string(finding.code) + ": a name on this page " +
-                                      finding.message);
-  }
-
-  void addVolume(ReportFacts& facts, Progress& progress) const {
+  [[nodiscard]] std::optional<operations::ReportedVolume> reportedVolume(Progress& progress) const {
+    if (m_input.empty()) return std::nullopt;
     const std::string name = nameOf(m_input);
-    const convert::Volume volume =
-        loadVolume(m_input, inputFormat(m_input, m_from), m_volume, progress);
-    for (const std::string& assumption : volume.assumptions)
-      facts.otherWarnings.push_back(name + ": " + assumption);
-    if (const auto doubt = convert::doubtAbout(volume))
-      facts.otherWarnings.push_back(name + ": " + *doubt);
-    ReportVolume& result = facts.volume.emplace();
-    result.name = name;
-    result.geometry = convert::describeSource(volume);
-    result.source = convert::sourceRelation(result.geometry, facts.value.metadata);
-    warn(facts, result.source.warning(name), progress);
-    if (facts.value.models && facts.value.tree.nodeCount() > 0) {
-      result.check = checked(volume, facts.value, progress);
-      warn(facts, convert::outsideWarning(*result.check, name), progress);
-    }
-    const convert::CheckReport& report =
-        result.check ? *result.check : nothingJudged(facts.value.tree);
-    for (const convert::OverlayPanel& panel :
-         convert::drawOverlayPanels(volume, facts.value.tree, report))
-      result.projections.push_back(viewOf(panel.title, panel.picture));
+    return operations::ReportedVolume{
+        loadVolume(m_input, inputFormat(m_input, m_from), m_volume, progress), name, m_pointSpread,
+        operations::CheckNames{m_case, name, m_case + " and " + m_input}};
   }
 
-  void warn(ReportFacts& facts, const std::optional<std::string>& words, Progress& progress) const {
-    if (!words) return;
-    facts.otherWarnings.push_back(facts.caseName + ": " + *words);
-    progress.warn(m_case + ": " + *words);
-  }
-
-  [[nodiscard]] convert::CheckReport checked(const convert::Volume& volume,
-                                             const formats::Case& value, Progress& progress) const {
-    convert::EdgeOptions options = convert::recordedEdgeOptions(value);
-    if (m_pointSpread) options.pointSpread = *m_pointSpread;
-    try {
-      return convert::checkCase(volume, value, options, progress).report;
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::InvalidInput) throw;
-      throw invalidInput(m_case + " and " + m_input + ": " + error.what());
-    }
-  }
-
-  [[nodiscard]] Answer report(const ReportFacts& facts, std::size_t bytes) const {
+  [[nodiscard]] Answer report(const convert::ReportFacts& facts, std::size_t bytes) const {
     Json json;
     json["file"] = m_output;
     json["bytes"] = bytes;

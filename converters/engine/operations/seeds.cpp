@@ -14,6 +14,7 @@
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/seeds/case_seeds.h"
+#include "converters/operations/tracked_vessels.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -67,6 +68,7 @@ public:
     addVolumeRows(table, m_volume);
     table.scope(kImage);
     table.group("Tracking");
+    m_options.word = optionWord();
     m_options.addFoundRows(table);
     table.scope(kAnyContent);
     table.group("");
@@ -102,13 +104,14 @@ private:
 
   [[nodiscard]] Answer writeFound(const FileFormat& from, Progress& progress) const {
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    const formats::Case found = findAndTrack(volume, m_input, m_options, progress).result;
+    const formats::Case found =
+        operations::findAndTrack(volume, m_input, m_options, operationContext(progress)).result;
     return answer(seedsOn(found), caseSummary(found)["length_mm"], "vessel", "vessels");
   }
 
   /// The seeds that the case holds, whether they are tracked or wait.
   [[nodiscard]] Answer writeKept(const formats::Case& value) const {
-    std::vector<convert::SeedBranch> seeds = convert::seedsOf(value, m_input);
+    std::vector<convert::SeedBranch> seeds = convert::seedsOf(value, m_input, optionWord());
     if (seeds.empty()) throw failed(formats::printable(m_input) + ": it holds no seeds");
     for (convert::SeedBranch& seed : seeds) seed.isTracked = false;  // counts in a case alone
     convert::dropOtherParents(seeds);

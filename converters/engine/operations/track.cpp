@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen track: a volume and seeds to a tree with wall points.
-#include "converters/base/options/option_name.h"
+#include <utility>
+
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/track_answer.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/hinted_tracking.h"
+#include "converters/engine/mask_input.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
+#include "converters/operations/case_of.h"
 
 namespace lumen::engine {
 
@@ -30,7 +32,7 @@ public:
     addVolumeRows(table, m_volume);
     addTrackRows(table, m_track);
     addLabelMapRows(table, m_labels);
-    table.find(kOption.labelTable.name)->onlyWith(kOption.labelMap.name);
+    table.find("label-table")->onlyWith("label-map");
     addFormatRow(table, "from", m_from, "VOLUME");
     addFormatRow(table, "to", m_to, "OUT");
   }
@@ -48,23 +50,25 @@ public:
     requireInScope(*context.table,
                    {inputContent(from, false), outputContent(to), m_input, m_output},
                    context.progress);
-    std::vector<convert::SeedBranch> seeds;
-    if (!m_track.seeds.empty()) seeds = loadSeeds(m_track);
+    operations::CaseOptions options;
+    options.vessels = m_track.vessels();
+    if (!m_track.seeds.empty()) options.vessels.seeds = loadSeeds(m_track);
+    options.repeats = m_track.repeats;
     requireWritable(m_output, convert::ContentKind::Case);
 
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
-    convert::TrackResult tracked = trackVessels(volume, m_input, seeds, m_track, context.progress);
-    if (!m_labels.labelMap.empty())
-      nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, context.progress);
-    const auto repetition =
-        repeatTracks(volume, m_input, seeds, m_track, tracked.result, context.progress);
-    to.writeCase(tracked.result, m_output, {}, context.progress);
-    Json json = caseSummary(tracked.result);
+    operations::Source source;
+    source.name = m_input;
+    source.grey = loadVolume(m_input, from, m_volume, context.progress);
+    source.regions = loadRegions(m_labels, context.progress);
+    const operations::MadeCase made =
+        operations::caseOf(std::move(source), options, operationContext(context));
+    to.writeCase(made.value, m_output, {}, context.progress);
+    Json json = caseSummary(made.value);
     json["reachable"] = reachJson(std::nullopt);
-    json["repeats"] = repetitionJson(repetition, tracked.result);
-    return {withRemarks(std::move(json), tracked),
-            caseLine(m_output, tracked.result) + convert::reachLine(std::nullopt) +
-                repetitionLines(repetition) + endLines(tracked)};
+    json["repeats"] = repetitionJson(made.repetition, made.value);
+    return {withRemarks(std::move(json), made.remarks),
+            caseLine(m_output, made.value) + convert::reachLine(std::nullopt) +
+                repetitionLines(made.repetition) + endLines(made.remarks)};
   }
 
 private:

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen trim: a case without ends that are too thin or too short.
-#include "converters/stages/editing/trim.h"
-
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,7 +12,7 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
-#include "converters/stages/fitting/fit.h"
+#include "converters/operations/trimmed.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -30,6 +28,14 @@ Json trimmedJson(const std::vector<convert::TrimmedEnd>& ends) {
                     {"length_mm", jsonNumber(end.length)},
                     {"least_radius_mm", jsonNumber(end.radius)}});
   return list;
+}
+
+std::string trimmedLines(const std::vector<convert::TrimmedEnd>& ends) {
+  if (ends.empty()) return Lines().add("trimmed", "nothing").text();
+  std::string text;
+  for (const convert::TrimmedEnd& end : ends)
+    text += Lines().add("trimmed", formats::printable(convert::trimmedText(end))).text();
+  return text;
 }
 
 class TrimCommand : public Command {
@@ -67,35 +73,21 @@ public:
                   "nothing to trim by; expected --min-radius, --min-length or both");
     requireWritable(m_output, convert::ContentKind::Case);
 
-    formats::Case value = readParentCase(m_input);
-    const convert::TrimResult trimmed = made(value);
-    if (!trimmed.change.stale.empty() && value.points)
-      convert::refit(value, trimmed.change.stale, convert::recordedFitOptions(value),
-                     context.progress);
-    const std::optional<convert::Reach> reach = convert::measureReach(value, context.progress);
+    const operations::TrimmedCase trimmed = operations::trimmed(
+        readParentCase(m_input), {m_minRadius.value_or(0), m_minLength.value_or(0)}, m_input,
+        operationContext(context));
+    const std::optional<convert::Reach> reach =
+        convert::measureReach(trimmed.value, context.progress);
     convert::warnOfClosed(reach, context.progress);
-    to.writeCase(value, m_output, {}, context.progress);
-    Json json = caseSummary(value);
+    to.writeCase(trimmed.value, m_output, {}, context.progress);
+    Json json = caseSummary(trimmed.value);
     json["trimmed"] = trimmedJson(trimmed.ends);
     json["reachable"] = reachJson(reach);
-    std::string text = caseLine(m_output, value);
-    for (const convert::TrimmedEnd& end : trimmed.ends)
-      text += Lines().add("trimmed", formats::printable(convert::trimmedText(end))).text();
-    if (trimmed.ends.empty()) text += Lines().add("trimmed", "nothing").text();
-    return {std::move(json), text + convert::reachLine(reach)};
+    return {std::move(json), caseLine(m_output, trimmed.value) + trimmedLines(trimmed.ends) +
+                                 convert::reachLine(reach)};
   }
 
 private:
-  /// Adds the file's name to the error about a case.
-  [[nodiscard]] convert::TrimResult made(formats::Case& value) const {
-    try {
-      return convert::trimEnds(value, {m_minRadius.value_or(0), m_minLength.value_or(0)});
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::InvalidInput) throw;
-      throw invalidInput(m_input + ": " + error.what());
-    }
-  }
-
   std::string m_input, m_output, m_to;
   std::optional<double> m_minRadius, m_minLength;
 };

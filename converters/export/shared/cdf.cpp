@@ -103,10 +103,10 @@ void appendHead(std::string& bytes, const Lattice& lattice, const std::array<std
 }
 
 /// `cells`: those that are kept, of `all`.
-void requireLoadable(double all, double cells, double nodes, double spacing) {
+void requireLoadable(double all, double cells, double nodes, const Lattice& lattice) {
   const double bytes = all * 4 + cells * kNodesOfCell * 4 + nodes * 8 + 200;
   if (bytes > kMostBytes)
-    refuseSpacing(spacing, "the .cdf would have " + std::to_string(std::llround(bytes / 1e6)) +
+    refuseSpacing(lattice, "the .cdf would have " + std::to_string(std::llround(bytes / 1e6)) +
                                " MB, and Bullet loads less than 2147");
 }
 
@@ -166,16 +166,15 @@ std::string encodeCdf(const GridSource& source, const Lattice& lattice, double u
   for (std::size_t which = 0; which < 4; ++which)
     samples += static_cast<double>(nodes.family(which).rows * nodes.family(which).length);
   if (samples > static_cast<double>(kMostNodes))
-    refuseSpacing(lattice.spacing,
-                  "this makes more nodes in the .cdf than " + std::to_string(kMostNodes));
-  if (!std::isfinite(source.band)) requireLoadable(cells, cells, samples, lattice.spacing);
+    refuseSpacing(lattice, "this makes more nodes in the .cdf than " + std::to_string(kMostNodes));
+  if (!std::isfinite(source.band)) requireLoadable(cells, cells, samples, lattice);
   // cells at the band's border have all their nodes: none is clamped that is within a cell's
   // diagonal
   const GridSource beyond{source.vessels, source.region, source.band + 2 * lattice.spacing};
   const std::vector<float> values = sampleNodes(beyond, lattice, nodes, unit, progress);
   const Cells kept = keepBand(values, nodes, n, source.band / unit);
   requireLoadable(cells, static_cast<double>(kept.cells.size()),
-                  static_cast<double>(kept.nodes.size()), lattice.spacing);
+                  static_cast<double>(kept.nodes.size()), lattice);
   std::string bytes;
   appendHead(bytes, lattice, n, unit);
   appendList(bytes, kept.nodes);

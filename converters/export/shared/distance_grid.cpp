@@ -10,7 +10,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/grid_shortcuts.h"
 
@@ -93,8 +92,7 @@ std::size_t rowsOf(const Lattice& lattice) {
 void requireHeld(const Lattice& lattice) {
   if (static_cast<double>(lattice.size[0]) * static_cast<double>(rowsOf(lattice)) >
       static_cast<double>(kMostGridSamples))
-    refuseSpacing(lattice.spacing,
-                  "this makes more samples than " + std::to_string(kMostGridSamples));
+    refuseSpacing(lattice, "this makes more samples than " + std::to_string(kMostGridSamples));
 }
 
 DistanceGrid askLattice(const GridSource& source, const Lattice& lattice, Progress& progress) {
@@ -143,7 +141,8 @@ double gridSpacing(double asked, const Box3d& box, double margin,
   return std::max(thinnest / 4, std::cbrt(edges.x() * edges.y() * edges.z() / kUsualSamples));
 }
 
-std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree) {
+std::vector<std::string> gridLosses(const Lattice& lattice, const formats::CenterlineTree& tree) {
+  const double spacing = lattice.spacing;
   const auto lost = std::count_if(tree.radius.begin(), tree.radius.end(), [spacing](float radius) {
     return static_cast<double>(radius) < spacing;
   });
@@ -151,23 +150,23 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
   return {"the grid's samples are " + fixedText(spacing, 2) +
           " mm apart, too wide for the vessels at " +
           counted(static_cast<std::size_t>(lost), "node", "nodes") + " of " +
-          std::to_string(tree.nodeCount()) + "; " + kOption.grid.shown() +
-          " takes a smaller distance"};
+          std::to_string(tree.nodeCount()) + "; " + lattice.word + " takes a smaller distance"};
 }
 
-void refuseSpacing(double spacing, const std::string& what) {
-  throw Error(ErrorKind::Usage, kOption.grid.shown() + " " + shownNumber(spacing) + ": " + what +
+void refuseSpacing(const Lattice& lattice, const std::string& what) {
+  throw Error(ErrorKind::Usage, lattice.word + " " + shownNumber(lattice.spacing) + ": " + what +
                                     "; choose a wider spacing");
 }
 
-Lattice latticeOver(const Box3d& box, double margin, double spacing) {
+Lattice latticeOver(const Box3d& box, double margin, double spacing, const FieldWord& word) {
   Lattice lattice;
+  lattice.word = word("grid");
   lattice.spacing = spacing;
   for (int a = 0; a < 3; ++a) {
     const double cells =
         std::max(1.0, std::ceil((box.high[a] - box.low[a] + 2 * margin) / spacing));
     if (cells >= std::numeric_limits<int>::max())
-      refuseSpacing(spacing, "this makes more than 2147483647 samples along an axis");
+      refuseSpacing(lattice, "this makes more than 2147483647 samples along an axis");
     lattice.size[static_cast<std::size_t>(a)] = static_cast<int>(cells) + 1;
     lattice.first[a] = box.low[a] - margin;
   }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/field_word.h"
 #include "converters/base/progress.h"
 #include "converters/export/shared/vessel_distance.h"
 #include "converters/voxels/volume.h"
@@ -22,6 +23,7 @@ struct Lattice {
   std::array<int, 3> size{};                        ///< samples along x, y, z
   Eigen::Vector3d first = Eigen::Vector3d::Zero();  ///< place of the first sample
   double spacing = 0;                               ///< along each axis
+  std::string word = "grid";                        ///< names the spacing in messages
 
   [[nodiscard]] Eigen::Vector3d last() const;
   [[nodiscard]] Eigen::Vector3d at(std::size_t i, std::size_t j, std::size_t k) const;
@@ -40,11 +42,11 @@ double gridSpacing(double asked, const Box3d& box, double margin,
                    const formats::CenterlineTree& tree);
 
 /// Sentences about vessels that a grid passes over: those with less than two samples across.
-std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree);
+std::vector<std::string> gridLosses(const Lattice& lattice, const formats::CenterlineTree& tree);
 
-/// Over the box and a margin on each side. Throws Error(Usage) for more than 2^31 samples along an
+/// Over the box and a margin on each side; the spacing is the field "grid". Throws Error(Usage) for more than 2^31 samples along an
 /// axis.
-Lattice latticeOver(const Box3d& box, double margin, double spacing);
+Lattice latticeOver(const Box3d& box, double margin, double spacing, const FieldWord& word = {});
 
 /// The samples of `whole` that lie in the box with its margin; at least two along each axis.
 Lattice cropLattice(const Lattice& whole, const Box3d& box, double margin);
@@ -94,7 +96,7 @@ using TakeLayers = std::function<void(const DistanceGrid& part, int firstLayer)>
 void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
                   const TakeLayers& take, Progress& progress);
 
-/// Throws Error(Usage) that names the option and the grid that it would make too large.
-[[noreturn]] void refuseSpacing(double spacing, const std::string& what);
+/// Throws Error(Usage) that names the spacing and the grid that it would make too large.
+[[noreturn]] void refuseSpacing(const Lattice& lattice, const std::string& what);
 
 }  // namespace lumen::convert

@@ -77,7 +77,7 @@ bool isAtBorder(const formats::SourceVolume& volume, const Eigen::Vector3d& plac
 }
 
 void markStated(const CenterlineTree& tree, const std::vector<StatedInlet>& inlets,
-                std::vector<Part>& parts) {
+                const FieldWord& word, std::vector<Part>& parts) {
   std::string roots;
   for (const Branch& branch : tree.branches)
     if (isRoot(branch)) roots += (roots.empty() ? "" : ", ") + formats::printable(branch.label);
@@ -88,8 +88,7 @@ void markStated(const CenterlineTree& tree, const std::vector<StatedInlet>& inle
         if (isRoot(tree.branches[b]) && tree.branches[b].label == inlet.label)
           part.hasInlet = isFound = true;
     if (!isFound)
-      throw Error(ErrorKind::Usage, kFlowOption.inlets.shown() + ": found " +
-                                        formats::printable(inlet.label) +
+      throw Error(ErrorKind::Usage, word("inlets") + ": found " + formats::printable(inlet.label) +
                                         ", expected the branch of a root: " + roots);
   }
 }
@@ -110,7 +109,8 @@ void markUsual(const formats::Case& source, std::vector<Part>& parts) {
   }
 }
 
-std::vector<std::string> lossesOf(const CenterlineTree& tree, const std::vector<Part>& parts) {
+std::vector<std::string> lossesOf(const CenterlineTree& tree, const std::vector<Part>& parts,
+                                  const FieldWord& word) {
   std::vector<std::string> losses;
   std::size_t others = 0;
   double length = 0;
@@ -121,11 +121,10 @@ std::vector<std::string> lossesOf(const CenterlineTree& tree, const std::vector<
       length += part.length;
       continue;
     }
-    losses.push_back(tree.branches[part.branches.front()].label + ": this part, of " +
-                     counted(part.branches.size(), "branch", "branches") + " and " +
-                     shownFigure(part.length) +
-                     " mm, has no path from an inlet, so it is left out; " +
-                     kFlowOption.inlets.shown() + " states inlets");
+    losses.push_back(
+        tree.branches[part.branches.front()].label + ": this part, of " +
+        counted(part.branches.size(), "branch", "branches") + " and " + shownFigure(part.length) +
+        " mm, has no path from an inlet, so it is left out; " + word("inlets") + " states inlets");
   }
   if (others > 0)
     losses.push_back(counted(others, "more part", "more parts") + " of " + shownFigure(length) +
@@ -135,16 +134,16 @@ std::vector<std::string> lossesOf(const CenterlineTree& tree, const std::vector<
 
 }  // namespace
 
-std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words) {
+std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words,
+                                      const FieldWord& word) {
   std::vector<StatedInlet> inlets;
-  for (const std::string& word : words) {
-    const std::size_t sign = word.rfind('=');
-    StatedInlet inlet{word.substr(0, sign), 0};
+  for (const std::string& text : words) {
+    const std::size_t sign = text.rfind('=');
+    StatedInlet inlet{text.substr(0, sign), 0};
     if (sign != std::string::npos) {
-      const auto flow = parsedNumber(word.substr(sign + 1));
+      const auto flow = parsedNumber(text.substr(sign + 1));
       if (!flow || !(*flow > 0))
-        throw Error(ErrorKind::Usage, kFlowOption.inlets.shown() + ": found " +
-                                          formats::printable(word) +
+        throw Error(ErrorKind::Usage, word("inlets") + ": found " + formats::printable(text) +
                                           ", expected a label, or LABEL=FLOW with a positive flow "
                                           "in ml/s");
       inlet.flow = kMillilitre * *flow;
@@ -154,17 +153,18 @@ std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words) {
   return inlets;
 }
 
-FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& inlets) {
+FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& inlets,
+                  const FieldWord& word) {
   FlowCase made{source, {}};
   std::vector<Part> parts = findParts(source.tree);
   if (inlets.empty())
     markUsual(source, parts);
   else
-    markStated(source.tree, inlets, parts);
+    markStated(source.tree, inlets, word, parts);
   std::vector<bool> goes(source.tree.branches.size(), false);
   for (const Part& part : parts)
     for (const std::uint32_t b : part.branches) goes[b] = !part.hasInlet;
-  made.losses = lossesOf(source.tree, parts);
+  made.losses = lossesOf(source.tree, parts, word);
   leaveOutBranches(made.value, goes);
   return made;
 }

@@ -5,20 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/options/option_name.h"
+#include "converters/base/field_word.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
-
-// Names of the options of flow solvers' targets, which rows and messages share (base/options/option_name.h).
-
-struct FlowOptionNames {
-  OptionName inlets{"inlets"};
-  OptionName cells{"cells"};
-  OptionName flow{"flow"};
-};
-
-inline constexpr FlowOptionNames kFlowOption{};
 
 /// An inlet that a person states.
 struct StatedInlet {
@@ -27,8 +17,9 @@ struct StatedInlet {
 };
 
 /// The inlets of words as "ICA" or "ICA=4.2", the flow being in ml/s. Throws Error(Usage) for a flow
-/// that is no positive number.
-std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words);
+/// that is no positive number. Messages name the field "inlets".
+std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words,
+                                      const FieldWord& word = {});
 
 /// A case of which blood reaches all parts.
 struct FlowCase {
@@ -45,6 +36,7 @@ struct FlowCase {
 /// - parts shorter than a tenth of the longest: fragments.
 ///
 /// Throws Error(Usage), with the labels that there are, for a stated label that is not of a root.
-FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& inlets);
+FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& inlets,
+                  const FieldWord& word = {});
 
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/field_word.h"
 #include "converters/base/progress.h"
 #include "converters/export/shared/distance_grid.h"
 
@@ -45,8 +46,8 @@ std::string encodeCdf(const GridSource& source, const Lattice& lattice, double u
 
 // OpenVDB level sets, where the library was there when lumen was built.
 
-/// Throws Error(Unsupported) without the library.
-void requireVdb();
+/// Throws Error(Unsupported), with the field "format", without the library.
+void requireVdb(const FieldWord& word);
 
 struct VdbOptions {
   double unit = 1;    ///< lengths of the file in mm: 1 or 1000

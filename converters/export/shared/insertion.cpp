@@ -15,7 +15,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/mesh_edges.h"
 #include "formats/container/printable.h"
@@ -154,7 +153,8 @@ std::string labelsOf(const CenterlineTree& tree) {
   return more == 0 ? text : text + " and " + std::to_string(more) + " more";
 }
 
-std::uint32_t branchToEnter(const CenterlineTree& tree, const std::string& label) {
+std::uint32_t branchToEnter(const CenterlineTree& tree, const std::string& label,
+                            const FieldWord& word) {
   for (std::uint32_t b = 0; b < tree.branches.size(); ++b) {
     const formats::Branch& branch = tree.branches[b];
     const bool isRoot =
@@ -162,7 +162,7 @@ std::uint32_t branchToEnter(const CenterlineTree& tree, const std::string& label
     if (branch.nodeCount > 0 && (label.empty() ? isRoot : branch.label == label)) return b;
   }
   if (label.empty()) throw invalidInput("this case has no vessel that an instrument could enter");
-  throw Error(ErrorKind::Usage, kOption.insert.shown() + " " + formats::printable(label) +
+  throw Error(ErrorKind::Usage, word("insert") + " " + formats::printable(label) +
                                     ": no branch has this label; there is " + labelsOf(tree));
 }
 
@@ -184,9 +184,10 @@ std::vector<std::uint32_t> widestPath(const CenterlineTree& tree, std::uint32_t 
 
 }  // namespace
 
-Insertion findInsertion(const CenterlineTree& tree, const std::string& label, double clearance) {
+Insertion findInsertion(const CenterlineTree& tree, const std::string& label, double clearance,
+                        const FieldWord& word) {
   Insertion result;
-  result.branch = branchToEnter(tree, label);
+  result.branch = branchToEnter(tree, label, word);
   result.path = widestPath(tree, tree.branches[result.branch].firstNode);
   const auto& path = result.path;
   std::vector<double> along = {0};
@@ -204,8 +205,8 @@ Insertion findInsertion(const CenterlineTree& tree, const std::string& label, do
     throw invalidInput("branch " + formats::printable(tree.branches[result.branch].label) +
                        ": an instrument that is inserted there needs a lumen of " +
                        fixedText(clearance, 2) + " mm radius and some length, and there is none; " +
-                       kOption.insert.shown() + " names another branch, " +
-                       kOption.instrument.shown() + " a thinner instrument");
+                       word("insert") + " names another branch, " + word("instrument") +
+                       " a thinner instrument");
   result.node = path[k];
   result.position = centreOf(tree, path[k]);
   result.radius = tree.radius[path[k]];

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "converters/base/field_word.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "formats/case/case.h"
 
@@ -49,8 +50,9 @@ struct Insertion {
 /// vessel that is a root; so far in that no end of the vessel is within `clearance`, mm, of it.
 /// Throws Error(Usage), with the labels that there are, for a label that no branch has, and
 /// Error(InvalidInput) for a case without a tree and for a lumen that is narrower than `clearance`.
+/// The label is the field "insert", the clearance comes of the field "instrument".
 Insertion findInsertion(const formats::CenterlineTree& tree, const std::string& label,
-                        double clearance);
+                        double clearance, const FieldWord& word = {});
 
 /// Turns the x axis to `direction`, by the least angle.
 Eigen::Quaterniond turnTo(const Eigen::Vector3d& direction);

@@ -14,7 +14,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/run_program.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/disjoint_sets.h"
@@ -171,8 +170,8 @@ bool keepsSurface(const SurfaceMesh& surface, const VolumeMesh& mesh) {
 
 }  // namespace
 
-std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, Progress& progress,
-                                     std::string& why) {
+std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, const FieldWord& word,
+                                     Progress& progress, std::string& why) {
   const auto program = installedProgram("tetgen");
   if (!program) {
     why = "TetGen is not installed, so there is no volume mesh";
@@ -191,14 +190,14 @@ std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, Progress& progr
   progress.end();
   if (end == ProgramEnd::TookTooLong) {
     why = "TetGen was not done in " + std::to_string(kMostSeconds / 60) +
-          " minutes, so there is no volume mesh; a larger " + kOption.edge.shown() + " helps";
+          " minutes, so there is no volume mesh; a larger " + word("edge") + " helps";
     return {};
   }
   std::optional<VolumeMesh> mesh;
   if (end == ProgramEnd::Done) mesh = readMesh(folder.path());
   if (!mesh || !keepsSurface(surface, *mesh) || !findElements(surface, *mesh)) {
     why = "TetGen could not fill this surface, so there is no volume mesh; another " +
-          kOption.edge.shown() + " may help";
+          word("edge") + " may help";
     return {};
   }
   orient(*mesh);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/field_word.h"
 #include "converters/base/progress.h"
 #include "converters/export/shared/target.h"
 #include "converters/geometry/box.h"
@@ -43,10 +44,10 @@ struct VolumeMesh {
   std::vector<std::uint32_t> elementOf;  ///< one for each triangle of the surface: its tetrahedron
 };
 
-/// The mesh, or nothing and the reason in `why`. The surface is closed and keeps its triangles; its
+/// The mesh, or nothing and the reason in `why`, which names the field "edge". The surface is closed and keeps its triangles; its
 /// lengths may be in any unit. Throws Error(Cancelled), and Error(Failed) if there is no room for
 /// temporary files.
-std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, Progress& progress,
-                                     std::string& why);
+std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, const FieldWord& word,
+                                     Progress& progress, std::string& why);
 
 }  // namespace lumen::convert

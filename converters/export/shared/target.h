@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "converters/base/options/option_name.h"
+#include "converters/base/field_word.h"
 #include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/export/shared/frame.h"
@@ -34,6 +34,7 @@ inline ClosedSurfaceOptions exportedSurfaceOptions() {
 }
 
 struct CommonOptions {
+  FieldWord word{};                ///< names fields of the options in messages and texts
   std::optional<LengthUnit> unit;  ///< one of the target's; none: the first of these
   std::optional<Axes> axes;        ///< one of the target's; none: the first of these
   ClosedSurfaceOptions surface = exportedSurfaceOptions();
@@ -51,6 +52,8 @@ struct ExportInput {
   const CommonOptions& options;
   ExportFrame frame;  ///< as chosen, or the target's first unit and axes
   Progress& progress;
+
+  [[nodiscard]] std::string field(std::string_view name) const { return options.word(name); }
 };
 
 /// A file of the folder. `name` is relative to it, with a / between folders.
@@ -79,11 +82,11 @@ struct ExportResult {
 
 /// An option that a target takes, and the value of another without which it does nothing there.
 struct TakenOption {
-  TakenOption(OptionName taken) : option(taken) {}
-  TakenOption(OptionName taken, OptionName other, const char* word)
-      : option(taken), needs{{other.name, word}} {}
+  TakenOption(const char* taken) : name(taken) {}
+  TakenOption(const char* taken, const char* other, const char* word)
+      : name(taken), needs{{other, word}} {}
 
-  OptionName option;
+  std::string_view name;          ///< of its row: "max-error"
   std::vector<OptionNeed> needs;  ///< none or one
 };
 
@@ -96,8 +99,9 @@ struct TargetRow {
   std::vector<LengthUnit> units;  ///< units that may be chosen, the usual one first
   std::vector<Axes> axes;         ///< axes that may be chosen, the usual ones first
   std::string_view holds;         ///< parts of a case
-  std::string lacks;
-  std::vector<TakenOption> options;  ///< options that it takes, besides --unit and --up
+  std::string_view lacks;
+  std::string_view unless{};  ///< the option without which it lacks the last of that; or empty
+  std::vector<TakenOption> options;  ///< options that it takes, besides unit and axes
   bool needsModels = true;
   bool needsVessel = true;  ///< one with a length
 };

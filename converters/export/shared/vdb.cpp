@@ -79,7 +79,7 @@ void nameByContent(std::string& bytes) {
 
 }  // namespace
 
-void requireVdb() {}
+void requireVdb(const FieldWord& /*word*/) {}
 
 std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
                       Progress& progress) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "converters/base/field_word.h"
 #include "converters/io/centerline/centerline_file.h"
 #include "formats/case/case.h"
 
@@ -14,6 +15,7 @@ namespace lumen::convert {
 struct CenterlineReading {
   std::optional<double> unit;  ///< mm
   std::optional<CenterlineAxes> axes;
+  FieldWord word{};  ///< names the field "unit" in remarks
 };
 
 struct CenterlineExtent {

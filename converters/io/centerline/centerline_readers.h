@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "converters/io/centerline/centerline_file.h"
+#include "converters/io/content/input_file.h"
 
 namespace lumen::convert {
 
@@ -14,7 +15,7 @@ namespace lumen::convert {
 /// (join_curves.h). A curve's points need radii, in its measurement "Radius". Lengths are converted
 /// to mm, axes to LPS. Markups other than curves of at least two points are left out with a remark.
 /// Throws Error(InvalidInput) with the file's name, the finding and the expectation.
-CenterlineFile readCurves(const std::filesystem::path& fileOrFolder);
+CenterlineFile readCurves(const InputFile& fileOrFolder);
 
 /// Whether a folder has a file that readCurves() would read.
 bool hasCurves(const std::filesystem::path& folder);
@@ -31,7 +32,7 @@ bool hasCurves(const std::filesystem::path& folder);
 /// points is one; comments of lumen's own files name vessels. Throws Error(InvalidInput) with the
 /// line, the finding and the expectation: for malformed or non-finite numbers, trees without any
 /// radius, ids that occur twice, missing parents, and cycles.
-CenterlineFile readSwc(const std::filesystem::path& file);
+CenterlineFile readSwc(const InputFile& file);
 
 /// Reads a text as readSwc() does; `name` is the name of its file, for messages.
 CenterlineFile parseSwc(std::string_view text, const std::string& name);
@@ -46,7 +47,7 @@ CenterlineFile parseSwc(std::string_view text, const std::string& name);
 CenterlineFile parseTre(std::string_view text, const std::string& name);
 
 /// Reads a file of at most 64 MiB as parseTre() does.
-CenterlineFile readTre(const std::filesystem::path& file);
+CenterlineFile readTre(const InputFile& file);
 
 // Reader of centerlines of VMTK and others as lines of VTK (`.vtp`).
 
@@ -58,6 +59,6 @@ CenterlineFile readTre(const std::filesystem::path& file);
 CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name);
 
 /// Reads a file of at most 64 MiB as parseVtpCenterline() does.
-CenterlineFile readVtpCenterline(const std::filesystem::path& file);
+CenterlineFile readVtpCenterline(const InputFile& file);
 
 }  // namespace lumen::convert

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/options/option_name.h"
 #include "converters/io/centerline/case_of_centerline.h"
 #include "formats/view/text_rules.h"
 
@@ -68,7 +67,7 @@ double toPatientSpace(CenterlineFile& file, const CenterlineReading& reading) {
                              formats::shortText(static_cast<float>(extent.diagonal)) +
                              " mm long with radii of up to " +
                              formats::shortText(static_cast<float>(extent.most)) + " mm; " +
-                             kOption.unit.shown() + " states another");
+                             reading.word("unit") + " states another");
   }
   const CenterlineAxes axes = reading.axes.value_or(file.axes);
   for (CenterlinePoint& point : file.points) {

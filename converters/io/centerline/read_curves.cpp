@@ -26,9 +26,10 @@ bool isMarkups(const fs::path& file) {
 }
 
 // The files in the order of their names; (10) comes before (2).
-std::vector<fs::path> listFiles(const fs::path& path) {
+std::vector<InputFile> listFiles(const InputFile& input) {
+  const fs::path& path = input.path();
   std::error_code error;
-  if (!fs::is_directory(path, error)) return {path};
+  if (input.isInMemory() || !fs::is_directory(path, error)) return {input};
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(path, error), end; !error && entry != end;
        entry.increment(error))
@@ -37,7 +38,7 @@ std::vector<fs::path> listFiles(const fs::path& path) {
     throw invalidInput(formats::printable(path.string()) + ": cannot be read (" + error.message() +
                        ")");
   std::sort(files.begin(), files.end());
-  return files;
+  return {files.begin(), files.end()};
 }
 
 }  // namespace
@@ -50,11 +51,11 @@ bool hasCurves(const fs::path& folder) {
   return false;
 }
 
-CenterlineFile readCurves(const fs::path& fileOrFolder) {
-  const std::string name = formats::printable(fileOrFolder.string());
+CenterlineFile readCurves(const InputFile& fileOrFolder) {
+  const std::string name = formats::printable(fileOrFolder.path().string());
   std::vector<CenterlineCurve> curves;
   std::size_t without = 0, short_ = 0;
-  for (const fs::path& file : listFiles(fileOrFolder)) {
+  for (const InputFile& file : listFiles(fileOrFolder)) {
     for (const SeedBranch& branch : readSeeds(file)) {
       CenterlineCurve curve{branch.label, {}, -1, -1};
       bool hasRadii = false;

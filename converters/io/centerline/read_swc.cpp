@@ -23,8 +23,6 @@
 namespace lumen::convert {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kMillimetresOfMicrometre = 1e-3;
 constexpr std::int32_t kSoma = 1;  // a type of SWC
 constexpr double kSomaRounding = 0.05;
@@ -291,8 +289,8 @@ CenterlineFile parseSwc(std::string_view text, const std::string& name) {
   return file;
 }
 
-CenterlineFile readSwc(const fs::path& file) {
-  return parseSwc(readWholeFile(file, "centerline", kMostText), file.string());
+CenterlineFile readSwc(const InputFile& file) {
+  return parseSwc(file.read("centerline", kMostText), file.path().string());
 }
 
 }  // namespace lumen::convert

@@ -27,8 +27,6 @@
 namespace lumen::convert {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kLargestTre = 1e9;  // far beyond any plausible length
 constexpr std::size_t kMostColumns = 1000;
 constexpr std::size_t kTreHead = 256;  // position limit of a comment of write_centerline.cpp
@@ -343,8 +341,8 @@ CenterlineFile parseTre(std::string_view text, const std::string& name) {
   return file;
 }
 
-CenterlineFile readTre(const fs::path& file) {
-  return parseTre(readWholeFile(file, "centerline", kMostText), file.string());
+CenterlineFile readTre(const InputFile& file) {
+  return parseTre(file.read("centerline", kMostText), file.path().string());
 }
 
 }  // namespace lumen::convert

@@ -19,8 +19,6 @@
 namespace lumen::convert {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kLargestVtp = 1e9;
 constexpr std::size_t kHead = 1024;        // position limit of a comment of write_vtp.cpp
 constexpr std::size_t kMostLines = 10000;  // limit, as every pair of lines is compared
@@ -170,8 +168,8 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
   return file;
 }
 
-CenterlineFile readVtpCenterline(const fs::path& file) {
-  return parseVtpCenterline(readWholeFile(file, "centerline", kMostText), file.string());
+CenterlineFile readVtpCenterline(const InputFile& file) {
+  return parseVtpCenterline(file.read("centerline", kMostText), file.path().string());
 }
 
 }  // namespace lumen::convert

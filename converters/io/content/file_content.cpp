@@ -2,10 +2,14 @@
 #include "converters/io/content/file_content.h"
 
 #include <array>
-#include <fstream>
+#include <filesystem>
+#include <istream>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <system_error>
 
+#include "converters/base/error.h"
 #include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "formats/container/container.h"
@@ -68,14 +72,19 @@ FileContent jsonContent(std::string_view text) {
   return {};
 }
 
-std::string readBeginning(const fs::path& file) {
+/// Empty for a file that cannot be read.
+std::string readBeginning(const InputFile& file) {
   std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return {};
-  std::string text(kLookedAt, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
+  if (!file.isInMemory() && !fs::is_regular_file(file.path(), ignored)) return {};
+  try {
+    std::string text(kLookedAt, '\0');
+    const std::unique_ptr<std::istream> stream = file.open();
+    stream->read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream->gcount()));
+    return text;
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 /// Advice for a file of this kind.
@@ -145,7 +154,7 @@ std::string FileContent::sentence() const {
   return (kind == ContentKind::Seeds ? "these are " : "this is ") + name;
 }
 
-FileContent detectContent(const fs::path& file) {
+FileContent detectContent(const InputFile& file) {
   using enum ContentKind;
   const std::string text = readBeginning(file);
   const std::string_view view = text;
@@ -156,18 +165,18 @@ FileContent detectContent(const fs::path& file) {
       return signature.bytes == "<VTKFile"     ? vtkContent(view)
              : signature.bytes == "ObjectType" ? metaContent(view)
                                                : FileContent{signature.kind, signature.name};
-  if (lowerCase(file.filename().string()).ends_with(".swc"))
+  if (lowerCase(file.path().filename().string()).ends_with(".swc"))
     return {Centerline, "a centerline (SWC)"};
   if (view.starts_with("<?xml") && view.find("<VTKFile") != view.npos) return vtkContent(view);
   const auto first = view.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first != view.npos && view[first] == '{') return jsonContent(view);
   const bool packed = view.starts_with("\x1f\x8b");
-  if (packed && lowerCase(file.filename().string()).ends_with(".nii.gz"))
+  if (packed && lowerCase(file.path().filename().string()).ends_with(".nii.gz"))
     return {Volume, "a volume (NIfTI)"};
   return packed ? FileContent{Other, "a file packed by gzip"} : FileContent{};
 }
 
-std::string notA(ContentKind wanted, const fs::path& file) {
+std::string notA(ContentKind wanted, const InputFile& file) {
   const FileContent content = detectContent(file);
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
   // a curve may be seeds or a centerline

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
+
+#include "converters/io/content/input_file.h"
 
 namespace lumen::convert {
 
@@ -20,10 +21,10 @@ struct FileContent {
 
 /// Content of a file, by its beginning; Unknown for a folder, or a file that cannot be read or
 /// recognised.
-FileContent detectContent(const std::filesystem::path& file);
+FileContent detectContent(const InputFile& file);
 
 /// "this is a volume (NRRD), not a case; lumen convert and lumen track make a case of it". Empty if
 /// the file has the expected kind, or its kind is unknown.
-std::string notA(ContentKind wanted, const std::filesystem::path& file);
+std::string notA(ContentKind wanted, const InputFile& file);
 
 }  // namespace lumen::convert

@@ -48,8 +48,8 @@ std::string percentDecoded(const std::string& uri) {
 
 }  // namespace
 
-GltfContent::GltfContent(std::string_view bytes, const fs::path& file)
-    : m_file(file), m_name(formats::printable(file.string())), m_totalBytes(bytes.size()) {
+GltfContent::GltfContent(std::string_view bytes, const InputFile& file)
+    : m_file(file), m_name(formats::printable(file.path().string())), m_totalBytes(bytes.size()) {
   if (bytes.starts_with("glTF"))
     readChunks(bytes);
   else
@@ -140,10 +140,13 @@ std::string_view GltfContent::decodeDataUri(const std::string& uri) {
 }
 
 fs::path GltfContent::detachedFile(const std::string& uri) const {
-  const fs::path stated = m_file.parent_path() / fs::path(percentDecoded(uri));
+  if (m_file.isInMemory())
+    refuse("its data are in " + quotedText(uri) +
+           "; expected them in the file, as it is in memory");
+  const fs::path parent = m_file.path().parent_path();
+  const fs::path stated = parent / fs::path(percentDecoded(uri));
   std::error_code error;
-  const fs::path folder =
-      fs::canonical(m_file.has_parent_path() ? m_file.parent_path() : fs::path("."), error);
+  const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, error);
   const bool isName = !uri.empty() && uri.find("://") == uri.npos &&
                       percentDecoded(uri).find('\0') == std::string::npos;
   const fs::path file = isName && !error ? fs::canonical(stated, error) : fs::path();

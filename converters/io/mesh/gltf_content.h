@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "converters/io/content/input_file.h"
 #include "formats/json/json_value.h"
 
 namespace lumen::convert {
@@ -22,8 +23,9 @@ class GltfContent {
 public:
   using Json = formats::JsonValue;
 
-  /// GLB or text. Buffers are inside, or files of the same folder: no other file is opened.
-  GltfContent(std::string_view bytes, const std::filesystem::path& file);
+  /// GLB or text. Buffers are inside, or files of the same folder unless `file` is in memory: no
+  /// other file is opened.
+  GltfContent(std::string_view bytes, const InputFile& file);
 
   [[nodiscard]] Json root() const { return m_document->root(); }
   [[nodiscard]] const std::string& name() const { return m_name; }
@@ -54,7 +56,7 @@ private:
   [[nodiscard]] std::string readFileOfUri(const std::filesystem::path& file, const std::string& uri,
                                           std::uint64_t size) const;
 
-  std::filesystem::path m_file;
+  InputFile m_file;
   std::string m_name;
   std::optional<formats::JsonDocument> m_document;
   std::string_view m_binary;       // binary chunk of a GLB

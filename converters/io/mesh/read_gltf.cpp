@@ -121,7 +121,7 @@ private:
 
 class GltfReader {
 public:
-  GltfReader(std::string_view bytes, const std::filesystem::path& file)
+  GltfReader(std::string_view bytes, const InputFile& file)
       : m_content(bytes, file), m_builder(m_content.name()) {}
 
   MeshFile read() {
@@ -390,7 +390,7 @@ private:
 
 }  // namespace
 
-MeshFile parseGltf(std::string_view bytes, const std::filesystem::path& file) {
+MeshFile parseGltf(std::string_view bytes, const InputFile& file) {
   return GltfReader(bytes, file).read();
 }
 

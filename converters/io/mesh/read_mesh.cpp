@@ -7,10 +7,9 @@
 
 namespace lumen::convert {
 
-namespace fs = std::filesystem;
-
-MeshFile parseMesh(std::string_view bytes, const fs::path& file, MeshFormat format) {
-  const std::string name = formats::printable(file.string());
+MeshFile readMesh(const InputFile& file, MeshFormat format) {
+  const std::string bytes = file.read("mesh", kAnySize);
+  const std::string name = formats::printable(file.path().string());
   switch (format) {
     case MeshFormat::Stl:
       return parseStl(bytes, name);
@@ -26,10 +25,6 @@ MeshFile parseMesh(std::string_view bytes, const fs::path& file, MeshFormat form
       return parseVtk(bytes, name);
   }
   throw unsupported(name + ": lumen cannot read meshes of this format");
-}
-
-MeshFile readMesh(const fs::path& file, MeshFormat format) {
-  return parseMesh(readWholeFile(file, "mesh"), file, format);
 }
 
 }  // namespace lumen::convert

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "converters/geometry/mesh_measures.h"
+#include "converters/io/content/input_file.h"
 
 namespace lumen::convert {
 
@@ -41,7 +42,7 @@ struct MeshFile {
 /// metres with +Y up. Files of lumen are restored exactly. Primitives are groups, named by their
 /// extras as lumen writes them, or else by their mesh. KHR_draco_mesh_compression and
 /// KHR_mesh_quantization are read; materials, skins and animations are ignored.
-MeshFile parseGltf(std::string_view bytes, const std::filesystem::path& file);
+MeshFile parseGltf(std::string_view bytes, const InputFile& file);
 
 // Wavefront OBJ ("Advanced Visualizer Manual", appendix B1, 1992).
 
@@ -108,10 +109,6 @@ enum class MeshFormat : std::uint8_t { Stl, Obj, Ply, Gltf, Vtp, Vtk };
 /// folder; Draco), VTP (ascii, base64, appended, zlib) and VTK's legacy PolyData. Lines and points
 /// of a file are ignored. Throws Error(InvalidInput) with the file, the place in it, the fault and
 /// the expectation, and Error(Unsupported) for legal parts of a format that this reader lacks.
-MeshFile readMesh(const std::filesystem::path& file, MeshFormat format);
-
-/// Reads a mesh from the bytes of a file; `file` serves messages, and its folder holds glTF's
-/// buffers. Throws as readMesh() does.
-MeshFile parseMesh(std::string_view bytes, const std::filesystem::path& file, MeshFormat format);
+MeshFile readMesh(const InputFile& file, MeshFormat format);
 
 }  // namespace lumen::convert

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/io/mesh/draco_mesh.h"
 #include "converters/io/mesh/gltf_document.h"
 #include "converters/io/mesh/mesh_parts.h"
@@ -332,7 +331,7 @@ private:
 std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
                        const WriteMeshOptions& options, const MeshSkin* skin) {
   if (options.draco && options.meshopt)
-    throw Error(ErrorKind::Usage, kOption.draco.shown() + " and " + kOption.meshopt.shown() +
+    throw Error(ErrorKind::Usage, options.word("draco") + " and " + options.word("meshopt") +
                                       ": found both, expected one of them");
   if (!skin) return GltfWriter(levels, options).write(binary);
   const std::vector<SurfaceMesh> placed = inGltfFrame(levels);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/field_word.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "formats/view/float3.h"
 
@@ -26,6 +27,7 @@ struct WriteMeshOptions {
   int dracoPositionBits = 16;     ///< quantisation of the surface's bounding box, 1 .. 30
   int dracoNormalBits = 10;       ///< quantisation of a normal, 2 .. 30
   bool skin = true;               ///< the motion of a case that has one
+  FieldWord word{};               ///< names fields in messages
 };
 
 // Bones of a surface that moves.

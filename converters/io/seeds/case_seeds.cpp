@@ -37,7 +37,8 @@ void dropUnknownParents(std::vector<SeedBranch>& seeds, std::set<std::string> kn
 
 }  // namespace
 
-std::vector<SeedBranch> seedsOf(const formats::Case& value, const std::string& name) {
+std::vector<SeedBranch> seedsOf(const formats::Case& value, const std::string& name,
+                                const FieldWord& word) {
   const auto chunk = std::find_if(value.otherChunks.begin(), value.otherChunks.end(), isSeeds);
   if (chunk == value.otherChunks.end()) return {};
   const std::string place = name + ": its seeds";
@@ -48,7 +49,7 @@ std::vector<SeedBranch> seedsOf(const formats::Case& value, const std::string& n
   std::string text(chunk->bytes.size(), '\0');
   if (!text.empty()) std::memcpy(text.data(), chunk->bytes.data(), text.size());
   JsonFile json(text, place);
-  std::vector<SeedBranch> seeds = parseSeeds(JsonPlace(json), {});
+  std::vector<SeedBranch> seeds = parseSeeds(JsonPlace(json), {{}, {}, word});
   const std::set<std::string> vessels = vesselsOf(value);
   dropUnknownParents(seeds, vessels);
   return checkedSeeds(std::move(seeds), place, vessels);

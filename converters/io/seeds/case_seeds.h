@@ -14,7 +14,8 @@ namespace lumen::convert {
 /// The seeds of a case, parents first, in mm and LPS; none if it holds none. A parent may also be a
 /// vessel of the case; one that is neither is left out. Throws Error(InvalidInput), with `name` as
 /// the file, if they break a rule of the seeds format.
-std::vector<SeedBranch> seedsOf(const formats::Case& value, const std::string& name);
+std::vector<SeedBranch> seedsOf(const formats::Case& value, const std::string& name,
+                                const FieldWord& word = {});
 
 /// Replaces the seeds of a case by `seeds`, which are in mm and LPS; without one it holds none.
 void setSeeds(formats::Case& value, const std::vector<SeedBranch>& seeds);

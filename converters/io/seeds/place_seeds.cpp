@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "formats/container/printable.h"
 
@@ -102,20 +101,21 @@ std::optional<std::string> findFault(const Vector3d& world, const SeedPoint& poi
 
 /// Another reading of coordinates: in a stated system, in m or mm, or both.
 struct OtherReading {
-  SeedReading reading;
+  std::optional<SeedSystem> system;
+  std::optional<double> unit;  ///< mm
   const char* words;
 };
 
 constexpr double kMetre = 1000;
 /// Metres first: as voxels, or flipped, all points may lie in the first voxel.
 const std::array kOtherReadings = {
-    OtherReading{{{}, kMetre}, "as metres"},
-    OtherReading{{SeedSystem::Ras, kMetre}, "as metres in RAS (x and y flipped)"},
-    OtherReading{{SeedSystem::Lps, kMetre}, "as metres in LPS (x and y flipped)"},
-    OtherReading{{SeedSystem::Ras, {}}, "as RAS (x and y flipped)"},
-    OtherReading{{SeedSystem::Lps, {}}, "as LPS (x and y flipped)"},
-    OtherReading{{SeedSystem::Voxel, {}}, "as voxel indices"},
-    OtherReading{{{}, 1.0}, "as millimetres"},
+    OtherReading{{}, kMetre, "as metres"},
+    OtherReading{SeedSystem::Ras, kMetre, "as metres in RAS (x and y flipped)"},
+    OtherReading{SeedSystem::Lps, kMetre, "as metres in LPS (x and y flipped)"},
+    OtherReading{SeedSystem::Ras, {}, "as RAS (x and y flipped)"},
+    OtherReading{SeedSystem::Lps, {}, "as LPS (x and y flipped)"},
+    OtherReading{SeedSystem::Voxel, {}, "as voxel indices"},
+    OtherReading{{}, 1.0, "as millimetres"},
 };
 
 const char* frameWord(SeedSystem system) {
@@ -130,12 +130,12 @@ const char* frameWord(SeedSystem system) {
   return "voxel";
 }
 
-/// The options that select a reading: "--seeds-frame ras --seeds-unit m".
-std::string optionsOf(const SeedReading& reading) {
+/// The fields that select a reading: "seeds-frame ras seeds-unit m".
+std::string optionsOf(const OtherReading& reading, const FieldWord& word) {
   std::string text;
-  if (reading.system) text = kOption.seedsFrame.shown() + " " + frameWord(*reading.system);
+  if (reading.system) text = word("seeds-frame") + " " + frameWord(*reading.system);
   if (!reading.unit) return text;
-  return text + (text.empty() ? "" : " ") + kOption.seedsUnit.shown() +
+  return text + (text.empty() ? "" : " ") + word("seeds-unit") +
          (*reading.unit == kMetre ? " m" : " mm");
 }
 
@@ -144,7 +144,7 @@ Vector3d asInFile(const SeedFrame& frame, const Vector3d& position) {
 }
 
 /// Position in LPS mm, under another reading of the branch's file.
-Vector3d reread(const SeedBranch& branch, const Vector3d& position, const SeedReading& reading,
+Vector3d reread(const SeedBranch& branch, const Vector3d& position, const OtherReading& reading,
                 const VolumeGeometry& geometry) {
   SeedBranch read;
   read.frame = {reading.system.value_or(branch.frame.system),
@@ -190,19 +190,20 @@ bool allAtOrigin(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geo
 /// The reading under which most points lie inside, if their number exceeds `inside`; only metres
 /// are tried if the caller asks for these alone.
 std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
-                      std::size_t points, std::size_t inside, bool onlyMetres) {
+                      std::size_t points, std::size_t inside, bool onlyMetres,
+                      const FieldWord& word) {
   const std::size_t asStated = inside;
   std::string advice;
   for (const OtherReading& other : kOtherReadings) {
-    if (onlyMetres && other.reading.unit != kMetre) continue;
+    if (onlyMetres && other.unit != kMetre) continue;
     const std::size_t count =
         countInside(seeds, geometry, [&](const SeedBranch& branch, const Vector3d& position) {
-          return reread(branch, position, other.reading, geometry);
+          return reread(branch, position, other, geometry);
         });
     if (count <= inside) continue;
     inside = count;
     advice = std::string("read ") + other.words + " " + insideText(count, points) +
-             optionsOf(other.reading);
+             optionsOf(other, word);
   }
   const double side = 2 * radiusRange(geometry).most;
   if (onlyMetres || asStated > 0 || side >= kSmallVolume) return advice;
@@ -215,14 +216,15 @@ std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry
       });
   if (count <= inside) return advice;
   return "the volume is only " + shownNumber(side) + " mm long; with its header read as metres " +
-         insideText(count, points) + kOption.unit.shown() + " m";
+         insideText(count, points) + word("unit") + " m";
 }
 
 // ---- placing ----
 
 class Placing {
 public:
-  Placing(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry)
+  Placing(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
+          const FieldWord& word)
       : m_geometry(geometry), m_range(radiusRange(geometry)) {
     std::size_t points = 0;
     for (const SeedBranch& branch : seeds) {
@@ -234,9 +236,9 @@ public:
           return worldOf(branch, position, geometry);
         });
     if (static_cast<double>(inside) < kMostlyInside * static_cast<double>(points))
-      placed.advice = adviceFor(seeds, geometry, points, inside, false);
+      placed.advice = adviceFor(seeds, geometry, points, inside, false, word);
     else if (inside == points && allAtOrigin(seeds, geometry))
-      placed.advice = adviceFor(seeds, geometry, points, 0, true);
+      placed.advice = adviceFor(seeds, geometry, points, 0, true, word);
   }
 
   PlacedSeeds placed;
@@ -293,13 +295,13 @@ private:
 }  // namespace
 
 std::vector<RereadSeeds> otherReadings(const std::vector<SeedBranch>& seeds,
-                                       const VolumeGeometry& geometry) {
+                                       const VolumeGeometry& geometry, const FieldWord& word) {
   std::vector<RereadSeeds> all;
   for (const OtherReading& other : kOtherReadings) {
-    all.push_back({other.words, optionsOf(other.reading), seeds});
+    all.push_back({other.words, optionsOf(other, word), seeds});
     for (SeedBranch& branch : all.back().seeds) {
       for (SeedPoint& point : branch.points)
-        point.position = reread(branch, point.position, other.reading, geometry);
+        point.position = reread(branch, point.position, other, geometry);
       branch.frame = {};
     }
   }
@@ -307,8 +309,8 @@ std::vector<RereadSeeds> otherReadings(const std::vector<SeedBranch>& seeds,
 }
 
 PlacedSeeds placeSeeds(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
-                       const std::filesystem::path& file) {
-  Placing placing(seeds, geometry);
+                       const std::filesystem::path& file, const FieldWord& word) {
+  Placing placing(seeds, geometry, word);
   PlacedSeeds& placed = placing.placed;
   const std::string advice = placed.advice.empty() ? "" : "; " + placed.advice;
   const std::string name = formats::printable(file.string()) + ": ";

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
@@ -20,11 +19,11 @@
 
 namespace lumen::convert {
 
-double unitInMillimetres(const JsonPlace& unit) {
+double unitInMillimetres(const JsonPlace& unit, const SeedReading& reading) {
   const std::string& word = unit.text();
   if (word == "mm") return 1;
   if (word == "m") return 1000;
-  unit.refuse("\"mm\" or \"m\"; " + kOption.seedsUnit.shown() + " states another");
+  unit.refuse("\"mm\" or \"m\"; " + reading.word("seeds-unit") + " states another");
 }
 
 bool setKind(const std::string& word, SeedBranch& branch) {

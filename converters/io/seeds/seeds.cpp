@@ -59,13 +59,18 @@ std::vector<SeedBranch> parseText(const std::string& text, const fs::path& file,
 
 }  // namespace
 
-std::vector<SeedBranch> readSeeds(const fs::path& file, const SeedReading& reading) {
-  return checkedSeeds(parseText(readWholeFile(file, "seeds file", kMostText), file, reading), file);
+std::vector<SeedBranch> readSeeds(const InputFile& file, const SeedReading& reading) {
+  const fs::path& path = file.path();
+  return checkedSeeds(parseText(file.read("seeds file", kMostText), path, reading), path);
+}
+
+std::string encodeSeeds(const std::vector<SeedBranch>& seeds, const fs::path& name) {
+  const bool isMarkups = lowerCase(name.filename().string()).ends_with(".mrk.json");
+  return isMarkups ? markupsText(seeds) : seedsText(seeds);
 }
 
 void writeSeeds(const std::vector<SeedBranch>& seeds, const fs::path& file) {
-  const bool isMarkups = lowerCase(file.filename().string()).ends_with(".mrk.json");
-  const std::string text = isMarkups ? markupsText(seeds) : seedsText(seeds);
+  const std::string text = encodeSeeds(seeds, file);
   const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
   if (!written) throw failed(printable(file.string()) + ": " + written.error().text());
 }

@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/field_word.h"
+#include "converters/io/content/input_file.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -60,16 +62,21 @@ struct SeedFailure {
 struct SeedReading {
   std::optional<SeedSystem> system;
   std::optional<double> unit;  ///< mm
+  /// Names the fields "seeds-frame" and "seeds-unit", by which a caller states these, in messages.
+  FieldWord word{};
 };
 
 /// Reads a seeds file: lumen's own JSON (spec/seeds.md), 3D Slicer Markups (`.mrk.json`), or
 /// Slicer's older `.fcsv`; the content decides which. Branches come parents first, otherwise in
 /// file order; a point in the place of its predecessor is merged with it. Throws
 /// Error(InvalidInput), naming file, place, finding and expectation.
-std::vector<SeedBranch> readSeeds(const std::filesystem::path& file,
-                                  const SeedReading& reading = {});
+std::vector<SeedBranch> readSeeds(const InputFile& file, const SeedReading& reading = {});
 
 /// Writes lumen's own JSON, or curves of 3D Slicer if the file's name ends in .mrk.json; atomically.
+/// The text of a file of seeds: Markups of 3D Slicer if its name ends in .mrk.json, lumen's JSON
+/// otherwise.
+std::string encodeSeeds(const std::vector<SeedBranch>& seeds, const std::filesystem::path& name);
+
 void writeSeeds(const std::vector<SeedBranch>& seeds, const std::filesystem::path& file);
 
 }  // namespace lumen::convert

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
@@ -97,7 +96,7 @@ private:
       m_system = SeedSystem::Voxel;
     else
       refuse("the coordinate system is " + quotedText(value) +
-             "; expected LPS (or 1), RAS (or 0) or IJK (or 2); " + kOption.seedsFrame.shown() +
+             "; expected LPS (or 1), RAS (or 0) or IJK (or 2); " + m_reading.word("seeds-frame") +
              " states another");
   }
 
@@ -127,7 +126,7 @@ private:
   void readRow(const std::vector<std::string>& row) {
     if (!m_system)
       refuse("no line \"# CoordinateSystem = LPS\" (or RAS) stands before the first point; " +
-             kOption.seedsFrame.shown() +
+             m_reading.word("seeds-frame") +
              " lps or ras states it, or save the points from 3D Slicer as .mrk.json");
     const std::size_t needed = std::max({m_column[kX], m_column[kY], m_column[kZ]}) + 1;
     if (row.size() < needed)

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/seeds/seeds_parse.h"
 
@@ -22,8 +21,8 @@ SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
   else if (system.text() == "RAS")
     frame.system = SeedSystem::Ras;
   else if (system.text() != "LPS")
-    system.refuse("\"LPS\" or \"RAS\"; " + kOption.seedsFrame.shown() + " states another");
-  frame.unit = reading.unit ? *reading.unit : unitInMillimetres(units);
+    system.refuse("\"LPS\" or \"RAS\"; " + reading.word("seeds-frame") + " states another");
+  frame.unit = reading.unit ? *reading.unit : unitInMillimetres(units, reading);
   return frame;
 }
 

@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seeds_parse.h"
 
@@ -24,7 +23,7 @@ SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
   const auto& value = place.value();
   if (value.is("LPS") || value.is("1") || value.is(1)) return SeedSystem::Lps;
   if (value.is("RAS") || value.is("0") || value.is(0)) return SeedSystem::Ras;
-  place.refuse("\"LPS\" or \"RAS\"; " + kOption.seedsFrame.shown() + " states another");
+  place.refuse("\"LPS\" or \"RAS\"; " + reading.word("seeds-frame") + " states another");
 }
 
 /// "mm" (the default) or "m"; a coded unit such as ["mm", "UCUM", "millimeter"] is read by its
@@ -33,10 +32,10 @@ double unitScale(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.unit) return *reading.unit;
   if (!markup.has("coordinateUnits")) return 1;
   const JsonPlace unit = markup.at("coordinateUnits");
-  if (!unit.value().isArray()) return unitInMillimetres(unit);
+  if (!unit.value().isArray()) return unitInMillimetres(unit, reading);
   const auto words = unit.elements();
   if (words.empty()) unit.refuse("\"mm\" or \"m\"");
-  return unitInMillimetres(words[0]);
+  return unitInMillimetres(words[0], reading);
 }
 
 /// The values of the measurement "Radius", one for each control point; null if there is none.

@@ -15,8 +15,8 @@
 
 namespace lumen::convert {
 
-/// Millimetres in the unit that `unit` names: "mm" or "m".
-double unitInMillimetres(const JsonPlace& unit);
+/// Millimetres in the unit that `unit` names: "mm" or "m". The reading states another.
+double unitInMillimetres(const JsonPlace& unit, const SeedReading& reading);
 
 /// Sets the kind that "vessel", "aneurysm" or "root" names; false for another word.
 bool setKind(const std::string& word, SeedBranch& branch);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/volume/text_header.h"
 #include "formats/container/printable.h"
@@ -79,8 +78,14 @@ NamePattern parsePattern(const fs::path& header, const std::string& text) {
 
 }  // namespace
 
-std::vector<fs::path> detachedFiles(const fs::path& header, const DetachedNames& names,
-                                    const std::vector<fs::path>& allowed, const std::string& what) {
+std::vector<fs::path> detachedFiles(const InputFile& input, const DetachedNames& names,
+                                    const std::vector<fs::path>& allowed, const FieldWord& word,
+                                    const std::string& what) {
+  const fs::path& header = input.path();
+  if (input.isInMemory())
+    throw invalidInput(header.string() + ": " + what + " in " +
+                       formats::printable(names.count > 0 ? names.name(0) : std::string()) +
+                       "; expected them behind its header, as it is in memory");
   std::vector<fs::path> places = {resolved(header.parent_path())};
   for (const fs::path& path : allowed) places.push_back(resolved(path));
   std::erase_if(places, [](const fs::path& place) { return place.empty(); });
@@ -101,9 +106,8 @@ std::vector<fs::path> detachedFiles(const fs::path& header, const DetachedNames&
     const bool within = std::any_of(places.begin(), places.end(),
                                     [&](const fs::path& place) { return isWithin(file, place); });
     if (!within)
-      throw refuse("outside of the header's folder; if they are meant, " +
-                   kOption.allowDetached.shown() + " " +
-                   formats::printable(file.parent_path().string()) + " allows it");
+      throw refuse("outside of the header's folder; if they are meant, " + word("allow-detached") +
+                   " " + formats::printable(file.parent_path().string()) + " allows it");
     if (!fs::is_regular_file(file, error)) throw refuse("which is not a regular file");
     files.push_back(std::move(file));
   }

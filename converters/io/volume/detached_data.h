@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/field_word.h"
+#include "converters/io/content/input_file.h"
+
 namespace lumen::convert {
 
 /// File names in a header, the n-th for n from 0.
@@ -19,12 +22,13 @@ struct DetachedNames {
 };
 
 /// These names resolved: from the header's folder on, every link followed. Throws
-/// Error(InvalidInput), naming the header and the option, for a place outside of the header's
+/// Error(InvalidInput), naming the header, for a header in memory; naming the field "allow-detached", too, for a place outside of the header's
 /// folder and of `allowed`, and for a missing or non-regular file. `what`: content of those files,
 /// for messages.
-std::vector<std::filesystem::path> detachedFiles(const std::filesystem::path& header,
+std::vector<std::filesystem::path> detachedFiles(const InputFile& header,
                                                  const DetachedNames& names,
                                                  const std::vector<std::filesystem::path>& allowed,
+                                                 const FieldWord& word,
                                                  const std::string& what = "its voxels are");
 
 /// The numbers of a file name pattern; each fits 32 bits.

@@ -8,7 +8,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/volume/volume_checks.h"
 
@@ -24,31 +23,31 @@ constexpr double kLeastSpacing = 1e-6, kMostSpacing = 1e4;
 // mm no scan.
 constexpr double kLeastUsual = 5e-3, kMostUsual = 50;
 
-Eigen::Vector3d settledSpacing(const Eigen::Vector3d& stated, double unit, const fs::path& path,
-                               std::vector<std::string>& assumptions) {
+Eigen::Vector3d settledSpacing(const Eigen::Vector3d& stated, double unit, const FieldWord& word,
+                               const fs::path& path, std::vector<std::string>& assumptions) {
   const auto missing = stated.array().isNaN();
   if (missing.all()) {
     assumptions.emplace_back(
         "its header states no spacing, so voxels are taken to be 1 mm apart; state it with " +
-        kOption.spacing.shown());
+        word("spacing"));
     return Eigen::Vector3d::Ones();
   }
   for (int a = 0; a < 3; ++a)
     if (missing[a])
       throw invalidInput(path.string() + ": its header states no spacing along axis " +
                          std::to_string(a + 1) + ", but along others; state all three with " +
-                         kOption.spacing.shown());
+                         word("spacing"));
   return unit * stated;
 }
 
-void checkSpacing(const Eigen::Vector3d& spacing, const fs::path& path) {
+void checkSpacing(const Eigen::Vector3d& spacing, const FieldWord& word, const fs::path& path) {
   for (int a = 0; a < 3; ++a)
     if (!(spacing[a] >= kLeastSpacing && spacing[a] <= kMostSpacing))
       throw invalidInput(path.string() + ": the spacing along axis " + std::to_string(a + 1) +
                          " is " + longNumber(spacing[a]) + " mm; expected " +
                          longNumber(kLeastSpacing) + " to " + longNumber(kMostSpacing) +
-                         "; state it with " + kOption.spacing.shown() +
-                         ", or the file's unit with " + kOption.unit.shown());
+                         "; state it with " + word("spacing") + ", or the file's unit with " +
+                         word("unit"));
 }
 
 }  // namespace
@@ -58,17 +57,17 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
   VolumeGeometry geometry = stated.geometry;
   const double unit = options.unit.value_or(stated.unit.value_or(1));
   geometry.origin *= unit;
-  geometry.spacing = options.spacing
-                         ? *options.spacing
-                         : settledSpacing(stated.geometry.spacing, unit, path, assumptions);
-  checkSpacing(geometry.spacing, path);
+  geometry.spacing = options.spacing ? *options.spacing
+                                     : settledSpacing(stated.geometry.spacing, unit, options.word,
+                                                      path, assumptions);
+  checkSpacing(geometry.spacing, options.word, path);
   const bool unusual =
       geometry.spacing.minCoeff() < kLeastUsual || geometry.spacing.maxCoeff() > kMostUsual;
   if (unusual && !options.spacing && !options.unit)
     assumptions.push_back((stated.unit ? "by the unit that its header states, its spacing is "
                                        : "its header states no unit, so its spacing is taken as ") +
                           spacingText(geometry.spacing, kHeaderDigits) +
-                          " mm, which is unusual; state the unit with " + kOption.unit.shown());
+                          " mm, which is unusual; state the unit with " + options.word("unit"));
   else if (!stated.unit && !options.unit && !options.spacing && !stated.unitNote.empty())
     assumptions.push_back(stated.unitNote);
   checkGeometry(geometry, path);
@@ -124,7 +123,7 @@ void chooseVoxels(const fs::path& path, const std::vector<std::int64_t>& sizes,
   voxels.count = 1;
   for (const std::int64_t size : sizes) voxels.count *= static_cast<std::uint64_t>(size);
   voxels.first = voxelsOfVolume * chosenVolume(path, joinedNumbers(sizes, " x "),
-                                               voxels.count / voxelsOfVolume, options.volumeIndex);
+                                               voxels.count / voxelsOfVolume, options);
   voxels.wanted = voxelsOfVolume;
 }
 

@@ -2,8 +2,7 @@
 #include "converters/io/volume/label_table.h"
 
 #include <algorithm>
-#include <array>
-#include <fstream>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -151,18 +150,16 @@ LabelNames readLabelTable(const fs::path& file) {
   return names;
 }
 
-LabelNames segmentNames(const fs::path& file) {
+LabelNames segmentNames(const InputFile& file) {
   struct Segment {
     std::string value, name, layer = "0";
   };
-  std::array<char, 4> magic{};
-  if (!fs::is_regular_file(file) ||
-      !std::ifstream(file, std::ios::binary).read(magic.data(), magic.size()) ||
-      std::string_view(magic.data(), magic.size()) != "NRRD")
-    return {};
-  std::map<std::string, Segment> segments;
+  if (!file.isInMemory() && !fs::is_regular_file(file.path())) return {};
   HeaderLines lines(file);
-  for (std::string line; lines.next(line) && !trimmed(line).empty();) {
+  std::string line;
+  if (!lines.next(line) || !line.starts_with("NRRD")) return {};
+  std::map<std::string, Segment> segments;
+  while (lines.next(line) && !trimmed(line).empty()) {
     const std::size_t equals = line.find(":="), underscore = line.find('_');
     if (equals == line.npos || underscore > equals || !line.starts_with("Segment")) continue;
     const std::string number = line.substr(7, underscore - 7);
@@ -176,7 +173,7 @@ LabelNames segmentNames(const fs::path& file) {
   LabelNames names;
   for (const auto& [number, segment] : segments)
     if (!segment.value.empty() && segment.layer == "0")
-      addName(formats::printable(file.string()) + ": Segment" + number + ": ", segment.value,
+      addName(formats::printable(file.path().string()) + ": Segment" + number + ": ", segment.value,
               segment.name, names);
   return names;
 }

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "converters/io/content/input_file.h"
+
 namespace lumen::convert {
 
 /// The names of labels by their values, which are not 0.
@@ -33,6 +35,6 @@ LabelNames readLabelTable(const std::filesystem::path& file);
 
 /// The names of the segments in the header of `file`; empty if it is no NRRD, or names none. Segments
 /// of other layers than the first are passed over. Throws Error(InvalidInput) as readLabelTable() does.
-LabelNames segmentNames(const std::filesystem::path& file);
+LabelNames segmentNames(const InputFile& file);
 
 }  // namespace lumen::convert

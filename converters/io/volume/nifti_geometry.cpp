@@ -12,7 +12,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/io/volume/image_header.h"
@@ -153,7 +152,7 @@ const Transform* chosenTransform(const Transform& sform, const Transform& qform,
 }
 
 /// Adds an assumption if the lengths of the sform's axes contradict pixdim, which counts.
-void reportOtherSpacing(const Transform& sform, const Vector3d& spacing,
+void reportOtherSpacing(const Transform& sform, const Vector3d& spacing, const FieldWord& word,
                         std::vector<std::string>& assumptions) {
   if (!sform.usable()) return;
   const Vector3d lengths = sform.axes.colwise().norm();
@@ -161,7 +160,7 @@ void reportOtherSpacing(const Transform& sform, const Vector3d& spacing,
   if (!(off.maxCoeff() > kSameSpacing)) return;
   assumptions.push_back("its sform has voxels " + vectorText(lengths, kHeaderDigits) +
                         " apart, its pixdim " + vectorText(spacing, kHeaderDigits) +
-                        "; pixdim is used; state another with " + kOption.spacing.shown());
+                        "; pixdim is used; state another with " + word("spacing"));
 }
 
 /// The nearest orthogonal axes in RAS and floats; no offset.
@@ -192,7 +191,7 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
   stated.unit = millimetres(header.unitCode);
   stated.unitNote = "its header states no unit of length that NIfTI has (xyzt_units is " +
                     std::to_string(header.unitCode) +
-                    "), so lengths are taken as mm; state the unit with " + kOption.unit.shown();
+                    "), so lengths are taken as mm; state the unit with " + options.word("unit");
   geometry.size = header.size;
   geometry.spacing = toEigen(header.pixdim);
   const Transform sform = sformOf(header), qform = qformOf(header);
@@ -206,7 +205,7 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
   }
   stated.placedBy = transform == &sform ? "sform (code " + std::to_string(header.sformCode) + ")"
                                         : "qform (code " + std::to_string(header.qformCode) + ")";
-  if (!options.spacing) reportOtherSpacing(sform, geometry.spacing, assumptions);
+  if (!options.spacing) reportOtherSpacing(sform, geometry.spacing, options.word, assumptions);
   geometry.origin = kLpsFromRas.cwiseProduct(transform->offset);
   geometry.direction = kLpsFromRas.asDiagonal() * transform->axes;
   geometry.direction.colwise().normalize();

@@ -10,7 +10,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
@@ -161,7 +160,7 @@ std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::i
 
 /// The mm of the units that `field` quotes for the `numbers`; NaN for an unknown unit.
 std::vector<double> readUnits(const TextHeader& header, const std::string& field,
-                              const std::vector<std::size_t>& numbers,
+                              const std::vector<std::size_t>& numbers, const FieldWord& word,
                               std::vector<std::string>& assumptions) {
   std::vector<std::string> names;
   const std::string& text = header.text(field);
@@ -183,22 +182,22 @@ std::vector<double> readUnits(const TextHeader& header, const std::string& field
   assumptions.push_back(
       "its " + field + " are " + formats::printable(text) +
       ", which are not all known as lengths, so they are taken to be mm; state the unit with " +
-      kOption.unit.shown());
+      word("unit"));
   return {};
 }
 
 /// Scales everything to mm if the header states its units.
-void settleUnits(const TextHeader& header, std::vector<Axis>& axes, StatedGeometry& stated,
-                 std::vector<std::string>& assumptions) {
+void settleUnits(const TextHeader& header, std::vector<Axis>& axes, const FieldWord& word,
+                 StatedGeometry& stated, std::vector<std::string>& assumptions) {
   const bool oriented = axes[0].direction.has_value();
   const std::string field = oriented ? "space units" : "units";
   if (!header.has(field)) return;
   std::vector<std::size_t> numbers = {0, 1, 2};
   if (!oriented) numbers = {axes[0].number, axes[1].number, axes[2].number};
-  const auto units = readUnits(header, field, numbers, assumptions);
+  const auto units = readUnits(header, field, numbers, word, assumptions);
   if (units.empty()) return;
   if (units[0] != units[1] || units[0] != units[2])
-    throw header.refusal(field, "one unit for all axes; state it with " + kOption.unit.shown());
+    throw header.refusal(field, "one unit for all axes; state it with " + word("unit"));
   stated.unit = units[0];
 }
 
@@ -242,7 +241,7 @@ void settleSpacings(const TextHeader& header, const std::vector<Axis>& axes, std
       spacing = spacings[axes[a].number];
     if (!options.spacing && (has || directed))
       checkStatedSpacing(header.path(), directed ? "space directions" : "spacings",
-                         static_cast<int>(a) + 1, spacing);
+                         static_cast<int>(a) + 1, spacing, options.word);
   }
 }
 
@@ -290,7 +289,7 @@ StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int
     settleOrigin(header, space, stated.geometry, assumptions);
   else if (!oriented)
     originOfAxisMins(header, axes, sizes.size(), stated);
-  if (!options.unit) settleUnits(header, axes, stated, assumptions);
+  if (!options.unit) settleUnits(header, axes, options.word, stated, assumptions);
   return stated;
 }
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/detached_data.h"
@@ -52,9 +51,9 @@ std::string metaField(const std::string& name) {
 }
 
 /// "Key = value" lines; ElementDataFile is the last, except for the names of a list.
-TextHeader readMetaFields(const fs::path& path) {
-  HeaderLines lines(path);
-  TextHeader header(path);
+TextHeader readMetaFields(const InputFile& file) {
+  HeaderLines lines(file);
+  TextHeader header(file);
   for (std::string line; lines.next(line);) {
     const auto mark = line.find_first_of("=:");
     if (header.has(kDataFile)) {
@@ -68,7 +67,7 @@ TextHeader readMetaFields(const fs::path& path) {
     }
   }
   if (header.has(kDataFile)) return header;
-  throw invalidInput(path.string() +
+  throw invalidInput(file.path().string() +
                      ": is not a MetaImage file: its header has no ElementDataFile line");
 }
 
@@ -103,7 +102,8 @@ std::vector<double> readSpacings(const TextHeader& header, std::size_t dimension
   const std::string field = header.has(kSpacing) ? kSpacing : kPixelSize;
   std::vector<double> spacings = header.numbers(field, dimensions);
   for (int a = 0; a < 3 && !spacings.empty() && !options.spacing; ++a)
-    checkStatedSpacing(header.path(), field, a + 1, spacings[static_cast<std::size_t>(a)]);
+    checkStatedSpacing(header.path(), field, a + 1, spacings[static_cast<std::size_t>(a)],
+                       options.word);
   return spacings;
 }
 
@@ -132,7 +132,7 @@ StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int
     assumptions.push_back(
         "its DistanceUnits are " + quotedText(unit) +
         ", which are not known as a length, so they are taken to be mm; state the unit with " +
-        kOption.unit.shown());
+        options.word("unit"));
   return stated;
 }
 
@@ -183,7 +183,7 @@ std::string metaFile(const TextHeader& header, StoredVoxels& voxels) {
   const std::string& name = header.text(kDataFile);
   std::error_code ignored;
   const fs::path stated = header.path().parent_path() / name;
-  if (fs::exists(stated, ignored)) return name;
+  if (header.file().isInMemory() || fs::exists(stated, ignored)) return name;
   for (const char* ending : {".gz", ".Z"})
     if (fs::exists(stated.string() + ending, ignored)) {
       voxels.packing = Packing::Deflate;
@@ -197,7 +197,7 @@ void setMetaFiles(const TextHeader& header, const std::vector<std::int64_t>& siz
   const std::string& text = header.required(kDataFile);
   if (text.empty()) throw header.refusal(kDataFile, "LOCAL or the name of a file");
   if (lowerCase(text) == "local") {
-    voxels.files = {header.path()};
+    voxels.files = {header.file()};
     voxels.offset = header.size;
     return;
   }
@@ -224,7 +224,9 @@ void setMetaFiles(const TextHeader& header, const std::vector<std::int64_t>& siz
                        std::to_string(names.count) + " files; expected " +
                        std::to_string(slicesOf(sizes, axes)) + " for its DimSize " +
                        quotedText(header.text(kSizes)));
-  voxels.files = detachedFiles(header.path(), names, options.allowedDetached);
+  for (const fs::path& file :
+       detachedFiles(header.file(), names, options.allowedDetached, options.word))
+    voxels.files.emplace_back(file);
 }
 
 /// Packing of the voxels, and their offset in their files.
@@ -252,10 +254,11 @@ void noteScaling(const TextHeader& header, std::vector<std::string>& assumptions
 
 }  // namespace
 
-OpenVolume openMetaImage(const fs::path& path, const ReadVolumeOptions& options,
+OpenVolume openMetaImage(const InputFile& file, const ReadVolumeOptions& options,
                          const Progress& progress) {
   progress.check();
-  const TextHeader fields = readMetaFields(path);
+  const fs::path& path = file.path();
+  const TextHeader fields = readMetaFields(file);
   if (fields.has("ObjectType") && lowerCase(fields.text("ObjectType")) != "image")
     throw fields.refusal("ObjectType", "Image");
   const std::vector<std::int64_t> sizes = metaSizes(fields);

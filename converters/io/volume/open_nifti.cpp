@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/packed_file.h"
@@ -23,12 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isGzip(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw invalidInput(path.string() + ": cannot be opened");
+bool isGzip(const InputFile& file) {
+  const std::unique_ptr<std::istream> stream = file.open();
   std::array<char, 2> magic{};
-  file.read(magic.data(), magic.size());
-  return file && magic[0] == '\x1f' && magic[1] == '\x8b';
+  stream->read(magic.data(), magic.size());
+  return *stream && magic[0] == '\x1f' && magic[1] == '\x8b';
 }
 
 /// Walks the extensions, whose sizes are in the file, up to the first voxel; `file` is behind the
@@ -53,26 +52,25 @@ void checkExtensions(PackedFile& file, const NiftiHeader& header, const fs::path
   }
 }
 
-/// Spacings that --spacing does not override must be valid.
-void checkSpacings(const NiftiHeader& header, const fs::path& path) {
+/// Spacings that the options do not override must be valid.
+void checkSpacings(const NiftiHeader& header, const FieldWord& word, const fs::path& path) {
   for (std::size_t a = 0; a < 3; ++a)
     if (!(std::isfinite(header.pixdim[a]) && header.pixdim[a] > 0))
       throw invalidInput(path.string() + ": pixdim states a spacing of " +
                          longNumber(static_cast<double>(header.pixdim[a])) + " along axis " +
                          std::to_string(a + 1) +
-                         "; expected a positive number; state the spacing with " +
-                         kOption.spacing.shown());
+                         "; expected a positive number; state the spacing with " + word("spacing"));
 }
 
-StoredVoxels storedVoxels(const fs::path& path, const NiftiHeader& header, Packing packing,
+StoredVoxels storedVoxels(const InputFile& file, const NiftiHeader& header, Packing packing,
                           const ReadVolumeOptions& options) {
   StoredVoxels stored;
+  const fs::path& path = file.path();
   stored.header = path;
-  stored.files = {path};
+  stored.files = {file};
   stored.wanted = header.voxelCount();
   stored.count = header.volumes * header.voxelCount();
-  stored.first =
-      header.voxelCount() * chosenVolume(path, header.sizes, header.volumes, options.volumeIndex);
+  stored.first = header.voxelCount() * chosenVolume(path, header.sizes, header.volumes, options);
   stored.type = header.type;
   stored.bigEndian = header.swapped;
   stored.packing = packing;
@@ -89,11 +87,12 @@ StoredVoxels storedVoxels(const fs::path& path, const NiftiHeader& header, Packi
 
 }  // namespace
 
-OpenVolume openNifti(const fs::path& path, const ReadVolumeOptions& options,
+OpenVolume openNifti(const InputFile& file, const ReadVolumeOptions& options,
                      const Progress& progress) {
+  const fs::path& path = file.path();
   StoredVoxels whole;
-  whole.packing = isGzip(path) ? Packing::Deflate : Packing::Raw;
-  const auto bytes = openPacked(whole, path, 0, progress);
+  whole.packing = isGzip(file) ? Packing::Deflate : Packing::Raw;
+  const auto bytes = openPacked(whole, file, 0, progress);
   std::array<std::byte, kNiftiHeaderSize> head{};
   const std::size_t got = bytes->read(head.data(), head.size());
   if (got >= sizeof(std::int32_t)) checkNiftiStart(head, path);
@@ -101,9 +100,9 @@ OpenVolume openNifti(const fs::path& path, const ReadVolumeOptions& options,
     throw invalidInput(path.string() + ": truncated: " + std::to_string(got) +
                        " bytes can be read, but a NIfTI header has 348");
   const NiftiHeader header = parseNiftiHeader(head, path);
-  if (!options.spacing) checkSpacings(header, path);
+  if (!options.spacing) checkSpacings(header, options.word, path);
   ImageHeader image;
-  image.voxels = storedVoxels(path, header, whole.packing, options);
+  image.voxels = storedVoxels(file, header, whole.packing, options);
   image.encoding = whole.packing == Packing::Deflate ? "gzip" : "raw";
   image.stated = niftiGeometry(header, options, path, image.assumptions);
   OpenVolume open = openImage(std::move(image), options, path);

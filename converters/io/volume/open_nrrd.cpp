@@ -65,9 +65,10 @@ bool isList(const TextHeader& header) {
 }
 
 /// Reads "field: value" lines up to an empty one; a list of files is followed by their names.
-TextHeader readFields(const fs::path& path) {
-  HeaderLines lines(path);
-  TextHeader header(path);
+TextHeader readFields(const InputFile& file) {
+  const fs::path& path = file.path();
+  HeaderLines lines(file);
+  TextHeader header(file);
   std::string line;
   (void)lines.next(line);
   checkMagic(path, line);
@@ -186,7 +187,7 @@ DetachedNames detachedNames(const TextHeader& header, std::int64_t most, std::in
 void setFiles(const TextHeader& header, const std::vector<std::int64_t>& sizes,
               const ReadVolumeOptions& options, StoredVoxels& voxels) {
   if (!header.has("data file")) {
-    voxels.files = {header.path()};
+    voxels.files = {header.file()};
     voxels.offset = header.size;
     return;
   }
@@ -204,15 +205,18 @@ void setFiles(const TextHeader& header, const std::vector<std::int64_t>& sizes,
     throw invalidInput(header.path().string() + ": its data file names " +
                        std::to_string(names.count) + " files; expected " + std::to_string(needed) +
                        " for its sizes " + quotedText(header.text("sizes")));
-  voxels.files = detachedFiles(header.path(), names, options.allowedDetached);
+  for (const fs::path& file :
+       detachedFiles(header.file(), names, options.allowedDetached, options.word))
+    voxels.files.emplace_back(file);
 }
 
 }  // namespace
 
-OpenVolume openNrrd(const fs::path& path, const ReadVolumeOptions& options,
+OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
                     const Progress& progress) {
   progress.check();
-  const TextHeader fields = readFields(path);
+  const fs::path& path = file.path();
+  const TextHeader fields = readFields(file);
   ImageHeader header;
   StoredVoxels& voxels = header.voxels;
   voxels.header = path;

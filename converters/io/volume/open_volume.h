@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
+#include "converters/io/content/input_file.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/voxels/volume.h"
 
@@ -24,9 +25,9 @@ struct OpenVolume {
 };
 
 /// A file of NRRD, or of MetaImage. All functions here throw as readVolumeHeader() does.
-OpenVolume openNrrd(const std::filesystem::path& path, const ReadVolumeOptions& options,
+OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
                     const Progress& progress);
-OpenVolume openMetaImage(const std::filesystem::path& path, const ReadVolumeOptions& options,
+OpenVolume openMetaImage(const InputFile& file, const ReadVolumeOptions& options,
                          const Progress& progress);
 
 /// A file of NIfTI-1, plain or compressed whatever its name. Voxels are scaled by the header's slope
@@ -35,12 +36,12 @@ OpenVolume openMetaImage(const std::filesystem::path& path, const ReadVolumeOpti
 /// quaternions only: its own readers choose a file by its name's ending, allocate the announced
 /// sizes before they look at the file, read the header as voxels where an offset points into it,
 /// return zeros for NaN, and verify no checksum.
-OpenVolume openNifti(const std::filesystem::path& path, const ReadVolumeOptions& options,
+OpenVolume openNifti(const InputFile& file, const ReadVolumeOptions& options,
                      const Progress& progress);
 
-/// The series of DICOM files in the folder `path` that the options name, or its only one: slices
+/// The series of DICOM files in the folder `folder` that the options name, or its only one: slices
 /// that form a regular stack, or one multi-frame file.
-OpenVolume openDicom(const std::filesystem::path& path, const ReadVolumeOptions& options,
+OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
                      const Progress& progress);
 
 }  // namespace lumen::convert

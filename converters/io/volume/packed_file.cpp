@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <istream>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -35,10 +35,10 @@ std::string shown(const fs::path& path) {
 /// Bytes of a file up to a limit, in blocks.
 class Blocks {
 public:
-  Blocks(const fs::path& file, std::uint64_t start, std::optional<std::uint64_t> limit)
-      : m_path(file), m_stream(file, std::ios::binary) {
-    if (!m_stream.seekg(static_cast<std::streamoff>(start)))
-      throw invalidInput(shown(file) + ": cannot be opened");
+  Blocks(const InputFile& file, std::uint64_t start, std::optional<std::uint64_t> limit)
+      : m_path(file.path()), m_stream(file.open()) {
+    if (!m_stream->seekg(static_cast<std::streamoff>(start)))
+      throw invalidInput(shown(m_path) + ": cannot be opened");
     if (limit) m_left = *limit;
   }
 
@@ -81,12 +81,12 @@ public:
 
 private:
   std::size_t fill(char* to, std::uint64_t size) {
-    m_stream.read(to, static_cast<std::streamsize>(size));
-    if (m_stream.bad()) throw invalidInput(m_path.string() + ": cannot be read to its end");
-    return static_cast<std::size_t>(m_stream.gcount());
+    m_stream->read(to, static_cast<std::streamsize>(size));
+    if (m_stream->bad()) throw invalidInput(m_path.string() + ": cannot be read to its end");
+    return static_cast<std::size_t>(m_stream->gcount());
   }
   fs::path m_path;
-  std::ifstream m_stream;
+  std::unique_ptr<std::istream> m_stream;
   std::array<char, kUnpackedBlock> m_block{};
   std::size_t m_at = 0, m_held = 0;
   std::uint64_t m_left = std::numeric_limits<std::uint64_t>::max();
@@ -281,10 +281,10 @@ std::uint64_t dropBytes(std::uint64_t count, const Progress& progress, Read read
 
 }  // namespace
 
-std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored, const fs::path& file,
+std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored, const InputFile& file,
                                        std::uint64_t size, const Progress& progress) {
   const auto truncated = [&](const std::string& what) {
-    return invalidInput(shown(file) + ": truncated: it ends within the " + what +
+    return invalidInput(shown(file.path()) + ": truncated: it ends within the " + what +
                         " to be skipped before its voxels");
   };
   const auto behindLines = [&] {
@@ -314,8 +314,8 @@ std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored, const fs::pat
   }
   if (stored.byteSkip < 0) {
     const auto behind = size + static_cast<std::uint64_t>(-1 - stored.byteSkip);
-    return unpacked(
-        stored, std::make_unique<Blocks>(file, fs::file_size(file) - behind, stored.packedSize));
+    return unpacked(stored,
+                    std::make_unique<Blocks>(file, file.size() - behind, stored.packedSize));
   }
   auto blocks = behindLines();
   const auto skip = static_cast<std::uint64_t>(stored.byteSkip);

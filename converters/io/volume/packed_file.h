@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "converters/io/content/input_file.h"
 #include "converters/io/volume/stored_voxels.h"
 
 namespace lumen::convert {
@@ -28,8 +29,7 @@ public:
 
 /// Opens `file` of `stored`, which must hold `size` bytes of voxels. Throws Error(InvalidInput) if
 /// it cannot be opened or ends before its voxels, and Error(Cancelled).
-std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored,
-                                       const std::filesystem::path& file, std::uint64_t size,
-                                       const Progress& progress);
+std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored, const InputFile& file,
+                                       std::uint64_t size, const Progress& progress);
 
 }  // namespace lumen::convert

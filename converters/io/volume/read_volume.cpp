@@ -5,15 +5,15 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
+#include <istream>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/open_volume.h"
+#include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
 namespace {
@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 constexpr std::array kOpeners = {openNrrd, openNifti, openMetaImage, openDicom};
 
 /// Refuses an error page that a server sent instead of the file.
-void refuseWebPage(const fs::path& path) {
+void refuseWebPage(const InputFile& file) {
   std::array<char, 256> head{};
-  std::ifstream(path, std::ios::binary).read(head.data(), head.size() - 1);
+  file.open()->read(head.data(), head.size() - 1);
   std::string text(head.data());
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -34,49 +34,33 @@ void refuseWebPage(const fs::path& path) {
   if (start == std::string::npos) return;
   text.erase(0, start);
   if (text.starts_with("<!doctype html") || text.starts_with("<html"))
-    throw invalidInput(path.string() +
+    throw invalidInput(file.path().string() +
                        ": is a web page (HTML), not a volume; a server may have answered the "
                        "download with a page of its own");
 }
 
 /// Throws unless the path is a folder for DICOM, and a file for any other format.
-void checkPlace(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options) {
+void checkPlace(const InputFile& file, VolumeFormat format, const ReadVolumeOptions& options) {
+  const fs::path& path = file.path();
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) throw invalidInput(path.string() + ": no such file or directory");
-  const bool folder = fs::is_directory(path, ignored);
+  if (!file.isInMemory() && !fs::exists(path, ignored))
+    throw invalidInput(path.string() + ": no such file or directory");
+  const bool folder = !file.isInMemory() && fs::is_directory(path, ignored);
   if (format == VolumeFormat::Dicom && !folder)
     throw invalidInput(path.string() +
                        ": this is a file; a DICOM series is read from the folder that holds it");
   if (format != VolumeFormat::Dicom && folder)
     throw invalidInput(path.string() + ": this is a folder; expected a file");
-  if (!folder && !fs::is_regular_file(path, ignored))
+  if (!folder && !file.isInMemory() && !fs::is_regular_file(path, ignored))
     throw invalidInput(path.string() + ": this is a device or a pipe; expected a file");
   if (!folder && !options.series.empty())
     throw invalidInput(path.string() +
                        ": is a file; a series can be chosen in a DICOM directory only");
   if (folder && options.volumeIndex)
     throw invalidInput(path.string() + ": is a folder of DICOM, in which " +
-                       kOption.series.shown() + " chooses; " + kOption.volumeIndex.shown() +
+                       options.word("series") + " chooses; " + options.word("volume-index") +
                        " is for files of several volumes");
-  if (!folder) refuseWebPage(path);
-}
-
-/// Refuses values that are not finite, and constant volumes.
-template <class T>
-void checkValues(const std::vector<T>& voxels, const fs::path& path) {
-  if constexpr (std::is_floating_point_v<T>) {
-    const auto bad =
-        std::count_if(voxels.begin(), voxels.end(), [](T v) { return !std::isfinite(v); });
-    if (bad > 0)
-      throw invalidInput(path.string() + ": " + std::to_string(bad) +
-                         " of its voxels are not finite; expected numbers within a float's range");
-  }
-  const bool constant = std::all_of(voxels.begin(), voxels.end(),
-                                    [&](T v) { return !(v < voxels[0]) && !(v > voxels[0]); });
-  if (constant)
-    throw invalidInput(path.string() + ": every voxel is " +
-                       shownNumber(static_cast<double>(voxels[0])) +
-                       "; expected an image with vessels in it");
+  if (!folder) refuseWebPage(file);
 }
 
 template <class T>
@@ -98,30 +82,30 @@ void crop(Volume& volume, const CellBox& box, const fs::path& path) {
   std::visit([&](auto& voxels) { voxels = cropped(voxels, whole, box); }, volume.voxels);
 }
 
-OpenVolume open(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
+OpenVolume open(const InputFile& file, VolumeFormat format, const ReadVolumeOptions& options,
                 const Progress& progress) {
-  checkPlace(path, format, options);
+  checkPlace(file, format, options);
   progress.check();
-  return kOpeners.at(static_cast<std::size_t>(format))(path, options, progress);
+  return kOpeners.at(static_cast<std::size_t>(format))(file, options, progress);
 }
 
 }  // namespace
 
-VolumeHeader readVolumeHeader(const fs::path& path, VolumeFormat format,
+VolumeHeader readVolumeHeader(const InputFile& file, VolumeFormat format,
                               const ReadVolumeOptions& options, const Progress& progress) {
-  VolumeHeader header = open(path, format, options, progress).header;
-  if (options.crop) cropGeometry(header.geometry, *options.crop, path);
+  VolumeHeader header = open(file, format, options, progress).header;
+  if (options.crop) cropGeometry(header.geometry, *options.crop, file.path());
   return header;
 }
 
-Volume readVolume(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
+Volume readVolume(const InputFile& file, VolumeFormat format, const ReadVolumeOptions& options,
                   const Progress& progress) {
-  OpenVolume file = open(path, format, options, progress);
-  Volume volume{file.header.geometry, {}, std::move(file.header.assumptions)};
-  volume.voxels = file.readVoxels(progress, volume.assumptions);
+  OpenVolume opened = open(file, format, options, progress);
+  Volume volume{opened.header.geometry, {}, std::move(opened.header.assumptions)};
+  volume.voxels = opened.readVoxels(progress, volume.assumptions);
   progress.check();
-  if (options.crop) crop(volume, *options.crop, path);
-  std::visit([&](const auto& voxels) { checkValues(voxels, path); }, volume.voxels);
+  if (options.crop) crop(volume, *options.crop, file.path());
+  checkVoxels(volume.voxels, file.path());
   progress.check();
   return volume;
 }

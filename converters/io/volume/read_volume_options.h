@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include "converters/base/field_word.h"
 #include "converters/voxels/cell_box.h"
 #include "converters/voxels/volume.h"
 
@@ -26,16 +27,19 @@ struct ReadVolumeOptions {
   /// Index of the volume in a file that holds several, from 0, as 4-D files of NIfTI, NRRD and
   /// MetaImage do.
   std::optional<int> volumeIndex{};
-  /// --spacing: mm along i, j, k; overrides the header.
+  /// Mm along i, j, k; overrides the header.
   std::optional<Eigen::Vector3d> spacing{};
-  /// --unit: mm of the unit of the header's lengths; overrides the header's own statement.
+  /// Mm of the unit of the header's lengths; overrides the header's own statement.
   std::optional<double> unit{};
-  /// --allow-detached: files, and folders with everything below them, that may hold voxels besides
+  /// Files, and folders with everything below them, that may hold voxels besides
   /// the header's own folder.
   std::vector<std::filesystem::path> allowedDetached{};
   /// DICOM: files that cannot be read are left out, and an assumption names each, instead of a
   /// refusal of the series.
   bool skipFaulty = false;
+  /// Names, in messages and assumptions, the fields by which a caller states these: "series",
+  /// "volume-index", "spacing", "unit", "allow-detached".
+  FieldWord word{};
 };
 
 // Properties of a volume that are known before its voxels are read.

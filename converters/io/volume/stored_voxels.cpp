@@ -63,7 +63,7 @@ public:
 
 private:
   /// Reads voxels [from, to) of a file.
-  void readFile(const fs::path& file, std::uint64_t from, std::uint64_t to) {
+  void readFile(const InputFile& file, std::uint64_t from, std::uint64_t to) {
     const std::uint64_t bytes = bytesOfEachFile(m_stored);
     const auto packed = openPacked(m_stored, file, bytes, m_progress);
     constexpr std::size_t kBlock = kBlockBytes / sizeof(From);
@@ -74,11 +74,11 @@ private:
       const std::size_t got = done < from ? packed->read(m_block.data(), wanted * sizeof(From))
                                           : readBlock(*packed, wanted);
       done += got / sizeof(From);
-      if (got < wanted * sizeof(From)) refuseTruncated(file, done * sizeof(From), bytes);
+      if (got < wanted * sizeof(From)) refuseTruncated(file.path(), done * sizeof(From), bytes);
     }
     if (to * sizeof(From) == bytes && packed->hasMore())
       m_assumptions.push_back(
-          "the data in " + formats::printable(file.filename().string()) +
+          "the data in " + formats::printable(file.path().filename().string()) +
           " goes on after the voxels that the header announces; the rest is not read");
   }
 
@@ -164,10 +164,8 @@ std::string nameOf(PixelType type) {
 
 std::uint64_t checkStored(const StoredVoxels& stored, std::vector<std::string>& assumptions) {
   std::uint64_t total = 0;
-  for (const fs::path& file : stored.files) {
-    std::error_code error;
-    const std::uint64_t size = fs::file_size(file, error);
-    if (error) throw invalidInput(formats::printable(file.string()) + ": " + error.message());
+  for (const InputFile& file : stored.files) {
+    const std::uint64_t size = file.size();
     total += size;
     // from the header on, and if from the file's end backwards, not into the header
     const double needed =
@@ -175,11 +173,11 @@ std::uint64_t checkStored(const StoredVoxels& stored, std::vector<std::string>& 
                                                   : static_cast<double>(stored.byteSkip));
     const double room = static_cast<double>(size) - static_cast<double>(stored.offset);
     const auto limit = static_cast<double>(stored.packedSize.value_or(size));
-    checkRoom(file, needed, std::min(room, limit), stored.packing == Packing::Deflate);
+    checkRoom(file.path(), needed, std::min(room, limit), stored.packing == Packing::Deflate);
     const bool exact =
         stored.packing == Packing::Raw && stored.lineSkip == 0 && stored.byteSkip >= 0;
     if (exact && room > needed)
-      assumptions.push_back("the data in " + formats::printable(file.filename().string()) +
+      assumptions.push_back("the data in " + formats::printable(file.path().filename().string()) +
                             " goes on for " + longNumber(room - needed) +
                             " bytes after the voxels that the header announces; the rest is not "
                             "read");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
+#include "converters/io/content/input_file.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -55,11 +56,11 @@ std::string nameOf(PixelType type);
 enum class Packing { Raw, Deflate, Text, Hex };
 
 struct StoredVoxels {
-  std::filesystem::path header;              ///< file named in messages
-  std::vector<std::filesystem::path> files;  ///< files with equal parts of the voxels, in order
-  std::uint64_t count = 0;                   ///< voxels in all files
-  std::uint64_t first = 0;                   ///< index of the first wanted voxel
-  std::optional<std::uint64_t> wanted;       ///< number of wanted voxels; empty: all
+  std::filesystem::path header;         ///< file named in messages
+  std::vector<InputFile> files;         ///< files with equal parts of the voxels, in order
+  std::uint64_t count = 0;              ///< voxels in all files
+  std::uint64_t first = 0;              ///< index of the first wanted voxel
+  std::optional<std::uint64_t> wanted;  ///< number of wanted voxels; empty: all
   PixelType type = PixelType::UInt8;
   bool bigEndian = false;
   Packing packing = Packing::Raw;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <system_error>
+#include <istream>
+#include <memory>
 
 #include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
@@ -49,16 +49,13 @@ std::optional<std::int64_t> parseInteger(std::string_view text) {
   return static_cast<std::int64_t>(*real);
 }
 
-HeaderLines::HeaderLines(const std::filesystem::path& path) {
+HeaderLines::HeaderLines(const InputFile& file) {
   constexpr std::size_t kMaxHeader = 1 << 22;  // enough for names of 50 000 files
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw invalidInput(path.string() + ": cannot be opened");
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  m_text.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(size, kMaxHeader)));
-  stream.read(m_text.data(), static_cast<std::streamsize>(m_text.size()));
-  if (stream.bad()) throw invalidInput(path.string() + ": cannot be read");
-  m_text.resize(static_cast<std::size_t>(stream.gcount()));
+  const std::unique_ptr<std::istream> stream = file.open();
+  m_text.resize(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kMaxHeader)));
+  stream->read(m_text.data(), static_cast<std::streamsize>(m_text.size()));
+  if (stream->bad()) throw invalidInput(file.path().string() + ": cannot be read");
+  m_text.resize(static_cast<std::size_t>(stream->gcount()));
 }
 
 bool HeaderLines::next(std::string& line) {
@@ -72,7 +69,7 @@ bool HeaderLines::next(std::string& line) {
 void TextHeader::set(const std::string& name, const std::string& value) {
   const auto [field, added] = m_fields.emplace(name, value);
   if (added || isSameValue(field->second, value)) return;
-  throw invalidInput(m_path.string() + ": its header states " + formats::printable(name) +
+  throw invalidInput(path().string() + ": its header states " + formats::printable(name) +
                      " twice: " + quotedText(field->second) + " and " + quotedText(value));
 }
 
@@ -83,7 +80,7 @@ const std::string& TextHeader::text(const std::string& name) const {
 }
 
 const std::string& TextHeader::required(const std::string& name) const {
-  if (!has(name)) throw invalidInput(m_path.string() + ": its header has no field " + name);
+  if (!has(name)) throw invalidInput(path().string() + ": its header has no field " + name);
   return text(name);
 }
 
@@ -117,7 +114,7 @@ std::int64_t TextHeader::integer(const std::string& name, std::int64_t low, std:
 }
 
 Error TextHeader::refusal(const std::string& name, const std::string& expected) const {
-  return invalidInput(m_path.string() + ": its " + name + " is " + quotedText(text(name)) +
+  return invalidInput(path().string() + ": its " + name + " is " + quotedText(text(name)) +
                       "; expected " + expected);
 }
 

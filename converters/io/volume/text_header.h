@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/io/content/input_file.h"
 
 namespace lumen::convert {
 
@@ -24,7 +25,7 @@ std::optional<std::int64_t> parseInteger(std::string_view text);
 class HeaderLines {
 public:
   /// Throws Error(InvalidInput) if the file cannot be read.
-  explicit HeaderLines(const std::filesystem::path& path);
+  explicit HeaderLines(const InputFile& file);
   /// The next line without its end; false if there is none.
   bool next(std::string& line);
   /// Total size of the lines read so far, bytes.
@@ -38,7 +39,7 @@ private:
 /// The fields of a header, by names in lower case, and the offset of the data after it.
 class TextHeader {
 public:
-  explicit TextHeader(std::filesystem::path path) : m_path(std::move(path)) {}
+  explicit TextHeader(InputFile file) : m_file(std::move(file)) {}
 
   /// Throws Error(InvalidInput) if the field already has another value.
   void set(const std::string& name, const std::string& value);
@@ -60,13 +61,14 @@ public:
   /// "v.nrrd: its field is "value"; expected EXPECTED".
   [[nodiscard]] Error refusal(const std::string& name, const std::string& expected) const;
 
-  [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
+  [[nodiscard]] const InputFile& file() const { return m_file; }
+  [[nodiscard]] const std::filesystem::path& path() const { return m_file.path(); }
 
   std::uint64_t size = 0;          ///< bytes up to the data
   std::vector<std::string> files;  ///< lines after a field that announces a list of files
 
 private:
-  std::filesystem::path m_path;
+  InputFile m_file;
   std::map<std::string, std::string> m_fields;
 };
 

@@ -8,7 +8,6 @@
 #include <Eigen/SVD>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 
 namespace lumen::convert {
@@ -22,6 +21,24 @@ constexpr double kMaxVoxels = 1e11;
 
 // Deflate expands at most 1032 times (zlib's technical notes).
 constexpr double kMaxExpansion = 1032;
+
+/// Refuses values that are not finite, and constant volumes.
+template <class T>
+void checkValues(const std::vector<T>& voxels, const fs::path& path) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const auto bad =
+        std::count_if(voxels.begin(), voxels.end(), [](T v) { return !std::isfinite(v); });
+    if (bad > 0)
+      throw invalidInput(path.string() + ": " + std::to_string(bad) +
+                         " of its voxels are not finite; expected numbers within a float's range");
+  }
+  const bool constant = std::all_of(voxels.begin(), voxels.end(),
+                                    [&](T v) { return !(v < voxels[0]) && !(v > voxels[0]); });
+  if (constant)
+    throw invalidInput(path.string() + ": every voxel is " +
+                       shownNumber(static_cast<double>(voxels[0])) +
+                       "; expected an image with vessels in it");
+}
 
 }  // namespace
 
@@ -58,11 +75,12 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
   }
 }
 
-void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value) {
+void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value,
+                        const FieldWord& word) {
   if (std::isfinite(value) && value > 0) return;
   throw invalidInput(path.string() + ": " + field + " states a spacing of " + longNumber(value) +
                      " along axis " + std::to_string(axis) +
-                     "; expected a positive number; state it with " + kOption.spacing.shown());
+                     "; expected a positive number; state it with " + word("spacing"));
 }
 
 void checkRoom(const fs::path& path, double needed, double available, bool compressed) {
@@ -78,12 +96,13 @@ void refuseDimensions(const fs::path& path, unsigned dimensions, const std::stri
 }
 
 std::uint64_t chosenVolume(const fs::path& path, const std::string& sizes, std::uint64_t volumes,
-                           std::optional<int> wanted) {
+                           const ReadVolumeOptions& options) {
+  const std::optional<int>& wanted = options.volumeIndex;
   if (volumes == 1 && wanted)
-    throw invalidInput(path.string() + ": holds one volume; " + kOption.volumeIndex.shown() +
+    throw invalidInput(path.string() + ": holds one volume; " + options.word("volume-index") +
                        " is for files of several");
   if (volumes == 1) return 0;
-  const std::string choice = kOption.volumeIndex.shown() + " 0 to " + std::to_string(volumes - 1);
+  const std::string choice = options.word("volume-index") + " 0 to " + std::to_string(volumes - 1);
   const auto dimensions = 1 + std::count(sizes.begin(), sizes.end(), 'x');
   const std::string what =
       path.string() + ": is " + std::to_string(dimensions) + "-D (" + sizes + ")";
@@ -98,6 +117,10 @@ std::uint64_t chosenVolume(const fs::path& path, const std::string& sizes, std::
 
 std::string longNumber(double value) {
   return shownNumber(value, kHeaderDigits);
+}
+
+void checkVoxels(const Voxels& voxels, const fs::path& path) {
+  std::visit([&](const auto& values) { checkValues(values, path); }, voxels);
 }
 
 }  // namespace lumen::convert

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "converters/io/volume/read_volume_options.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -15,10 +16,13 @@ namespace lumen::convert {
 /// sound and the direction is orthonormal within 1e-3; makes it orthonormal to rounding.
 void checkGeometry(VolumeGeometry& geometry, const std::filesystem::path& path);
 
+/// Throws Error(InvalidInput), naming `path`, for voxels that are not finite, or that are all equal.
+void checkVoxels(const Voxels& voxels, const std::filesystem::path& path);
+
 /// Throws Error(InvalidInput), naming `path` and `field`, unless `value` is a valid spacing; `axis`
 /// counts from 1.
 void checkStatedSpacing(const std::filesystem::path& path, const std::string& field, int axis,
-                        double value);
+                        double value, const FieldWord& word);
 
 /// Throws Error(InvalidInput) if `available` bytes of a file cannot unpack to `needed` bytes of
 /// voxels.
@@ -28,11 +32,11 @@ void checkRoom(const std::filesystem::path& path, double needed, double availabl
 [[noreturn]] void refuseDimensions(const std::filesystem::path& path, unsigned dimensions,
                                    const std::string& sizes);
 
-/// The index, from 0, of the volume to read from a file of `volumes` of equal size: `wanted`.
+/// The index, from 0, of the volume to read from a file of `volumes` of equal size, by the options.
 /// Throws Error(InvalidInput) if a choice among several is missing, if the file does not have the
 /// chosen volume, and if a choice is given for a file of one volume.
 std::uint64_t chosenVolume(const std::filesystem::path& path, const std::string& sizes,
-                           std::uint64_t volumes, std::optional<int> wanted);
+                           std::uint64_t volumes, const ReadVolumeOptions& options);
 
 /// Most significant digits of lengths and sizes that headers of images state.
 inline constexpr int kHeaderDigits = 12;

@@ -191,7 +191,7 @@ EdgeOptions recordedEdgeOptions(const formats::Case& value) {
     const auto blur = step.parameters.find("point-spread");
     if (blur != step.parameters.end())
       if (const auto* s = std::get_if<double>(&blur->second)) options.pointSpread = *s;
-    const auto dark = step.parameters.find(kOption.dark.name);
+    const auto dark = step.parameters.find("dark");
     if (dark != step.parameters.end())
       if (const auto* is = std::get_if<bool>(&dark->second)) options.dark = *is;
   }

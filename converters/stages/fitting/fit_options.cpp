@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "formats/field/kernel.h"
 #include "formats/view/text_rules.h"
 
@@ -51,33 +50,31 @@ void scaleWithVoxel(const char* name, std::optional<double>& value, double voxel
 void FitOptions::addRows(OptionTable& table) {
   table.group("Fitting");
   OptionRow& kernelRow =
-      table.choice(kOption.kernel.name, kernel, kernelsByName(), "Radial kernel").recorded();
+      table.choice("kernel", kernel, kernelsByName(), "Radial kernel").recorded();
   kernelRow.type = "NAME";
   table
       .add("kernel-parameter", &kernelParameter, "X",
            "Cauchy's s^2 [0.2] or the Gaussian's a^2 [0.5]")
       .in(kScale)
       .recorded()
-      .unusedIf([this] {
+      .unusedIf([this, &kernelRow] {
         const std::string name(field::kKernelNames.at(static_cast<std::size_t>(kernel)));
         return field::hasParameter(kernel) ? ""
-                                           : "does nothing with " + kOption.kernel.shown() + " " +
+                                           : "does nothing with " + kernelRow.shownName() + " " +
                                                  name + ", which has no parameter";
       });
-  table
-      .add(kOption.cohesionWeight.name, &cohesionWeight, "W",
-           "Weight alpha of the Lennard-Jones energy")
-      .in(kWeight)
-      .recorded();
+  OptionRow& cohesionRow =
+      table.add("cohesion-weight", &cohesionWeight, "W", "Weight alpha of the Lennard-Jones energy")
+          .in(kWeight)
+          .recorded();
   table.add("curvature-weight", &curvatureWeight, "W", "Weight beta of the curvature energy")
       .in(kWeight)
       .recorded();
   table.add("cohesion-scale", &cohesionScale, "S", "Scale s of the Lennard-Jones energy")
       .in(kScale)
       .recorded()
-      .unusedIf([this] {
-        return cohesionWeight > 0 ? ""
-                                  : "does nothing with " + kOption.cohesionWeight.shown() + " 0";
+      .unusedIf([this, &cohesionRow] {
+        return cohesionWeight > 0 ? "" : "does nothing with " + cohesionRow.shownName() + " 0";
       });
   table.add("max-subdivisions", &maxSubdivisions, "N", "Most blob subdivisions in one node")
       .in(WholeRange{0, 1000})
@@ -87,16 +84,15 @@ void FitOptions::addRows(OptionTable& table) {
            "Topological distance of the nodes whose points a node is fitted to")
       .in(WholeRange{0, 100})
       .recorded();
-  table
-      .add(kOption.seamSweeps.name, &seamSweeps, "N",
-           "Sweeps that tie adjacent models to one another")
-      .in(WholeRange{0, 100})
-      .recorded();
+  OptionRow& sweepsRow =
+      table.add("seam-sweeps", &seamSweeps, "N", "Sweeps that tie adjacent models to one another")
+          .in(WholeRange{0, 100})
+          .recorded();
   table.add("seam-weight", &seamWeight, "W", "Weight of a tie, in wall points")
       .in(kWeight)
       .recorded()
-      .unusedIf([this] {
-        return seamSweeps > 0 ? "" : "does nothing with " + kOption.seamSweeps.shown() + " 0";
+      .unusedIf([this, &sweepsRow] {
+        return seamSweeps > 0 ? "" : "does nothing with " + sweepsRow.shownName() + " 0";
       });
   table.scaled("iso-level", isoLevel, "Iso-level T", "half a voxel").recorded();
   table.scaled("accuracy", accuracy, "Subdivide until no point is farther than this", "1.5 voxels")

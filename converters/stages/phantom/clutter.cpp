@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/stages/phantom/clutter_shapes.h"
 #include "formats/container/printable.h"
@@ -95,7 +94,7 @@ const std::vector<std::string>& clutterNames() {
   return names;
 }
 
-std::set<Clutter> parseClutter(const std::string& list) {
+std::set<Clutter> parseClutter(const std::string& list, const FieldWord& fieldWord) {
   std::set<Clutter> kinds;
   if (list.empty()) return kinds;
   const std::vector<std::string>& names = clutterNames();
@@ -104,14 +103,13 @@ std::set<Clutter> parseClutter(const std::string& list) {
     const std::string word = list.substr(at, end - at);
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end())
-      throw Error(ErrorKind::Usage, kOption.clutter.shown() + ": found '" +
-                                        formats::printable(word) +
+      throw Error(ErrorKind::Usage, fieldWord("clutter") + ": found '" + formats::printable(word) +
                                         "', expected kinds of clutter with commas between them: "
                                         "bone, vein, streaks, stent or void" +
                                         didYouMean(word, names));
     if (!kinds.insert(static_cast<Clutter>(found - names.begin())).second)
       throw Error(ErrorKind::Usage,
-                  kOption.clutter.shown() + ": names " + word + " twice, expected each kind once");
+                  fieldWord("clutter") + ": names " + word + " twice, expected each kind once");
     at = end + 1;
   }
   return kinds;

@@ -33,7 +33,7 @@ const std::vector<std::string>& clutterNames();
 
 /// The kinds that a list such as "bone,vein" names; none for an empty text. Throws Error(Usage) for
 /// an unknown name and for one that occurs twice.
-std::set<Clutter> parseClutter(const std::string& list);
+std::set<Clutter> parseClutter(const std::string& list, const FieldWord& fieldWord = {});
 
 /// Lowers the contrast of a stretch of five radii, to a twentieth in its middle, if `kinds` hold Void.
 void loseFlow(const std::set<Clutter>& kinds, std::uint64_t seed, Design& design);

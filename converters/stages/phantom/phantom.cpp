@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/motion/posing.h"
 #include "converters/stages/phantom/clutter.h"
@@ -18,9 +17,9 @@ namespace {
 
 constexpr int kSmallestSize = 32, kLargestSize = 1024;
 
-void requireRange(const OptionName& option, double value, double low, double high) {
+void requireRange(const std::string& field, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw Error(ErrorKind::Usage, "phantom: " + option.shown() + " is " + formats::shortText(value) +
+  throw Error(ErrorKind::Usage, "phantom: " + field + " is " + formats::shortText(value) +
                                     ", expected " + formats::shortText(low) + " to " +
                                     formats::shortText(high));
 }
@@ -31,11 +30,12 @@ void checkOptions(const PhantomOptions& options) {
   if (options.tree.empty() && std::find(names.begin(), names.end(), options.name) == names.end())
     throw Error(ErrorKind::Usage,
                 "phantom: there is no '" + formats::printable(options.name) + "'");
-  if (options.size != 0) requireRange(kOption.size, options.size, kSmallestSize, kLargestSize);
+  if (options.size != 0)
+    requireRange(options.word("size"), options.size, kSmallestSize, kLargestSize);
   if (options.sliceThickness != 0)
-    requireRange(kOption.sliceThickness, options.sliceThickness, options.voxel,
+    requireRange(options.word("slice-thickness"), options.sliceThickness, options.voxel,
                  100 * options.voxel);
-  (void)parseClutter(options.clutter);
+  (void)parseClutter(options.clutter, options.word);
 }
 
 formats::Case describeTruth(const PhantomScene& scene, const PhantomOptions& options) {
@@ -46,10 +46,10 @@ formats::Case describeTruth(const PhantomScene& scene, const PhantomOptions& opt
   step.tool = "lumen " LUMEN_VERSION;
   step.parameters = options.parameters();
   if (options.tree.empty()) {
-    step.parameters[kOption.size.name] = static_cast<std::int64_t>(scene.grid.size[0]);
+    step.parameters["size"] = static_cast<std::int64_t>(scene.grid.size[0]);
   } else {
     step.parameters.erase("name");
-    step.parameters.erase(kOption.size.name);
+    step.parameters.erase("size");
     step.parameters["tree-sha256"] = scene.treeSha256;
   }
   step.parameters.insert(scene.design.notes.begin(), scene.design.notes.end());
@@ -91,7 +91,7 @@ Volume draw(const PhantomScene& scene, const Design& design, const PhantomOption
 void requireTree(const PhantomScene& scene, const PhantomOptions& options) {
   if (options.motion == PhantomMotion::None || !scene.design.wall) return;
   throw Error(ErrorKind::Usage, "phantom: the wall of '" + options.name +
-                                    "' is not that of its tree, which " + kOption.motion.shown() +
+                                    "' is not that of its tree, which " + options.word("motion") +
                                     " would move; expected another phantom");
 }
 
@@ -112,18 +112,15 @@ Design designAt(const PhantomScene& scene, const formats::Motion& motion, int ph
 void addImageRows(PhantomOptions& o, OptionTable& table) {
   constexpr NumberRange kTwice{0, 2};
   table
-      .add(kOption.noise.name, &o.noise, "SHARE",
+      .add("noise", &o.noise, "SHARE",
            "Standard deviation of the noise, as a share of the contrast")
       .in(kTwice)
       .recorded();
   table
-      .add(kOption.bias.name, &o.bias, "SHARE",
-           "Amplitude of the slow bias field, as a share of the contrast")
+      .add("bias", &o.bias, "SHARE", "Amplitude of the slow bias field, as a share of the contrast")
       .in(kTwice)
       .recorded();
-  table
-      .add(kOption.psf.name, &o.psf, "VOXELS",
-           "Standard deviation of the Gaussian point-spread function")
+  table.add("psf", &o.psf, "VOXELS", "Standard deviation of the Gaussian point-spread function")
       .in(NumberRange{0, 5})
       .recorded();
 }
@@ -131,14 +128,14 @@ void addImageRows(PhantomOptions& o, OptionTable& table) {
 void addMotionRows(PhantomOptions& o, OptionTable& table) {
   table
       .choice(
-          kOption.motion.name, o.motion, phantomMotionByName(),
+          "motion", o.motion, phantomMotionByName(),
           "Motion of the vessels: one volume for each phase of a cycle, numbered, and a truth with "
           "its motion")
       .recorded();
-  table.add(kOption.phases.name, &o.phases, "N", "Phases of the motion, evenly over its cycle")
+  table.add("phases", &o.phases, "N", "Phases of the motion, evenly over its cycle")
       .in(WholeRange{2, 100})
       .recorded()
-      .onlyWith(kOption.motion.name);
+      .onlyWith("motion");
 }
 
 }  // namespace
@@ -146,28 +143,25 @@ void addMotionRows(PhantomOptions& o, OptionTable& table) {
 void PhantomOptions::addRows(OptionTable& table) {
   table.group("Phantom");
   table
-      .add(kOption.size.name, &size, "N",
-           "Voxels along an edge; 0: 128, or 256 for patient and willis; not with " +
-               kOption.tree.shown())
+      .add("size", &size, "N",
+           "Voxels along an edge; 0: 128, or 256 for patient and willis; not with " + word("tree"))
       .in(WholeRange{0, kLargestSize})
       .recorded()
-      .notBeside(kOption.tree.name);
-  table.add(kOption.voxel.name, &voxel, "MM", "Edge of a voxel")
-      .in(NumberRange{0.01, 10})
-      .recorded();
+      .notBeside("tree");
+  table.add("voxel", &voxel, "MM", "Edge of a voxel").in(NumberRange{0.01, 10}).recorded();
   table
-      .add(kOption.sliceThickness.name, &sliceThickness, "MM",
+      .add("slice-thickness", &sliceThickness, "MM",
            "Thickness of a slice along z, which is the mean over it; 0: a voxel, or five for "
            "thick-slices")
       .in(kNotNegative)
       .recorded();
   table
-      .add(kOption.fade.name, &fade, "SHARE",
+      .add("fade", &fade, "SHARE",
            "Share of the contrast that is lost at the end farthest from the root")
       .in(NumberRange{0, 1})
       .recorded();
   table
-      .add(kOption.clutter.name, &clutter, "LIST",
+      .add("clutter", &clutter, "LIST",
            "Structures and losses that disturb finding and are not part of the truth, such as "
            "bone,vein,streaks,stent,void")
       .recorded();
@@ -181,12 +175,12 @@ void PhantomOptions::addRows(OptionTable& table) {
               "Manner of clicking the seeds; careless clicks lie a fifth of a radius off the "
               "axis, 1.5 radii "
               "beyond the parent's wall, and state neither radius nor direction")
-      .onlyWith(kOption.seeds.name);
+      .onlyWith("seeds");
   table
       .add("click-drawing", &clickDrawing, "K",
            "Number of the drawing of clicks: another number makes others on the same volume")
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})
-      .onlyWith(kOption.seeds.name);
+      .onlyWith("seeds");
 }
 
 const std::map<std::string, bool>& carelessByName() {
@@ -200,12 +194,12 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
   copy.addRows(table);
   std::map<std::string, formats::ParameterValue> parameters = table.recordedValues();
   parameters["name"] = name;
-  if (sliceThickness == 0) parameters.erase(kOption.sliceThickness.name);
-  if (clutter.empty()) parameters.erase(kOption.clutter.name);
-  if (fade == 0) parameters.erase(kOption.fade.name);
+  if (sliceThickness == 0) parameters.erase("slice-thickness");
+  if (clutter.empty()) parameters.erase("clutter");
+  if (fade == 0) parameters.erase("fade");
   if (motion == PhantomMotion::None) {
-    parameters.erase(kOption.motion.name);
-    parameters.erase(kOption.phases.name);
+    parameters.erase("motion");
+    parameters.erase("phases");
   }
   return parameters;
 }

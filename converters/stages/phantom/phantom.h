@@ -68,6 +68,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/field_word.h"
 #include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
@@ -94,7 +95,8 @@ struct PhantomOptions {
   bool isCareless = false;         ///< clicks as of a person in a hurry
   std::uint64_t clickDrawing = 0;  ///< another number: other clicks on the same volume
   PhantomMotion motion = PhantomMotion::None;
-  int phases = 10;  ///< of a motion
+  int phases = 10;   ///< of a motion
+  FieldWord word{};  ///< names fields in messages and in the help of rows
 
   /// Adds a row for each value above except name and tree, stored in this object.
   void addRows(OptionTable& table);

@@ -7,7 +7,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/sha256.h"
 #include "converters/base/shown_text.h"
 #include "converters/geometry/box.h"
@@ -76,16 +75,17 @@ double workableVoxel(const Box3d& box, double voxel) {
   return voxel;
 }
 
-VolumeGeometry gridAround(const Box3d& box, double voxel) {
+VolumeGeometry gridAround(const Box3d& box, const PhantomOptions& options) {
+  const double voxel = options.voxel;
   const Vector3d size = sizeOf(box, voxel);
   if (!(size.prod() <= kMostVoxels)) {
     const double workable = workableVoxel(box, voxel);
     throw Error(
         ErrorKind::Usage,
-        "phantom: a " + kOption.voxel.shown() + " of " + shownNumber(voxel) + " mm makes " +
+        "phantom: a " + options.word("voxel") + " of " + shownNumber(voxel) + " mm makes " +
             joinedNumbers(size, " x ") +
             " voxels of the tree, expected at most 536870912 in all: " +
-            (workable <= 10 ? kOption.voxel.shown() + " " + shownNumber(workable) + " is enough"
+            (workable <= 10 ? options.word("voxel") + " " + shownNumber(workable) + " is enough"
                             : "lengths of the file are taken as mm"));
   }
   VolumeGeometry grid;
@@ -105,14 +105,16 @@ double chordLength(const CenterlineFile& file) {
 }
 
 // Refuses options that would take too much memory or time.
-void checkEffort(const CenterlineFile& file, double voxel, const std::string& name) {
+void checkEffort(const CenterlineFile& file, const PhantomOptions& options,
+                 const std::string& name) {
+  const double voxel = options.voxel;
   Box3d box;
   double widest = 0;
   for (const CenterlinePoint& point : file.points) {
     box.add(point.position, point.radius);
     widest = std::max(widest, point.radius);
   }
-  gridAround(box, voxel);
+  gridAround(box, options);
   const double nodes =
       chordLength(file) / (0.5 * voxel) + 2 * static_cast<double>(file.points.size());
   const double draws = nodes * std::pow(2 * widest / voxel + 3, 3);
@@ -120,7 +122,7 @@ void checkEffort(const CenterlineFile& file, double voxel, const std::string& na
   throw invalidInput(name + ": its vessels are " + shownNumber(chordLength(file)) +
                      " mm long and up to " + shownNumber(widest) +
                      " mm in radius, too much to draw in voxels of " + shownNumber(voxel) +
-                     " mm; expected a tree in mm, or a larger " + kOption.voxel.shown());
+                     " mm; expected a tree in mm, or a larger " + options.word("voxel"));
 }
 
 std::string labelOf(std::size_t index) {
@@ -191,7 +193,7 @@ PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
   if (size < kFewestSlices * scene.slice)
     throw Error(ErrorKind::Usage,
-                "phantom: " + kOption.sliceThickness.shown() + " is " +
+                "phantom: " + options.word("slice-thickness") + " is " +
                     shownNumber(scene.slice * options.voxel) + " mm, expected at most " +
                     shownNumber(options.voxel * size / kFewestSlices) + " mm in a volume of " +
                     shownNumber(options.voxel * size) + " mm");
@@ -205,7 +207,7 @@ PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
 PhantomScene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   const std::string name = formats::printable(options.tree.string());
   const CenterlineFile file = readSwc(options.tree);
-  checkEffort(file, options.voxel, name);
+  checkEffort(file, options, name);
   PhantomScene scene;
   scene.treeSha256 = digestOfFile(options.tree).sha256;
   scene.design = makeDesign(file, options.voxel, name, progress);
@@ -214,7 +216,7 @@ PhantomScene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   const formats::CenterlineTree& tree = scene.design.tree;
   const Box3d box = boxOfPhases(tree, options);
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
-  scene.grid = gridAround(box, options.voxel);
+  scene.grid = gridAround(box, options);
   // whole slices
   const double slices =
       std::max<double>(kFewestSlices, std::ceil(scene.grid.size[2] / scene.slice));

@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/mesh_edges.h"
 #include "converters/geometry/mesh_measures.h"
@@ -125,9 +124,10 @@ UnitGuess guessUnit(const VesselSize& size, bool isSimVascular) {
   return {1, "mm", false, ""};
 }
 
-std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isSimVascular) {
+std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isSimVascular,
+                        const FieldWord& word) {
   const std::string taken = "the file states no unit; taken to be in " + guess.unit;
-  const std::string option = "; " + kOption.unit.shown() + " states the unit";
+  const std::string option = "; " + word("unit") + " states the unit";
   if (!guess.plausible)
     return taken + ", although " + sizeText(size, 1) + " are implausible, and in cm and m, too" +
            option;

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "converters/base/field_word.h"
 #include "converters/geometry/mesh_measures.h"
 #include "converters/stages/repair/mesh_report.h"
 
@@ -36,6 +37,7 @@ UnitGuess guessUnit(const VesselSize& size, bool isSimVascular = false);
 
 /// A sentence for people on a guess that may be wrong: not mm, not plausible, or one of two; empty
 /// for mm alone.
-std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isSimVascular);
+std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isSimVascular,
+                        const FieldWord& word = {});
 
 }  // namespace lumen::convert

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/tracking/cylinders/cylinder_equations.h"
@@ -151,11 +150,11 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
       return "at most " + std::to_string(best.walls) +
              " rays meet the wall of a vessel, at least " + std::to_string(kFewestCandidates) +
              " are needed: does it lie in one, and are vessels bright (if not: " +
-             kOption.dark.shown() + ")?";
+             context.options.word("dark") + ")?";
     case FitStage::LowRate:
       return "no cylinder fits: best inlier rate " + roundedDown(best.inlierRate) + ", at least " +
              roundedUp(leastInlierRate(context.options)) + " is needed (half of " +
-             kOption.inlierRate.shown() + ")";
+             context.options.word("inlier-rate") + ")";
     case FitStage::DarkInside:
       return "a cylinder fits, but " + fixedText(100.0 * best.dark, 0) +
              " % of what it holds is as dark as what is around it: click in the middle of the "
@@ -167,8 +166,8 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
       return "a cylinder fits with an inlier rate of " + roundedDown(best.inlierRate) +
              " only, and its wall is " + roundedDown(best.strength / context.noiseFloor) +
              " times as strong as noise: expected at least " +
-             roundedUp(context.options.noiseMargin) + " times (" + kOption.noiseMargin.shown() +
-             ")";
+             roundedUp(context.options.noiseMargin) + " times (" +
+             context.options.word("noise-margin") + ")";
     case FitStage::Found:
       break;
   }

@@ -8,7 +8,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/options/edit_steps.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/stages/tracking/cylinders/tracked_tree.h"
 
@@ -22,13 +21,13 @@ constexpr double kEdgesToVariance = 12.0;
 /// along the one axis and thousands of voxels along the other.
 constexpr double kLargestEdgeRatio = 1000.0;
 
-void checkVoxels(const Eigen::Vector3d& spacing) {
+void checkVoxels(const Eigen::Vector3d& spacing, const FieldWord& word) {
   const double uneven = spacing.maxCoeff() / spacing.minCoeff();
   if (uneven <= kLargestEdgeRatio) return;
   throw invalidInput("the volume's voxels are " + spacingText(spacing) + " mm, one edge " +
                      shownNumber(uneven, 3) + " times another; expected at most " +
                      shownNumber(kLargestEdgeRatio) + " times: if the spacing is wrong, " +
-                     kOption.spacing.shown() + " states it, else resample");
+                     word("spacing") + " states it, else resample");
 }
 
 /// Vessels have the other sign than stated if their contrast is this many times as large with it.
@@ -38,7 +37,7 @@ constexpr double kOtherSignContrasts = 4.0;
 void checkAndWarn(const Volume& volume, const std::vector<SeedBranch>& seeds,
                   const TrackOptions& options, Progress& progress) {
   options.check(volume.geometry.spacing.minCoeff());
-  checkVoxels(volume.geometry.spacing);
+  checkVoxels(volume.geometry.spacing, options.word);
   const Eigen::Vector3d& spacing = volume.geometry.spacing;
   const double most = BsplineVolume::kMostSmoothing * spacing.minCoeff();
   const BsplineVolume spline(
@@ -49,10 +48,10 @@ void checkAndWarn(const Volume& volume, const std::vector<SeedBranch>& seeds,
   if (contrastAtClicks(spline, seeds, other, progress) <= kOtherSignContrasts * contrast) return;
   progress.warn(
       options.dark
-          ? "most seeds lie where it is brighter than around them, but " + kOption.dark.shown() +
+          ? "most seeds lie where it is brighter than around them, but " + options.word("dark") +
                 " tracks dark vessels: leave it out if vessels are bright"
           : "most seeds lie where it is darker than around them: if vessels are dark, add " +
-                kOption.dark.shown());
+                options.word("dark"));
 }
 
 TrackOptions optionsFor(const formats::Case& tracked) {
@@ -135,10 +134,11 @@ std::optional<std::string> doubtAbout(const Volume& volume) {
 }
 
 TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracked,
-                               Progress& progress)
+                               Progress& progress, const FieldWord& word)
     : m_options(optionsFor(tracked)) {
+  m_options.word = word;
   m_options.check(volume.geometry.spacing.minCoeff());
-  checkVoxels(volume.geometry.spacing);
+  checkVoxels(volume.geometry.spacing, word);
   m_smoothed =
       smoothForNoise(volume, volume.geometry, middlesAsClicks(tracked), m_options, progress);
   m_options.smoothing = m_smoothed.smoothing;

@@ -43,8 +43,9 @@ class TrackingVolume {
 public:
   /// Prepares the volume for a case that was tracked in it: smoothed as its last "track" step
   /// states, with that step's options. Throws as trackFromSeeds() does, and Error(InvalidInput) if
-  /// the case has no such step.
-  TrackingVolume(const Volume& volume, const formats::Case& tracked, Progress& progress);
+  /// the case has no such step. `word` names fields of the options in messages.
+  TrackingVolume(const Volume& volume, const formats::Case& tracked, Progress& progress,
+                 const FieldWord& word = {});
   /// Prepares a volume without a case: smoothed as the noise around these clicks requires.
   TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
                  const TrackOptions& options, Progress& progress);

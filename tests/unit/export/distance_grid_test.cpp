@@ -193,7 +193,7 @@ TEST(DistanceGrid, RefusesMoreSamplesThanItMayHold) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::Usage);
-    EXPECT_NE(std::string(error.what()).find("--grid 0.001"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("grid 0.001"), std::string::npos) << error.what();
   }
 }
 

@@ -100,10 +100,18 @@ TEST(ExportCase, TakesTheUnitThatIsChosenIfTheTargetReadsIt) {
   EXPECT_EQ(exported(options, twoNodes()).files[0].bytes, "cm");
   options.unit = LengthUnit::Millimetre;
   EXPECT_EQ(errorOf(options, twoNodes()),
-            "--unit: found mm, expected m or cm, which is what echo reads");
+            "unit: found mm, expected m or cm, which is what echo reads");
   options.unit.reset();
   options.axes = Axes::Lps;
-  EXPECT_EQ(errorOf(options, twoNodes()), "--up: found z, expected y, which is what echo reads");
+  EXPECT_EQ(errorOf(options, twoNodes()), "up: found z, expected y, which is what echo reads");
+}
+
+TEST(ExportCase, NamesFieldsByTheWordOfItsOptions) {
+  ExportOptions options;
+  options.word = FieldWord(
+      [](std::string_view field, auto) { return std::string("<").append(field).append(">"); });
+  options.axes = Axes::Lps;
+  EXPECT_EQ(errorOf(options, twoNodes()), "<up>: found z, expected y, which is what echo reads");
 }
 
 TEST(ExportCase, HasEdgesOfHalfARadiusUnlessItIsAskedForOthers) {

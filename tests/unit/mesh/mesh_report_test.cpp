@@ -144,7 +144,7 @@ TEST(UnitGuess, AWarningNamesBothUnitsThatArePlausible) {
     const std::string warning = unitWarning(guessUnit(aorta, isSimVascular), aorta, isSimVascular);
     EXPECT_NE(warning.find("in mm"), std::string::npos) << warning;
     EXPECT_NE(warning.find("in cm"), std::string::npos) << warning;
-    EXPECT_NE(warning.find("--unit"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("; unit states the unit"), std::string::npos) << warning;
   }
   const VesselSize whole = vesselSize(openTube(10, 300));
   EXPECT_EQ(unitWarning(guessUnit(whole), whole, false), "");

@@ -49,7 +49,8 @@ std::vector<TextMesh> textMeshes() {
 }
 
 double firstX(const TextMesh& mesh, const std::string& number, const std::string& start = "") {
-  return parseMesh(start + mesh.before + number + mesh.after, "a", mesh.format)
+  const std::string text = start + mesh.before + number + mesh.after;
+  return readMesh({"a", text}, mesh.format)
       .mesh.position.at(0)
       .x();
 }
@@ -75,7 +76,7 @@ TEST(ReadStl, SolidMayBeInCapitals) {
   const std::string text =
       "SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\n"
       "ENDLOOP\nENDFACET\nENDSOLID A\n";
-  EXPECT_EQ(parseMesh(text, "a", MeshFormat::Stl).mesh.triangle.size(), 1U);
+  EXPECT_EQ(readMesh({"a", text}, MeshFormat::Stl).mesh.triangle.size(), 1U);
 }
 
 TEST(ReadGltf, AFileThatManyBuffersNameIsHeldOnce) {
@@ -106,15 +107,16 @@ std::string gltfOf(const std::string& node, const std::string& before = "") {
 
 TEST(ReadGltf, NumbersOfEveryWriterAreTheNearestDouble) {
   for (const auto& [text, value] : jsonSamples(1e8)) {
-    const MeshFile file =
-        parseMesh(gltfOf("\"translation\":[" + text + ",0,0]"), "a", MeshFormat::Gltf);
+    const std::string bytes = gltfOf("\"translation\":[" + text + ",0,0]");
+    const MeshFile file = readMesh({"a", bytes}, MeshFormat::Gltf);
     EXPECT_EQ(file.mesh.position[0].x(), 1000 * value) << text;
   }
 }
 
 TEST(ReadGltf, ExtrasMayHoldNumbersOfAnySize) {
   const auto read = [](const std::string& node) {
-    return parseMesh(gltfOf(node, kMark), "a", MeshFormat::Gltf).mesh.triangle.size();
+    const std::string bytes = gltfOf(node, kMark);
+    return readMesh({"a", bytes}, MeshFormat::Gltf).mesh.triangle.size();
   };
   EXPECT_EQ(read("\"extras\":[1e400,-1e999,123456789012345678901234567890]"), 1U);
   EXPECT_THROW(read("\"translation\":[1e400,0,0]"), Error);

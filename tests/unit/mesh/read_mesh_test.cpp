@@ -18,7 +18,7 @@ namespace {
 using namespace lumen::convert;
 
 MeshFile parsed(const std::string& text, MeshFormat format) {
-  return parseMesh(text, "a", format);
+  return readMesh({"a", text}, format);
 }
 
 std::string refusal(const std::string& text, MeshFormat format) {
@@ -269,6 +269,9 @@ TEST(ReadGltf, NoFileOutsideOfItsFolderIsOpened) {
     write("inside/far.gltf", gltf(R"([{"mesh":0}])", uri));
     EXPECT_THROW(readMesh(folder / "inside/far.gltf", MeshFormat::Gltf), Error) << uri;
   }
+  // nor any file at all, of bytes in memory
+  const std::string bytes = gltf(R"([{"mesh":0}])", "a%20b.bin");
+  EXPECT_THROW(readMesh({folder / "inside/near.gltf", bytes}, MeshFormat::Gltf), Error);
   std::filesystem::remove_all(folder);
 }
 

@@ -181,13 +181,14 @@ TEST_F(Fcsv, TheHeaderStatesTheCoordinateSystem) {
   for (const char* voxels : {"IJK", "2"})
     EXPECT_EQ(readRows(row, voxels)[0].frame.system, SeedSystem::Voxel) << voxels;
   expectRefused(refusal([&] { (void)readRows(row, "MRI"); }),
-                {"3: ", "line 2", "\"MRI\"", "LPS", "--seeds-frame"});
+                {"3: ", "line 2", "\"MRI\"", "LPS", "seeds-frame states another"});
 }
 
 TEST_F(Fcsv, WithoutACoordinateSystemAnOptionIsNeeded) {
   const std::string text = "# Fiducial List file\n# columns = label,x,y,z,sel,vis\nP1,1,2,3,1,1\n";
   expectRefused(refusal([&] { (void)read(text); }),
-                {"3: ", "F.fcsv", "line 3", "CoordinateSystem", "--seeds-frame", ".mrk.json"});
+                {"3: ", "F.fcsv", "line 3", "CoordinateSystem", "seeds-frame lps or ras states it",
+                 ".mrk.json"});
   const auto seeds = read(text, {SeedSystem::Ras, 10.0});
   EXPECT_EQ(seeds[0].label, "P1");
   EXPECT_EQ(seeds[0].points[0].position, Vector3d(-10, -20, 30));

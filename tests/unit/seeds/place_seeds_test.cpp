@@ -124,16 +124,16 @@ TEST(PlaceSeeds, SaysHowAllPointsWouldLieInside) {
   const std::vector<Misread> all = {
       {"RAS",
        [](const Vector3d& p) { return Vector3d(-p.x(), -p.y(), p.z()); },
-       {"x and y flipped", "--seeds-frame ras"}},
+       {"x and y flipped", "seeds-frame ras"}},
       {"voxels",
        [](const Vector3d& p) { return head().indexFromWorld(p); },
-       {"as voxel indices", "--seeds-frame voxel"}},
+       {"as voxel indices", "seeds-frame voxel"}},
       {"metres",
        [](const Vector3d& p) { return Vector3d(p / 1000); },
-       {"as metres", "--seeds-unit m"}},
+       {"as metres", "seeds-unit m"}},
       {"metres in RAS",
        [](const Vector3d& p) { return Vector3d(-p.x() / 1000, -p.y() / 1000, p.z() / 1000); },
-       {"metres in RAS", "--seeds-frame ras --seeds-unit m"}}};
+       {"metres in RAS", "seeds-frame ras seeds-unit m"}}};
   for (const Misread& misread : all) {
     std::vector<std::string> words = misread.advice;
     words.insert(words.begin(), {"3: ", "none of its 5 seeds", "all 5 points"});
@@ -160,8 +160,8 @@ TEST(PlaceSeeds, AdviceIsDecidedByAllSeedsNotByOne) {
       seedsOfHead(40, [](const Vector3d& p) { return head().indexFromWorld(p); });
   seeds.insert(seeds.begin(), vessel("flipped", {-20, 50, 110}));
   const std::string refused = placeRefusal(seeds, head());
-  expectRefused(refused, {"40 of the 41 points", "--seeds-frame voxel"});
-  EXPECT_EQ(refused.find("--seeds-frame ras"), std::string::npos);
+  expectRefused(refused, {"40 of the 41 points", "seeds-frame voxel"});
+  EXPECT_EQ(refused.find("seeds-frame ras"), std::string::npos);
 }
 
 TEST(PlaceSeeds, SaysThatAVolumeMayBeInMetres) {
@@ -169,7 +169,7 @@ TEST(PlaceSeeds, SaysThatAVolumeMayBeInMetres) {
   metres.spacing *= 1e-3;
   metres.origin *= 1e-3;
   expectRefused(placeRefusal(seedsOfHead(5, [](const Vector3d& p) { return p; }), metres),
-                {"only 0.0405 mm", "header read as metres", "--unit m"});
+                {"only 0.0405 mm", "header read as metres", "add unit m"});
 }
 
 TEST(PlaceSeeds, MetresAtTheOriginOfAVolumeAreSuspicious) {
@@ -177,7 +177,7 @@ TEST(PlaceSeeds, MetresAtTheOriginOfAVolumeAreSuspicious) {
   corner.origin = {0, 0, 0};
   const std::vector<SeedBranch> seeds{vessel("a", {0.02, 0.01, 0.005}),
                                       vessel("b", {0.03, 0.02, 0.03})};
-  EXPECT_NE(place(seeds, corner).advice.find("--seeds-unit m"), std::string::npos);
+  EXPECT_NE(place(seeds, corner).advice.find("seeds-unit m"), std::string::npos);
   EXPECT_EQ(place({vessel("a", {20, 10, 5})}, corner).advice, "");
 }
 
@@ -190,7 +190,7 @@ TEST(PlaceSeeds, APointAtZeroIsNoReasonToThinkOfMetres) {
 TEST(PlaceSeeds, OtherReadingsAreInPatientSpace) {
   const auto readings = otherReadings({vessel("a", {2, -3, 4})}, head());
   const auto ras = std::find_if(readings.begin(), readings.end(), [](const RereadSeeds& other) {
-    return other.options == "--seeds-frame ras";
+    return other.options == "seeds-frame ras";
   });
   ASSERT_NE(ras, readings.end());
   EXPECT_EQ(ras->seeds[0].points[0].position, Vector3d(-2, 3, 4));

@@ -265,7 +265,7 @@ TEST(Tracker, AFitThatIsNoBetterThanNoiseSaysSo) {
     seeds.push_back(seedAt(std::to_string(i), Vector3d(2.0 + 0.4 * i, 6.4, 3.0 + 0.3 * i)));
   const TrackResult out = trackOne(volume, seeds);
   EXPECT_TRUE(std::any_of(out.failures.begin(), out.failures.end(), [](const SeedFailure& failure) {
-    return failure.reason.find("--noise-margin") != std::string::npos;
+    return failure.reason.find("noise-margin") != std::string::npos;
   }));
 }
 
@@ -291,7 +291,7 @@ TEST(Tracker, SeedsOnVesselsOfTheOtherSignAreWarnedOf) {
   };
   EXPECT_EQ(warned(bright, {}), "");
   EXPECT_EQ(warned(dark, forDark), "");
-  EXPECT_NE(warned(dark, {}).find("add --dark"), std::string::npos);
+  EXPECT_NE(warned(dark, {}).find("add dark"), std::string::npos);
   EXPECT_NE(warned(bright, forDark).find("leave it out"), std::string::npos);
 }
 

@@ -32,7 +32,7 @@ protected:
   }
   [[nodiscard]] DicomListing list(const ReadVolumeOptions& options = {}) const {
     Progress silent;
-    return listDicomSeries(directory(), options, silent);
+    return listDicomSeries(directory(), worded(options), silent);
   }
 };
 

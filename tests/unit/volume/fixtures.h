@@ -75,10 +75,16 @@ inline VolumeFormat formatOf(const std::filesystem::path& path) {
   return VolumeFormat::Dicom;
 }
 
+/// The options, with fields that messages name as a command line does: "--spacing".
+inline ReadVolumeOptions worded(ReadVolumeOptions options) {
+  options.word = FieldWord([](auto field, auto) { return std::string("--").append(field); });
+  return options;
+}
+
 inline Volume readQuietly(const std::filesystem::path& path,
                           const ReadVolumeOptions& options = {}) {
   const Progress silent;
-  return readVolume(path, formatOf(path), options, silent);
+  return readVolume(path, formatOf(path), worded(options), silent);
 }
 
 /// Compressed, but for a name in .nii.

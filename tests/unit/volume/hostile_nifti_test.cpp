@@ -55,7 +55,7 @@ protected:
   }
   [[nodiscard]] static VolumeHeader headerOf(const std::filesystem::path& file,
                                              const ReadVolumeOptions& options = {}) {
-    return readVolumeHeader(file, VolumeFormat::Nifti, options, Progress());
+    return readVolumeHeader(file, VolumeFormat::Nifti, worded(options), Progress());
   }
   [[nodiscard]] std::vector<std::filesystem::path> files(const std::string& bytes) const {
     return {write("v.nii", bytes), write("v.nii.gz", gzipped(bytes, path("scratch.gz")))};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/io/seeds/case_seeds.h"
 
 namespace lumen::viewer {
@@ -41,7 +42,7 @@ std::shared_ptr<const Seeds> joined(Seeds first, const Seeds& second) {
 
 Seeds seedsInCase(const formats::Case& value, const std::string& label, Progress& progress) {
   try {
-    return convert::seedsOf(value, label);
+    return convert::seedsOf(value, label, engine::optionWord());
   } catch (const Error& error) {
     progress.warn(std::string(error.what()) + "; they are left out, and saving drops them");
     return {};

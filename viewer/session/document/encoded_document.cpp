@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "converters/base/error.h"
-#include "converters/base/files.h"
 #include "converters/engine/command.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
@@ -49,33 +48,28 @@ const engine::FileFormat& writableFormat(const std::string& name) {
                                     engine::formatNames(engine::canWrite));
 }
 
-std::string encodedSeeds(Seeds seeds, DroppedFiles& places) {
+std::string encodedSeeds(Seeds seeds) {
   convert::dropOtherParents(seeds);
   for (convert::SeedBranch& seed : seeds) seed.isTracked = false;  // counts in a case alone
-  const auto file = places.placeFor("seeds.json");
-  convert::writeSeeds(seeds, file->path());
-  return readWholeFile(file->path(), "document");
+  return convert::encodeSeeds(seeds, "seeds.json");
 }
 
 }  // namespace
 
 std::string encoded(const Document& document, const std::string& format,
                     const SavingOptions& options, const SessionOptions& settings,
-                    DroppedFiles& places, Progress& progress) {
-  if (format == "seeds") return encodedSeeds(*document.seeds, places);
+                    Progress& progress) {
+  if (format == "seeds") return encodedSeeds(*document.seeds);
   const engine::FileFormat& writer = writableFormat(format);
   if (!document.value) throw Error(ErrorKind::Usage, "there is no case to save");
   const engine::OutputOptions output = outputOptions(options, writer, progress);
-  const auto file = places.placeFor("case" + std::string(writer.endings.front()));
+  const std::string name = "case" + std::string(writer.endings.front());
   const auto value = caseWithSeeds(document);
-  if (engine::canWriteMesh(writer) && !value->models) {
-    formats::Case fitted = *value;
-    convert::fit(fitted, settings.fit, progress);
-    writer.writeCase(fitted, file->path(), output, progress);
-  } else {
-    writer.writeCase(*value, file->path(), output, progress);
-  }
-  return readWholeFile(file->path(), "document");
+  if (!engine::canWriteMesh(writer) || value->models)
+    return writer.encodeCase(*value, name, output, progress).bytes;
+  formats::Case fitted = *value;
+  convert::fit(fitted, settings.fit, progress);
+  return writer.encodeCase(fitted, name, output, progress).bytes;
 }
 
 }  // namespace lumen::viewer

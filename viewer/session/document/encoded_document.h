@@ -13,7 +13,6 @@
 #include "converters/base/progress.h"
 #include "converters/engine/stage_options.h"
 #include "viewer/session/document/document.h"
-#include "viewer/session/document/dropped_files.h"
 
 namespace lumen::viewer {
 
@@ -38,10 +37,10 @@ struct SessionOptions {
 using SavingOptions = std::vector<std::pair<std::string, std::string>>;
 
 /// The case, its mesh, its centerline or the seeds in that format, as `lumen convert` with these
-/// options writes it; a case without models is fitted for a mesh. `places` has the temporary file.
-/// Throws Error(Usage) for an unknown format or option, and as the writers.
+/// options writes it; a case without models is fitted for a mesh.
+/// Throws Error(Usage) for an unknown format or option, and as the encoders.
 std::string encoded(const Document& document, const std::string& format,
                     const SavingOptions& options, const SessionOptions& settings,
-                    DroppedFiles& places, Progress& progress);
+                    Progress& progress);
 
 }  // namespace lumen::viewer

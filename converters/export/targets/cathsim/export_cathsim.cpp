@@ -11,7 +11,6 @@
 #include "blob.h"
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/export/shared/mujoco_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
@@ -65,7 +64,7 @@ ExportedSurface makeSurfaces(const ExportInput& input, std::vector<std::string>&
   if (coarse.triangle.size() > most)
     throw invalidInput("the wall has " + std::to_string(coarse.triangle.size()) +
                        " triangles at least, each of which is a convex piece; expected is " +
-                       kOption.maxPieces.shown() + " of as many");
+                       input.field("max-pieces") + " of as many");
   made.report.vertices = coarse.position.size();
   made.report.triangles = coarse.triangle.size();
   made.report.errors = {made.report.errors.back()};
@@ -73,7 +72,7 @@ ExportedSurface makeSurfaces(const ExportInput& input, std::vector<std::string>&
   if (error > maxError)
     losses.push_back("the wall is simplified to at most " + std::to_string(most) +
                      " convex pieces, up to " + fixedText(error, 3) +
-                     " mm off the surface; a greater " + kOption.maxPieces.shown() +
+                     " mm off the surface; a greater " + input.field("max-pieces") +
                      " is nearer to it");
   return made;
 }
@@ -149,7 +148,7 @@ TargetRow cathsimRow() {
           .axes = {Axes::Lps},
           .holds = "the surface; the wall as convex pieces; the ends as targets",
           .lacks = "the tree and its radii",
-          .options = {kOption.edge, kOption.maxError, kOption.maxPieces}};
+          .options = {"edge", "max-error", "max-pieces"}};
 }
 
 }  // namespace lumen::convert

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/options/option_name.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
@@ -71,7 +70,7 @@ ExportResult exportUnity(const ExportInput& input) {
 
 ExportResult exportUnreal(const ExportInput& input) {
   return exportScene(input, {levelNames(), true,
-                             exportText("engines/unreal.md", {{"unit", kOption.unit.shown()}})});
+                             exportText("engines/unreal.md", {{"unit", input.field("unit")}})});
 }
 
 ExportResult exportBlender(const ExportInput& input) {
@@ -86,7 +85,7 @@ TargetRow godotRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid with a collider of its triangles; the ends as nodes",
           .lacks = "the tree, its radii and its models",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness},
+          .options = {"edge", "max-error", "thickness"},
           .needsVessel = false};
 }
 
@@ -98,7 +97,7 @@ TargetRow unityRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid in three levels of detail; the ends as nodes",
           .lacks = "the tree, its radii and its models; a collider, which Unity makes",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness},
+          .options = {"edge", "max-error", "thickness"},
           .needsVessel = false};
 }
 
@@ -110,7 +109,7 @@ TargetRow unrealRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid in three levels of detail; the ends as nodes",
           .lacks = "the tree, its radii and its models; a collider, which Unreal makes",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness},
+          .options = {"edge", "max-error", "thickness"},
           .needsVessel = false};
 }
 
@@ -122,7 +121,7 @@ TargetRow blenderRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid; the ends as empties",
           .lacks = "the tree, its radii and its models",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness},
+          .options = {"edge", "max-error", "thickness"},
           .needsVessel = false};
 }
 

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/grid_files.h"
@@ -51,13 +50,13 @@ void requireSound(const ExportInput& input, const GridOptions& options) {
                       wants(options, GridFormat::Mhd);
   if (input.frame.unit != LengthUnit::Millimetre && isOfMm)
     throw Error(ErrorKind::Usage,
-                kOption.unit.shown() +
+                input.field("unit") +
                     " m: readers of nrrd, nifti and mhd take their lengths for mm; " +
-                    kOption.format.shown() + " vdb or cdf can be in m");
+                    input.field("format") + " vdb or cdf can be in m");
   if (input.source.tree.branches.size() > kMostBranches)
     throw unsupported("a grid distinguishes 65535 branches, and this case has " +
                       std::to_string(input.source.tree.branches.size()));
-  if (wants(options, GridFormat::Vdb)) requireVdb();
+  if (wants(options, GridFormat::Vdb)) requireVdb(input.options.word);
 }
 
 /// Around the walls of the vessels of a region.
@@ -77,7 +76,7 @@ std::vector<GridPlan> planGrids(const ExportInput& input, const GridOptions& opt
   const Box3d box = boundingBox(wall);
   const double spacing = gridSpacing(input.options.spacing, box, kGridBorder, tree);
   const double border = (options.band ? *options.band : kGridBorder) + kGridBorderSamples * spacing;
-  const Lattice whole = latticeOver(box, border, spacing);
+  const Lattice whole = latticeOver(box, border, spacing, input.options.word);
   if (!options.perBranch) return {{"", {}, whole}};
   std::vector<std::string> labels;
   for (const formats::Branch& branch : tree.branches) labels.push_back(branch.label);
@@ -197,11 +196,11 @@ ExportResult exportGrid(const ExportInput& input, const GridOptions& options) {
                              "of each branch: distances, and in which branch a sample is"});
   result.files.push_back(
       {"branches.json", branchTable(input.source.tree), "which number is which branch", ""});
-  result.losses = gridLosses(plans.front().lattice.spacing, input.source.tree);
+  result.losses = gridLosses(plans.front().lattice, input.source.tree);
   result.ends = findEnds(input.source.tree);
   result.start = options.perBranch
                      ? exportText("grid/per-branch.md")
-                     : exportText("grid/one.md", {{"perBranch", kOption.perBranch.shown()}});
+                     : exportText("grid/one.md", {{"perBranch", input.field("per-branch")}});
   return result;
 }
 
@@ -212,10 +211,9 @@ TargetRow gridRow() {
           .units = {LengthUnit::Millimetre, LengthUnit::Metre},
           .axes = {Axes::Lps},
           .holds = "the signed distance to the wall, and whose lumen a sample is in",
-          .lacks = "what is thinner than two samples; where vessels touch, their walls, but for " +
-                   kOption.perBranch.shown(),
-          .options = {kOption.grid, kOption.format, kOption.band, kOption.half, kOption.perBranch,
-                      kOption.exact},
+          .lacks = "what is thinner than two samples; where vessels touch, their walls",
+          .unless = "per-branch",
+          .options = {"grid", "format", "band", "half", "per-branch", "exact"},
           .needsVessel = false};
 }
 

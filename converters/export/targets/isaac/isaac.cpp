@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/distance_grid.h"
@@ -181,8 +180,8 @@ DistanceGrid makeGrid(const ExportInput& input, const VesselDistance& vessels,
   const Box3d box = boundingBox(wall);
   const double spacing = gridSpacing(input.options.spacing, box, kTissueBorder, input.source.tree);
   // farther than a voxel from the wall, a voxel is all tissue or all lumen
-  return sampleGrid({vessels, nullptr, 2 * spacing}, latticeOver(box, kTissueBorder, spacing),
-                    input.progress);
+  return sampleGrid({vessels, nullptr, 2 * spacing},
+                    latticeOver(box, kTissueBorder, spacing, input.options.word), input.progress);
 }
 
 std::vector<std::size_t> shapeOf(const Lattice& lattice) {
@@ -261,7 +260,7 @@ ExportResult exportIsaac(const ExportInput& input) {
   result.files.push_back({"vessel.usda",
                           encodeUsda(wall.mesh, input.source.tree, wall.ends, input.frame),
                           "USD: wall with physics schemas, centerline, ends", ""});
-  for (std::string& loss : gridLosses(grid.lattice.spacing, input.source.tree))
+  for (std::string& loss : gridLosses(grid.lattice, input.source.tree))
     result.losses.push_back(std::move(loss));
   result.start = exportText("isaac/README.md");
   result.ends = std::move(wall.ends);
@@ -280,7 +279,7 @@ TargetRow isaacRow() {
               "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of "
               "USD, and its ends",
           .lacks = "names of branches, and that an aneurysm is one",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness, kOption.grid}};
+          .options = {"edge", "max-error", "thickness", "grid"}};
 }
 
 }  // namespace lumen::convert

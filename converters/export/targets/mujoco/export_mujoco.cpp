@@ -10,7 +10,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/export/shared/mujoco_text.h"
@@ -58,7 +57,7 @@ std::vector<SurfaceMesh> cutToRide(const SurfaceMesh& wall, double cell, const W
 /// Pieces of a wall, with cells that are as wide as it takes to have no more than `most` pieces, 0
 /// for any number; adds a sentence where that is wider than usual. `bodies`: of a wall that moves.
 std::vector<SurfaceMesh> cutIntoFew(const SurfaceMesh& wall, std::size_t most,
-                                    const std::optional<WallBodies>& bodies,
+                                    const std::optional<WallBodies>& bodies, const FieldWord& word,
                                     std::vector<std::string>& losses) {
   double cell = kCellRadii;
   std::vector<SurfaceMesh> pieces = cutIntoPieces(wall, kCells, cell);
@@ -72,8 +71,7 @@ std::vector<SurfaceMesh> cutIntoFew(const SurfaceMesh& wall, std::size_t most,
     losses.push_back("the wall is in no more than " + std::to_string(most) +
                      " pieces, so MuJoCo samples its distance every " + fixedText(cell, 2) +
                      " radii, and is up to " + fixedText(cell * cell / 8, 2) +
-                     " radii off between samples; a greater " + kOption.maxPieces.shown() +
-                     " is nearer");
+                     " radii off between samples; a greater " + word("max-pieces") + " is nearer");
   return pieces;
 }
 
@@ -131,13 +129,12 @@ void shorten(Wire& wire, const std::vector<SurfaceMesh>& pieces, const ExportInp
                  input.frame.direction(insertion.direction), wire.length(), wire.radius);
   if (free >= wire.length()) return;
   if (free < kShortestWire)
-    throw invalidInput("branch " +
-                       formats::printable(input.source.tree.branches[insertion.branch].label) +
-                       ": " + fixedText(1e3 * free, 1) +
-                       " mm straight behind its beginning are free of other vessels, and a "
-                       "guidewire that is pushed in there needs " +
-                       fixedText(1e3 * kShortestWire, 0) + "; " + kOption.insert.shown() +
-                       " takes another branch");
+    throw invalidInput(
+        "branch " + formats::printable(input.source.tree.branches[insertion.branch].label) + ": " +
+        fixedText(1e3 * free, 1) +
+        " mm straight behind its beginning are free of other vessels, and a "
+        "guidewire that is pushed in there needs " +
+        fixedText(1e3 * kShortestWire, 0) + "; " + input.field("insert") + " takes another branch");
   wire.links = static_cast<int>(free / wire.link);
 }
 
@@ -242,8 +239,8 @@ std::string startPose(const MujocoScene& scene) {
 
 ExportResult exportMujoco(const ExportInput& input) {
   const Wire thickness;
-  const Insertion insertion =
-      findInsertion(input.source.tree, input.options.insert, thickness.radius * 1e3);
+  const Insertion insertion = findInsertion(input.source.tree, input.options.insert,
+                                            thickness.radius * 1e3, input.options.word);
   Solid solid = makeSolid(input, 2e3 * thickness.radius);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   Wire wire = wireFor(insertion);
@@ -253,8 +250,8 @@ ExportResult exportMujoco(const ExportInput& input) {
   ExportResult result;
   std::optional<WallBodies> bodies;
   if (input.source.motion) bodies.emplace(input.source);
-  const std::vector<SurfaceMesh> pieces =
-      cutIntoFew(solid.surface.mesh, input.options.maxPieces, bodies, result.losses);
+  const std::vector<SurfaceMesh> pieces = cutIntoFew(solid.surface.mesh, input.options.maxPieces,
+                                                     bodies, input.options.word, result.losses);
   shorten(wire, pieces, input, insertion);
   MujocoScene scene{input, solid, pieces.size(), insertion, wire};
   if (bodies) {
@@ -287,8 +284,7 @@ TargetRow mujocoRow() {
           .axes = {Axes::Lps},
           .holds = "the wall as a solid; a guidewire at the root, pushed by an actuator; the ends",
           .lacks = "the tree and its radii",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness, kOption.maxPieces,
-                      kOption.insert}};
+          .options = {"edge", "max-error", "thickness", "max-pieces", "insert"}};
 }
 
 }  // namespace lumen::convert

@@ -138,8 +138,8 @@ void addTree(ExportResult& result, const OneDNetwork& network, const std::string
 }  // namespace
 
 ExportResult exportOneD(const ExportInput& input) {
-  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets);
-  FlowCase flowing = flowCase(input.source, inlets);
+  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets, input.options.word);
+  FlowCase flowing = flowCase(input.source, inlets, input.options.word);
   const FlowNetwork network = flowNetwork(flowing.value.tree, inlets);
   ExportResult result;
   result.start = exportText("oned/README.md");
@@ -171,7 +171,7 @@ TargetRow oneDRow() {
           .axes = {Axes::Lps},
           .holds = "lengths, radii, junctions; svOneDSolver also positions of junctions",
           .lacks = "aneurysms; the shape of sections; of vessels all but a cone",
-          .options = {kFlowOption.inlets},
+          .options = {"inlets"},
           .needsModels = false};
 }
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/flow_inlets.h"
 #include "converters/export/shared/flow_pressure.h"
@@ -29,7 +28,8 @@ std::string cellsRemark(const FoamCells& cells) {
 }
 
 /// The sentences on the links and the ends that the mesh cannot resolve.
-void reportTrimmed(const Unresolved& gone, FoamGrain grain, ExportResult& result) {
+void reportTrimmed(const Unresolved& gone, FoamGrain grain, const FieldWord& word,
+                   ExportResult& result) {
   constexpr std::size_t kMostShown = 10;
   for (const auto& [one, other] : gone.links)
     result.losses.push_back(one + " and " + other + ": no blood flows through the link between " +
@@ -45,7 +45,7 @@ void reportTrimmed(const Unresolved& gone, FoamGrain grain, ExportResult& result
                             shownFigure(mostCells(grain)) + " cells cannot resolve it");
   if (ends.size() > kMostShown)
     result.losses.push_back(counted(ends.size() - kMostShown, "more end", "more ends") +
-                            " left out for the same reason; " + kFlowOption.cells.shown() +
+                            " left out for the same reason; " + word("cells") +
                             " allows more cells");
 }
 
@@ -78,11 +78,12 @@ SurfaceReport asInCase(SurfaceReport report, const formats::CenterlineTree& part
 }  // namespace
 
 ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options) {
-  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets);
-  FlowCase flowing = flowCase(input.source, inlets);
+  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets, input.options.word);
+  FlowCase flowing = flowCase(input.source, inlets, input.options.word);
   ExportResult result;
   result.losses = std::move(flowing.losses);
-  reportTrimmed(trimToCells(flowing.value, options.cells), options.cells, result);
+  reportTrimmed(trimToCells(flowing.value, options.cells), options.cells, input.options.word,
+                result);
   const formats::Case& source = flowing.value;
   const FoamCells cells = foamCells(source.tree, options.cells);
 
@@ -125,8 +126,7 @@ TargetRow openFoamRow() {
       .lacks =
           "branches, radii, and that an aneurysm is one; ends that its cells cannot "
           "resolve, and parts without a path from an inlet",
-      .options = {kOption.edge, kOption.maxError, kOption.extend, kFlowOption.inlets,
-                  kFlowOption.cells, kFlowOption.flow}};
+      .options = {"edge", "max-error", "extend", "inlets", "cells", "flow"}};
 }
 
 }  // namespace lumen::convert

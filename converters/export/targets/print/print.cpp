@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
@@ -81,7 +80,7 @@ ExportResult exportPrint(const ExportInput& input) {
   if (least.thickness < kLeastPrintable)
     result.losses.push_back(
         thicknessText(least) + ", less than the " + fixedText(kLeastPrintable, 2) +
-        " mm that most printers hold; a greater " + kOption.thickness.shown() + " may help");
+        " mm that most printers hold; a greater " + input.field("thickness") + " may help");
   result.surface = std::move(wall.report);
   return result;
 }
@@ -94,7 +93,7 @@ TargetRow printRow() {
           .axes = {Axes::Lps},
           .holds = "the lumen as a solid; a wall around it, with its least thickness",
           .lacks = "the tree, its radii and its models",
-          .options = {kOption.edge, kOption.maxError, kOption.thickness},
+          .options = {"edge", "max-error", "thickness"},
           .needsVessel = false};
 }
 

@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/paths.h"
@@ -208,7 +207,7 @@ ExportResult exportSimVascular(const ExportInput& input) {
                    {"Segmentations/*.ctgr", "circles of the nodes' radii"}};
   result.losses = treeLosses(input.source.tree);
   std::string why;
-  if (const auto volume = volumeMesh(made.mesh, input.progress, why))
+  if (const auto volume = volumeMesh(made.mesh, input.options.word, input.progress, why))
     addMeshComplete(result, made.mesh, *volume, names);
   else
     result.losses.push_back(why);
@@ -227,7 +226,7 @@ TargetRow simVascularRow() {
               "branches as paths, radii as circles; the surface with its named ends; a volume "
               "mesh, by TetGen if it is installed",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {kOption.edge, kOption.maxError, kOption.extend}};
+          .options = {"edge", "max-error", "extend"}};
 }
 
 }  // namespace lumen::convert

@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/base/xml_text.h"
 #include "converters/export/shared/paths.h"
@@ -160,7 +159,7 @@ TargetRow slicerRow() {
           .axes = {Axes::Lps},
           .holds = "the surface; the branches as curves with radii; where they begin; the ends",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {kOption.edge, kOption.maxError}};
+          .options = {"edge", "max-error"}};
 }
 
 }  // namespace lumen::convert

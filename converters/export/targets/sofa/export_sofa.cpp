@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/distance_grid.h"
@@ -38,7 +37,8 @@ SceneInput makeSceneInput(const ExportInput& asked, const SofaOptions& options) 
   const formats::CenterlineTree& tree = asked.source.tree;
   SceneInput input;
   input.insertion =
-      findInsertion(tree, asked.options.insert, clearanceFor(insertedRadius(options.instrument)));
+      findInsertion(tree, asked.options.insert, clearanceFor(insertedRadius(options.instrument)),
+                    asked.options.word);
   input.branch = tree.branches[input.insertion.branch].label;
   input.instruments = makeInstruments(
       options.instrument, std::max(kShortestInstrument, input.insertion.pathLength + kBehind),
@@ -85,12 +85,12 @@ std::string wallBytes(const DistanceGrid& grid) {
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
   const double spacing =
       gridSpacing(input.options.spacing, scene.box, kGridBorder, input.source.tree);
-  const Lattice lattice =
-      latticeOver(scene.box, kGridBorder + kGridBorderSamples * spacing, spacing);
+  const Lattice lattice = latticeOver(scene.box, kGridBorder + kGridBorderSamples * spacing,
+                                      spacing, input.options.word);
   const VesselDistance vessels(input.source);
   const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
   scene.grid = {lattice.size, lattice.first, lattice.last()};
-  result.losses = gridLosses(spacing, input.source.tree);
+  result.losses = gridLosses(lattice, input.source.tree);
   result.files.push_back({"wall.raw", wallBytes(grid),
                           "distances to the wall, mm, positive in the lumen, doubles, x fastest",
                           ""});
@@ -148,14 +148,14 @@ TargetRow sofaRow() {
           .axes = {Axes::Lps},
           .holds = "the case; the surface; an instrument at the root, with friction contact",
           .lacks = "nothing: the case lies beside the scene",
-          .options = {kOption.edge,
-                      kOption.maxError,
-                      kOption.instrument,
-                      kOption.wall,
-                      kOption.dialect,
-                      kOption.step,
-                      kOption.insert,
-                      {kOption.grid, kOption.wall, "grid"}}};
+          .options = {"edge",
+                      "max-error",
+                      "instrument",
+                      "wall",
+                      "dialect",
+                      "step",
+                      "insert",
+                      {"grid", "wall", "grid"}}};
 }
 
 }  // namespace lumen::convert

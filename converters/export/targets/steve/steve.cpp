@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
@@ -71,7 +70,7 @@ TargetRow steveRow() {
           .axes = {Axes::Lps},
           .holds = "the branches with their radii; the surface; the root as the insertion",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {kOption.edge, kOption.maxError}};
+          .options = {"edge", "max-error"}};
 }
 
 }  // namespace lumen::convert

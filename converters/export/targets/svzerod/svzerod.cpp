@@ -123,8 +123,8 @@ Json makeModel(const FlowNetwork& network) {
 }  // namespace
 
 ExportResult exportSvZeroD(const ExportInput& input) {
-  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets);
-  FlowCase flowing = flowCase(input.source, inlets);
+  const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets, input.options.word);
+  FlowCase flowing = flowCase(input.source, inlets, input.options.word);
   const FlowNetwork network = flowNetwork(flowing.value.tree, inlets);
   ExportResult result;
   result.start = exportText("svzerod/README.md");
@@ -150,7 +150,7 @@ TargetRow svZeroDRow() {
               "lengths, radii, junctions and loops, as resistance, compliance and inertance of "
               "each segment",
           .lacks = "aneurysms; the shape of sections",
-          .options = {kFlowOption.inlets},
+          .options = {"inlets"},
           .needsModels = false};
 }
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "formats/container/printable.h"
 
@@ -53,8 +52,9 @@ std::string listing(const DicomFolder& folder, const fs::path& path) {
   return text;
 }
 
-std::string chooseSeries(const DicomFolder& folder, const std::string& wanted,
+std::string chooseSeries(const DicomFolder& folder, const ReadVolumeOptions& options,
                          const fs::path& path) {
+  const std::string& wanted = options.series;
   const auto& series = folder.series;
   if (series.empty() && !folder.faulty.empty()) throw *folder.faulty[0].fault;
   if (series.empty())
@@ -62,7 +62,7 @@ std::string chooseSeries(const DicomFolder& folder, const std::string& wanted,
   if (wanted.empty()) {
     if (series.size() == 1) return series.begin()->first;
     throw invalidInput(path.string() + ": holds " + std::to_string(series.size()) +
-                       " DICOM series; choose one with " + kOption.series.shown() +
+                       " DICOM series; choose one with " + options.word("series") +
                        ", by number or UID:" + listing(folder, path));
   }
   if (series.contains(wanted)) return wanted;
@@ -118,7 +118,7 @@ DicomFolder scanDicomFolder(const fs::path& folder, const Progress& progress) {
 DicomChoice findDicomSeries(const fs::path& folder, const ReadVolumeOptions& options,
                             const Progress& progress) {
   DicomFolder found = scanDicomFolder(folder, progress);
-  const std::string uid = chooseSeries(found, options.series, folder);
+  const std::string uid = chooseSeries(found, options, folder);
   DicomChoice choice;
   const std::set<fs::path> folders = foldersOf(found.series[uid], folder);
   for (const DicomScan& scan : found.faulty) {

@@ -12,7 +12,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
-#include "converters/base/options/option_name.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/volume_checks.h"
 
@@ -41,7 +40,7 @@ Matrix3d directionOf(const std::array<double, 6>& v) {
   return direction;
 }
 
-/// Spacing along columns and rows; NaN where the image states none, which only --spacing permits.
+/// Spacing along columns and rows; NaN where the image states none, which only a stated spacing permits.
 Vector3d pixelSpacing(const DicomFrame& slice, const ReadVolumeOptions& options) {
   const auto& stated = slice.plane.pixelSpacing;
   const bool sound = stated && (*stated)[0] > 0 && (*stated)[1] > 0;
@@ -49,7 +48,7 @@ Vector3d pixelSpacing(const DicomFrame& slice, const ReadVolumeOptions& options)
     throw invalidInput(
         slice.image->file.string() + ": its pixel spacing (0028,0030) is " +
         (stated ? longNumber((*stated)[0]) + " and " + longNumber((*stated)[1]) : "not stated") +
-        "; expected two positive numbers of mm; state the spacing with " + kOption.spacing.shown());
+        "; expected two positive numbers of mm; state the spacing with " + options.word("spacing"));
   const double none = std::numeric_limits<double>::quiet_NaN();
   return sound ? Vector3d((*stated)[1], (*stated)[0], none) : Vector3d(none, none, none);
 }
@@ -133,7 +132,7 @@ VolumeGeometry stackFrames(const std::vector<DicomFrame>& slices, const ReadVolu
     throw invalidInput(first.image->file.string() +
                        ": does not state the distance between its frames; expected a volume; state "
                        "the spacing with " +
-                       kOption.spacing.shown());
+                       options.word("spacing"));
   VolumeGeometry geometry;
   geometry.spacing = pixelSpacing(first, options);
   geometry.spacing[2] = first.plane.distance.value_or(std::numeric_limits<double>::quiet_NaN());

@@ -15,9 +15,9 @@ namespace {
 
 }  // namespace
 
-OpenVolume openDicom(const std::filesystem::path& path, const ReadVolumeOptions& /*options*/,
+OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& /*options*/,
                      const Progress& /*progress*/) {
-  refuse(path);
+  refuse(folder.path());
 }
 
 DicomListing listDicomSeries(const std::filesystem::path& folder,

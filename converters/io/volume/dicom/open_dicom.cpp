@@ -64,8 +64,9 @@ Voxels readSlices(const DicomStack& stack, const Progress& progress) {
 
 }  // namespace
 
-OpenVolume openDicom(const fs::path& path, const ReadVolumeOptions& options,
+OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
                      const Progress& progress) {
+  const fs::path& path = folder.path();
   // shared, because slices point to its images
   const auto stack = std::make_shared<const DicomStack>(
       stackOf(findDicomSeries(path, options, progress), options, path));

@@ -13,7 +13,6 @@
 
 #include "converters/base/error.h"
 #include "converters/base/options/edit_steps.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/fitting/image/section_fit.h"
@@ -304,7 +303,7 @@ ImageFitOptions recordedImageFit(const formats::Case& value, const Volume& volum
   ImageFitOptions options;
   options.blur = kUsualBlur * volume.geometry.spacing.minCoeff();
   if (const formats::Step* step = lastStep(value.metadata, "track"))
-    if (const auto dark = step->parameters.find(kOption.dark.name); dark != step->parameters.end())
+    if (const auto dark = step->parameters.find("dark"); dark != step->parameters.end())
       if (const auto* is = std::get_if<bool>(&dark->second)) options.dark = *is;
   return options;
 }
@@ -346,9 +345,8 @@ ImageFitReport fitToImage(formats::Case& target, const Volume& volume,
   target.metadata.pointQuantisation.reset();
   formats::setNodeOrigins(target, origins);
   setDeviations(target, std::move(deviations));
-  target.metadata.steps.push_back({"fit-image",
-                                   "lumen " LUMEN_VERSION,
-                                   {{"blur", report.blur}, {kOption.dark.name, options.dark}}});
+  target.metadata.steps.push_back(
+      {"fit-image", "lumen " LUMEN_VERSION, {{"blur", report.blur}, {"dark", options.dark}}});
   return report;
 }
 

@@ -2,7 +2,6 @@
 #include "converters/stages/tracking/cylinders/track_options.h"
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/voxels/bspline.h"
 
 namespace lumen::convert {
@@ -13,7 +12,7 @@ constexpr NumberRange kOpenRange{0, 1, true};
 constexpr int kMostTrials = 1000000;
 
 void addSearchRows(TrackOptions& o, OptionTable& table) {
-  table.add(kOption.inlierRate.name, &o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
+  table.add("inlier-rate", &o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
       .in(kOpenRange)
       .recorded();
   table
@@ -34,7 +33,7 @@ void addSearchRows(TrackOptions& o, OptionTable& table) {
 /// Rows of tracks that advance from a seed by random search. A vessel that is found has its course:
 /// it takes no steps, and nothing of it is drawn at random.
 void addAdvanceRows(TrackOptions& o, OptionTable& table) {
-  const char* const seeds = kOption.seeds.name;
+  const char* const seeds = "seeds";
   table.add("axes", &o.axes, "N", "Candidate axes of a node from a seed on: 6, 21, 81 or 321")
       .among({6, 21, 81, 321})
       .recorded()
@@ -78,7 +77,7 @@ void addAdvanceRows(TrackOptions& o, OptionTable& table) {
 
 void addWallRows(TrackOptions& o, OptionTable& table) {
   table
-      .add(kOption.noiseMargin.name, &o.noiseMargin, "X",
+      .add("noise-margin", &o.noiseMargin, "X",
            "A node below the inlier rate needs a wall this many times as strong as noise")
       .in(NumberRange{0, 100})
       .recorded();
@@ -118,7 +117,7 @@ void TrackOptions::addRows(OptionTable& table) {
 
 void TrackOptions::addFoundRows(OptionTable& table) {
   table.group("Volume");
-  table.flag(kOption.dark.name, dark, "Vessels are darker than their background").recorded();
+  table.flag("dark", dark, "Vessels are darker than their background").recorded();
   table.group("Tracking");
   addSearchRows(*this, table);
   addWallRows(*this, table);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "converters/base/field_word.h"
 #include "converters/base/options/option_table.h"
 #include "formats/case/case.h"
 
@@ -38,6 +39,7 @@ struct TrackOptions {
   int maxNodes = 20000;    ///< bound on nodes in one branch
   bool dark = false;       ///< vessels are darker than their background
   std::uint64_t seed = 1;  ///< seed of the random numbers
+  FieldWord word{};        ///< names fields in messages
 
   /// Adds a row for each value above, stored in this object.
   void addRows(OptionTable& table);

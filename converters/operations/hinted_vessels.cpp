@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/engine/hinted_tracking.h"
+#include "converters/operations/hinted_vessels.h"
 
 #include <algorithm>
 #include <iterator>
@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/base/options/option_name.h"
 #include "converters/base/random.h"
 #include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"
-#include "converters/engine/tracking_input.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/stages/editing/hints.h"
 #include "converters/stages/editing/inlets.h"
@@ -22,7 +20,7 @@
 #include "converters/stages/tracking/tracking_volume.h"
 #include "formats/container/printable.h"
 
-namespace lumen::engine {
+namespace lumen::operations {
 namespace {
 
 using convert::SeedFailure;
@@ -40,28 +38,27 @@ void append(std::vector<SeedFailure>&& from, std::vector<SeedFailure>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-void requireInVessels(const formats::Case& value, const std::string& file,
-                      const TrackArguments& track) {
-  const std::vector<Eigen::Vector3d> places = track.rootPlaces();
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (!convert::placeIn(value.tree, places[i]))
-      throw failed(formats::printable(file) + ": " + kOption.root.shown() + " " + track.roots[i] +
+void requireInVessels(const formats::Case& value, const std::string& name,
+                      const VesselOptions& options, const Context& context) {
+  for (std::size_t i = 0; i < options.roots.size(); ++i)
+    if (!convert::placeIn(value.tree, options.roots[i]))
+      throw failed(formats::printable(name) + ": " + context.field("root", i) +
                    " lies in no vessel that is found; nothing is written");
 }
 
 /// Names of the branches in which the roots lie.
-std::set<std::string> rootLabels(const formats::Case& value, const TrackArguments& track) {
+std::set<std::string> rootLabels(const formats::Case& value, const VesselOptions& options) {
   std::set<std::string> labels;
-  for (const Eigen::Vector3d& place : track.rootPlaces())
+  for (const Eigen::Vector3d& place : options.roots)
     if (const auto at = convert::placeIn(value.tree, place))
       labels.insert(value.tree.branches[at->branch].label);
   return labels;
 }
 
 /// Leaves out what the user does not want. `named`: branches of seeds.
-void select(formats::Case& value, std::set<std::string> named, const TrackArguments& track) {
-  if (!track.isOnlyConnected || (track.seeds.empty() && track.roots.empty())) return;
-  named.merge(rootLabels(value, track));
+void select(formats::Case& value, std::set<std::string> named, const VesselOptions& options) {
+  if (!options.isOnlyConnected || (options.seeds.empty() && options.roots.empty())) return;
+  named.merge(rootLabels(value, options));
   convert::leaveOutBranches(value, convert::unconnectedWith(value.tree, named));
 }
 
@@ -86,20 +83,22 @@ std::set<std::string> labelsOf(const std::vector<convert::SeedBranch>& seeds) {
   return labels;
 }
 
-/// Roots and selection for a case of which `seeds` name the vessels to keep.
-void apply(formats::Case& target, const std::string& file,
-           const std::vector<convert::SeedBranch>& seeds, const TrackArguments& track) {
-  requireInVessels(target, file, track);
-  convert::beginAt(target, track.rootPlaces());
-  select(target, labelsOf(seeds), track);
+/// Roots and selection for a case of which `named` are the vessels to keep.
+void apply(formats::Case& target, const std::string& name, std::set<std::string> named,
+           const VesselOptions& options, const Context& context) {
+  requireInVessels(target, name, options, context);
+  convert::beginAt(target, options.roots);
+  select(target, std::move(named), options);
 }
 
 /// Tracks the hints that lie in no vessel into the result.
 void addUnusedHints(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
-                    convert::TrackResult& result, Progress& progress) {
+                    convert::TrackResult& result, const Context& context) {
   if (rest.empty()) return;
-  const convert::TrackingVolume tracking(volume, result.result, progress);
-  convert::AddedTracks added = convert::addTracksFromSeeds(tracking, result.result, rest, progress);
+  const convert::TrackingVolume tracking(volume, result.result, context.progress,
+                                         context.fieldWord);
+  convert::AddedTracks added =
+      convert::addTracksFromSeeds(tracking, result.result, rest, context.progress);
   result.result = std::move(added.result);
   append(std::move(added.failures), result.failures);
   append(std::move(added.missedPoints), result.missedPoints);
@@ -107,29 +106,30 @@ void addUnusedHints(const convert::Volume& volume, const std::vector<convert::Se
   std::move(added.ends.begin(), added.ends.end(), std::back_inserter(result.ends));
 }
 
-convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std::string& file,
-                                       const std::vector<convert::SeedBranch>& seeds,
-                                       const TrackArguments& track, Progress& progress) {
-  convert::PlacedSeeds placed = placedSeeds(volume, seeds, track, progress);
+convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std::string& name,
+                                       const VesselOptions& options, const Context& context) {
+  Progress& progress = context.progress;
+  convert::PlacedSeeds placed = placedSeeds(volume, options, context);
   std::size_t candidates = 0;
-  convert::TrackResult result = findAndTrackIfAny(volume, track.options, candidates, progress);
+  convert::TrackResult result = findAndTrackIfAny(volume, options.track, candidates, context);
   if (result.result.tree.nodeCount() == 0) {
-    result = convert::trackFromSeeds(volume, placed.seeds, track.options, progress);
-    reportOnSeeds(volume, seeds, track, placed, result, progress);
-    apply(result.result, file, seeds, track);
+    result = convert::trackFromSeeds(volume, placed.seeds, options.track, progress);
+    reportOnSeeds(volume, options, placed, result, context);
+    apply(result.result, name, labelsOf(options.seeds), options, context);
     convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
     return result;
   }
-  requireInVessels(result.result, file, track);
-  convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, track.rootPlaces());
+  requireInVessels(result.result, name, options, context);
+  convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, options.roots);
   append(std::move(hints.missedPoints), result.missedPoints);
   append(std::move(hints.unjoined), result.unjoined);
-  addUnusedHints(volume, hints.rest, result, progress);
+  addUnusedHints(volume, hints.rest, result, context);
   for (const SeedFailure& unused : hints.unused)
-    progress.warn(formats::printable(track.seeds) + ": seed \"" + formats::printable(unused.label) +
+    progress.warn(formats::printable(options.seedsName) + ": seed \"" +
+                  formats::printable(unused.label) +
                   "\" names no vessel of its own: " + unused.reason);
-  reportOnSeeds(volume, seeds, track, placed, result, progress);
-  select(result.result, labelsOf(placed.seeds), track);
+  reportOnSeeds(volume, options, placed, result, context);
+  select(result.result, labelsOf(placed.seeds), options);
   renameEnds(result.result, result.ends);
   convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
   return result;
@@ -137,14 +137,13 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
 
 }  // namespace
 
-convert::TrackResult trackVessels(const convert::Volume& volume, const std::string& file,
-                                  const std::vector<convert::SeedBranch>& seeds,
-                                  const TrackArguments& track, Progress& progress) {
-  if (!seeds.empty() && !track.isSeedsOnly)
-    return findAndApplyHints(volume, file, seeds, track, progress);
-  convert::TrackResult result = seeds.empty() ? findAndTrack(volume, file, track.options, progress)
-                                              : placeAndTrack(volume, seeds, track, progress);
-  apply(result.result, file, seeds, track);
+convert::TrackResult trackVessels(const convert::Volume& volume, const std::string& name,
+                                  const VesselOptions& options, const Context& context) {
+  const bool isSeeded = !options.seeds.empty();
+  if (isSeeded && !options.isSeedsOnly) return findAndApplyHints(volume, name, options, context);
+  convert::TrackResult result = isSeeded ? placeAndTrack(volume, options, context)
+                                         : findAndTrack(volume, name, options.track, context);
+  apply(result.result, name, labelsOf(options.seeds), options, context);
   renameEnds(result.result, result.ends);
   return result;
 }
@@ -181,24 +180,24 @@ convert::Volume withNoise(const convert::Volume& volume, double deviation, Rando
 }  // namespace
 
 std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
-                                                const std::string& file,
-                                                const std::vector<convert::SeedBranch>& seeds,
-                                                const TrackArguments& track, formats::Case& judged,
-                                                Progress& progress) {
-  if (track.repeats == 0) return std::nullopt;
+                                                const std::string& name,
+                                                const VesselOptions& options, std::uint64_t repeats,
+                                                formats::Case& judged, const Context& context) {
+  if (repeats == 0) return std::nullopt;
   std::vector<formats::Case> runs;
-  progress.begin("repeating", track.repeats);
+  Progress& progress = context.progress;
+  progress.begin("repeating", repeats);
   QuietProgress quiet(progress);
-  const float sign = track.options.dark ? -1.0F : 1.0F;
+  const float sign = options.track.dark ? -1.0F : 1.0F;
   const double noise = double{convert::Background(volume, sign, progress).noise()};
-  for (std::uint64_t run = 1; run <= track.repeats; ++run) {
-    TrackArguments other = track;
-    other.options.seed += run;
-    const auto places = moved(seeds, volume.geometry.voxelSize(), Random(other.options.seed));
+  for (std::uint64_t run = 1; run <= repeats; ++run) {
+    VesselOptions other = options;
+    other.track.seed += run;
+    other.seeds = moved(options.seeds, volume.geometry.voxelSize(), Random(other.track.seed));
     try {
       const convert::Volume noisy =
-          withNoise(volume, kNoiseShare * noise, Random(other.options.seed, kNoiseStream));
-      runs.push_back(trackVessels(noisy, file, places, other, quiet).result);
+          withNoise(volume, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
+      runs.push_back(trackVessels(noisy, name, other, context.within(quiet)).result);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;
       runs.emplace_back();  // it finds nothing
@@ -212,8 +211,9 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
   return out;
 }
 
-void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track) {
-  apply(target, file, {}, track);
+void applyRoots(formats::Case& target, const std::string& name, const VesselOptions& options,
+                const Context& context) {
+  apply(target, name, {}, options, context);
 }
 
-}  // namespace lumen::engine
+}  // namespace lumen::operations

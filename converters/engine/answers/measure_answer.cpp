@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/answers/measure_answer.h"
+
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+
+namespace {
+
+std::string measuredText(const Measured& m, int digits) {
+  if (!m.absent.empty()) return "-";
+  const std::string value = fixedText(m.value, digits);
+  return std::isfinite(m.plusMinus) ? value + " +- " + fixedText(m.plusMinus, digits) : value;
+}
+
+std::string vesselText(const formats::Case& source, const convert::CaseMeasures& measures) {
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"vessel", "length", "tortuosity", "mean curvature", "mean radius",
+                  "smallest radius", "volume"});
+  for (const convert::VesselMeasures& m : measures.vessels)
+    rows.push_back({source.tree.branches[m.branch].label, measuredText(m.length, 1),
+                    measuredText(m.tortuosity, 3), measuredText(m.meanCurvature, 3),
+                    measuredText(m.meanRadius, 2), measuredText(m.smallestRadius, 2),
+                    measuredText(m.volume, 1)});
+  return alignColumns(rows);
+}
+
+/// Empty without an aneurysm.
+std::string sacText(const formats::Case& source, const convert::CaseMeasures& measures) {
+  if (measures.sacs.empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"aneurysm", "neck", "height", "width", "volume", "aspect ratio", "size ratio"});
+  for (const convert::SacMeasures& m : measures.sacs)
+    rows.push_back({source.tree.branches[m.branch].label, measuredText(m.neckDiameter, 2),
+                    measuredText(m.height, 2), measuredText(m.width, 2), measuredText(m.volume, 1),
+                    measuredText(m.aspectRatio, 2), measuredText(m.sizeRatio, 2)});
+  return "\n" + alignColumns(rows);
+}
+
+std::string countText(const std::vector<convert::MeasureTable>& tables) {
+  std::string text;
+  for (const convert::MeasureTable& table : tables)
+    text += (text.empty() ? "" : ", ") + std::string(table.kind) + " " +
+            std::to_string(table.rows.size());
+  return text;
+}
+
+}  // namespace
+
+Json measureJson(const std::vector<convert::MeasuredCase>& cases, const std::string& against) {
+  Json json;
+  json["cases"] = Json::array();
+  json["against"] = against.empty() ? Json(nullptr) : Json(against);
+  json["changes"] = nullptr;
+  for (const convert::MeasuredCase& one : cases) {
+    const std::span<const convert::MeasureTable> tables(one.tables);
+    Json entry{{"case", one.name}};
+    entry.update(convert::measuresJson(tables.first(convert::kMeasureKinds)));
+    json["cases"].push_back(std::move(entry));
+    if (!against.empty())
+      json["changes"] = convert::measuresJson(tables.subspan(convert::kMeasureKinds));
+  }
+  return json;
+}
+
+std::string measureText(const std::string& file, const formats::Case& source,
+                        const operations::CaseMeasures& measures) {
+  return formats::printable(file) + ": " + countText(measures.tables) + "\n\n" +
+         vesselText(source, measures.values) + sacText(source, measures.values) + "\n";
+}
+
+std::string changesText(const std::string& against,
+                        const std::vector<convert::MeasureTable>& changes) {
+  return "against " + formats::printable(against) + ": " + countText(changes) + "\n\n";
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/operations/case_of.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "converters/io/centerline/case_of_centerline.h"
+#include "converters/operations/hinted_vessels.h"
+#include "converters/stages/fitting/fit.h"
+#include "formats/container/printable.h"
+
+namespace lumen::operations {
+
+namespace {
+
+/// Voxels in the median radius of a tree: the fit is made for vessels of a few voxels in radius.
+constexpr double kVoxelsOfRadius = 5;
+/// Accuracy as a share of the median radius: given radii have no noise to stop at. With twice this
+/// the volume of a narrowing is 1 % short.
+constexpr double kAccuracyOfRadius = 0.005;
+
+convert::FitOptions fitOptionsFor(const formats::Case& value, const ModelOptions& options) {
+  if (value.metadata.voxelSize || value.tree.nodeCount() == 0) return options.fit;
+  std::vector<float> radii = value.tree.radius;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  convert::FitOptions scaled = options.fit;
+  if (!scaled.accuracy) scaled.accuracy = kAccuracyOfRadius * double{*middle};
+  // Cohesion is for blobs that noise would scatter. Here it would draw the wall inwards, by .35 %
+  // of the radius.
+  if (!options.isCohesionStated && scaled.cohesionWeight == convert::FitOptions{}.cohesionWeight)
+    scaled.cohesionWeight = 0;
+  return scaled.resolved(double{*middle} / kVoxelsOfRadius);
+}
+
+MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Context& context) {
+  MadeCase made;
+  convert::TrackResult tracked = trackVessels(*source.grey, source.name, options.vessels, context);
+  if (source.regions)
+    nameByRegions(*source.regions, source.grey->geometry, source.name, tracked.result, tracked.ends,
+                  context);
+  made.repetition = repeatTracks(*source.grey, source.name, options.vessels, options.repeats,
+                                 tracked.result, context);
+  if (options.corrected) {
+    made.replayed = convert::replayEdits(options.corrected->value, tracked.result);
+    for (const convert::LeftEdit& left : made.replayed->left)
+      context.progress.warn(formats::printable(options.corrected->name) +
+                            ": a correction is not made again: " + left.sentence + ": " + left.why);
+  }
+  made.value = std::move(tracked.result);
+  made.remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
+  return made;
+}
+
+MadeCase caseOfLabels(const Source& source, const CaseOptions& options, const Context& context) {
+  MadeCase made;
+  made.value = labelledVessels(*source.labels, options.chosenLabels, context);
+  if (source.regions)
+    nameByRegions(*source.regions, source.labels->voxels.geometry, source.name, made.value,
+                  made.remarks.ends, context);
+  applyRoots(made.value, source.name, options.vessels, context);
+  return made;
+}
+
+MadeCase caseOfMesh(const Source& source, const CaseOptions& options, const Context& context) {
+  MadeCase made;
+  made.meshFrame.emplace();
+  made.value = meshVessels(source, options.meshUnit, *made.meshFrame, context);
+  applyRoots(made.value, source.name, options.vessels, context);
+  return made;
+}
+
+/// The case as its source shows it. The source goes with the call, as its voxels are large.
+MadeCase caseWithoutModels(Source source, const CaseOptions& options, const Context& context) {
+  if (source.grey) return caseOfGrey(source, options, context);
+  if (source.labels) return caseOfLabels(source, options, context);
+  if (source.mesh) return caseOfMesh(source, options, context);
+  MadeCase made;
+  made.value = source.value
+                   ? *std::move(source.value)
+                   : convert::caseOfCenterline(source.centerline.value().file, source.name);
+  return made;
+}
+
+}  // namespace
+
+MadeCase caseOf(Source source, const CaseOptions& options, const Context& context) {
+  MadeCase made = caseWithoutModels(std::move(source), options, context);
+  if (options.models && !made.value.models)
+    made.value = fitted(std::move(made.value), *options.models, context);
+  return made;
+}
+
+formats::Case fitted(formats::Case value, const ModelOptions& options, const Context& context) {
+  convert::fit(value, fitOptionsFor(value, options), context.progress);
+  return value;
+}
+
+}  // namespace lumen::operations

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/operations/labelled_vessels.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/vectors.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/stages/trees_from_surfaces/case_of_mesh.h"
+#include "converters/stages/trees_from_surfaces/label_mesh.h"
+#include "formats/container/printable.h"
+
+namespace lumen::operations {
+
+namespace {
+
+/// Gives the labels of a mask names, where they are known.
+void useNames(const convert::LabelNames& names, convert::LabelMask& mask) {
+  for (std::size_t i = 0; i < mask.values.size(); ++i)
+    if (const auto found = names.find(mask.values[i]); found != names.end())
+      mask.names[i] = found->second;
+}
+
+/// The middle of a volume, mm, LPS, and the lengths of its edges.
+std::string extentText(const convert::VolumeGeometry& geometry) {
+  const Eigen::Vector3d size = geometry.cells().size.cast<double>();
+  return convert::vectorText(geometry.worldFromIndex(0.5 * (size.array() - 1).matrix())) +
+         " with edges of " + convert::vectorText(size.cwiseProduct(geometry.spacing)) + " mm";
+}
+
+/// Gives the remarks on ends the names of the branches on whose nodes they lie.
+void renameByNodes(const formats::CenterlineTree& tree, std::vector<convert::TrackEnd>& ends) {
+  for (convert::TrackEnd& end : ends) {
+    const auto nearest = std::min_element(tree.centre.begin(), tree.centre.end(),
+                                          [&](const formats::Vec3f& a, const formats::Vec3f& b) {
+                                            return (toEigen(a) - end.position).squaredNorm() <
+                                                   (toEigen(b) - end.position).squaredNorm();
+                                          });
+    if (nearest == tree.centre.end()) return;
+    end.label =
+        tree.branches[tree.branch[static_cast<std::size_t>(nearest - tree.centre.begin())]].label;
+  }
+}
+
+}  // namespace
+
+formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64_t>& chosen,
+                              const Context& context) {
+  Progress& progress = context.progress;
+  const std::string name = formats::printable(labels.name);
+  convert::LabelNames wanted;
+  for (const std::int64_t label : chosen) wanted[label] = "label-" + std::to_string(label);
+  convert::LabelMask mask = convert::makeLabelMask(labels.voxels, wanted, name);
+  useNames(labels.names, mask);
+  if (mask.isGrey)
+    progress.warn(name +
+                  ": its voxels differ from their neighbours as grey values do, and are taken as "
+                  "labels; expected a segmentation: an image is tracked from " +
+                  context.field("seeds"));
+  progress.begin("surface", 0);
+  convert::LabelSurface surface = convert::makeLabelSurface(mask, progress);
+  progress.end();
+  if (surface.cavities > 0)
+    progress.warn(name + ": " + std::to_string(surface.cavities) +
+                  (surface.cavities == 1 ? " hole" : " holes") + " within the labels filled");
+  convert::MeshCase made = convert::caseOfLumen(
+      convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(), name, {},
+      {{"labels", static_cast<std::int64_t>(mask.names.size())}}, progress);
+  for (const std::string& note : made.notes) progress.warn(note);
+  recordAssumptions(made.result.metadata.steps.back(), labels.voxels.assumptions);
+  // no wall is known better than to a voxel of the labels
+  std::optional<double>& voxel = made.result.metadata.voxelSize;
+  voxel = std::max(voxel.value_or(0), mask.geometry.voxelSize());
+  if (mask.names.size() > 1 || !labels.names.empty()) convert::nameBranches(mask, made.result);
+  return std::move(made.result);
+}
+
+void nameByRegions(const LabelPart& regions, const convert::VolumeGeometry& geometry,
+                   const std::string& named, formats::Case& target,
+                   std::vector<convert::TrackEnd>& ends, const Context& context) {
+  const std::string name = formats::printable(regions.name);
+  if (!convert::holdsLabels(regions.voxels))
+    throw invalidInput(name +
+                       ": its voxels are no labels; expected whole numbers that are equal to "
+                       "their neighbours but at borders, and 0 around vessels");
+  convert::LabelMask mask = convert::makeLabelMask(regions.voxels, {}, name);
+  if (convert::labelledWithin(mask, geometry) == 0)
+    throw invalidInput(name + ": none of its labels lies within " + formats::printable(named) +
+                       "; the labels' volume is around " + extentText(mask.geometry) +
+                       ", expected labels of the volume around " + extentText(geometry));
+  useNames(regions.names, mask);
+  const convert::Naming done = convert::nameBranches(mask, target);
+  if (done.named == 0) context.progress.warn(name + ": no branch lies on its labels; names stay");
+  context.progress.detail(name + ": names " + std::to_string(done.named) + " branches, " +
+                          std::to_string(done.bare) + " lie on no label, " +
+                          std::to_string(done.divided) + " were divided between labels");
+  renameByNodes(target.tree, ends);
+  target.metadata.steps.push_back(
+      {"label-map",
+       "lumen " LUMEN_VERSION,
+       {{"label-map-sha256", convert::describeSource(regions.voxels).sha256}}});
+}
+
+}  // namespace lumen::operations

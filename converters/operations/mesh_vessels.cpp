@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/operations/mesh_vessels.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/base/shown_text.h"
+#include "converters/stages/editing/inlets.h"
+#include "converters/stages/repair/repair.h"
+#include "converters/stages/trees_from_surfaces/case_of_mesh.h"
+#include "formats/container/printable.h"
+
+namespace lumen::operations {
+
+namespace {
+
+/// The centerline beside a mesh in mm, LPS. `meshUnit`: mm in a unit of the mesh.
+convert::GivenCenterline inPatientSpace(const CenterlinePart& centerline, double meshUnit) {
+  convert::GivenCenterline given{centerline.file, formats::printable(centerline.name)};
+  const double unit = given.file.unit > 0 ? given.file.unit : meshUnit;
+  const bool isRas = given.file.axes == convert::CenterlineAxes::Ras;
+  const Eigen::Vector3d turn(isRas ? -unit : unit, isRas ? -unit : unit, unit);
+  for (convert::CenterlinePoint& point : given.file.points) {
+    point.position = turn.cwiseProduct(point.position);
+    point.radius *= unit;
+  }
+  return given;
+}
+
+/// The unit of the mesh and its axes; warns as guessUnitOf().
+MeshFrame chooseFrame(const MeshPart& part, const convert::TriangleMesh& mesh,
+                      const std::string& name, const std::optional<double>& unit,
+                      const Context& context) {
+  if (unit) return {*unit, "option", part.file.frameStated};
+  if (part.file.unitMm > 0) return {part.file.unitMm, "file", part.file.frameStated};
+  const convert::UnitGuess guess =
+      guessUnitOf(convert::vesselSize(mesh), name, part.isOfSimVascular, context);
+  return {guess.millimetres, "guess", part.file.frameStated};
+}
+
+/// Begins trees at the openings through which blood comes in besides the widest one.
+void beginAtFurtherInlets(convert::MeshCase& made, Progress& progress) {
+  constexpr double kBeyondRadii = 3;  // behind an opening, within these multiples of its radius
+  const auto isInside = [&](const Eigen::Vector3d& point) {
+    return std::none_of(made.openings.begin(), made.openings.end(), [&](const auto& end) {
+      return (point - end.centre).dot(end.normal) > 0 &&
+             (point - end.centre).norm() < kBeyondRadii * end.radius;
+    });
+  };
+  const std::vector<Eigen::Vector3d> inlets = convert::furtherInlets(made.result.tree, isInside);
+  convert::beginAt(made.result, inlets);
+  for (const Eigen::Vector3d& place : inlets)
+    progress.detail("blood comes in at " + convert::vectorText(place) + " mm, too");
+}
+
+std::string listed(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
+}  // namespace
+
+convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const std::string& name,
+                               bool isOfSimVascular, const Context& context) {
+  convert::UnitGuess guess = convert::guessUnit(size, isOfSimVascular);
+  if (const std::string warning =
+          convert::unitWarning(guess, size, isOfSimVascular, context.fieldWord);
+      !warning.empty())
+    context.progress.warn(formats::printable(name) + ": " + warning);
+  return guess;
+}
+
+formats::Case meshVessels(const Source& source, const std::optional<double>& unit, MeshFrame& frame,
+                          const Context& context) {
+  const std::string name = formats::printable(source.name);
+  const MeshPart& part = source.mesh.value();
+  Progress& progress = context.progress;
+  progress.begin("repairing", 0);
+  convert::RepairResult repaired = convert::repairMesh(part.file.mesh, name, progress);
+  progress.end();
+  for (const std::string& note : part.file.notes) progress.warn(name + ": " + note);
+  if (!repaired.repairs.empty()) progress.warn(name + ": repaired: " + listed(repaired.repairs));
+  frame = chooseFrame(part, repaired.mesh, source.name, unit, context);
+  for (Eigen::Vector3d& p : repaired.mesh.position) p *= frame.unit;
+  std::optional<convert::GivenCenterline> centerline;
+  if (source.centerline) centerline = inPatientSpace(*source.centerline, frame.unit);
+  convert::MeshCase made = convert::caseOfMesh(std::move(repaired.mesh), name, centerline,
+                                               {{"unit", frame.unit}}, progress);
+  for (const std::string& note : made.notes) progress.warn(note);
+  beginAtFurtherInlets(made, progress);
+  return std::move(made.result);
+}
+
+}  // namespace lumen::operations

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/operations/tracked_vessels.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/shown_text.h"
+#include "converters/io/seeds/case_seeds.h"
+#include "converters/stages/editing/correct_topology.h"
+#include "converters/stages/editing/inlets.h"
+#include "converters/stages/finding/find_vessels.h"
+#include "converters/stages/tracking/vessel_at_click.h"
+#include "formats/container/printable.h"
+
+namespace lumen::operations {
+
+namespace {
+
+/// One line for each seed, unless there are too many to read.
+void warnOfSeeds(const std::string& file, const std::string& what,
+                 const std::vector<convert::SeedFailure>& failures, const Context& context) {
+  constexpr std::size_t kMostSeedLines = 20;
+  for (std::size_t i = 0; i < std::min(failures.size(), kMostSeedLines); ++i)
+    context.progress.warn(file + ": seed \"" + formats::printable(failures[i].label) + "\"" + what +
+                          failures[i].reason);
+  if (failures.size() > kMostSeedLines)
+    context.progress.warn(file + ": and so on for " +
+                          std::to_string(failures.size() - kMostSeedLines) + " more seeds; " +
+                          context.allRemarks + " lists all");
+}
+
+std::string share(std::size_t count, std::size_t seeds) {
+  if (seeds == 1) return "it lies";
+  return std::to_string(count) + " of " + std::to_string(seeds) + " lie";
+}
+
+/// Reason why seeds may start no track, after a semicolon: they stand out of the volume in another
+/// reading of their file, or hardly at all.
+std::string doubtAboutSeeds(const convert::Volume& volume,
+                            const std::vector<convert::SeedBranch>& seeds,
+                            const std::vector<convert::SeedBranch>& placed,
+                            const convert::TrackOptions& options, const Context& context) {
+  const convert::ClickLight light(volume, options, context.progress);
+  const std::size_t inVessels = light.countInVessels(placed);
+  std::size_t most = inVessels;
+  std::string advice;
+  for (const convert::RereadSeeds& other :
+       convert::otherReadings(seeds, volume.geometry, context.fieldWord)) {
+    const std::size_t count = light.countInVessels(other.seeds);
+    if (count <= most || 3 * count < 2 * seeds.size()) continue;
+    most = count;
+    advice = "; read " + other.words + ", " + share(count, seeds.size()) + " in " +
+             (options.dark ? "dark" : "bright") + " vessels: add " + other.options;
+  }
+  if (!advice.empty() || 2 * inVessels >= placed.size()) return advice;
+  return "; " + share(placed.size() - inVessels, placed.size()) +
+         " in the background, as seeds of another volume do";
+}
+
+/// Candidates without a wall are no failures of the user's: they are listed for --verbose alone.
+void reportRefused(convert::TrackRemarks& remarks, Progress& progress) {
+  for (const convert::SeedFailure& failure : remarks.failures)
+    progress.detail(failure.label + " is no vessel: " + failure.reason);
+  remarks.failures.clear();
+}
+
+/// The places of bone; empty where none was found, so that edges are not examined for it. `found`
+/// must outlive it.
+convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
+  if (found.bone.empty()) return {};
+  return [&found](const Eigen::Vector3d& point) { return found.isBone(point); };
+}
+
+}  // namespace
+
+convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
+                                  const convert::TrackOptions& options, const Context& context) {
+  const std::string none = formats::printable(name) + ": no vessels are found in it";
+  std::size_t candidates = 0;
+  convert::TrackResult result = findAndTrackIfAny(volume, options, candidates, context);
+  if (candidates == 0)
+    throw failed(none + ", as nothing long and thin stands out of its noise; " +
+                 context.field("seeds") + " states where vessels begin, and " +
+                 context.field("dark") + " that they are darker than their background");
+  if (result.result.tree.nodeCount() == 0)
+    throw failed(none + ", as no cylinder fits along any of " + std::to_string(candidates) +
+                 " candidates; " + context.field("seeds") + " states where vessels begin");
+  return result;
+}
+
+convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
+                                       const convert::TrackOptions& options,
+                                       std::size_t& candidates, const Context& context) {
+  Progress& progress = context.progress;
+  const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
+  candidates = found.courses.size();
+  if (found.courses.empty()) return {};
+  convert::TrackResult result = convert::trackAlongCourses(
+      volume, found.courses, placesOfBone(found), options, progress,
+      [&](std::span<const convert::WorldBall> vessels) {
+        return convert::coursesInRemainingLumen(found, vessels, progress);
+      });
+  reportRefused(result, progress);
+  if (result.result.tree.nodeCount() == 0) return result;
+  const convert::LumenInVolume lumen{
+      [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
+      [&](const Eigen::Vector3d& point) { return volume.geometry.containsWorld(point); }};
+  for (const Eigen::Vector3d& place : convert::correctTopology(result.result, lumen))
+    progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
+  const std::vector<Eigen::Vector3d> inlets =
+      convert::furtherInlets(result.result.tree, lumen.isInside);
+  convert::beginAt(result.result, inlets);
+  for (const Eigen::Vector3d& place : inlets)
+    progress.detail("blood comes in at " + convert::vectorText(place) + " mm, too");
+  return result;
+}
+
+convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
+                                const convert::Volume& volume, const formats::Case& known,
+                                const Context& context) {
+  Progress& progress = context.progress;
+  const convert::FoundVessels found =
+      convert::findVessels(volume, tracking.options().dark, progress);
+  convert::AddedTracks added =
+      convert::addTracksAlongCourses(tracking, known, found.courses, placesOfBone(found), progress);
+  reportRefused(added, progress);
+  return added;
+}
+
+convert::PlacedSeeds placedSeeds(const convert::Volume& volume, const VesselOptions& options,
+                                 const Context& context) {
+  const std::string file = formats::printable(options.seedsName);
+  convert::PlacedSeeds placed =
+      convert::placeSeeds(options.seeds, volume.geometry, options.seedsName, context.fieldWord);
+  if (!placed.advice.empty()) context.progress.warn(file + ": " + placed.advice);
+  warnOfSeeds(file, " is left out: ", placed.leftOut, context);
+  warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, context);
+  return placed;
+}
+
+void reportOnSeeds(const convert::Volume& volume, const VesselOptions& options,
+                   convert::PlacedSeeds& placed, convert::TrackResult& result,
+                   const Context& context) {
+  const std::string file = formats::printable(options.seedsName);
+  const std::vector<convert::SeedBranch>& seeds = options.seeds;
+  warnOfSeeds(file, " started no track: ", result.failures, context);
+  warnOfSeeds(file, " does not pass through its ", result.missedPoints, context);
+  warnOfSeeds(file, " is not joined to its parent: ", result.unjoined, context);
+  const bool isNone =
+      result.result.tree.nodeCount() == 0 || result.failures.size() == placed.seeds.size();
+  if (isNone || 2 * result.failures.size() > placed.seeds.size()) {
+    const std::string doubt = doubtAboutSeeds(volume, seeds, placed.seeds, options.track, context);
+    const std::string count = std::to_string(seeds.size()) + " seeds started ";
+    // seeds of one vessel may fail together: without a doubt about them the rest is good
+    if (isNone || !doubt.empty())
+      throw failed(
+          file + ": " +
+          (seeds.size() == 1 ? "its seed started no track"
+           : isNone          ? "none of its " + count + "a track"
+                    : std::to_string(result.failures.size()) + " of its " + count + "no track") +
+          doubt + "; nothing is written");
+  }
+  std::move(placed.leftOut.begin(), placed.leftOut.end(), std::back_inserter(result.failures));
+  std::move(placed.leftPoints.begin(), placed.leftPoints.end(),
+            std::back_inserter(result.missedPoints));
+}
+
+convert::TrackResult placeAndTrack(const convert::Volume& volume, const VesselOptions& options,
+                                   const Context& context) {
+  convert::PlacedSeeds placed = placedSeeds(volume, options, context);
+  convert::TrackResult result =
+      convert::trackFromSeeds(volume, placed.seeds, options.track, context.progress);
+  reportOnSeeds(volume, options, placed, result, context);
+  convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
+  return result;
+}
+
+}  // namespace lumen::operations

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vessels of grey voxels: those that are found, and those that a person states.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/io/seeds/place_seeds.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/operations/context.h"
+#include "converters/stages/tracking/track_case.h"
+
+namespace lumen::operations {
+
+/// The vessels that are wanted.
+struct VesselOptions {
+  convert::TrackOptions track;
+  std::vector<convert::SeedBranch> seeds;  ///< clicks of a person, in their own frame
+  std::string seedsName = "the seeds";     ///< for messages
+  bool isSeedsOnly = false;  ///< seeds start all tracks; else they are hints on what is found
+  std::vector<Eigen::Vector3d> roots;  ///< places at ends where blood comes in, mm, LPS
+  bool isOnlyConnected = false;        ///< without trees in which no seed and no root lies
+};
+
+/// Finds the vessels of `volume`, called `name`, without seeds, and tracks them. Vessels of which
+/// the volume shows no wall are left out, and are details for the listener. Throws Error(Failed) if
+/// none is left.
+convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
+                                  const convert::TrackOptions& options, const Context& context);
+
+/// Finds the vessels of `volume` without seeds, and tracks them; empty if none is found.
+/// `candidates`: number of paths that might be vessels.
+convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
+                                       const convert::TrackOptions& options,
+                                       std::size_t& candidates, const Context& context);
+
+/// Adds to a case that was tracked in `volume` the vessels that it lacks, as findAndTrack() finds
+/// them; what it has stays as it is. Returns the result with its remarks on the new vessels.
+convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
+                                const convert::Volume& volume, const formats::Case& known,
+                                const Context& context);
+
+/// The seeds within the volume; those that cannot be placed in it become warnings. Throws
+/// Error(InvalidInput) if none can.
+convert::PlacedSeeds placedSeeds(const convert::Volume& volume, const VesselOptions& options,
+                                 const Context& context);
+
+/// Warns of seeds that started no track or did not get all that they state. Throws Error(Failed) if
+/// all failed, or most and there is a reason to doubt them. Moves the failures to place seeds to
+/// those of the result.
+void reportOnSeeds(const convert::Volume& volume, const VesselOptions& options,
+                   convert::PlacedSeeds& placed, convert::TrackResult& result,
+                   const Context& context);
+
+/// Tracks the seeds alone through the volume, from their clicks on; the case holds them. Seeds that
+/// cannot be placed in it or that start no track become warnings, and failures of the result. Throws
+/// Error(InvalidInput) if none can be placed, and Error(Failed) if nothing was tracked.
+convert::TrackResult placeAndTrack(const convert::Volume& volume, const VesselOptions& options,
+                                   const Context& context);
+
+}  // namespace lumen::operations

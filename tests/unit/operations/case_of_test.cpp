@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sources of every kind become cases, and a case a surface, without a file.
+#include "converters/operations/case_of.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "converters/base/error.h"
+#include "converters/operations/surface_of.h"
+#include "converters/stages/phantom/phantom.h"
+#include "formats/case/validate.h"
+
+namespace lumen::operations {
+namespace {
+
+convert::Phantom phantom(const std::string& name) {
+  convert::PhantomOptions options;
+  options.name = name;
+  options.size = 64;
+  Progress progress;
+  return convert::makePhantom(options, progress);
+}
+
+/// 1 where a phantom's voxels are more vessel than not, else 0.
+convert::Volume labelsOf(const convert::Volume& volume) {
+  constexpr std::int16_t kHalf = 600;
+  std::vector<std::uint8_t> voxels;
+  for (const std::int16_t value : std::get<std::vector<std::int16_t>>(volume.voxels))
+    voxels.push_back(value > kHalf ? 1 : 0);
+  return {volume.geometry, std::move(voxels)};
+}
+
+/// A straight vessel of 1 mm along z with a point every mm.
+convert::CenterlineFile straightLine() {
+  convert::CenterlineFile file;
+  for (int z = 0; z <= 10; ++z) file.points.push_back({{0, 0, double(z)}, 1, z - 1});
+  file.unit = 1;
+  file.axes = convert::CenterlineAxes::Lps;
+  return file;
+}
+
+class CaseOfTest : public testing::Test {
+protected:
+  [[nodiscard]] static Source grey(const convert::Phantom& phantom) {
+    Source source;
+    source.name = "tube";
+    source.grey = phantom.volume;
+    return source;
+  }
+
+  /// The message of the error that the source ends in.
+  [[nodiscard]] std::string fault(Source source, const CaseOptions& options,
+                                  const Context& context) const {
+    try {
+      (void)caseOf(std::move(source), options, context);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+  Progress m_progress;
+  Context m_context{m_progress};
+};
+
+TEST_F(CaseOfTest, SeededVoxelsBecomeACaseWithModelsAndAClosedSurface) {
+  const convert::Phantom tube = phantom("tube");
+  CaseOptions options;
+  options.vessels.seeds = tube.seeds;
+  options.models.emplace();
+  const MadeCase made = caseOf(grey(tube), options, m_context);
+  EXPECT_TRUE(formats::validate(made.value));
+  ASSERT_TRUE(made.value.models);
+  EXPECT_EQ(made.value.tree.branches.front().label, tube.seeds.front().label);
+  const Surface surface = surfaceOf(made.value, {}, "tube", m_context);
+  ASSERT_TRUE(surface.report);
+  EXPECT_EQ(surface.report->trees, 1U);
+  EXPECT_EQ(surface.levels.front().triangle.size(), surface.report->triangles);
+}
+
+TEST_F(CaseOfTest, VesselsAreFoundWithoutSeedsAndGetNoModelsUnlessAskedFor) {
+  const MadeCase made = caseOf(grey(phantom("tube")), {}, m_context);
+  EXPECT_EQ(made.value.tree.branches.size(), 1U);
+  EXPECT_FALSE(made.value.models);
+  EXPECT_TRUE(made.value.points);
+}
+
+TEST_F(CaseOfTest, ARootThatLiesInNoVesselIsReportedByItsField) {
+  CaseOptions options;
+  options.vessels.roots.emplace_back(-100, 0, 0);
+  EXPECT_EQ(fault(grey(phantom("tube")), options, m_context),
+            "tube: root[0] lies in no vessel that is found; nothing is written");
+  Context other = m_context.within(m_progress);
+  other.fieldWord = [](std::string_view field, std::optional<std::size_t>) {
+    return "the " + std::string(field);
+  };
+  EXPECT_EQ(fault(grey(phantom("tube")), options, other),
+            "tube: the root lies in no vessel that is found; nothing is written");
+}
+
+TEST_F(CaseOfTest, LabelsAreVesselsWithTheirNames) {
+  Source source;
+  source.labels = LabelPart{labelsOf(phantom("tube").volume), "mask", {{1, "trunk"}}};
+  const MadeCase made = caseOf(std::move(source), {}, m_context);
+  ASSERT_EQ(made.value.tree.branches.size(), 1U);
+  EXPECT_EQ(made.value.tree.branches.front().label, "trunk");
+}
+
+TEST_F(CaseOfTest, RegionsNameTheVesselsOfGreyVoxels) {
+  const convert::Phantom tube = phantom("tube");
+  Source source = grey(tube);
+  source.regions = LabelPart{labelsOf(tube.volume), "map", {{1, "trunk"}}};
+  const MadeCase made = caseOf(std::move(source), {}, m_context);
+  EXPECT_EQ(made.value.tree.branches.front().label, "trunk");
+}
+
+TEST_F(CaseOfTest, RegionsThatAreNoLabelsAreRefusedByName) {
+  const convert::Phantom tube = phantom("tube");
+  Source source = grey(tube);
+  source.regions = LabelPart{tube.volume, "map", {}};
+  EXPECT_TRUE(fault(std::move(source), {}, m_context).starts_with("map: its voxels are no labels"));
+}
+
+TEST_F(CaseOfTest, ACenterlineBecomesACaseWhoseMeshBecomesACaseAgain) {
+  Source line;
+  line.centerline = CenterlinePart{straightLine(), "line"};
+  CaseOptions options;
+  options.models.emplace();
+  const MadeCase made = caseOf(std::move(line), options, m_context);
+  ASSERT_TRUE(made.value.models);
+  const Surface surface = surfaceOf(made.value, {}, "line", m_context);
+
+  Source mesh;
+  mesh.mesh.emplace();
+  constexpr double kCentimetre = 10;
+  for (const auto& p : surface.levels.front().position)
+    mesh.mesh->file.mesh.position.push_back(
+        Eigen::Vector3d(double{p[0]}, double{p[1]}, double{p[2]}) / kCentimetre);
+  mesh.mesh->file.mesh.triangle = surface.levels.front().triangle;
+  options.meshUnit = kCentimetre;
+  const MadeCase again = caseOf(std::move(mesh), options, m_context);
+  ASSERT_TRUE(again.meshFrame);
+  EXPECT_EQ(again.meshFrame->unitFrom, "option");
+  EXPECT_EQ(again.value.tree.branches.size(), 1U);
+  const std::vector<float>& radii = again.value.tree.radius;
+  EXPECT_NEAR(radii[radii.size() / 2], 1.0F, 0.05F);
+}
+
+TEST_F(CaseOfTest, ACaseWithModelsStaysAsItIs) {
+  Source line;
+  line.centerline = CenterlinePart{straightLine(), "line"};
+  CaseOptions options;
+  options.models.emplace();
+  const formats::Case made = caseOf(std::move(line), options, m_context).value;
+  Source source;
+  source.value = made;
+  const formats::Case same = caseOf(std::move(source), options, m_context).value;
+  EXPECT_EQ(same.metadata.steps.size(), made.metadata.steps.size());
+  EXPECT_TRUE(same.models == made.models);
+}
+
+TEST_F(CaseOfTest, ItEndsWhenItsListenerIsCancelled) {
+  m_progress.cancel();
+  EXPECT_EQ(fault(grey(phantom("tube")), {}, m_context), "interrupted");
+}
+
+}  // namespace
+}  // namespace lumen::operations
