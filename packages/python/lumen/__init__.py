@@ -17,9 +17,9 @@ from ._inputs import Volume
 from ._parts import Branch, Change, Mesh, Models, Motion, Picture, Points, Tree
 from ._editing import Editor
 from ._running import Answer, run
-from ._case import Case
+from ._case import Case, read
 from ._operations import (Phantom, case_of, check, convert, export, find_vessels, fit, measure, mesh,
-                          options_of, phantom, picture, read, targets, track, validate)
+                          options_of, phantom, picture, targets, track, validate)
 from . import blob, options
 
 __all__ = ["Answer", "Branch", "Case", "Change", "Editor", "Error", "Mesh", "Models", "Motion",

@@ -9,13 +9,12 @@ from typing import Any, Dict, Optional, Tuple
 import numpy as np
 
 from . import _lumen
-from ._calls import called
+from ._calls import called, report, watch_of
 from ._editing import Editor
 from ._exchange import graph_of
-from ._mesh_file import read_mesh
-from ._options import document, mesh_rows
+from ._options import document, mesh_rows, texts_of
 from ._parts import Change, Mesh, Models, Motion, Picture, Points, Tree
-from ._running import Answer, Staging, run, run_staged
+from ._running import Answer, Kept, call, run
 
 
 class Case:
@@ -214,10 +213,13 @@ class Case:
         --------
         >>> case.mesh(edge="0.25r").to_pyvista().plot(scalars="group")
         """
-        with Staging() as staging:
-            path = staging.name("mesh.ply")
-            run_staged(staging, "convert", case, path, **options)
-            return read_mesh(path)
+        is_case = isinstance(case, Case)
+        name, case = ("case.lumen", case) if is_case else (os.fspath(case), read(case))
+        watch = watch_of(options)
+        *arrays, warnings, details = called(_lumen.mesh_of, case._core, name, texts_of("convert", options), *watch,
+                                            known=[name])
+        report(warnings, details)
+        return Mesh(*arrays)
 
     def surface(self, **options) -> Tuple[np.ndarray, np.ndarray]:
         """The closed surface as two arrays; options as those of :meth:`mesh`.
@@ -305,20 +307,14 @@ class Case:
     def picture(case, **options) -> Picture:
         """Draws the case: the bytes of a PNG, which a notebook shows. ``volume`` may be a path, a
         :class:`Volume` or an image; ``size`` is (width, height)."""
-        with Staging() as staging:
-            path = staging.name("picture.png")
-            run_staged(staging, "picture", case, path, **options)
-            with open(path, "rb") as file:
-                return Picture(file.read())
+        return Picture(call("picture", case, Kept("picture.png"), **options)[1][0])
 
     def _repr_png_(self) -> Optional[bytes]:
         return None if self.models is None else bytes(self.picture(size=(800, 600)))
 
-    def _staged(self, staging) -> str:
-        """The name of a file with this case."""
-        path = staging.name("case.lumen")
-        self.write(path)
-        return path
+    def _given(self):
+        """The name and the content by which commands take this case."""
+        return "case.lumen", self._core
 
     # ------------------------------------------------------------ object
     def __eq__(self, other):
@@ -342,9 +338,26 @@ def _bits(point_bits: int) -> int:
     return point_bits
 
 
+def read(path) -> Case:
+    """Reads a case, .lumen or .lumen.json, by its content.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    Case
+        Its arrays cannot be written to.
+
+    Raises
+    ------
+    Error
+        With file, place, rule, and the values found and expected.
+    """
+    return Case(called(_lumen.Case.read, os.fspath(path)))
+
+
 def case_made(command: str, *arguments, **options) -> Case:
     """The case that a command writes as its last argument."""
-    with Staging() as staging:
-        path = staging.name("made.lumen")
-        run_staged(staging, command, *arguments, path, **options)
-        return Case(called(_lumen.Case.read, path))
+    return Case(call(command, *arguments, Kept("made.lumen"), **options)[1][0])

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-import secrets
 
 import numpy as np
 
 from . import _images, _lumen
-from ._calls import called, warn
+from ._calls import called, report
 from ._options import texts_of
 
-_NRRD_TYPES = {"i1": "int8", "u1": "uint8", "i2": "int16", "u2": "uint16", "i4": "int32",
-               "u4": "uint32", "f4": "float", "f8": "double"}
+# The engine's names of types, and the types that it holds of others.
+_TYPES = {"b1": "unsigned char", "i1": "signed char", "u1": "unsigned char", "i2": "short", "u2": "unsigned short",
+          "i4": "int", "u4": "unsigned int", "f4": "float", "f8": "double"}
+_HELD = {"i1": "i2", "i4": "f4", "u4": "f4", "f8": "f4"}
 
 
 class Volume:
@@ -50,7 +51,9 @@ class Volume:
         self.direction = np.eye(3) if direction is None else np.array(direction, float).reshape(3, 3)
         if len(self.origin) != 3:
             raise ValueError(f"origin: found {len(self.origin)} numbers, expected 3")
-        self._type_name()
+        if self.array.dtype.str[1:] not in _TYPES:
+            raise ValueError(f"array: found {self.array.dtype}, expected integers of 8 to 32 bits, "
+                             "float32, float64 or bool")
 
     @classmethod
     def of(cls, image) -> "Volume":
@@ -97,10 +100,18 @@ class Volume:
     def read(cls, path, *, progress=None, **options) -> "Volume":
         """Reads NRRD, NIfTI, MetaImage, or a folder of DICOM; options as those of a volume in
         :func:`lumen.convert` (series, crop, spacing, unit...). The array points into the volume."""
-        path = os.fspath(path)
-        voxels, warnings = called(_lumen.read_volume, path, texts_of("convert", options), progress,
-                                  known=[path])
-        warn(warnings)
+        return cls._read(os.fspath(path), None, progress, options)
+
+    @classmethod
+    def from_bytes(cls, data: bytes, *, name="volume.nrrd", progress=None, **options) -> "Volume":
+        """Reads the content of a file of NRRD, NIfTI or MetaImage. Its name states the format, and messages begin
+        with it; options as those of :meth:`read`."""
+        return cls._read(name, bytes(data), progress, options)
+
+    @classmethod
+    def _read(cls, name, data, progress, options):
+        voxels, warnings = called(_lumen.read_volume, name, data, texts_of("convert", options), progress, known=[name])
+        report(warnings)
         return cls(voxels.array, voxels.spacing, voxels.origin, voxels.direction)
 
     def like(self, array) -> "Volume":
@@ -119,49 +130,30 @@ class Volume:
         return np.asarray(index) * self.spacing @ self.direction.T + self.origin
 
     def write(self, path) -> None:
-        """Writes NRRD, uncompressed, atomically: a reader sees the old file or the new one."""
+        """Writes NRRD, NIfTI or MetaImage, by the ending of the name, atomically: a reader sees the old file or the
+        new one.
+
+        Parameters
+        ----------
+        path : path
+            ``.nrrd`` holds every type of voxels as it is; ``.nii``, ``.nii.gz`` and ``.mha`` hold int8 as int16, and
+            integers of 32 bits and float64 as float32.
+        """
         path = os.fspath(path)
-        if not path.endswith(".nrrd"):
-            raise ValueError(f"{path}: found a name without .nrrd, expected one with it")
-        unfinished = os.path.join(os.path.dirname(path), f".lumen-{secrets.token_hex(8)}.nrrd")
-        with open(unfinished, "xb") as file:
-            try:
-                self._write_to(file)
-                file.flush()
-                os.fsync(file.fileno())
-                os.replace(unfinished, path)
-            except BaseException:
-                os.unlink(unfinished)
-                raise
+        is_exact = path.lower().endswith(".nrrd")
+        called(_lumen.write_volume, path, self._parts({} if is_exact else _HELD), known=[path])
 
-    def _staged(self, staging) -> str:
-        """The name of a file with this volume."""
-        path = staging.name("volume.nrrd")
-        with open(path, "wb") as file:
-            self._write_to(file)
-        return path
+    def _given(self):
+        """The name and the content by which commands take this volume."""
+        return "volume.nrrd", self._parts({})
 
-    def _type_name(self):
-        kind = "u1" if self.array.dtype == bool else self.array.dtype.str[1:]
-        if kind not in _NRRD_TYPES:
-            raise ValueError(f"array: found {self.array.dtype}, expected integers of 8 to 32 bits, "
-                             "float32, float64 or bool")
-        return _NRRD_TYPES[kind]
-
-    def _write_to(self, file) -> None:
-        vector = lambda numbers: "(" + ",".join(repr(float(n)) for n in numbers) + ")"
-        axes = " ".join(vector(self.direction[:, a] * self.spacing[a]) for a in range(3))
-        sizes = " ".join(str(n) for n in reversed(self.array.shape))
-        # the engine warns of a space and of a unit that do not state left and right, or a length
-        space = "left-posterior-superior" if self._is_placed else "scanner-xyz"
-        unit = '"mm"' if self._has_unit else '"?"'
-        header = (f"NRRD0004\ntype: {self._type_name()}\ndimension: 3\n"
-                  f"space: {space}\nsizes: {sizes}\nspace directions: {axes}\n"
-                  f"kinds: domain domain domain\nendian: little\nencoding: raw\n"
-                  f"space units: {unit} {unit} {unit}\nspace origin: {vector(self.origin)}\n\n")
-        file.write(header.encode())
-        little = self.array.dtype.newbyteorder("<") if self.array.dtype != bool else "u1"
-        np.ascontiguousarray(self.array).astype(little, copy=False).tofile(file)
+    def _parts(self, types):
+        """What the compiled module takes: the voxels in the machine's order, in the place of `types`, of which there
+        is a copy only where the array's memory is in another order."""
+        kind = self.array.dtype.str[1:]
+        kind = types.get(kind, kind)
+        return (np.ascontiguousarray(self.array, "<" + kind), _TYPES[kind], self.spacing, self.origin,
+                self.direction.ravel().tolist(), self._is_placed, self._has_unit)
 
     def __repr__(self):
         return f"<lumen.Volume {self.array.shape} {self.array.dtype}, {self.spacing} mm>"

@@ -6,33 +6,11 @@ import json
 import os
 from typing import Any, List, Mapping, NamedTuple
 
-from . import _lumen
-from ._calls import called
 from ._case import Case, case_made
 from ._images import package_of
 from ._inputs import Volume
 from ._options import commands, document, keyword_of, rows_of
-from ._running import Answer, Staging, run, run_staged
-
-
-def read(path) -> Case:
-    """Reads a case, .lumen or .lumen.json, by its content.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    Case
-        Its arrays cannot be written to.
-
-    Raises
-    ------
-    Error
-        With file, place, rule, and the values found and expected.
-    """
-    return Case(called(_lumen.Case.read, os.fspath(path)))
+from ._running import Answer, Kept, call, run
 
 
 @document("track", "to", "seeds")
@@ -143,11 +121,11 @@ def find_vessels(source, **options) -> List[dict]:
         Branches with ``label``, ``points`` (mm, LPS), ``radius`` and ``parent`` (spec/seeds.md), as
         ``seeds=`` of :func:`track` and :func:`convert` takes them.
     """
-    with Staging() as staging:
-        path = staging.name("seeds.json")
-        run_staged(staging, "seeds", source, path, **options)
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)["branches"]
+    return _branches(call("seeds", source, Kept("seeds.json"), **options)[1][0])
+
+
+def _branches(seeds: bytes) -> List[dict]:
+    return json.loads(seeds)["branches"]
 
 
 class Phantom(NamedTuple):
@@ -157,7 +135,7 @@ class Phantom(NamedTuple):
     seeds: List[dict]  #: the clicks that a user would make, spec/seeds.md
 
 
-@document("phantom", "truth", "seeds")
+@document("phantom", "truth", "seeds", "motion", "phases")
 def phantom(name: str, **options) -> Phantom:
     """Makes a synthetic angiogram with a known truth, such as "bifurcation" or "patient".
 
@@ -166,12 +144,12 @@ def phantom(name: str, **options) -> Phantom:
     Phantom
         ``volume``, ``truth`` and ``seeds``.
     """
-    with Staging() as staging:
-        image, truth, seeds = map(staging.name, ("volume.nrrd", "truth.lumen", "seeds.json"))
-        run_staged(staging, "phantom", name, image, truth=truth, seeds=seeds, **options)
-        with open(seeds, encoding="utf-8") as file:
-            branches = json.load(file)["branches"]
-        return Phantom(Volume.read(image), read(truth), branches)
+    if options.get("motion") not in (None, "none"):
+        raise ValueError("motion: found several phases, which are files: lumen.run(\"phantom\", name, path, "
+                         f"motion={options['motion']!r}), expected one volume")
+    _, (volume, truth, seeds) = call("phantom", name, Kept("volume.nrrd"), truth=Kept("truth.lumen"),
+                                     seeds=Kept("seeds.json"), **options)
+    return Phantom(Volume.from_bytes(volume), Case(truth), _branches(seeds))
 
 
 def check(volume, case, **options) -> Answer:

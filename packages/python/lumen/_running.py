@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs of the program's commands, and the files through which they take and give values."""
+"""Runs of the program's commands, whose inputs and outputs may be values in memory."""
 from __future__ import annotations
 
+import itertools
 import json
-import logging
 import os
-import tempfile
-from typing import Any, Dict, Mapping
+from typing import Any, Dict, List, Mapping, Tuple
 
 from . import _images, _lumen
-from ._calls import called, warn
+from ._calls import called, report, watch_of
 from ._errors import Error
 from ._exchange import tables_of
 from ._inputs import Volume
 from ._options import commands, option_of, texts_of
-
-_LOG = logging.getLogger("lumen")
 
 
 class Answer(dict):
@@ -75,83 +72,82 @@ def _plain(value):
     return value
 
 
-class Staging:
-    """A folder for what a command reads and writes by name, removed at the end."""
+class Kept(str):
+    """The name of an output that stays in memory."""
 
-    def __init__(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="lumen-")
-        self._count = 0
 
-    def __enter__(self):
-        return self
+class Values:
+    """Inputs and outputs of a command in memory, by the names that its arguments, options and messages have."""
 
-    def __exit__(self, *_):
-        self._folder.cleanup()
+    def __init__(self, arguments):
+        self.given: Dict[str, Any] = {}
+        self.kept: List[str] = []
+        flat = itertools.chain.from_iterable(one if isinstance(one, (list, tuple)) else [one] for one in arguments)
+        self._taken = {os.fsdecode(one) for one in flat if _is_path(one) and not isinstance(one, Kept)}
 
-    def name(self, name: str) -> str:
-        """A new file's name in the folder."""
-        self._count += 1
-        folder = os.path.join(self._folder.name, str(self._count))
-        os.mkdir(folder)
-        return os.path.join(folder, name)
+    def _new(self, name: str) -> str:
+        """The name, or one with a number if another value or a file has it."""
+        stem, _, ending = name.partition(".")
+        names = itertools.chain([name], (f"{stem}-{number}.{ending}" for number in itertools.count(2)))
+        new = next(one for one in names if one not in self._taken)
+        self._taken.add(new)
+        return new
 
-    def path_of(self, value: Any) -> str:
-        """The file of an argument: a path as it is, a case, a volume or an image written for it."""
-        if not isinstance(value, (str, os.PathLike)) and (_images.package_of(value) or hasattr(value, "__array__")):
-            value = Volume.of(value)
-        if hasattr(value, "_staged"):
-            return value._staged(self)  # pylint: disable=protected-access
-        if isinstance(value, (str, bytes, os.PathLike)):
+    def _give(self, name: str, value: Any) -> str:
+        name = self._new(name)
+        self.given[name] = value
+        return name
+
+    def name_of(self, value: Any) -> str:
+        """The name of an argument: a path as it is, a case, a volume or an image by a name for it."""
+        if isinstance(value, Kept):
+            self.kept.append(self._new(value))
+            return self.kept[-1]
+        if _is_path(value):
             return os.fsdecode(value)
+        if _images.package_of(value) or hasattr(value, "__array__"):
+            value = Volume.of(value)
+        if hasattr(value, "_given"):
+            return self._give(*value._given())  # pylint: disable=protected-access
         raise TypeError(f"found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, a "
                         "lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
 
-    def json_of(self, name: str, content: Any) -> str:
-        """A new file with a content as JSON."""
-        path = self.name(name)
-        with open(path, "w", encoding="utf-8") as file:
-            json.dump(content, file)
-        return path
-
     def option(self, row: Dict[str, Any], value: Any) -> Any:
-        """The value of an option as texts can state it: names of files in place of values in memory."""
+        """The value of an option as texts can state it: names in place of values in memory."""
         if value is None or isinstance(value, (str, os.PathLike)):
-            return value
+            return self.name_of(value) if isinstance(value, Kept) else value
         if row["name"] == "seeds":
-            return self.json_of("seeds.json", seeds_document(value))
+            return self._give("seeds.json", json.dumps(seeds_document(value)))
         if row["name"] == "label-table":
-            return self.json_of("labels.json", {str(int(label)): name for label, name in value.items()})
+            return self._give("labels.json", json.dumps({str(int(label)): name for label, name in value.items()}))
         if row["name"] == "labels" and isinstance(value, Mapping):
             return ",".join(f"{int(label)}={name}" for label, name in value.items())
-        return self.path_of(value) if row["placeholder"] == "FILE" else value
-
-    def without_folder(self, message: str) -> str:
-        """A message without the folder: names of its files alone."""
-        parts = message.split(self._folder.name + os.sep)
-        return parts[0] + "".join(part.partition(os.sep)[2] for part in parts[1:])
+        return self.name_of(value) if row["placeholder"] == "FILE" else value
 
 
-def run_staged(staging: Staging, command: str, *arguments, progress=None, threads=None, strict=False,
-               **options) -> Answer:
-    """Runs a command whose arguments and options may be cases, volumes and seeds in memory."""
-    names = [staging.path_of(argument) for argument in arguments]
+def _is_path(value: Any) -> bool:
+    return isinstance(value, (str, bytes, os.PathLike))
+
+
+def call(command: str, *arguments, **options) -> Tuple[Answer, list]:
+    """The answer of a command whose arguments and options may be values in memory, and its outputs whose names are
+    Kept: cases of the compiled module, or bytes."""
+    watch = watch_of(options)
+    values = Values([*arguments, *options.values()])
+    names = [values.name_of(argument) for argument in arguments]
     rows = {row["name"]: row for row in commands()[command]["rows"]}
-    given = {word: staging.option(rows.get(option_of(word), {"name": word, "placeholder": ""}), value)
-             for word, value in options.items()}
-    texts = texts_of(command, given)
+    texts = texts_of(command, {
+        word: values.option(rows.get(option_of(word), {"name": word, "placeholder": ""}), value)
+        for word, value in options.items()})
     words = [row["name"] for row in commands()[command]["rows"] if row["argument"]]
     known = [name for name, word in zip(names, words + words[-1:] * len(names))
-             if word not in ("NAME", "TARGET")] + [text for _, values in texts for text in values]
-    json_text, text, code, warnings, details = called(
-        _lumen.run, command, names, texts, progress, threads or 0, strict, staging=staging,
-        known=known)
-    for detail in details:
-        _LOG.debug("%s", detail)
-    answer = Answer(json.loads(staging.without_folder(json_text)) if json_text else {})
-    answer.text, answer.code = staging.without_folder(text), code
-    answer.warnings = [staging.without_folder(warning) for warning in warnings]
-    warn(answer.warnings)
-    return answer
+             if word not in ("NAME", "TARGET")] + [text for _, some in texts for text in some]
+    json_text, text, code, warnings, details, kept = called(
+        _lumen.run, command, names, texts, values.given, values.kept, *watch, known=known)
+    answer = Answer(json.loads(json_text) if json_text else {})
+    answer.text, answer.code, answer.warnings = text, code, warnings
+    report(warnings, details)
+    return answer, [kept[name] for name in values.kept]
 
 
 def run(command: str, *arguments, progress=None, threads=None, strict=False, **options) -> Answer:
@@ -179,5 +175,4 @@ def run(command: str, *arguments, progress=None, threads=None, strict=False, **o
     """
     if command not in commands():
         raise Error(f"{command}: there is no such command", 2)
-    with Staging() as staging:
-        return run_staged(staging, command, *arguments, progress=progress, threads=threads, strict=strict, **options)
+    return call(command, *arguments, progress=progress, threads=threads, strict=strict, **options)[0]
