@@ -10,9 +10,9 @@
 
 #include "converters/api/handle.h"
 #include "converters/base/error.h"
+#include "converters/base/input_file.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
-#include "converters/io/content/input_file.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/io/volume/label_table.h"
 #include "converters/io/volume/volume_checks.h"
@@ -44,14 +44,14 @@ bool isThere(const lumen_engine_file& file) {
   return true;
 }
 
-convert::InputFile inputOf(const lumen_engine_file& file) {
+InputFile inputOf(const lumen_engine_file& file) {
   return {std::filesystem::path(file.name),
           std::string_view(static_cast<const char*>(file.bytes), file.size)};
 }
 
 operations::LabelPart regionsOf(const lumen_engine_file& file, const Options& options,
                                 Progress& progress) {
-  const convert::InputFile input = inputOf(file);
+  const InputFile input = inputOf(file);
   const FileFormat& format = inputFormat(input, "");
   if (format.readVolume == nullptr)
     throw invalidInput(formats::printable(file.name) +
@@ -63,7 +63,7 @@ operations::LabelPart regionsOf(const lumen_engine_file& file, const Options& op
 void load(const lumen_engine_inputs& inputs, Options options, lumen_engine_source& to,
           Progress& progress) {
   if (!isThere(inputs.main)) throw Error(ErrorKind::Usage, "the main input is missing");
-  const convert::InputFile input = inputOf(inputs.main);
+  const InputFile input = inputOf(inputs.main);
   const FileFormat& format = inputFormat(input, "");
   if (isThere(inputs.seeds)) {
     const TrackArguments& track = options.values().track;

@@ -46,7 +46,7 @@ void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline) {
   table.group("");
 }
 
-LoadedCenterline loadCenterline(const convert::InputFile& file, const FileFormat& format,
+LoadedCenterline loadCenterline(const InputFile& file, const FileFormat& format,
                                 const VolumeArguments& volume,
                                 const CenterlineArguments& centerline, Progress& progress) {
   LoadedCenterline loaded;

@@ -24,7 +24,7 @@ struct LoadedCenterline {
 };
 
 /// The centerline in `file`. Assumptions become warnings. Throws Error(InvalidInput).
-LoadedCenterline loadCenterline(const convert::InputFile& file, const FileFormat& format,
+LoadedCenterline loadCenterline(const InputFile& file, const FileFormat& format,
                                 const VolumeArguments& volume,
                                 const CenterlineArguments& centerline, Progress& progress);
 

@@ -39,7 +39,8 @@ void requireGiven(const OptionTable& table) {
 
 }  // namespace
 
-void setRows(OptionTable& table, const Operation& operation) {
+void setRows(OptionTable& table, const Operation& operation, MemoryFiles* memory) {
+  for (OptionRow& row : table.rows()) row.memory = memory;
   setArguments(table, operation.arguments);
   for (const auto& [name, values] : operation.options) table.set(name, values);
   requireGiven(table);
@@ -76,7 +77,7 @@ Answer Engine::run(const BoundCommand& bound, const RunContext& context) const {
 Answer Engine::run(const Operation& operation, const RunContext& context) const {
   const BoundCommand found = find(operation.name);
   if (!found.command) throw Error(ErrorKind::Usage, operation.name + ": there is no such command");
-  setRows(*found.table, operation);
+  setRows(*found.table, operation, context.memory);
   return run(found, context);
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/memory_files.h"
 #include "converters/base/options/operation.h"
 #include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
@@ -36,6 +37,8 @@ struct RunSettings {
   bool strict = false;  ///< a warning is an error: Progress::warn() throws
   /// Takes an answer that is due before the command ends.
   std::function<void(const Answer&)> answerEarly = [](const auto&) {};
+  /// Inputs and outputs that are in memory; null: all are files.
+  MemoryFiles* memory = nullptr;
   /// The program that runs an operation in a process of its own (operation_process.h). Empty: there
   /// is none, and such operations run in this process.
   std::filesystem::path program;
@@ -99,8 +102,8 @@ private:
 /// All commands but those of the viewer and of the terminal.
 Engine makeEngine();
 
-/// Sets the rows by the operation. Throws Error(Usage).
-void setRows(OptionTable& table, const Operation& operation);
+/// Sets the rows by the operation, whose files may be in `memory`. Throws Error(Usage).
+void setRows(OptionTable& table, const Operation& operation, MemoryFiles* memory = nullptr);
 
 /// Throws Error(Usage) for options that are given and exclude one another.
 void requireCompatible(const OptionTable& table);

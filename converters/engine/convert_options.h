@@ -20,7 +20,7 @@ namespace lumen::engine {
 struct ConvertOptions {
   SourceArguments source;
   TrackArguments track;
-  std::string corrected;  ///< a case whose corrections are made again; may be empty
+  InputFile corrected;  ///< a case whose corrections are made again; may be empty
   convert::FitOptions fit;
   OutputOptions output;
 

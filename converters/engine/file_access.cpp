@@ -34,7 +34,15 @@ std::string errorText(const fs::path& file, formats::Issue error) {
   return prefix + error.message + (isLimit ? " (ulimit -f prints the shell's limit)" : "");
 }
 
-std::vector<std::byte> bytesOfCase(const convert::InputFile& file) {
+/// Files that somebody made or measured are not replaced by files of another kind.
+bool isPrecious(convert::ContentKind kind) {
+  return kind == convert::ContentKind::Volume || kind == convert::ContentKind::Seeds ||
+         kind == convert::ContentKind::Case || kind == convert::ContentKind::Centerline;
+}
+
+}  // namespace
+
+std::vector<std::byte> readCaseBytes(const InputFile& file) {
   if (file.isInMemory()) {
     const std::string text = file.read("case file", kAnySize);
     const auto bytes = std::as_bytes(std::span(text));
@@ -46,16 +54,8 @@ std::vector<std::byte> bytesOfCase(const convert::InputFile& file) {
   return std::move(*bytes);
 }
 
-/// Files that somebody made or measured are not replaced by files of another kind.
-bool isPrecious(convert::ContentKind kind) {
-  return kind == convert::ContentKind::Volume || kind == convert::ContentKind::Seeds ||
-         kind == convert::ContentKind::Case || kind == convert::ContentKind::Centerline;
-}
-
-}  // namespace
-
-std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const convert::InputFile& file) {
-  std::vector<std::byte> bytes = bytesOfCase(file);
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const InputFile& file) {
+  std::vector<std::byte> bytes = readCaseBytes(file);
   auto value = formats::decodeCase(bytes);
   if (value) return {std::move(bytes), std::move(*value)};
   const std::string other = convert::notA(convert::ContentKind::Case, file);
@@ -64,11 +64,11 @@ std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const convert:
   throw invalidInput(errorText(file.path(), value.error()));
 }
 
-formats::Case readCase(const convert::InputFile& file) {
+formats::Case readCase(const InputFile& file) {
   return readCaseAndBytes(file).second;
 }
 
-formats::Case readParentCase(const fs::path& file) {
+formats::Case readParentCase(const InputFile& file) {
   auto [bytes, value] = readCaseAndBytes(file);
   value.metadata.parentSha256 = sha256(bytes);
   formats::dropDependentChunks(value);
@@ -82,17 +82,20 @@ std::string encodeCase(const formats::Case& value, const fs::path& file,
   return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
 }
 
-void writeCase(const formats::Case& value, const fs::path& file, formats::CaseEncoding encoding,
+void writeCase(const formats::Case& value, const OutputFile& file, formats::CaseEncoding encoding,
                const formats::EncodeOptions& options) {
-  writeText(encodeCase(value, file, encoding, options), file);
+  writeText(encodeCase(value, file.path(), encoding, options), file);
 }
 
-void writeText(std::string_view text, const fs::path& file) {
-  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
-  if (!written) throw failed(errorText(file, written.error()));
+void writeText(std::string_view text, const OutputFile& file) {
+  if (std::string* const bytes = file.bytes()) return void(bytes->assign(text));
+  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file.path());
+  if (!written) throw failed(errorText(file.path(), written.error()));
 }
 
-void requireInput(const fs::path& path, std::string_view what) {
+void requireInput(const InputFile& file, std::string_view what) {
+  if (file.isInMemory()) return;
+  const fs::path& path = file.path();
   if (isAddress(path.string())) throw invalidInput(std::string(what) + ": " + kAddressFault);
   std::error_code error;
   if (!fs::exists(path, error))
@@ -102,19 +105,22 @@ void requireInput(const fs::path& path, std::string_view what) {
                        " may not be read: " + std::strerror(errno));
 }
 
-void requireOrder(const fs::path& input, const fs::path& output) {
-  const convert::FileContent content = convert::detectContent(output);
+void requireOrder(const InputFile& input, const OutputFile& output) {
+  if (output.bytes() != nullptr) return;
+  const convert::FileContent content = convert::detectContent(output.path());
   const std::string swapped = "; are the two swapped?";
   std::error_code ignored;
-  if (!fs::exists(input, ignored) && isPrecious(content.kind))
-    throw invalidInput(input.string() + ": there is no such input, and the output is there (" +
-                       output.string() + ": " + content.sentence() + ")" + swapped);
+  if (!input.isInMemory() && !fs::exists(input.path(), ignored) && isPrecious(content.kind))
+    throw invalidInput(input.name() + ": there is no such input, and the output is there (" +
+                       output.name() + ": " + content.sentence() + ")" + swapped);
   if (content.kind == convert::ContentKind::Volume || content.kind == convert::ContentKind::Seeds)
-    throw Error(ErrorKind::Usage, output.string() + ": " + content.sentence() +
-                                      ", but given as the output" + swapped);
+    throw Error(ErrorKind::Usage,
+                output.name() + ": " + content.sentence() + ", but given as the output" + swapped);
 }
 
-void requireWritable(const fs::path& path, convert::ContentKind written) {
+void requireWritable(const OutputFile& output, convert::ContentKind written) {
+  if (output.bytes() != nullptr) return;
+  const fs::path& path = output.path();
   std::error_code ignored;
   const convert::FileContent content = convert::detectContent(path);
   if (isPrecious(content.kind) && content.kind != written)

@@ -28,14 +28,13 @@ using convert::VolumeFormat;
 namespace {
 
 template <VolumeFormat format>
-convert::Volume readVolumeAs(const convert::InputFile& file,
-                             const convert::ReadVolumeOptions& options, const Progress& progress) {
+convert::Volume readVolumeAs(const InputFile& file, const convert::ReadVolumeOptions& options,
+                             const Progress& progress) {
   return convert::readVolume(file, format, options, progress);
 }
 
 template <VolumeFormat format>
-convert::VolumeHeader readHeaderAs(const convert::InputFile& file,
-                                   const convert::ReadVolumeOptions& options,
+convert::VolumeHeader readHeaderAs(const InputFile& file, const convert::ReadVolumeOptions& options,
                                    const Progress& progress) {
   return convert::readVolumeHeader(file, format, options, progress);
 }
@@ -46,11 +45,11 @@ std::string encodeVolumeAs(const convert::Volume& volume, const fs::path& file) 
 }
 
 template <convert::MeshFormat format>
-convert::MeshFile readMeshAs(const convert::InputFile& file) {
+convert::MeshFile readMeshAs(const InputFile& file) {
   return convert::readMesh(file, format);
 }
 
-convert::MeshFile readVesselsOfScene(const convert::InputFile& file) {
+convert::MeshFile readVesselsOfScene(const InputFile& file) {
   return readSceneMesh(file, {});
 }
 
@@ -181,7 +180,7 @@ const FileFormat* findFolder(const fs::path& folder) {
 }
 
 /// The format of a file whose name may stand for several kinds.
-const FileFormat* findByContent(const convert::InputFile& file) {
+const FileFormat* findByContent(const InputFile& file) {
   const convert::FileContent content = convert::detectContent(file);
   const bool isVtk = lowerCase(file.path().extension().string()) == ".vtp";
   return isVtk && content.kind == convert::ContentKind::Centerline ? findByName("centerline.vtp")
@@ -241,7 +240,7 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
 }
 
 /// Refuses an input whose format its content shows, though its name does not.
-void refuseByContent(const convert::InputFile& file) {
+void refuseByContent(const InputFile& file) {
   const fs::path& path = file.path();
   const convert::FileContent content = convert::detectContent(file);
   if (content.kind == convert::ContentKind::Volume || content.kind == convert::ContentKind::Case ||
@@ -266,16 +265,16 @@ std::string joined(const std::vector<std::string>& words, const std::string& las
 }  // namespace
 
 std::optional<convert::SurfaceReport> FileFormat::writeCase(const formats::Case& value,
-                                                            const fs::path& file,
+                                                            const OutputFile& file,
                                                             const OutputOptions& options,
                                                             Progress& progress) const {
-  EncodedCase encoded = encodeCase(value, file, options, progress);
+  EncodedCase encoded = encodeCase(value, file.path(), options, progress);
   writeText(encoded.bytes, file);
   return std::move(encoded.surface);
 }
 
-void FileFormat::writeVolume(const convert::Volume& volume, const fs::path& file) const {
-  writeText(encodeVolume(volume, file), file);
+void FileFormat::writeVolume(const convert::Volume& volume, const OutputFile& file) const {
+  writeText(encodeVolume(volume, file.path()), file);
 }
 
 const std::vector<FileFormat>& fileFormats() {
@@ -346,7 +345,7 @@ std::string formatTitles(FormatTest test) {
   return joined(listed(test, [](const FileFormat& format) { return format.title; }), " or ");
 }
 
-const FileFormat& inputFormat(const convert::InputFile& file, std::string_view override) {
+const FileFormat& inputFormat(const InputFile& file, std::string_view override) {
   const fs::path& path = file.path();
   std::error_code ignored;
   const bool isFolder = !file.isInMemory() && fs::is_directory(path, ignored);
@@ -358,26 +357,26 @@ const FileFormat& inputFormat(const convert::InputFile& file, std::string_view o
   return require(format, path, override, canRead, "read", "--from");
 }
 
-const FileFormat& outputFormat(const fs::path& path, std::string_view override) {
-  if (std::error_code ignored; fs::is_directory(path, ignored))
+const FileFormat& outputFormat(const OutputFile& file, std::string_view override) {
+  const fs::path& path = file.path();
+  if (std::error_code ignored; file.bytes() == nullptr && fs::is_directory(path, ignored))
     throw failed(path.string() + ": this is a folder, but the output must be a file");
   const FileFormat* format = override.empty() ? findByEnding(path) : findByName(override);
   return require(format, path, override, canWrite, "write", "--to");
 }
 
-const FileFormat& caseOutputFormat(const fs::path& path, std::string_view override,
+const FileFormat& caseOutputFormat(const OutputFile& file, std::string_view override,
                                    const std::string& what) {
-  const FileFormat& format = outputFormat(path, override);
+  const FileFormat& format = outputFormat(file, override);
   if (canWriteCase(format)) return format;
-  throw unsupported(path.string() + ": " + what + " is written as a case, " +
+  throw unsupported(file.name() + ": " + what + " is written as a case, " +
                     formatEndings(canWriteCase));
 }
 
-const FileFormat& volumeOutputFormat(const fs::path& path, const std::string& what) {
-  const FileFormat* format = findByEnding(path);
+const FileFormat& volumeOutputFormat(const OutputFile& file, const std::string& what) {
+  const FileFormat* format = findByEnding(file.path());
   if (format != nullptr && canWriteVolume(*format)) return *format;
-  throw unsupported(path.string() + ": " + what + " is written as " +
-                    formatEndings(canWriteVolume));
+  throw unsupported(file.name() + ": " + what + " is written as " + formatEndings(canWriteVolume));
 }
 
 std::string numberedName(const std::string& path, const FileFormat& format, std::size_t number) {

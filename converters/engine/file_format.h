@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "converters/base/memory_files.h"
 #include "converters/base/progress.h"
 #include "converters/engine/scene_input.h"
 #include "converters/io/centerline/centerline_file.h"
@@ -40,15 +41,15 @@ struct EncodedCase {
 /// One row. A function is null where the format cannot do its work; each throws lumen::Error with
 /// the file's name.
 struct FileFormat {
-  using CaseReader = formats::Case (*)(const convert::InputFile&);
-  using VolumeReader = convert::Volume (*)(const convert::InputFile&,
-                                           const convert::ReadVolumeOptions&, const Progress&);
-  using VolumeHeaderReader = convert::VolumeHeader (*)(const convert::InputFile&,
+  using CaseReader = formats::Case (*)(const InputFile&);
+  using VolumeReader = convert::Volume (*)(const InputFile&, const convert::ReadVolumeOptions&,
+                                           const Progress&);
+  using VolumeHeaderReader = convert::VolumeHeader (*)(const InputFile&,
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
-  using CenterlineReader = convert::CenterlineFile (*)(const convert::InputFile&);
-  using MeshReader = convert::MeshFile (*)(const convert::InputFile&);
-  using SceneReader = convert::MeshFile (*)(const convert::InputFile&, const SceneArguments&);
+  using CenterlineReader = convert::CenterlineFile (*)(const InputFile&);
+  using MeshReader = convert::MeshFile (*)(const InputFile&);
+  using SceneReader = convert::MeshFile (*)(const InputFile&, const SceneArguments&);
   using CaseEncoder = EncodedCase (*)(const formats::Case&, const std::filesystem::path&,
                                       const OutputOptions&, Progress&);
   using VolumeEncoder = std::string (*)(const convert::Volume&, const std::filesystem::path&);
@@ -69,11 +70,11 @@ struct FileFormat {
 
   /// Writes what encodeCase gives atomically. The report is that of the surface, if one was made.
   std::optional<convert::SurfaceReport> writeCase(const formats::Case& value,
-                                                  const std::filesystem::path& file,
+                                                  const OutputFile& file,
                                                   const OutputOptions& options,
                                                   Progress& progress) const;
   /// Writes what encodeVolume gives atomically.
-  void writeVolume(const convert::Volume& volume, const std::filesystem::path& file) const;
+  void writeVolume(const convert::Volume& volume, const OutputFile& file) const;
 };
 
 const std::vector<FileFormat>& fileFormats();
@@ -102,11 +103,11 @@ std::string formatTitles(FormatTest test);
 /// The format that `override` names if it is not empty, otherwise that of the path's name. Throws
 /// Error(Unsupported) if there is none that can be read (or written as a case, or as a volume); the
 /// message lists those that can. `what` is the subject of a sentence, such as "the truth".
-const FileFormat& inputFormat(const convert::InputFile& file, std::string_view override);
-const FileFormat& outputFormat(const std::filesystem::path& path, std::string_view override);
-const FileFormat& caseOutputFormat(const std::filesystem::path& path, std::string_view override,
+const FileFormat& inputFormat(const InputFile& file, std::string_view override);
+const FileFormat& outputFormat(const OutputFile& file, std::string_view override);
+const FileFormat& caseOutputFormat(const OutputFile& file, std::string_view override,
                                    const std::string& what);
-const FileFormat& volumeOutputFormat(const std::filesystem::path& path, const std::string& what);
+const FileFormat& volumeOutputFormat(const OutputFile& file, const std::string& what);
 
 /// A name of this format with a number of at least two digits before its ending: "beat-03.nii.gz".
 std::string numberedName(const std::string& path, const FileFormat& format, std::size_t number);

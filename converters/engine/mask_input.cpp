@@ -56,25 +56,27 @@ std::set<std::int64_t> MaskArguments::chosen() const {
   return values;
 }
 
-convert::LabelNames MaskArguments::names(const convert::InputFile& file) const {
+convert::LabelNames MaskArguments::names(const InputFile& file) const {
   if (!labels.empty()) return namedLabels(labels);
   if (labelTable.empty()) return convert::segmentNames(file);
   const std::vector<std::string>& known = convert::builtInLabelTables();
-  if (std::find(known.begin(), known.end(), labelTable) == known.end())
+  if (std::find(known.begin(), known.end(), labelTable.name()) == known.end())
     requireInput(labelTable, "table of labels");
   return convert::readLabelTable(labelTable);
 }
 
 std::optional<operations::LabelPart> loadRegions(const MaskArguments& arguments,
                                                  Progress& progress) {
-  const std::string& map = arguments.labelMap;
+  const InputFile& map = arguments.labelMap;
   if (map.empty()) return {};
   requireInput(map, "label map");
   const FileFormat& format = inputFormat(map, "");
   if (format.kind != FormatKind::Volume)
-    throw invalidInput(formats::printable(map) + ": is no volume; expected a volume of labels");
+    throw invalidInput(formats::printable(map.name()) +
+                       ": is no volume; expected a volume of labels");
   convert::LabelNames names = arguments.names(map);
-  return operations::LabelPart{readVolumeFile(map, format, {}, progress), map, std::move(names)};
+  return operations::LabelPart{readVolumeFile(map, format, {}, progress), map.name(),
+                               std::move(names)};
 }
 
 }  // namespace lumen::engine

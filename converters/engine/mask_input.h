@@ -19,8 +19,8 @@ struct MaskArguments {
   bool isMask = false;                ///< every label but 0 is a vessel
   std::optional<std::int64_t> label;  ///< this one alone is
   std::string labels;                 ///< or "N=NAME,N=NAME"
-  std::string labelTable;             ///< a file of names, or the name of a table; may be empty
-  std::string labelMap;               ///< a volume of labels beside the input; may be empty
+  InputFile labelTable;               ///< a file of names, or the name of a table; may be empty
+  InputFile labelMap;                 ///< a volume of labels beside the input; may be empty
   /// The volume holds labels.
   [[nodiscard]] bool isGiven() const {
     return isMask || label || !labels.empty() || (!labelTable.empty() && labelMap.empty());
@@ -29,7 +29,7 @@ struct MaskArguments {
   [[nodiscard]] std::set<std::int64_t> chosen() const;
   /// The names of --labels, or else of --label-table, or else those that `file`, the volume of
   /// labels, states itself; empty without all. Throws Error(Usage) and Error(InvalidInput).
-  [[nodiscard]] convert::LabelNames names(const convert::InputFile& file) const;
+  [[nodiscard]] convert::LabelNames names(const InputFile& file) const;
 };
 
 /// The volume of --label-map with the names of its labels; empty without one. Throws

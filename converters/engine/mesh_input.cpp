@@ -17,14 +17,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-convert::CenterlineFile readCenterline(const fs::path& file) {
-  const std::string name = lowerCase(file.filename().string());
+convert::CenterlineFile readCenterline(const InputFile& file) {
+  const std::string name = lowerCase(file.path().filename().string());
   std::error_code ignored;
-  if (fs::is_directory(file, ignored) || name.ends_with(".json")) return convert::readCurves(file);
+  if ((!file.isInMemory() && fs::is_directory(file.path(), ignored)) || name.ends_with(".json"))
+    return convert::readCurves(file);
   if (name.ends_with(".swc")) return convert::readSwc(file);
   if (name.ends_with(".tre")) return convert::readTre(file);
   if (name.ends_with(".vtp")) return convert::readVtpCenterline(file);
-  throw unsupported(formats::printable(file.string()) +
+  throw unsupported(formats::printable(file.name()) +
                     ": the name's ending is not that of a centerline that lumen reads, .vtp, .swc, "
                     ".tre or .mrk.json");
 }
@@ -60,7 +61,7 @@ Json meshFrameJson(const std::optional<operations::MeshFrame>& frame) {
           {"frame_stated", frame->frameStated}};
 }
 
-bool isOfSimVascular(const convert::InputFile& file, const convert::MeshFile& read) {
+bool isOfSimVascular(const InputFile& file, const convert::MeshFile& read) {
   std::error_code ignored;
   const std::string ending = lowerCase(file.path().extension().string());
   const bool hasFaceIds = (ending == ".vtp" || ending == ".vtk") && !read.groups.empty();
@@ -68,7 +69,7 @@ bool isOfSimVascular(const convert::InputFile& file, const convert::MeshFile& re
          (!file.isInMemory() && fs::exists(file.path().string() + ".facenames", ignored));
 }
 
-operations::MeshPart loadMesh(const convert::InputFile& file, const FileFormat& format,
+operations::MeshPart loadMesh(const InputFile& file, const FileFormat& format,
                               const SceneArguments& scene, Progress& progress) {
   operations::MeshPart part;
   progress.begin("reading", 0);
@@ -82,7 +83,8 @@ std::optional<operations::CenterlinePart> loadGivenCenterline(const MeshArgument
                                                               Progress& progress) {
   if (arguments.centerline.empty()) return {};
   requireInput(arguments.centerline, "centerline");
-  operations::CenterlinePart given{readCenterline(arguments.centerline), arguments.centerline};
+  operations::CenterlinePart given{readCenterline(arguments.centerline),
+                                   arguments.centerline.name()};
   for (const std::string& remark : given.file.remarks)
     progress.warn(formats::printable(given.name) + ": " + remark);
   const auto& units = millimetresByUnit();

@@ -16,7 +16,7 @@ namespace lumen::engine {
 
 /// The user's statements about a mesh.
 struct MeshArguments {
-  std::string centerline;       ///< a file; empty: the tree is found
+  InputFile centerline;         ///< a file; empty: the tree is found
   std::string centerlineFrame;  ///< lps or ras; empty: the file's, or the mesh's
   std::string centerlineUnit;   ///< empty: the file's, or the mesh's
   std::string sceneMesh;        ///< the vessels' mesh of a scene; empty: as the scene shows it
@@ -36,10 +36,10 @@ std::string meshFrameLine(const std::optional<operations::MeshFrame>& frame);
 Json meshFrameJson(const std::optional<operations::MeshFrame>& frame);
 
 /// Whether the file is a model of SimVascular, which names its faces in an array or beside it.
-bool isOfSimVascular(const convert::InputFile& file, const convert::MeshFile& read);
+bool isOfSimVascular(const InputFile& file, const convert::MeshFile& read);
 
 /// The mesh in `file`; shows a stage of progress. Throws as the reader of the format.
-operations::MeshPart loadMesh(const convert::InputFile& file, const FileFormat& format,
+operations::MeshPart loadMesh(const InputFile& file, const FileFormat& format,
                               const SceneArguments& scene, Progress& progress);
 
 /// The centerline that a mesh comes with, by the user's statements about its unit and axes, or else

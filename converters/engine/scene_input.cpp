@@ -14,7 +14,7 @@ namespace lumen::engine {
 
 namespace fs = std::filesystem;
 
-convert::MeshFile readSceneMesh(const convert::InputFile& file, const SceneArguments& arguments) {
+convert::MeshFile readSceneMesh(const InputFile& file, const SceneArguments& arguments) {
   const std::string name = formats::printable(file.path().string());
   const std::vector<convert::SofaLoader> loaders =
       convert::sofaLoaders(file.read("scene", kAnySize), name);

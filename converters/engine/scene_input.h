@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/io/content/input_file.h"
+#include "converters/base/input_file.h"
 #include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::engine {
@@ -20,6 +20,6 @@ struct SceneArguments {
 /// The mesh that `file` loads as its vessels, where the scene places it; its axes are taken as LPS.
 /// Throws Error(InvalidInput) and Error(Unsupported) for a file that is no scene, does not state
 /// which mesh the vessels are, or takes it from elsewhere than it may; and as the mesh's reader.
-convert::MeshFile readSceneMesh(const convert::InputFile& file, const SceneArguments& arguments);
+convert::MeshFile readSceneMesh(const InputFile& file, const SceneArguments& arguments);
 
 }  // namespace lumen::engine

@@ -10,7 +10,7 @@ namespace lumen::engine {
 
 namespace {
 
-void addVolume(convert::Volume volume, const convert::InputFile& input, const MaskArguments& mask,
+void addVolume(convert::Volume volume, const InputFile& input, const MaskArguments& mask,
                bool isSeeded, operations::Source& source, Progress& progress) {
   const std::string& file = source.name;
   const bool isGuess = !mask.isGiven() && !isSeeded && convert::holdsLabels(volume);
@@ -26,7 +26,7 @@ void addVolume(convert::Volume volume, const convert::InputFile& input, const Ma
 
 }  // namespace
 
-operations::Source loadSource(const convert::InputFile& file, const FileFormat& format,
+operations::Source loadSource(const InputFile& file, const FileFormat& format,
                               const SourceArguments& arguments, bool isSeeded, Progress& progress) {
   operations::Source source;
   source.name = file.path().string();

@@ -26,7 +26,7 @@ struct SourceArguments {
 /// volume holds labels if the arguments state it, or if there are no seeds for it and its voxels
 /// show it. Assumptions of readers become warnings, and so do reasons to doubt voxels that seeds lie
 /// in. Throws Error(InvalidInput) and Error(Unsupported) as the readers.
-operations::Source loadSource(const convert::InputFile& file, const FileFormat& format,
+operations::Source loadSource(const InputFile& file, const FileFormat& format,
                               const SourceArguments& arguments, bool isSeeded, Progress& progress);
 
 }  // namespace lumen::engine

@@ -114,7 +114,7 @@ convert::SeedReading TrackArguments::reading() const {
 operations::VesselOptions TrackArguments::vessels() const {
   operations::VesselOptions vessels;
   vessels.track = options;
-  vessels.seedsName = seeds;
+  vessels.seedsName = seeds.name();
   vessels.isSeedsOnly = isSeedsOnly;
   for (const std::string& text : roots) vessels.roots.push_back(placeIn(text));
   vessels.isOnlyConnected = isOnlyConnected;

@@ -40,7 +40,7 @@ struct VolumeArguments {
 struct TrackArguments {
   TrackArguments() { options.word = optionWord(); }
 
-  std::string seeds;
+  InputFile seeds;
   std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
   std::vector<std::string> roots;     ///< texts "X,Y,Z", mm, LPS
   bool isOnlyConnected = false;       ///< without trees in which no seed and no root lies

@@ -13,9 +13,8 @@ namespace {
 /// The result of `read`. An error about a file that is no volume but has other known content names
 /// that content.
 template <class Result>
-Result readAs(Result (*read)(const convert::InputFile&, const convert::ReadVolumeOptions&,
-                             const Progress&),
-              const convert::InputFile& file, const VolumeArguments& volume, Progress& progress) {
+Result readAs(Result (*read)(const InputFile&, const convert::ReadVolumeOptions&, const Progress&),
+              const InputFile& file, const VolumeArguments& volume, Progress& progress) {
   try {
     return read(file, volume.options(), progress);
   } catch (const Error& error) {
@@ -25,7 +24,7 @@ Result readAs(Result (*read)(const convert::InputFile&, const convert::ReadVolum
   }
 }
 
-void reportAssumptions(const convert::InputFile& file, const std::vector<std::string>& assumptions,
+void reportAssumptions(const InputFile& file, const std::vector<std::string>& assumptions,
                        Progress& progress) {
   for (const std::string& assumption : assumptions)
     progress.warn(file.path().string() + ": " + assumption);
@@ -33,14 +32,14 @@ void reportAssumptions(const convert::InputFile& file, const std::vector<std::st
 
 }  // namespace
 
-convert::VolumeHeader loadVolumeHeader(const convert::InputFile& file, const FileFormat& format,
+convert::VolumeHeader loadVolumeHeader(const InputFile& file, const FileFormat& format,
                                        const VolumeArguments& volume, Progress& progress) {
   convert::VolumeHeader header = readAs(format.readVolumeHeader, file, volume, progress);
   reportAssumptions(file, header.assumptions, progress);
   return header;
 }
 
-convert::Volume readVolumeFile(const convert::InputFile& file, const FileFormat& format,
+convert::Volume readVolumeFile(const InputFile& file, const FileFormat& format,
                                const VolumeArguments& volume, Progress& progress) {
   progress.begin("reading", 0);
   convert::Volume result = readAs(format.readVolume, file, volume, progress);
@@ -58,7 +57,7 @@ void warnOfVoxels(const convert::Volume& volume, const std::string& file, Progre
   }
 }
 
-convert::Volume loadVolume(const convert::InputFile& file, const FileFormat& format,
+convert::Volume loadVolume(const InputFile& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress) {
   convert::Volume result = readVolumeFile(file, format, volume, progress);
   warnOfVoxels(result, file.path().string(), progress);
@@ -69,7 +68,7 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
   requireInput(track.seeds, "seeds file");
   if (const std::string other = convert::notA(convert::ContentKind::Seeds, track.seeds);
       !other.empty())
-    throw invalidInput(track.seeds + ": " + other);
+    throw invalidInput(track.seeds.name() + ": " + other);
   return convert::readSeeds(track.seeds, track.reading());
 }
 

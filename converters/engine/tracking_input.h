@@ -15,12 +15,12 @@
 namespace lumen::engine {
 
 /// The facts in the header of the volume in `file`; warns of those that it leaves open.
-convert::VolumeHeader loadVolumeHeader(const convert::InputFile& file, const FileFormat& format,
+convert::VolumeHeader loadVolumeHeader(const InputFile& file, const FileFormat& format,
                                        const VolumeArguments& volume, Progress& progress);
 
 /// The volume in `file`, read as `format` whatever its name; shows a stage of progress. Assumptions
 /// of the reader about facts that the file leaves open become warnings.
-convert::Volume readVolumeFile(const convert::InputFile& file, const FileFormat& format,
+convert::Volume readVolumeFile(const InputFile& file, const FileFormat& format,
                                const VolumeArguments& volume, Progress& progress);
 
 /// Reasons to doubt the voxels of a volume, read from `file`, become warnings. Throws
@@ -29,7 +29,7 @@ void warnOfVoxels(const convert::Volume& volume, const std::string& file, Progre
 
 /// The volume in `file`, read as `format` whatever its name, for tracking; shows a stage of
 /// progress. Assumptions of the reader and reasons to doubt the voxels become warnings.
-convert::Volume loadVolume(const convert::InputFile& file, const FileFormat& format,
+convert::Volume loadVolume(const InputFile& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);
 
 /// The seeds of --seeds, read by the options. Throws Error(InvalidInput) for a file that is

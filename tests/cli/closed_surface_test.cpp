@@ -101,10 +101,10 @@ private:
     m_facts = reproduce::distanceFrom(field, surface);
     EXPECT_GT(m_facts.rays, 0U) << name;
     // The answer counts vertices that lie off since models disagree; the factor is for those moved with them.
-    EXPECT_LE(m_facts.verticesFar, 2 * m_said["offField"].get<std::size_t>())
+    EXPECT_LE(m_facts.verticesFar, 2 * m_said["off_field"].get<std::size_t>())
         << name << ", " << m_facts.vertex.radii << " radii at " << m_facts.vertex.place.transpose();
     const reproduce::EndFacts ends = reproduce::measureEnds(m_source, surface);
-    EXPECT_EQ(ends.flat, m_said["flatEnds"].get<std::size_t>()) << name;
+    EXPECT_EQ(ends.flat, m_said["flat_ends"].get<std::size_t>()) << name;
     EXPECT_LT(ends.tilt, 1) << name;
   }
 

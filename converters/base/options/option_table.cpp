@@ -69,9 +69,12 @@ bool isFalse(const std::string& text) {
   return text == "false" || text == "no" || text == "off" || text == "0";
 }
 
-/// Writes checked texts into the variable.
-void store(const OptionTarget& target, const std::vector<std::string>& texts) {
+/// Writes checked texts into the variable of the row.
+void store(const OptionRow& row, const std::vector<std::string>& texts) {
   const std::string& last = texts.back();
+  const auto input = [&row](const std::string& name) {
+    return row.memory ? row.memory->input(name) : InputFile(name);
+  };
   std::visit(
       Overloaded{[&](bool* value) { *value = isTrue(last); },
                  [&](int* value) { *value = numberIn<int>(last).value_or(*value); },
@@ -87,8 +90,16 @@ void store(const OptionTarget& target, const std::vector<std::string>& texts) {
                      value->push_back(numberIn<int>(text).value_or(0));
                  },
                  [&](std::vector<std::string>* value) { *value = texts; },
+                 [&](InputFile* value) { *value = input(last); },
+                 [&](std::vector<InputFile>* value) {
+                   value->clear();
+                   for (const std::string& text : texts) value->push_back(input(text));
+                 },
+                 [&](OutputFile* value) {
+                   *value = row.memory ? row.memory->output(last) : OutputFile(last);
+                 },
                  [&](const auto& function) { function(texts); }},
-      target);
+      row.target);
 }
 
 /// The number that a variable holds; none for other types, and for unset variables.
@@ -125,7 +136,7 @@ std::optional<double> realIn(const formats::ParameterValue& value) {
 void take(const OptionRow& row, const formats::ParameterValue& found) {
   const auto* whole = std::get_if<std::int64_t>(&found);
   if (const auto* word = std::get_if<std::string>(&found); row.word && word != nullptr)
-    return contains(row.words, *word) ? store(row.target, {*word}) : void();
+    return contains(row.words, *word) ? store(row, {*word}) : void();
   std::visit(Overloaded{[&](bool* value) {
                           if (const auto* flag = std::get_if<bool>(&found)) *value = *flag;
                         },
@@ -180,7 +191,7 @@ void OptionRow::set(const std::vector<std::string>& given) {
     throw Error(ErrorKind::Usage, shownName() + ": found " + std::to_string(texts.size()) +
                                       (texts.size() == 1 ? " value" : " values") + ", expected " +
                                       type);
-  store(target, texts);
+  store(*this, texts);
   isGiven = true;
   givenValues = texts;
 }
@@ -289,10 +300,6 @@ OptionRow& OptionTable::flag(std::string name, bool& value, std::string help) {
 OptionRow& OptionTable::scaled(std::string name, std::optional<double>& value, std::string help,
                                const std::string& otherwise) {
   return add(std::move(name), &value, "MM", std::move(help) + " [" + otherwise + "]").in(kPositive);
-}
-
-OptionRow& OptionTable::file(std::string name, std::string& value, std::string help) {
-  return add(std::move(name), &value, "FILE", std::move(help)).checkedBy(fileName());
 }
 
 OptionRow& OptionTable::argument(std::string name, OptionTarget target, std::string help,

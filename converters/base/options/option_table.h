@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "converters/base/memory_files.h"
 #include "converters/base/options/option_value.h"
 #include "formats/case/case.h"
 
@@ -23,6 +24,7 @@ namespace lumen {
 using OptionTarget =
     std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::optional<std::int64_t>*,
                  std::optional<double>*, std::string*, std::vector<int>*, std::vector<std::string>*,
+                 InputFile*, std::vector<InputFile>*, OutputFile*,
                  std::function<void(const std::vector<std::string>&)>>;
 
 /// Kinds of inputs and outputs as sets of bits, defined by the caller of operations.
@@ -43,6 +45,7 @@ struct OptionRow {
   std::string help;
   std::string defaultText;  ///< empty: none is shown
   OptionTarget target;
+  MemoryFiles* memory = nullptr;  ///< its files are these where their names are; null: on disk
 
   bool isArgument = false;  ///< a place instead of a name
   bool isRequired = false;
@@ -128,7 +131,10 @@ public:
   OptionRow& scaled(std::string name, std::optional<double>& value, std::string help,
                     const std::string& otherwise);
   /// The name of a file as the value of an option.
-  OptionRow& file(std::string name, std::string& value, std::string help);
+  template <class File>
+  OptionRow& file(std::string name, File& value, std::string help) {
+    return add(std::move(name), &value, "FILE", std::move(help)).checkedBy(fileName());
+  }
   /// A required argument; a file unless `check` is another.
   OptionRow& argument(std::string name, OptionTarget target, std::string help,
                       ValueCheck check = fileName());

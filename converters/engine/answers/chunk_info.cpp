@@ -4,7 +4,6 @@
 #include <array>
 
 #include "converters/base/error.h"
-#include "formats/case/case_file.h"
 #include "formats/container/crc32c.h"
 #include "formats/view/case_chunks.h"
 
@@ -58,14 +57,12 @@ FileInfo described(const formats::Container& container, std::uint64_t length) {
 
 }  // namespace
 
-FileInfo describeChunks(const std::filesystem::path& file) {
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(bytes.error().text());
-  if (!bytes->empty() && bytes->front() == std::byte{'{'})
-    throw unsupported(file.string() + ": --chunks is for .lumen files; JSON has no chunks");
-  const auto container = formats::readContainer(*bytes);
-  if (!container) throw invalidInput(file.string() + ": " + container.error().text());
-  return described(*container, bytes->size());
+FileInfo describeChunks(std::span<const std::byte> bytes, const std::string& name) {
+  if (!bytes.empty() && bytes.front() == std::byte{'{'})
+    throw unsupported(name + ": --chunks is for .lumen files; JSON has no chunks");
+  const auto container = formats::readContainer(bytes);
+  if (!container) throw invalidInput(name + ": " + container.error().text());
+  return described(*container, bytes.size());
 }
 
 Json chunkInfoJson(const FileInfo& info) {

@@ -2,8 +2,9 @@
 // The chunk table of a binary case, for `lumen info --chunks`.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct FileInfo {
 
 /// Needs a whole container, but not a valid case. Throws Error(InvalidInput), and
 /// Error(Unsupported) for JSON.
-FileInfo describeChunks(const std::filesystem::path& file);
+FileInfo describeChunks(std::span<const std::byte> bytes, const std::string& name);
 
 Json chunkInfoJson(const FileInfo& info);
 std::string chunkInfoText(const FileInfo& info);

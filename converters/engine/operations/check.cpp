@@ -57,25 +57,26 @@ public:
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind != FormatKind::Volume)
-      throw unsupported(m_input + ": this is a " +
+      throw unsupported(m_input.name() + ": this is a " +
                         (from.kind == FormatKind::Mesh ? "mesh" : "case") +
                         "; lumen check takes the volume first, then the case");
     const FileFormat* mask = m_mask.empty() ? nullptr : &volumeOutputFormat(m_mask, "the mask");
-    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, {}},
+    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input.name(), {}},
                    context.progress);
     checkOutputs();
     const formats::Case value =
-        atTime(readCase(m_case), m_time, m_case, *context.table, context.progress);
+        atTime(readCase(m_case), m_time, m_case.name(), *context.table, context.progress);
     if (!value.models || value.tree.nodeCount() == 0)
       throw invalidInput(
-          m_case +
+          m_case.name() +
           ": has no models, so it has no wall to check; lumen fit makes them of wall points, "
           "lumen convert of the volume and its seeds");
     const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
     const operations::Checked result =
         operations::checked(value, volume, convert::describeSource(volume),
                             {m_pointSpread, m_gate,
-                             operations::CheckNames{m_case, m_input, m_case + " and " + m_input}},
+                             operations::CheckNames{m_case.name(), m_input.name(),
+                                                    m_case.name() + " and " + m_input.name()}},
                             operationContext(context));
     if (mask != nullptr)
       mask->writeVolume(convert::labelVolume(volume.geometry, value.tree, result.lumen), m_mask);
@@ -99,7 +100,7 @@ private:
 
   void addVerdict(const convert::GateVerdict& verdict, const formats::CenterlineTree& tree,
                   Answer& answer) const {
-    const std::vector<std::string> view = viewCommand(verdict, m_input, m_case);
+    const std::vector<std::string> view = viewCommand(verdict, m_input.name(), m_case.name());
     answer.json["verdict"] = verdictJson(verdict, tree, view);
     answer.text += verdictText(verdict, tree, view);
     if (!verdict.passes()) answer.code = kInvalidCode;
@@ -107,22 +108,25 @@ private:
 
   /// Refuses outputs that could not be written in the end, or would be lost.
   void checkOutputs() const {
-    if (!m_mask.empty() && m_mask == m_overlay)
-      throw Error(ErrorKind::Usage, m_mask + ": this name is given to two outputs");
-    const std::pair<const std::string&, convert::ContentKind> outputs[] = {
+    if (!m_mask.empty() && m_mask.path() == m_overlay.path())
+      throw Error(ErrorKind::Usage, m_mask.name() + ": this name is given to two outputs");
+    const std::pair<const OutputFile&, convert::ContentKind> outputs[] = {
         {m_overlay, convert::ContentKind::Other}, {m_mask, convert::ContentKind::Volume}};
     for (const auto& [output, kind] : outputs) {
       if (output.empty()) continue;
       std::error_code missing;
-      for (const std::string& input : {m_input, m_case})
-        if (std::filesystem::equivalent(input, output, missing))
+      for (const InputFile& input : {m_input, m_case})
+        if (!input.isInMemory() &&
+            std::filesystem::equivalent(input.path(), output.path(), missing))
           throw Error(ErrorKind::Usage,
-                      output + ": this is an input; lumen check would overwrite it");
+                      output.name() + ": this is an input; lumen check would overwrite it");
       requireWritable(output, kind);
     }
   }
 
-  std::string m_input, m_case, m_overlay, m_mask, m_from, m_profile;
+  InputFile m_input, m_case;
+  OutputFile m_overlay, m_mask;
+  std::string m_from, m_profile;
   std::optional<convert::GateProfile> m_gate;
   std::optional<double> m_pointSpread, m_time;
   VolumeArguments m_volume;

@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  std::string m_case, m_truth;
+  InputFile m_case, m_truth;
 };
 
 }  // namespace

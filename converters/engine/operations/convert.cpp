@@ -76,7 +76,7 @@ public:
     requireInput(m_input, "input");
     const FileFormat& from = inputFormat(m_input, m_from);
     FileContents contents{inputContent(from, m_options.source.mask.isGiven()), outputContent(to),
-                          m_input, m_output};
+                          m_input.name(), m_output.name()};
     const bool isCase = from.kind == FormatKind::Case;
     if (!isCase) requireInScope(*context.table, contents, context.progress);
     operations::CaseOptions options = caseOptions(from);
@@ -100,10 +100,10 @@ private:
     operations::CaseOptions options = m_options.caseOptions(from.kind);
     if (from.kind == FormatKind::Volume && !m_options.track.seeds.empty())
       options.vessels.seeds = loadSeeds(m_options.track);
-    const std::string& corrected = m_options.corrected;
+    const InputFile& corrected = m_options.corrected;
     if (corrected.empty()) return options;
     requireInput(corrected, "corrected case");
-    options.corrected = operations::CorrectedCase{readCase(corrected), corrected};
+    options.corrected = operations::CorrectedCase{readCase(corrected), corrected.name()};
     return options;
   }
 
@@ -126,13 +126,13 @@ private:
     // rounding and motion make another case; another encoding does not
     const bool isOther = m_time || m_options.output.encoding.pointBits != 0;
     operations::Source source;
-    source.name = m_input;
+    source.name = m_input.name();
     source.value = atTime(isOther ? readParentCase(m_input) : from.readCase(m_input), m_time,
-                          m_input, *context.table, context.progress);
+                          m_input.name(), *context.table, context.progress);
     requireContent(*source.value, context);
     if (to.kind == FormatKind::Mesh && !source.value->models) {
       if (!source.value->points)
-        throw invalidInput(m_input +
+        throw invalidInput(m_input.name() +
                            ": this case has neither models nor wall points to fit them to, "
                            "so there is no surface to make a mesh of");
       contents.input = kUnfittedCase;
@@ -143,7 +143,7 @@ private:
 
   /// Refuses to round wall points, and to leave out a motion, that a case does not have.
   void requireContent(const formats::Case& value, const RunContext& context) const {
-    const std::string none = ", and " + formats::printable(m_input) + " has none";
+    const std::string none = ", and " + formats::printable(m_input.name()) + " has none";
     const OptionRow& bits = *context.table->find("point-bits");
     if (bits.isGiven && (!value.points || value.points->position.empty()))
       refuseUnused(bits, "is for cases with wall points" + none, context.progress);
@@ -162,13 +162,15 @@ private:
     json["repeats"] = repetitionJson(made.repetition, made.value);
     json["corrections"] = replayedJson(made.replayed);
     return {withRemarks(std::move(json), made.remarks),
-            caseLine(m_output, made.value) + replayedLine(made.replayed) +
+            caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
                 meshFrameLine(made.meshFrame) + convert::reachLine(reach) +
                 surfaceLines(surface, made.value) + repetitionLines(made.repetition) +
                 endLines(made.remarks)};
   }
 
-  std::string m_input, m_output, m_from, m_to;
+  InputFile m_input;
+  OutputFile m_output;
+  std::string m_from, m_to;
   ConvertOptions m_options;
   std::optional<double> m_time;
 };

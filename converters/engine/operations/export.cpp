@@ -110,13 +110,14 @@ public:
     requireTargetOptions(*context.table, target, context.progress);
     requireRoom();
     const formats::Case value =
-        atTime(readCase(m_input), m_time, m_input, *context.table, context.progress);
+        atTime(readCase(m_input), m_time, m_input.name(), *context.table, context.progress);
     auto folder =
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
     convert::warnOfClosed(convert::measureReach(value, context.progress), context.progress);
     const ExportResult result = operations::exported(
-        value, m_input, {target, m_options, exportOptionTexts(*context.table, target), m_output},
+        value, m_input.name(),
+        {target, m_options, exportOptionTexts(*context.table, target), m_output},
         operationContext(context));
     context.progress.check();
     writeFolder(result.files, *folder);
@@ -184,7 +185,8 @@ private:
   }
 
   bool m_list = false;
-  std::string m_target, m_input, m_output;
+  InputFile m_input;
+  std::string m_target, m_output;
   std::optional<double> m_time;
   convert::ExportOptions m_options;
 };

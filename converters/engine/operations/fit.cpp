@@ -65,14 +65,14 @@ public:
     const FileFormat* from = m_image.empty() ? nullptr : &imageFormat();
     formats::Case value = readParentCase(m_input);
     if (!value.points)
-      throw invalidInput(m_input +
+      throw invalidInput(m_input.name() +
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
     std::optional<convert::ImageFitReport> image;
     if (from != nullptr) {
       operations::ImageFittedCase made = operations::fittedToImage(
-          std::move(value), m_input,
-          {loadVolume(m_image, *from, m_volume, context.progress), m_image}, m_fit,
+          std::move(value), m_input.name(),
+          {loadVolume(m_image, *from, m_volume, context.progress), m_image.name()}, m_fit,
           operationContext(context));
       value = std::move(made.value);
       image = made.report;
@@ -85,8 +85,8 @@ public:
     Json json = caseSummary(value);
     json["reachable"] = reachJson(reach);
     json["image"] = imageJson(image);
-    return {std::move(json),
-            imageLine(m_image, image) + caseLine(m_output, value) + convert::reachLine(reach)};
+    return {std::move(json), imageLine(m_image.name(), image) + caseLine(m_output.name(), value) +
+                                 convert::reachLine(reach)};
   }
 
 private:
@@ -94,12 +94,14 @@ private:
     requireInput(m_image, "volume");
     const FileFormat& from = inputFormat(m_image, m_from);
     if (from.kind != FormatKind::Volume)
-      throw unsupported(m_image + ": this is no volume; expected the one that " + m_input +
-                        " was tracked in");
+      throw unsupported(m_image.name() + ": this is no volume; expected the one that " +
+                        m_input.name() + " was tracked in");
     return from;
   }
 
-  std::string m_input, m_output, m_to, m_image, m_from;
+  InputFile m_input, m_image;
+  OutputFile m_output;
+  std::string m_to, m_from;
   VolumeArguments m_volume;
   convert::FitOptions m_fit;
 };

@@ -52,19 +52,21 @@ public:
   Answer run(const RunContext& context) override {
     requireInput(m_input, "case, volume, mesh or centerline");
     if (m_chunks) {
-      requireInScope(*context.table, {kFittedCase, kAnyContent, m_input, {}}, context.progress);
-      const FileInfo info = describeChunks(m_input);
+      requireInScope(*context.table, {kFittedCase, kAnyContent, m_input.name(), {}},
+                     context.progress);
+      const FileInfo info = describeChunks(readCaseBytes(m_input), m_input.name());
       return {chunkInfoJson(info), chunkInfoText(info), 0, true};
     }
     const FileFormat& from = inputFormat(m_input, m_from);
-    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, {}},
+    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input.name(), {}},
                    context.progress);
     if (from.kind == FormatKind::Volume) {
       const VolumeInfo info = describe(from, context.progress);
       return {volumeInfoJson(info), volumeInfoText(info), 0, true};
     }
     if (from.kind == FormatKind::Mesh) {
-      const MeshInfo info = describeMesh(readMesh(from), m_input, m_volume.unit, context.progress);
+      const MeshInfo info =
+          describeMesh(readMesh(from), m_input.name(), m_volume.unit, context.progress);
       return {meshInfoJson(info), meshInfoText(info), 0, true};
     }
     if (from.kind == FormatKind::Centerline) {
@@ -90,9 +92,10 @@ private:
   [[nodiscard]] Answer describeWithSurface(const formats::Case& value,
                                            const RunContext& context) const {
     if (m_surface && !value.models)
-      refuseUnused(*context.table->find("surface"),
-                   "is for cases with models, and " + formats::printable(m_input) + " has none",
-                   context.progress);
+      refuseUnused(
+          *context.table->find("surface"),
+          "is for cases with models, and " + formats::printable(m_input.name()) + " has none",
+          context.progress);
     const convert::CaseInfo info = convert::describeCase(value, context.progress);
     const SurfaceFindings found =
         m_surface ? examineSurface(value, context.progress) : SurfaceFindings{};
@@ -104,7 +107,8 @@ private:
     return {std::move(json), std::move(text), 0, true};
   }
 
-  std::string m_input, m_from;
+  InputFile m_input;
+  std::string m_from;
   bool m_chunks = false;
   bool m_voxels = false;
   bool m_surface = false;

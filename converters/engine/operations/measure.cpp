@@ -38,21 +38,22 @@ MeasureOutput outputOf(const std::string& name) {
 class MeasureFiles {
 public:
   /// Refuses an output that could not be written in the end, or would be lost.
-  explicit MeasureFiles(const std::string& output) : m_output(output), m_kind(outputOf(output)) {
+  explicit MeasureFiles(const OutputFile& output)
+      : m_output(output), m_kind(outputOf(output.name())) {
     if (m_kind == MeasureOutput::None) return;
     if (m_kind != MeasureOutput::Folder) {
       requireWritable(m_output, convert::ContentKind::Other);
       return;
     }
     std::error_code error;
-    if (std::filesystem::exists(m_output, error) &&
-        !(std::filesystem::is_directory(m_output, error) &&
-          std::filesystem::is_empty(m_output, error)))
-      throw failed(m_output +
+    if (std::filesystem::exists(m_output.path(), error) &&
+        !(std::filesystem::is_directory(m_output.path(), error) &&
+          std::filesystem::is_empty(m_output.path(), error)))
+      throw failed(m_output.name() +
                    ": there is something already; expected a folder that does not exist or is "
                    "empty, or a name that ends in .csv or .json");
     auto folder =
-        formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
+        formats::PendingFolder::beside(m_output.path(), formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
     m_folder.emplace(std::move(*folder));
   }
@@ -64,7 +65,7 @@ public:
     writeText(
         m_kind == MeasureOutput::Json ? json.dump(1) + "\n" : convert::measuresLongCsv(measured),
         m_output);
-    return Json::array({m_output});
+    return Json::array({m_output.name()});
   }
 
 private:
@@ -72,15 +73,15 @@ private:
     Json files = Json::array();
     for (std::size_t k = 0; k < measured.front().tables.size(); ++k) {
       const std::string name = std::string(measured.front().tables[k].kind) + ".csv";
-      writeNewFile(convert::measuresCsv(measured, k), m_folder->path() / name, m_output);
-      files.push_back((std::filesystem::path(m_output) / name).generic_string());
+      writeNewFile(convert::measuresCsv(measured, k), m_folder->path() / name, m_output.name());
+      files.push_back((m_output.path() / name).generic_string());
     }
     const auto done = m_folder->commit();
     if (!done) throw failed(done.error().message);
     return files;
   }
 
-  const std::string& m_output;
+  const OutputFile& m_output;
   MeasureOutput m_kind;
   std::optional<formats::PendingFolder> m_folder;
 };
@@ -121,19 +122,19 @@ public:
     MeasureFiles files(m_output);
     std::vector<convert::MeasuredCase> measured;
     std::string text;
-    for (const std::string& file : m_cases) {
+    for (const InputFile& file : m_cases) {
       const formats::Case source =
-          atTime(readCase(file), m_time, file, *context.table, context.progress);
-      const operations::CaseMeasures measures = measure(file, source, context);
-      measured.push_back({file, measures.tables});
-      text += measureText(file, source, measures);
+          atTime(readCase(file), m_time, file.name(), *context.table, context.progress);
+      const operations::CaseMeasures measures = measure(file.name(), source, context);
+      measured.push_back({file.name(), measures.tables});
+      text += measureText(file.name(), source, measures);
       if (m_before.empty()) continue;
       const auto changes = changesOf(source, measures, context);
-      text += changesText(m_before, changes);
+      text += changesText(m_before.name(), changes);
       auto& tables = measured.back().tables;
       tables.insert(tables.end(), changes.begin(), changes.end());
     }
-    Json json = measureJson(measured, m_before);
+    Json json = measureJson(measured, m_before.name());
     json["files"] = Json::array();
     json["files"] = files.write(measured, json);
     text += "Lengths in mm, curvatures in 1/mm, volumes in mm3; +- is half of the 95 % interval.\n";
@@ -154,12 +155,13 @@ private:
       const formats::Case& source, const operations::CaseMeasures& measures,
       const RunContext& context) const {
     const formats::Case before = readCase(m_before);
-    return convert::measureChanges({before, measure(m_before, before, context).values},
+    return convert::measureChanges({before, measure(m_before.name(), before, context).values},
                                    {source, measures.values});
   }
 
-  std::vector<std::string> m_cases;
-  std::string m_output, m_before;
+  std::vector<InputFile> m_cases;
+  OutputFile m_output;
+  InputFile m_before;
   std::optional<double> m_step, m_time;
 };
 

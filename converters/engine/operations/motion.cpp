@@ -93,7 +93,7 @@ public:
     requireInScope(*context.table, {}, context.progress);
     const FileFormat& to = caseOutputFormat(m_output, "", "the motion");
     requireInput(m_rest, "case file");
-    for (const std::string& file : m_phases) requireInput(file, "volume");
+    for (const InputFile& file : m_phases) requireInput(file, "volume");
     if (m_frames > 0 && m_phases.size() != 1)
       throw Error(ErrorKind::Usage, kOption.frames.shown() + ": found " +
                                         counted(m_phases.size(), "file", "files") +
@@ -102,24 +102,26 @@ public:
     requireWritable(m_output, convert::ContentKind::Case);
 
     const operations::MovedCase moved =
-        operations::moved(readParentCase(m_rest), m_rest, series, operationContext(context));
+        operations::moved(readParentCase(m_rest), m_rest.name(), series, operationContext(context));
     to.writeCase(moved.value, m_output, {}, context.progress);
     Json json = caseSummary(moved.value);
     json["period_s"] = jsonNumber(moved.value.motion->period);
     json["phases"] = phasesJson(moved);
-    return {std::move(json), phaseLines(moved, phaseNames()) + caseLine(m_output, moved.value)};
+    return {std::move(json),
+            phaseLines(moved, phaseNames()) + caseLine(m_output.name(), moved.value)};
   }
 
 private:
-  [[nodiscard]] const std::string& fileOf(std::size_t phase) const {
+  [[nodiscard]] const InputFile& fileOf(std::size_t phase) const {
     return m_phases[m_frames > 0 ? 0 : phase];
   }
 
   [[nodiscard]] std::vector<std::string> phaseNames() const {
-    if (m_frames == 0) return m_phases;
     std::vector<std::string> names;
+    if (m_frames == 0)
+      for (const InputFile& file : m_phases) names.push_back(file.name());
     for (std::int64_t i = 0; i < m_frames; ++i)
-      names.push_back(m_phases.front() + ", volume " + std::to_string(i));
+      names.push_back(m_phases.front().name() + ", volume " + std::to_string(i));
     return names;
   }
 
@@ -129,12 +131,12 @@ private:
     series.times = m_times.empty() ? evenTimes(m_period, count) : parseTimes(m_times, count);
     series.period = m_times.empty() ? m_period : 0.0;
     series.reach = m_reach;
-    series.name = [this](std::size_t phase) { return fileOf(phase); };
+    series.name = [this](std::size_t phase) { return fileOf(phase).name(); };
     series.read = [this, &progress = context.progress](std::size_t phase) {
-      const std::string& file = fileOf(phase);
+      const InputFile& file = fileOf(phase);
       const FileFormat& from = inputFormat(file, m_from);
       if (from.kind != FormatKind::Volume)
-        throw unsupported(file + ": this is no volume; expected one for each phase");
+        throw unsupported(file.name() + ": this is no volume; expected one for each phase");
       VolumeArguments which = m_volume;
       if (m_frames > 0) which.volumeIndex = static_cast<std::int64_t>(phase);
       return loadVolume(file, from, which, progress);
@@ -142,8 +144,11 @@ private:
     return series;
   }
 
-  std::string m_rest, m_output, m_from;
-  std::vector<std::string> m_phases, m_times;
+  InputFile m_rest;
+  std::vector<InputFile> m_phases;
+  OutputFile m_output;
+  std::string m_from;
+  std::vector<std::string> m_times;
   std::int64_t m_frames = 0;
   double m_period = 1;
   VolumeArguments m_volume;

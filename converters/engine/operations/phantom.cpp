@@ -51,20 +51,20 @@ public:
   }
 
   Answer run(const RunContext& context) override {
-    sortArguments();
+    sortArguments(context.memory);
     requireInScope(*context.table, {}, context.progress);
     const Outputs outputs = checkOutputs();
     const convert::Phantom phantom = convert::makePhantom(
         m_options,
         [&](int phase, const convert::Volume& volume) {
-          outputs.volume.writeVolume(volume, volumeName(outputs.volume, phase));
+          outputs.volume.writeVolume(volume, volumeOf(outputs.volume, phase));
         },
         context.progress);
     context.progress.begin("writing", 0);
-    outputs.volume.writeVolume(phantom.volume, volumeName(outputs.volume, 0));
+    outputs.volume.writeVolume(phantom.volume, volumeOf(outputs.volume, 0));
     if (outputs.truth != nullptr)
       outputs.truth->writeCase(phantom.truth, m_truth, {}, context.progress);
-    if (!m_seeds.empty()) convert::writeSeeds(phantom.seeds, m_seeds);
+    if (!m_seeds.empty()) writeText(convert::encodeSeeds(phantom.seeds, m_seeds.path()), m_seeds);
     context.progress.end();
     return report(phantom);
   }
@@ -76,19 +76,20 @@ private:
   };
 
   /// OUT itself, or with a motion OUT with the number of the phase before its ending.
-  [[nodiscard]] std::string volumeName(const FileFormat& format, int phase) const {
+  [[nodiscard]] OutputFile volumeOf(const FileFormat& format, int phase) const {
     if (m_options.motion == convert::PhantomMotion::None) return m_output;
-    return numberedName(m_output, format, static_cast<std::size_t>(phase));
+    return numberedName(m_output.name(), format, static_cast<std::size_t>(phase));
   }
 
-  void sortArguments() {
+  void sortArguments(MemoryFiles* memory) {
     const std::string usage = "; usage: lumen phantom NAME OUT, or lumen phantom --tree FILE OUT";
     if (!m_tree.empty()) {
       if (!m_output.empty())
         throw Error(ErrorKind::Usage,
                     m_options.name + " and --tree are two phantoms, expected one" + usage);
       m_options.tree = m_tree;
-      m_output = std::exchange(m_options.name, {});
+      const std::string out = std::exchange(m_options.name, {});
+      m_output = memory ? memory->output(out) : OutputFile(out);
     } else if (m_options.name.empty()) {
       throw Error(ErrorKind::Usage, std::string("NAME is missing") + usage);
     } else {
@@ -104,17 +105,17 @@ private:
   [[nodiscard]] Outputs checkOutputs() const {
     const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
                           m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
-    std::vector<std::pair<std::string, convert::ContentKind>> files = {
+    std::vector<std::pair<OutputFile, convert::ContentKind>> files = {
         {m_truth, convert::ContentKind::Case}, {m_seeds, convert::ContentKind::Seeds}};
     const int volumes = m_options.motion == convert::PhantomMotion::None ? 1 : m_options.phases;
     for (int phase = 0; phase < volumes; ++phase)
-      files.emplace_back(volumeName(outputs.volume, phase), convert::ContentKind::Volume);
+      files.emplace_back(volumeOf(outputs.volume, phase), convert::ContentKind::Volume);
     for (auto file = files.begin(); file != files.end(); ++file) {
       const auto& [output, kind] = *file;
       if (output.empty()) continue;
       for (auto earlier = files.begin(); earlier != file; ++earlier)
-        if (earlier->first == output)
-          throw Error(ErrorKind::Usage, output + ": this name is given to two outputs");
+        if (earlier->first.path() == output.path())
+          throw Error(ErrorKind::Usage, output.name() + ": this name is given to two outputs");
       requireWritable(output, kind);
     }
     return outputs;
@@ -135,13 +136,14 @@ private:
   }
 
   [[nodiscard]] std::string shownVolumes(const convert::Phantom& phantom) const {
-    if (!phantom.truth.motion) return m_output;
+    if (!phantom.truth.motion) return m_output.name();
     const FileFormat& format = volumeOutputFormat(m_output, "a phantom");
-    return volumeName(format, 0) + " to " + volumeName(format, m_options.phases - 1);
+    return volumeOf(format, 0).name() + " to " + volumeOf(format, m_options.phases - 1).name();
   }
 
   convert::PhantomOptions m_options;
-  std::string m_tree, m_output, m_truth, m_seeds;
+  std::string m_tree;
+  OutputFile m_output, m_truth, m_seeds;
 };
 
 }  // namespace

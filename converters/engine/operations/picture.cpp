@@ -58,22 +58,25 @@ std::pair<int, int> parseSize(const std::string& text) {
 /// Files that appear together, when all of them are written: until then none of them does.
 class PendingPictures {
 public:
-  /// One file of that name, or those of a turntable: "head.png" gives "head-003.png".
-  PendingPictures(std::string file, bool isTurntable)
+  /// One output of that name, or the files of a turntable: "head.png" gives "head-003.png".
+  PendingPictures(OutputFile file, bool isTurntable)
       : m_file(std::move(file)), m_isTurntable(isTurntable) {}
 
   [[nodiscard]] std::string nameOf(std::size_t frame) const {
-    if (!m_isTurntable) return m_file;
-    const std::size_t dot = m_file.rfind('.');
-    return m_file.substr(0, dot) + "-" + paddedNumber(frame, 3) + m_file.substr(dot);
+    const std::string name = m_file.name();
+    if (!m_isTurntable) return name;
+    const std::size_t dot = name.rfind('.');
+    return name.substr(0, dot) + "-" + paddedNumber(frame, 3) + name.substr(dot);
   }
   void add(const convert::Picture& picture) {
     const std::string file = nameOf(m_names.size());
+    m_names.push_back(file);
+    if (m_file.bytes() != nullptr && !m_isTurntable)
+      return writeText(convert::encodePng(picture), m_file);
     auto pending = formats::PendingFile::beside(file);
     if (!pending) throw failed(pending.error().message);
     writeNewFile(convert::encodePng(picture), pending->path(), file);
     m_pending.push_back(std::move(*pending));
-    m_names.push_back(file);
   }
   /// Warns of a frame that this run does not replace: it is of another turntable.
   void warnOfOlder(Progress& progress) const {
@@ -90,7 +93,7 @@ public:
   [[nodiscard]] const std::vector<std::string>& names() const { return m_names; }
 
 private:
-  std::string m_file;
+  OutputFile m_file;
   bool m_isTurntable;
   std::vector<formats::PendingFile> m_pending;
   std::vector<std::string> m_names;
@@ -127,7 +130,7 @@ public:
             },
             "WxH", "Width and height in pixels; below 160, without scale and sides")
         .defaults("1000x800");
-    table.file(kOption.volume.name, m_options.behindName,
+    table.file(kOption.volume.name, m_behind,
                "Volume whose projection is drawn behind the vessels");
     table
         .add("turntable", &m_options.turns, "N",
@@ -138,21 +141,23 @@ public:
   }
 
   Answer run(const RunContext& context) override {
-    if (!m_output.ends_with(".png"))
+    if (m_output.path().extension() != ".png")
       throw Error(ErrorKind::Usage,
-                  formats::printable(m_output) +
+                  formats::printable(m_output.name()) +
                       ": found a name without .png, expected one with it, after that of the case");
     requireInScope(*context.table, {}, context.progress);
     requireInput(m_input, "case");
     PendingPictures pictures(m_output, m_options.turns > 0);
-    requireWritable(pictures.nameOf(0), convert::ContentKind::Other);
+    requireWritable(m_options.turns > 0 ? OutputFile(pictures.nameOf(0)) : m_output,
+                    convert::ContentKind::Other);
     const formats::Case value =
-        atTime(readCase(m_input), m_time, m_input, *context.table, context.progress);
+        atTime(readCase(m_input), m_time, m_input.name(), *context.table, context.progress);
     std::optional<convert::Volume> volume;
     operations::PicturesOptions options = m_options;
-    if (!options.behindName.empty()) options.behind = &volume.emplace(volumeBehind(context));
+    options.behindName = m_behind.name();
+    if (!m_behind.empty()) options.behind = &volume.emplace(volumeBehind(context));
     operations::picturesOf(
-        value, m_input, options, [&](const convert::Picture& drawn) { pictures.add(drawn); },
+        value, m_input.name(), options, [&](const convert::Picture& drawn) { pictures.add(drawn); },
         operationContext(context));
     pictures.warnOfOlder(context.progress);
     context.progress.check();
@@ -162,17 +167,15 @@ public:
 
 private:
   [[nodiscard]] convert::Volume volumeBehind(const RunContext& context) const {
-    requireInput(m_options.behindName, "volume");
-    const FileFormat& format = inputFormat(m_options.behindName, "");
+    requireInput(m_behind, "volume");
+    const FileFormat& format = inputFormat(m_behind, "");
     if (format.kind != FormatKind::Volume)
-      throw unsupported(m_options.behindName + ": found a " +
-                        (format.kind == FormatKind::Mesh ? "mesh" : "case") +
-                        ", expected a volume: " + kOption.volume.shown() +
-                        " is drawn behind the vessels");
-    requireInScope(*context.table,
-                   {inputContent(format, false), kAnyContent, m_options.behindName, {}},
+      throw unsupported(
+          m_behind.name() + ": found a " + (format.kind == FormatKind::Mesh ? "mesh" : "case") +
+          ", expected a volume: " + kOption.volume.shown() + " is drawn behind the vessels");
+    requireInScope(*context.table, {inputContent(format, false), kAnyContent, m_behind.name(), {}},
                    context.progress);
-    return loadVolume(m_options.behindName, format, m_volume, context.progress);
+    return loadVolume(m_behind, format, m_volume, context.progress);
   }
 
   [[nodiscard]] Answer report(const std::vector<std::string>& files) const {
@@ -184,7 +187,8 @@ private:
                 std::to_string(height) + " pixels" + more + "\n"};
   }
 
-  std::string m_input, m_output;
+  InputFile m_input, m_behind;
+  OutputFile m_output;
   std::optional<double> m_time;
   operations::PicturesOptions m_options;
   VolumeArguments m_volume;

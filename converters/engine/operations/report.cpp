@@ -19,8 +19,8 @@ namespace lumen::engine {
 
 namespace {
 
-std::string nameOf(const std::string& file) {
-  return std::filesystem::path(file).filename().string();
+std::string nameOf(const InputFile& file) {
+  return file.path().filename().string();
 }
 
 class ReportCommand : public Command {
@@ -56,17 +56,18 @@ public:
   Answer run(const RunContext& context) override {
     checkNames(context);
     auto [bytes, value] = readCaseAndBytes(m_case);
-    value = atTime(std::move(value), m_time, m_case, *context.table, context.progress);
+    value = atTime(std::move(value), m_time, m_case.name(), *context.table, context.progress);
     const OptionRow& spread = *context.table->find("point-spread");
     if (spread.isGiven && !value.models)
-      refuseUnused(spread,
-                   "is for cases with models, and " + formats::printable(m_case) + " has none",
-                   context.progress);
+      refuseUnused(
+          spread,
+          "is for cases with models, and " + formats::printable(m_case.name()) + " has none",
+          context.progress);
     const operations::Page page =
         operations::reportOf({std::move(value), bytes, nameOf(m_case), m_title},
                              reportedVolume(context.progress), operationContext(context));
     if (const std::size_t count = page.facts.warnings(); count > 0)
-      context.progress.warn(m_case + ": " + counted(count, "warning", "warnings") +
+      context.progress.warn(m_case.name() + ": " + counted(count, "warning", "warnings") +
                             ", which the page lists");
     writeText(page.html, m_output);
     return report(page.facts, page.html.size());
@@ -75,9 +76,10 @@ public:
 private:
   /// Refuses outputs that could not be written in the end, or would be lost.
   void checkNames(const RunContext& context) const {
-    if (!m_output.ends_with(".html") && !m_output.ends_with(".htm"))
+    const std::string ending = m_output.path().extension().string();
+    if (ending != ".html" && ending != ".htm")
       throw Error(ErrorKind::Usage,
-                  formats::printable(m_output) +
+                  formats::printable(m_output.name()) +
                       ": found a name without .html, expected one with it; a browser "
                       "prints the page as PDF");
     requireInScope(*context.table, {}, context.progress);
@@ -85,10 +87,10 @@ private:
       requireInput(m_input, "volume");
       const FileFormat& from = inputFormat(m_input, m_from);
       if (from.kind != FormatKind::Volume)
-        throw unsupported(m_input + ": this is a " +
+        throw unsupported(m_input.name() + ": this is a " +
                           (from.kind == FormatKind::Mesh ? "mesh" : "case") + "; " +
                           kOption.volume.shown() + " takes the volume that the case was made from");
-      requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, {}},
+      requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input.name(), {}},
                      context.progress);
     }
     requireWritable(m_output, convert::ContentKind::Other);
@@ -99,12 +101,12 @@ private:
     const std::string name = nameOf(m_input);
     return operations::ReportedVolume{
         loadVolume(m_input, inputFormat(m_input, m_from), m_volume, progress), name, m_pointSpread,
-        operations::CheckNames{m_case, name, m_case + " and " + m_input}};
+        operations::CheckNames{m_case.name(), name, m_case.name() + " and " + m_input.name()}};
   }
 
   [[nodiscard]] Answer report(const convert::ReportFacts& facts, std::size_t bytes) const {
     Json json;
-    json["file"] = m_output;
+    json["file"] = m_output.name();
     json["bytes"] = bytes;
     json["case_sha256"] = facts.sha256;
     json["branches"] = facts.value.tree.branches.size();
@@ -114,7 +116,7 @@ private:
     json["warnings"] = facts.warnings();
     return {
         std::move(json),
-        formats::printable(m_output) + ": " +
+        formats::printable(m_output.name()) + ": " +
             counted(facts.value.tree.branches.size(), "branch", "branches") + ", " +
             counted(facts.warnings(), "warning", "warnings") + ", " + std::to_string(bytes) +
             " bytes" +
@@ -122,7 +124,9 @@ private:
             "\n"};
   }
 
-  std::string m_case, m_output, m_input, m_title, m_from;
+  InputFile m_case, m_input;
+  OutputFile m_output;
+  std::string m_title, m_from;
   std::optional<double> m_pointSpread, m_time;
   VolumeArguments m_volume;
 };

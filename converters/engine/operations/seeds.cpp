@@ -82,10 +82,11 @@ public:
     if (from.kind != FormatKind::Volume && from.kind != FormatKind::Case) {
       const std::string other = convert::notA(convert::ContentKind::Volume, m_input);
       throw unsupported(
-          m_input + ": " +
+          m_input.name() + ": " +
           (other.empty() ? "this is no volume and no case, which lumen seeds reads" : other));
     }
-    requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input, m_output},
+    requireInScope(*context.table,
+                   {inputContent(from, false), kAnyContent, m_input.name(), m_output.name()},
                    context.progress);
     requireWritable(m_output, convert::ContentKind::Seeds);
     return from.kind == FormatKind::Case ? writeKept(from.readCase(m_input))
@@ -95,30 +96,33 @@ public:
 private:
   [[nodiscard]] Answer answer(const std::vector<convert::SeedBranch>& seeds, Json length,
                               const std::string& one, const std::string& many) const {
-    convert::writeSeeds(seeds, m_output);
+    writeText(convert::encodeSeeds(seeds, m_output.path()), m_output);
     Json json;
     json["seeds"] = seeds.size();
     json["length_mm"] = std::move(length);
-    return {json, m_output + ": " + counted(seeds.size(), one, many) + "\n"};
+    return {json, m_output.name() + ": " + counted(seeds.size(), one, many) + "\n"};
   }
 
   [[nodiscard]] Answer writeFound(const FileFormat& from, Progress& progress) const {
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     const formats::Case found =
-        operations::findAndTrack(volume, m_input, m_options, operationContext(progress)).result;
+        operations::findAndTrack(volume, m_input.name(), m_options, operationContext(progress))
+            .result;
     return answer(seedsOn(found), caseSummary(found)["length_mm"], "vessel", "vessels");
   }
 
   /// The seeds that the case holds, whether they are tracked or wait.
   [[nodiscard]] Answer writeKept(const formats::Case& value) const {
-    std::vector<convert::SeedBranch> seeds = convert::seedsOf(value, m_input, optionWord());
-    if (seeds.empty()) throw failed(formats::printable(m_input) + ": it holds no seeds");
+    std::vector<convert::SeedBranch> seeds = convert::seedsOf(value, m_input.name(), optionWord());
+    if (seeds.empty()) throw failed(formats::printable(m_input.name()) + ": it holds no seeds");
     for (convert::SeedBranch& seed : seeds) seed.isTracked = false;  // counts in a case alone
     convert::dropOtherParents(seeds);
     return answer(seeds, nullptr, "seed", "seeds");
   }
 
-  std::string m_input, m_output, m_from;
+  InputFile m_input;
+  OutputFile m_output;
+  std::string m_from;
   VolumeArguments m_volume;
   convert::TrackOptions m_options;
 };

@@ -44,11 +44,11 @@ public:
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind != FormatKind::Volume) {
       const std::string other = convert::notA(convert::ContentKind::Volume, m_input);
-      throw unsupported(m_input + ": " +
+      throw unsupported(m_input.name() + ": " +
                         (other.empty() ? "this is not a volume, which lumen track reads" : other));
     }
     requireInScope(*context.table,
-                   {inputContent(from, false), outputContent(to), m_input, m_output},
+                   {inputContent(from, false), outputContent(to), m_input.name(), m_output.name()},
                    context.progress);
     operations::CaseOptions options;
     options.vessels = m_track.vessels();
@@ -57,7 +57,7 @@ public:
     requireWritable(m_output, convert::ContentKind::Case);
 
     operations::Source source;
-    source.name = m_input;
+    source.name = m_input.name();
     source.grey = loadVolume(m_input, from, m_volume, context.progress);
     source.regions = loadRegions(m_labels, context.progress);
     const operations::MadeCase made =
@@ -67,12 +67,14 @@ public:
     json["reachable"] = reachJson(std::nullopt);
     json["repeats"] = repetitionJson(made.repetition, made.value);
     return {withRemarks(std::move(json), made.remarks),
-            caseLine(m_output, made.value) + convert::reachLine(std::nullopt) +
+            caseLine(m_output.name(), made.value) + convert::reachLine(std::nullopt) +
                 repetitionLines(made.repetition) + endLines(made.remarks)};
   }
 
 private:
-  std::string m_input, m_output, m_from, m_to;
+  InputFile m_input;
+  OutputFile m_output;
+  std::string m_from, m_to;
   VolumeArguments m_volume;
   TrackArguments m_track;
   MaskArguments m_labels;

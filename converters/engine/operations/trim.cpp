@@ -74,7 +74,7 @@ public:
     requireWritable(m_output, convert::ContentKind::Case);
 
     const operations::TrimmedCase trimmed = operations::trimmed(
-        readParentCase(m_input), {m_minRadius.value_or(0), m_minLength.value_or(0)}, m_input,
+        readParentCase(m_input), {m_minRadius.value_or(0), m_minLength.value_or(0)}, m_input.name(),
         operationContext(context));
     const std::optional<convert::Reach> reach =
         convert::measureReach(trimmed.value, context.progress);
@@ -83,12 +83,14 @@ public:
     Json json = caseSummary(trimmed.value);
     json["trimmed"] = trimmedJson(trimmed.ends);
     json["reachable"] = reachJson(reach);
-    return {std::move(json), caseLine(m_output, trimmed.value) + trimmedLines(trimmed.ends) +
+    return {std::move(json), caseLine(m_output.name(), trimmed.value) + trimmedLines(trimmed.ends) +
                                  convert::reachLine(reach)};
   }
 
 private:
-  std::string m_input, m_output, m_to;
+  InputFile m_input;
+  OutputFile m_output;
+  std::string m_to;
   std::optional<double> m_minRadius, m_minLength;
 };
 

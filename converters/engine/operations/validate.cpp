@@ -6,9 +6,9 @@
 #include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/surface_answer.h"
+#include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/judge/facts/examination.h"
-#include "formats/case/case_file.h"
 
 namespace lumen::engine {
 
@@ -107,7 +107,7 @@ public:
   Answer run(const RunContext& context) override {
     bool valid = true, personal = false, warned = false;
     Json files = Json::array();
-    for (const std::string& file : m_files) {
+    for (const InputFile& file : m_files) {
       context.progress.check();
       convert::FileReport report = convert::examine(file, m_maxIssues, m_privacy, context.progress);
       if (m_surface && report.valid) addSurface(file, report, context.progress);
@@ -116,18 +116,18 @@ public:
       valid = valid && report.valid;
       personal = personal || report.personal;
       warned = warned || report.counts.warnings > 0;
-      files.push_back(reportJson(file, report));
-      context.answerEarly({{}, reportText(file, report), 0, !report.valid || report.personal});
+      files.push_back(reportJson(file.name(), report));
+      context.answerEarly(
+          {{}, reportText(file.name(), report), 0, !report.valid || report.personal});
     }
     const bool passes = valid && !personal && !(warned && context.strict);
     return {{{"valid", valid}, {"files", std::move(files)}}, "", passes ? 0 : kInvalidCode};
   }
 
 private:
-  void addSurface(const std::string& file, convert::FileReport& report, Progress& progress) const {
-    const auto value = formats::readCaseFile(file);
-    if (!value) return;
-    if (!value->models) {
+  void addSurface(const InputFile& file, convert::FileReport& report, Progress& progress) const {
+    const formats::Case value = readCase(file);
+    if (!value.models) {
       ++report.counts.information;
       if (report.remarks.size() < m_maxIssues)
         report.remarks.push_back(surfaceRemark(
@@ -135,14 +135,14 @@ private:
             "the case has no models, so there is no closed surface; lumen fit makes them"));
       return;
     }
-    for (const std::string& sentence : examineSurface(*value, progress).warnings) {
+    for (const std::string& sentence : examineSurface(value, progress).warnings) {
       ++report.counts.warnings;
       if (report.remarks.size() < m_maxIssues)
         report.remarks.push_back(surfaceRemark(formats::Severity::Warning, sentence));
     }
   }
 
-  std::vector<std::string> m_files;
+  std::vector<InputFile> m_files;
   std::size_t m_maxIssues = formats::kDefaultMaxIssues;
   bool m_privacy = false, m_surface = false;
 };

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "converters/base/input_file.h"
 #include "converters/io/centerline/centerline_file.h"
-#include "converters/io/content/input_file.h"
 
 namespace lumen::convert {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "converters/io/content/input_file.h"
+#include "converters/base/input_file.h"
 
 namespace lumen::convert {
 

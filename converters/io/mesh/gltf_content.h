@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "converters/io/content/input_file.h"
+#include "converters/base/input_file.h"
 #include "formats/json/json_value.h"
 
 namespace lumen::convert {

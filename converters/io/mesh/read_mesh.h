@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "converters/base/input_file.h"
 #include "converters/geometry/mesh_measures.h"
-#include "converters/io/content/input_file.h"
 
 namespace lumen::convert {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "converters/base/field_word.h"
-#include "converters/io/content/input_file.h"
+#include "converters/base/input_file.h"
 
 namespace lumen::convert {
 

@@ -137,13 +137,13 @@ const std::vector<std::string>& builtInLabelTables() {
   return names;
 }
 
-LabelNames readLabelTable(const fs::path& file) {
-  if (file == builtInLabelTables()[0]) return topcow();
-  const std::string name = formats::printable(file.string());
-  const std::string bytes = readWholeFile(file, "table of labels", kMostBytes);
+LabelNames readLabelTable(const InputFile& file) {
+  if (!file.isInMemory() && file.path() == builtInLabelTables()[0]) return topcow();
+  const std::string name = formats::printable(file.name());
+  const std::string bytes = file.read("table of labels", kMostBytes);
   const std::string text(withoutByteOrderMark(bytes));
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  LabelNames names = first != text.npos && text[first] == '{' ? namesOfJson(text, file)
+  LabelNames names = first != text.npos && text[first] == '{' ? namesOfJson(text, file.path())
                      : text.starts_with(kSlicerTable)         ? namesOfSlicerTable(text, name)
                                                               : namesOfCsv(text, name);
   if (names.empty()) throw invalidInput(name + ": names no label but 0; expected names of labels");

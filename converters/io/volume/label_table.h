@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/io/content/input_file.h"
+#include "converters/base/input_file.h"
 
 namespace lumen::convert {
 
@@ -31,7 +31,7 @@ const std::vector<std::string>& builtInLabelTables();
 /// The names in a file, or in the table that is built in under this name. Throws Error(InvalidInput),
 /// naming the file and the line or the place, for a file that is missing or is no such table, a label
 /// that is no whole number or occurs twice, and a name that a branch cannot have.
-LabelNames readLabelTable(const std::filesystem::path& file);
+LabelNames readLabelTable(const InputFile& file);
 
 /// The names of the segments in the header of `file`; empty if it is no NRRD, or names none. Segments
 /// of other layers than the first are passed over. Throws Error(InvalidInput) as readLabelTable() does.

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "converters/io/content/input_file.h"
+#include "converters/base/input_file.h"
 #include "converters/io/volume/stored_voxels.h"
 
 namespace lumen::convert {

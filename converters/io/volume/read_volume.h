@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "converters/base/input_file.h"
 #include "converters/base/progress.h"
-#include "converters/io/content/input_file.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/voxels/volume.h"
 

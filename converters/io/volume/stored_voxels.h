@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/input_file.h"
 #include "converters/base/progress.h"
-#include "converters/io/content/input_file.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/number_text.h"
 #include "converters/base/privacy.h"
 #include "converters/base/text.h"
@@ -84,15 +85,19 @@ Issue named(Issue issue, const std::string& file) {
 
 }  // namespace
 
-FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy,
+FileReport examine(const InputFile& file, std::size_t maxIssues, bool privacy,
                    const Progress& progress) {
-  const auto bytes = formats::readFileBytes(file);
+  if (file.isInMemory()) {
+    const std::string text = file.read("case file", kAnySize);
+    return examineBytes(std::as_bytes(std::span(text)), file.name(), maxIssues, privacy, progress);
+  }
+  const auto bytes = formats::readFileBytes(file.path());
   if (!bytes) {
     FileReport unread{false, false, false, {1, 0, 0}, {}};
     if (maxIssues > 0) unread.remarks.push_back(remarkOf(bytes.error()));
     return unread;
   }
-  return examineBytes(*bytes, file, maxIssues, privacy, progress);
+  return examineBytes(*bytes, file.name(), maxIssues, privacy, progress);
 }
 
 FileReport examineBytes(std::span<const std::byte> bytes, const std::string& file,

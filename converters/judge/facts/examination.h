@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/input_file.h"
 #include "converters/base/progress.h"
 #include "formats/case/case_file.h"
 
@@ -38,7 +39,7 @@ struct FileReport {
 /// The faults of a case file: broken rules of the format, closed paths, and with `privacy` texts
 /// that may identify a patient. Every fault counts for the verdict; at most `maxIssues` remarks are
 /// listed. An unreadable file is a remark.
-FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy,
+FileReport examine(const InputFile& file, std::size_t maxIssues, bool privacy,
                    const Progress& progress);
 /// The faults of a case file in memory: broken rules of the format, closed paths, and with
 /// `privacy` texts that may identify a patient. Every fault counts for the verdict; at most

@@ -201,8 +201,8 @@ def report(results):
                  "in per cent.\n\n"
                  + table(["case", "triangles", "processor s", "closed, manifold, outward", "intersections", "median", "least",
                           *(f"{low / 10:g} to {high / 10:g}" if high < 21 else f"over {low / 10:g}" for low, high in BINS)], rows))
-    rows = [[name, r["said"]["openedEdges"], len(r["said"]["cuts"]), len(r["said"]["overlaps"]), r["said"]["offField"], r["said"]["roundedEnds"]]
-            for name, r in results.items() if r["said"]["openedEdges"] or r["said"]["cuts"] or r["said"]["overlaps"] or r["said"]["offField"] or r["said"]["roundedEnds"]]
+    rows = [[name, r["said"]["opened_edges"], len(r["said"]["cuts"]), len(r["said"]["overlaps"]), r["said"]["off_field"], r["said"]["rounded_ends"]]
+            for name, r in results.items() if r["said"]["opened_edges"] or r["said"]["cuts"] or r["said"]["overlaps"] or r["said"]["off_field"] or r["said"]["rounded_ends"]]
     if rows:
         text += ("**Reports of lumen on them**\n\n"
                  + table(["case", "edges opened", "handles cut", "pairs of vessels kept apart", "vertices off the field", "round ends"], rows))

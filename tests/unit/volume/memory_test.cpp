@@ -2,6 +2,7 @@
 // Volumes in memory: bytes under the name of a file.
 #include <filesystem>
 
+#include "converters/base/files.h"
 #include "converters/io/content/file_content.h"
 #include "converters/io/volume/label_table.h"
 #include "tests/unit/volume/fixtures.h"
@@ -43,6 +44,23 @@ TEST_F(VolumeInMemory, IsThatOfItsFile) {
     const VolumeHeader header = readVolumeHeader({name, bytes}, formatOf(name), {}, Progress());
     EXPECT_EQ(header.storedBytes, bytes.size()) << name;
     EXPECT_EQ(detectContent({name, bytes}).kind, ContentKind::Volume) << name;
+  }
+}
+
+TEST_F(VolumeInMemory, MayConsistOfTwoPieces) {
+  for (const char* name : {"v.nrrd", "v.nii", "v.nii.gz", "v.mha"}) {
+    writeAsNamed(ramp(), path(name));
+    const std::string bytes = bytesOf(path(name));
+    const Volume expected = readBytes(name, bytes);
+    for (const std::size_t at : {std::size_t{0}, std::size_t{1}, std::size_t{347}, bytes.size() / 2,
+                                 bytes.size() - 1, bytes.size()}) {
+      const InputFile pieces(name, std::string_view(bytes).substr(0, at),
+                             std::string_view(bytes).substr(at));
+      EXPECT_EQ(pieces.size(), bytes.size());
+      EXPECT_EQ(pieces.read("volume", kAnySize), bytes);
+      const Volume read = readVolume(pieces, formatOf(name), worded({}), Progress());
+      EXPECT_EQ(read.voxels, expected.voxels) << name << " cut at " << at;
+    }
   }
 }
 
