@@ -29,9 +29,7 @@ namespace {
 
 using convert::SurfaceMesh;
 
-// in messages
-constexpr const char* kCaseName = "case.lumen";
-constexpr const char* kMeshName = "mesh.ply";
+constexpr const char* kMeshName = "mesh.ply";  // in messages
 
 /// The rows of `lumen convert` that count between a case and a mesh, among others.
 struct SurfaceRows {
@@ -46,21 +44,23 @@ struct SurfaceRows {
   }
 };
 
-/// The surface of the case at the time of the rows. A case without models gets some for it.
-SurfaceMesh surfaceOf(const formats::Case& value, const SurfaceRows& rows, Progress& progress) {
+/// The surface of the case called `name` at the time of the rows. A case without models gets some
+/// for it.
+SurfaceMesh surfaceOf(const formats::Case& value, const std::string& name, const SurfaceRows& rows,
+                      Progress& progress) {
   const operations::Context context = engine::operationContext(progress, &rows.table);
   operations::Source source;
-  source.name = kCaseName;
-  source.value = engine::atTime(value, rows.time, kCaseName, rows.table, progress);
+  source.name = name;
+  source.value = engine::atTime(value, rows.time, name, rows.table, progress);
   const bool isFitted = source.value->models.has_value();
   if (!isFitted && !source.value->points)
-    throw invalidInput(std::string(kCaseName) +
+    throw invalidInput(name +
                        ": this case has neither models nor wall points to fit them to, so there is "
                        "no surface to make a mesh of");
-  engine::requireInScope(rows.table,
-                         {isFitted ? engine::kFittedCase : engine::kUnfittedCase,
-                          engine::kOtherMesh, kCaseName, kMeshName},
-                         progress);
+  engine::requireInScope(
+      rows.table,
+      {isFitted ? engine::kFittedCase : engine::kUnfittedCase, engine::kOtherMesh, name, kMeshName},
+      progress);
   operations::CaseOptions options = rows.convert.caseOptions(engine::FormatKind::Case);
   if (!isFitted) options.models = rows.convert.modelOptions(source, rows.table, progress);
   const formats::Case made = operations::caseOf(std::move(source), options, context).value;
@@ -73,13 +73,13 @@ SurfaceMesh surfaceOf(const formats::Case& value, const SurfaceRows& rows, Progr
 
 /// Vertices, triangles, numbers of groups from 1 on, names of groups and arrays of the vertices:
 /// views of the surface's memory; and warnings and details.
-py::tuple meshOf(const CaseObject& self, const Options& options, const py::object& report,
-                 int threads, bool strict) {
+py::tuple meshOf(const CaseObject& self, const std::string& name, const Options& options,
+                 const py::object& report, int threads, bool strict) {
   requireValid(self);
   auto made = std::make_unique<SurfaceMesh>();
   const Messages messages = runWatched({report, threads, strict}, [&](Progress& progress) {
     const SurfaceRows rows(options);
-    *made = surfaceOf(self.value, rows, progress);
+    *made = surfaceOf(self.value, name, rows, progress);
     for (std::uint32_t& group : made->group) ++group;
   });
   SurfaceMesh& mesh = *made;
