@@ -20,13 +20,13 @@ import numpy, lumen
 phantom = lumen.phantom("bifurcation")
 volume = phantom.volume
 case = lumen.convert(volume, seeds=phantom.seeds, seeds_only=True)
-lumen.track(volume, seeds={"a": phantom.truth.tree.centre[:2]}, seeds_only=True).fit()
+lumen.track(volume, seeds={"a": phantom.truth.tree.centre[200:202]}, seeds_only=True).fit()
 lumen.find_vessels(volume)
 case.surface(), case.mesh(edge="0.5r"), case.trim(min_radius=0.1), case.picture(size=(64, 48), volume=volume)
 case.check(volume), case.compare(phantom.truth), case.measure(), case.info(), lumen.validate(case), lumen.run("info", volume)
 labels = numpy.zeros(volume.shape, numpy.uint8)
 labels[volume.array > volume.array.mean()] = 1
-lumen.case_of(volume, labels=labels, label_table={1: "trunk"}, seeds=phantom.seeds, seeds_only=True)
+lumen.case_of(volume, labels=labels, label_table={1: "trunk"})
 lumen.targets()
 print("done")
 """
@@ -107,7 +107,7 @@ class VolumesTest(unittest.TestCase):
             volume.write(path)
             self.assertEqual(lumen.Volume.read(path).array.tobytes(), volume.array.tobytes())
             by_file = lumen.convert(path, seeds=phantom.seeds, seeds_only=True)
-        self.assertEqual(by_file.metadata["sourceVolume"], sample().case.metadata["sourceVolume"])
+        self.assertEqual(by_file.metadata["source"], sample().case.metadata["source"])
         np.testing.assert_array_equal(by_file.tree.centre, sample().case.tree.centre)
         np.testing.assert_array_equal(by_file.models.width, sample().case.models.width)
 
@@ -117,7 +117,7 @@ class VolumesTest(unittest.TestCase):
             facts = lumen.run("info", volume.like(array))
             self.assertEqual(facts["size"], list(reversed(volume.shape)))
             case = lumen.track(volume.like(array), seeds=sample().phantom.seeds, seeds_only=True)
-            self.assertEqual(case.metadata["sourceVolume"], sample().case.metadata["sourceVolume"])
+            self.assertEqual(case.metadata["source"], sample().case.metadata["source"])
 
     def test_voxels_are_handed_over_without_a_copy(self):
         volume = sample().phantom.volume
@@ -135,9 +135,9 @@ class VolumesTest(unittest.TestCase):
         affine = np.eye(4)
         affine[:3, :3], affine[:3, 3] = volume.direction * volume.spacing, volume.origin
         case = lumen.case_of(volume.array.T, affine=affine, affine_frame="lps", labels=labels.T,
-                             label_table={1: "trunk", 2: "twig"}, seeds=phantom.seeds, seeds_only=True)
+                             label_table={1: "trunk", 2: "twig"})
         self.assertEqual({branch.label for branch in case.branches}, {"trunk", "twig"})
-        np.testing.assert_allclose(case.tree.centre, sample().case.tree.centre, atol=1e-3)
+        self.assertLess(case.compare(phantom.truth)["assd_mm"], 0.1)
 
     def test_the_content_of_a_file_is_the_volume(self):
         volume = sample().phantom.volume
@@ -203,7 +203,7 @@ class SurfaceTest(unittest.TestCase):
     def test_options_are_those_of_a_mesh_file(self):
         case = sample().case
         for options, sentence in (({"stl_solids": True}, "stl_solids is for writing STL"),
-                                  ({"seeds": []}, "seeds is for"), ({"edg": 1}, "edg: .*did you mean edge"),
+                                  ({"seeds": "a.json"}, "seeds is for"), ({"edg": 1}, "edg: .*did you mean edge"),
                                   ({"time": 0.5}, "time .*motion")):
             with self.assertRaisesRegex(lumen.Error, sentence) as raised:
                 case.mesh(**options)
