@@ -65,6 +65,11 @@ private:
 
 }  // namespace
 
+bool InputFile::isFolder() const {
+  std::error_code ignored;
+  return m_files != nullptr || (!m_bytes && std::filesystem::is_directory(m_path, ignored));
+}
+
 std::uint64_t InputFile::size() const {
   if (m_bytes) return (*m_bytes)[0].size() + (*m_bytes)[1].size();
   std::error_code error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input of a reader: a file, or bytes in memory under the name of one.
+// The input of a reader: a file or a folder, or bytes in memory under the name of one.
 #pragma once
 
 #include <array>
@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace lumen {
 
@@ -27,12 +29,18 @@ public:
   /// The same for bytes of which `rest` follows `head`, such as a header and the voxels of an array.
   InputFile(std::filesystem::path name, std::string_view head, std::string_view rest)
       : m_path(std::move(name)), m_bytes({head, rest}) {}
+  /// A folder in memory, whose files outlive this object. Their names are as messages call them.
+  InputFile(std::filesystem::path name, const std::vector<InputFile>& files)
+      : m_path(std::move(name)), m_files(&files) {}
 
   /// The file, or the name of the bytes.
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
   [[nodiscard]] std::string name() const { return m_path.string(); }
   [[nodiscard]] bool empty() const { return m_path.empty(); }
-  [[nodiscard]] bool isInMemory() const { return m_bytes.has_value(); }
+  [[nodiscard]] bool isInMemory() const { return m_bytes || m_files != nullptr; }
+  /// Files of a folder in memory; null for any other input.
+  [[nodiscard]] const std::vector<InputFile>* files() const { return m_files; }
+  [[nodiscard]] bool isFolder() const;
 
   /// Number of bytes. Throws Error(InvalidInput), naming the file.
   [[nodiscard]] std::uint64_t size() const;
@@ -44,6 +52,7 @@ public:
 private:
   std::filesystem::path m_path;
   std::optional<std::array<std::string_view, 2>> m_bytes;
+  const std::vector<InputFile>* m_files = nullptr;
 };
 
 }  // namespace lumen

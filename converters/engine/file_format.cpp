@@ -172,8 +172,8 @@ const FileFormat* findByName(std::string_view name) {
 }
 
 /// The format that a folder is read as.
-const FileFormat* findFolder(const fs::path& folder) {
-  if (convert::hasCurves(folder)) return findByName("mrk.json");
+const FileFormat* findFolder(const InputFile& folder) {
+  if (!folder.isInMemory() && convert::hasCurves(folder.path())) return findByName("mrk.json");
   for (const FileFormat& format : fileFormats())
     if (format.endings.empty()) return &format;
   return nullptr;
@@ -347,10 +347,8 @@ std::string formatTitles(FormatTest test) {
 
 const FileFormat& inputFormat(const InputFile& file, std::string_view override) {
   const fs::path& path = file.path();
-  std::error_code ignored;
-  const bool isFolder = !file.isInMemory() && fs::is_directory(path, ignored);
   const FileFormat* format = !override.empty() ? findByName(override)
-                             : isFolder        ? findFolder(path)
+                             : file.isFolder() ? findFolder(file)
                                                : findByContent(file);
   if (format == nullptr && override.empty()) format = findByEnding(path);
   if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(file);

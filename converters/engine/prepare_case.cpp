@@ -20,7 +20,7 @@
 #include "converters/base/sha256.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/draw/raster/picture.h"
-#include "converters/engine/answers/surface_answer.h"
+#include "converters/engine/answers/answer_text.h"
 #include "converters/engine/export_options.h"
 #include "converters/engine/file_access.h"
 #include "converters/export/export_case.h"
@@ -31,7 +31,7 @@
 #include "converters/library/index/record_of_case.h"
 #include "converters/operations/naming.h"
 #include "converters/operations/report_of.h"
-#include "converters/stages/surface/closing/closed_surface.h"
+#include "converters/operations/surface_of.h"
 #include "formats/case/case_file.h"
 #include "formats/container/container.h"
 #include "formats/container/printable.h"
@@ -190,8 +190,8 @@ void addPictures(const formats::Case& value, const CaseWishes& wishes, IncomingC
 }
 
 void addSurface(const formats::Case& value, IncomingCase& incoming, Progress& progress) {
-  const convert::ClosedSurface made = convert::closedSurface(value, {}, progress);
-  warnOfSurface(made.report, "surface.glb", progress);
+  const operations::Surface made =
+      operations::surfaceOf(value, {}, "surface.glb", operationContext(progress));
   incoming.add("surface.glb", "surface", convert::encodeGltf(made.levels, true, {}));
 }
 

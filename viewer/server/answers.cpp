@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/server/answers.h"
 
+#include <algorithm>
+
 #include "converters/base/shown_text.h"
 
 namespace lumen::viewer {
@@ -67,12 +69,27 @@ void refuseSize(std::uint64_t most) {
   throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
 }
 
+std::string bodyOf(const httplib::Request& request, const httplib::ContentReader& reader,
+                   std::uint64_t most) {
+  if (request.is_multipart_form_data())
+    throw Error(ErrorKind::Usage, "the body must be plain, not a form in several parts");
+  std::string body;
+  const auto announced = request.get_header_value<std::uint64_t>("Content-Length");
+  body.reserve(std::min(announced, most));
+  bool tooMuch = false;
+  const bool whole = reader([&](const char* data, std::size_t length) {
+    tooMuch = body.size() + length > most;
+    if (!tooMuch) body.append(data, length);
+    return !tooMuch;
+  });
+  if (tooMuch) refuseSize(most);
+  if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
+  return body;
+}
+
 formats::JsonDocument readJson(const httplib::Request& request,
                                const httplib::ContentReader& reader) {
-  std::string text;
-  readBody(request, reader, kMostRequest,
-           [&text](const char* data, std::size_t length) { text.append(data, length); });
-  return parseRequest(text, kMostRequest);
+  return parseRequest(bodyOf(request, reader, kMostRequest), kMostRequest);
 }
 
 }  // namespace lumen::viewer

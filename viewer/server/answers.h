@@ -56,24 +56,10 @@ void guarded(httplib::Response& response, Answer&& answer) {
 /// Throws Error(Usage): the body has more bytes.
 [[noreturn]] void refuseSize(std::uint64_t most);
 
-/// The body, of at most `most` bytes, piece by piece. Throws Error(Usage) for a longer one, a form
-/// in several parts, and one that breaks off.
-template <class Take>
-void readBody(const httplib::Request& request, const httplib::ContentReader& reader,
-              std::uint64_t most, Take&& take) {
-  if (request.is_multipart_form_data())
-    throw Error(ErrorKind::Usage, "the body must be plain, not a form in several parts");
-  std::uint64_t size = 0;
-  bool tooMuch = false;
-  const bool whole = reader([&](const char* data, std::size_t length) {
-    size += length;
-    tooMuch = size > most;
-    if (!tooMuch) take(data, length);
-    return !tooMuch;
-  });
-  if (tooMuch) refuseSize(most);
-  if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
-}
+/// The body, of at most `most` bytes. Throws Error(Usage) for a longer one, a form in several parts,
+/// and one that breaks off.
+std::string bodyOf(const httplib::Request& request, const httplib::ContentReader& reader,
+                   std::uint64_t most);
 
 /// A body in JSON, of at most 1 MiB.
 formats::JsonDocument readJson(const httplib::Request& request,

@@ -203,7 +203,7 @@ private:
         if (file != output && openingRole({file, file}) == wanted &&
             !offerSeries(session, file, wanted, context))
           openOne(session, file, wanted, context);
-    if (output) session.saveTo(*output);
+    if (output) session.saving.saveTo(*output);
     if (const auto doubt = secondDoubt(session.now().document)) context.progress.warn(*doubt);
   }
 
@@ -218,12 +218,12 @@ private:
   void openOne(Session& session, const std::string& file, FileRole role,
                const engine::RunContext& context) const {
     const OpenAs as = roleOfFurther(session.now().document, file, role);
-    session.open({file, labelOf(file), false, as}, context.progress);
+    session.open({file, labelOf(file), as}, context.progress);
     const engine::FileFormat* format =
         role == FileRole::Case ? &engine::inputFormat(file, "") : nullptr;
     if (format != nullptr && engine::canWriteCase(*format) && as == OpenAs::Auto &&
         !isOfLibrary(file))
-      session.saveTo(file);
+      session.saving.saveTo(file);
   }
 
   /// A second case is the truth, a second volume is seen with the first.
@@ -293,7 +293,7 @@ private:
     // first: a job that cannot be cancelled may outlast the grace of an interrupt
     session.keepUnsaved();
     session.cancelAll();
-    session.wait();
+    session.jobs.wait();
     server.stop();
     for (const std::string& file : session.keepUnsaved())
       context.progress.warn("unsaved work is in " + formats::printable(file));
@@ -308,7 +308,8 @@ private:
     while (!context.progress.cancelled()) {
       std::this_thread::sleep_for(kCancelCheckInterval);
       const auto now = Clock::now();
-      const bool isOver = idle.isOver(session.events().count(), session.isBusy(), now);
+      const bool isOver =
+          idle.isOver(session.events.count(), session.jobs.running().has_value(), now);
       if (isOver && !m_keep) return;
       if (now - lastLook < kFileCheckInterval) continue;
       lastLook = now;

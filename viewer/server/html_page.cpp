@@ -199,9 +199,9 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
     embedded.add("volume", encodeVolume(document));
   for (const OpenMesh& mesh : document.meshes) {
     const std::string which = "?id=" + std::to_string(mesh.id);
-    const Tagged part = session.meshPack(mesh.id);
+    const Tagged part = meshPack(session.now(), mesh.id);
     embedded.addSurface("mesh" + which, part);
-    if (const Tagged deviation = session.deviationPack(mesh.id, progress); deviation.bytes)
+    if (const Tagged deviation = deviationPack(session.now(), mesh.id, progress); deviation.bytes)
       embedded.add("deviation" + which, compactDistances(*part.bytes, *deviation.bytes));
   }
   if (!fileOf(page, "blob.wasm").empty()) embedded.add("blob.wasm", fileOf(page, "blob.wasm"));

@@ -2,7 +2,6 @@
 #include "viewer/server/server.h"
 
 #include <chrono>
-#include <fstream>
 #include <thread>
 #include <utility>
 
@@ -99,7 +98,7 @@ public:
   }
 
   void stop() {
-    m_session.events().close();
+    m_session.events.close();
     m_http.stop();
   }
 
@@ -174,21 +173,23 @@ private:
     get("state", [this](const Request&, Response& response) {
       answerText(response, jsonText(m_session.state()));
     });
-    getSlowly("case",
-              [this](const Request&, Progress& progress) { return m_session.casePack(progress); });
+    getSlowly("case", [this](const Request&, Progress& progress) {
+      return m_session.packs.casePack(m_session.now(), progress);
+    });
     getSlowly("proposals", [this](const Request&, Progress& progress) {
-      return m_session.proposalsPack(progress);
+      return proposalsPack(m_session.now(), progress);
     });
     get("library", [this](const Request& request, Response& response) {
-      answerPart(request, response, m_session.library());
+      answerPart(request, response, m_session.library.pack());
     });
     get("measures", [this](const Request& request, Response& response) {
       answerPart(request, response,
-                 request.has_param("kind") ? m_session.measures(request.get_param_value("kind"))
-                                           : m_session.measures());
+                 request.has_param("kind")
+                     ? m_session.findings.measures(request.get_param_value("kind"))
+                     : m_session.findings.measures());
     });
     get("case.lumen", [this](const Request& request, Response& response) {
-      answerPart(request, response, m_session.caseFile());
+      answerPart(request, response, caseFile(m_session.now()));
     });
     get("surface", [this](const Request& request, Response& response) {
       answerPart(request, response,
@@ -198,14 +199,14 @@ private:
       return m_session.distancePack(levelOf(request), request.has_param("quick"), progress);
     });
     getSlowly("deviation", [this](const Request& request, Progress& progress) {
-      return m_session.deviationPack(numberOf(request, "id"), progress);
+      return deviationPack(m_session.now(), numberOf(request, "id"), progress);
     });
     get("mesh", [this](const Request& request, Response& response) {
-      answerPart(request, response, m_session.meshPack(numberOf(request, "id")));
+      answerPart(request, response, meshPack(m_session.now(), numberOf(request, "id")));
     });
     get("seriesPicture", [this](const Request& request, Response& response) {
       answerPart(request, response,
-                 m_session.seriesPicture(static_cast<std::size_t>(numberOf(request, "series"))));
+                 m_session.series.picture(static_cast<std::size_t>(numberOf(request, "series"))));
     });
     for (const auto& [name, role] :
          {std::pair{"volume", FileRole::Volume}, std::pair{"second", FileRole::Second}})
@@ -223,7 +224,8 @@ private:
          [this](formats::JsonValue request) { return m_session.vesselAtClick(request); });
     post("cancel", [this](formats::JsonValue request) -> Json {
       const Arguments arguments(request);
-      return {{"cancelled", m_session.cancel(static_cast<int>(arguments.index("job", 1U << 30)))}};
+      return {
+          {"cancelled", m_session.jobs.cancel(static_cast<int>(arguments.index("job", 1U << 30)))}};
     });
   }
 
@@ -240,7 +242,7 @@ private:
 
   void answerVolume(const Request& request, Response& response, FileRole role) {
     Tagged none;
-    const auto pack = m_session.volumePack(role, none.tag);
+    const auto pack = m_session.packs.volumePack(m_session.now(), role, none.tag);
     if (!pack || request.get_header_value("If-None-Match") == '"' + none.tag + '"') {
       if (pack) none.bytes = std::make_shared<const std::string>();
       return answerPart(request, response, none);
@@ -257,7 +259,7 @@ private:
   }
 
   void answerEvents(Response& response) {
-    const auto listener = m_session.events().listen();
+    const auto listener = m_session.events.listen();
     if (!listener)
       return answerError(
           response, 503,
@@ -287,8 +289,9 @@ private:
     const bool isPage = format == "html";
     std::string bytes;
     whileConnected(request.remote_port, [&](Progress& progress) {
-      bytes = isPage ? htmlPage(m_session, m_page, htmlOptions(options), progress)
-                     : m_session.encoded(format, options, progress);
+      bytes = isPage
+                  ? htmlPage(m_session, m_page, htmlOptions(options), progress)
+                  : encoded(m_session.now().document, format, options, m_session.options, progress);
     });
     const std::string ending = format == "seeds" ? ".seeds.json" : "." + format;
     const Json title = m_session.state()["title"];
@@ -307,9 +310,8 @@ private:
   void takeSeriesFile(const Request& request, Response& response,
                       const httplib::ContentReader& reader) {
     const std::uint64_t announced = request.get_header_value<std::uint64_t>("Content-Length");
-    const auto place =
-        m_session.seriesPlace(numberOf(request, "batch"), nameOf(request), announced, m_mostFile);
-    writeBody(place, request, reader, announced);
+    m_session.series.take(numberOf(request, "batch"), nameOf(request), announced, m_mostFile,
+                          [&] { return bodyOf(request, reader, announced); });
     answerText(response, "{}");
   }
 
@@ -318,18 +320,8 @@ private:
     if (request.get_header_value<std::uint64_t>("Content-Length") > m_mostFile)
       refuseSize(m_mostFile);
     const OpenAs role = openAs(as);
-    auto file = m_session.placeFor(name);
-    writeBody(file->path(), request, reader, m_mostFile);
-    answerText(response, jsonText(m_session.openDropped(std::move(file), name, role)));
-  }
-
-  static void writeBody(const std::filesystem::path& place, const Request& request,
-                        const httplib::ContentReader& reader, std::uint64_t most) {
-    std::ofstream file(place, std::ios::binary);
-    readBody(request, reader, most, [&file](const char* data, std::size_t length) {
-      file.write(data, static_cast<std::streamsize>(length));
-    });
-    if (!file.flush()) throw failed("there is no room for this file");
+    std::string bytes = bodyOf(request, reader, m_mostFile);
+    answerText(response, jsonText(m_session.openDropped(name, std::move(bytes), role)));
   }
 
   Session& m_session;

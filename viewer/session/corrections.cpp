@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "converters/base/error.h"
 #include "converters/stages/editing/edit_request.h"
 #include "formats/case/enum_names.h"
 
@@ -60,17 +59,12 @@ struct Renaming {
   std::string from, to;
 };
 
-std::set<std::string> labelsOf(const formats::Case& value) {
-  std::set<std::string> labels;
-  for (const formats::Branch& branch : value.tree.branches) labels.insert(branch.label);
-  return labels;
-}
-
 /// The seeds after a correction. The seed of a vessel follows it: the seed has the vessel's new
 /// name, and is removed with a vessel that is deleted or merged.
-std::shared_ptr<const Seeds> seedsAfter(const Document& before, const formats::Case& after,
+std::shared_ptr<const Seeds> seedsAfter(const Document& before,
+                                        const std::shared_ptr<const formats::Case>& after,
                                         const Renaming& renaming) {
-  const std::set<std::string> had = labelsOf(*before.value), has = labelsOf(after);
+  const auto had = vesselLabels(before.value), has = vesselLabels(after);
   if (had == has) return before.seeds;
   const auto isGone = [&](const std::string& label) {
     return had.contains(label) && !has.contains(label);
@@ -91,28 +85,14 @@ Renaming renamingBy(const Arguments& request, const Document& document) {
   const auto& branches = document.value->tree.branches;
   Renaming renaming{branches[request.index("branch", branches.size())].label,
                     request.text("label")};
-  const std::set<std::string> vessels = labelsOf(*document.value);
+  const auto vessels = vesselLabels(document.value);
   for (const convert::SeedBranch& seed : *document.seeds)
     if (seed.label == renaming.to && !vessels.contains(seed.label))
-      throw Error(ErrorKind::Usage, "a seed has the name \"" + seed.label + "\"");
+      refuse("a seed has the name \"" + seed.label + "\"");
   return renaming;
 }
 
 constexpr std::size_t kMostSeeds = 10000;
-
-bool isTaken(const Document& document, const std::string& label) {
-  const auto has = [&label](const auto& item) { return item.label == label; };
-  const auto isBranchOf = [&has](const std::shared_ptr<const formats::Case>& part) {
-    return part && std::any_of(part->tree.branches.begin(), part->tree.branches.end(), has);
-  };
-  return std::any_of(document.seeds->begin(), document.seeds->end(), has) ||
-         isBranchOf(document.value) || isBranchOf(document.proposals);
-}
-
-std::string freeSeedLabel(const Document& document, const std::string& stem) {
-  for (std::size_t i = 1;; ++i)
-    if (std::string label = stem + "-" + std::to_string(i); !isTaken(document, label)) return label;
-}
 
 convert::SeedBranch& findSeed(Seeds& seeds, const std::string& label) {
   const auto found = std::find_if(seeds.begin(), seeds.end(),
@@ -124,17 +104,19 @@ convert::SeedBranch& findSeed(Seeds& seeds, const std::string& label) {
 std::string addSeed(Seeds& seeds, const Document& document, const Arguments& request) {
   if (seeds.size() >= kMostSeeds)
     refuse("there may be at most " + std::to_string(kMostSeeds) + " seeds");
+  std::set<std::string> taken = takenLabels(document);
+  for (const std::string_view label : vesselLabels(document.proposals)) taken.emplace(label);
   convert::SeedBranch seed;
   const auto kind = formats::enumFromName<formats::BranchKind>(formats::kBranchKindNames,
                                                                request.text("kind", "vessel"));
   if (!kind) refuse("\"kind\" must be vessel or aneurysm");
   seed.kind = *kind;
   seed.label = request.text("label", "");
-  if (seed.label.empty()) seed.label = freeSeedLabel(document, request.text("kind", "vessel"));
-  if (isTaken(document, seed.label)) refuse("\"" + seed.label + "\" is taken");
+  if (seed.label.empty()) seed.label = numberedLabel(request.text("kind", "vessel"), taken);
+  if (taken.contains(seed.label)) refuse("\"" + seed.label + "\" is taken");
   if (request.has("parent")) {
     seed.parent = request.text("parent");
-    if (!isTaken(document, *seed.parent)) refuse("there is no vessel \"" + *seed.parent + "\"");
+    if (!taken.contains(*seed.parent)) refuse("there is no vessel \"" + *seed.parent + "\"");
   }
   seed.points = request.points("points");
   seeds.push_back(seed);
@@ -176,14 +158,14 @@ std::optional<Correction> correct(const std::string& op, const Arguments& reques
                                   const Document& document) {
   const std::vector<std::string>* const arguments = convert::editArguments(op);
   if (arguments == nullptr) return std::nullopt;
-  if (!document.value) throw Error(ErrorKind::Usage, "there is no case to correct");
+  if (!document.value) refuse("there is no case to correct");
   const Renaming renaming = op == "rename" ? renamingBy(request, document) : Renaming{};
   const convert::EditRequest edit = editRequest(op, *arguments, request, document.value->tree);
   Correction correction;
   correction.value = std::make_shared<formats::Case>(*document.value);
   correction.change = convert::applyEdit(*correction.value, edit);
   correction.document = document;
-  correction.document.seeds = seedsAfter(document, *correction.value, renaming);
+  correction.document.seeds = seedsAfter(document, correction.value, renaming);
   correction.document.value = correction.value;
   return correction;
 }

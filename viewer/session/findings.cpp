@@ -13,8 +13,9 @@ void Findings::setCheck(Json answer, std::vector<WorkItem> work,
                         std::shared_ptr<const formats::Case> of) {
   const std::lock_guard lock(m_mutex);
   m_check = std::move(answer);
-  m_firstWork += m_work.size();
-  m_work = std::move(work);
+  m_firstItem += m_items.size();
+  m_items = std::move(work);
+  m_work = nullptr;
   m_worked = nullptr;
   m_checked = std::move(of);
 }
@@ -38,45 +39,43 @@ void Findings::setMeasures(std::string name, std::vector<convert::MeasureTable> 
 
 void Findings::clear() {
   const std::lock_guard lock(m_mutex);
-  m_check = m_figures = nullptr;
-  m_firstWork += m_work.size();
-  m_work.clear();
+  m_check = m_figures = m_work = nullptr;
+  m_firstItem += m_items.size();
+  m_items.clear();
   m_measures = {};
   m_tables = {};
   m_checked = m_compared = m_truth = m_worked = m_measured = nullptr;
 }
 
-Json Findings::check() const {
+void Findings::addTo(Json& state, const Document& document) const {
   const std::lock_guard lock(m_mutex);
-  return m_check;
-}
-
-Json Findings::work(const Document& document) const {
-  const std::lock_guard lock(m_mutex);
-  if (!m_check.is_object() || !document.value) return nullptr;
+  const bool isChecked = m_check.is_object();
   if (m_worked != document.value) {
-    m_workJson = workJson(m_work, m_firstWork, *document.value);
+    m_work = isChecked && document.value ? workJson(m_items, m_firstItem, *document.value)
+                                         : Json(nullptr);
     m_worked = document.value;
   }
-  return m_workJson;
+  state["check"] = m_check;
+  state["work"] = m_work;
+  state["checkIsOld"] = isChecked && m_checked != document.value;
+  state["figures"] = lockedFigures(document);
 }
 
 WorkItem Findings::workItem(std::size_t number) const {
   const std::lock_guard lock(m_mutex);
-  if (number < m_firstWork)
+  if (number < m_firstItem)
     throw Conflict("the case was checked again meanwhile; look, and try again");
-  if (number - m_firstWork >= m_work.size()) refuse("the check has no place with that number");
-  return m_work[number - m_firstWork];
+  if (number - m_firstItem >= m_items.size()) refuse("the check has no place with that number");
+  return m_items[number - m_firstItem];
 }
 
-bool Findings::isCheckOld(const Document& document) const {
-  const std::lock_guard lock(m_mutex);
-  return m_check.is_object() && m_checked != document.value;
+Json Findings::lockedFigures(const Document& document) const {
+  return m_compared == document.value && m_truth == document.truth ? m_figures : Json(nullptr);
 }
 
 Json Findings::figures(const Document& document) const {
   const std::lock_guard lock(m_mutex);
-  return m_compared == document.value && m_truth == document.truth ? m_figures : Json(nullptr);
+  return lockedFigures(document);
 }
 
 Tagged Findings::measures() const {

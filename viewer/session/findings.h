@@ -27,16 +27,13 @@ public:
                    std::shared_ptr<const formats::Case> of);
   void clear();
 
-  /// Null if there was no check; it may be about an earlier case.
-  [[nodiscard]] Json check() const;
-  /// The places that the last check leaves to a person in the case of `document` (workJson()). Null
-  /// without a check or a case.
-  [[nodiscard]] Json work(const Document& document) const;
+  /// Adds the members of the state that are about `document`: "check", null if there was none, with
+  /// "checkIsOld" if it was about another case; "work", the places that it leaves to a person
+  /// (workJson()); and "figures".
+  void addTo(Json& state, const Document& document) const;
   /// The item of the last check with that number, which no item of another check has. Throws Error(Usage)
   /// if there is none, and Conflict for one of an earlier check.
   [[nodiscard]] WorkItem workItem(std::size_t number) const;
-  /// Whether the check was about another case than that of `document`.
-  [[nodiscard]] bool isCheckOld(const Document& document) const;
   /// Null if there was no comparison of the case and the truth of `document`.
   [[nodiscard]] Json figures(const Document& document) const;
   /// The tables of measures as measuresJson() has them; null if there are none. They may be about an
@@ -49,16 +46,19 @@ public:
   [[nodiscard]] bool areMeasuresOld(const Document& document) const;
 
 private:
+  /// Call it with the mutex held.
+  [[nodiscard]] Json lockedFigures(const Document& document) const;
+
   mutable std::mutex m_mutex;  ///< guards all that follow
   Json m_check, m_figures;
-  std::vector<WorkItem> m_work;
-  std::size_t m_firstWork = 0;  ///< number of the first item
+  std::vector<WorkItem> m_items;
+  std::size_t m_firstItem = 0;  ///< its number
   Tagged m_measures;
   convert::MeasuredCase m_tables;
   std::uint64_t m_measurings = 0;
   std::shared_ptr<const formats::Case> m_checked, m_compared, m_truth, m_measured;
-  mutable std::shared_ptr<const formats::Case> m_worked;  ///< case that m_workJson is of, or null
-  mutable Json m_workJson;
+  mutable std::shared_ptr<const formats::Case> m_worked;  ///< the case that m_work is of, or null
+  mutable Json m_work;
 };
 
 }  // namespace lumen::viewer

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/shown_text.h"
 #include "viewer/session/document/arguments.h"
 
 namespace lumen::viewer {
@@ -21,8 +22,7 @@ constexpr std::chrono::milliseconds kInterval{100};  // as often as a page redra
 /// Reports to the pages how far a job is.
 class JobProgress : public Progress {
 public:
-  JobProgress(EventHub& events, int job, const std::function<std::string(std::string_view)>& text)
-      : m_events(events), m_job(job), m_text(text) {}
+  JobProgress(EventHub& events, int job) : m_events(events), m_job(job) {}
 
   void begin(std::string_view stage, std::size_t total) override {
     {
@@ -44,7 +44,7 @@ public:
   }
 
   void warn(std::string_view message) override {
-    m_events.send("message", {{"severity", "warning"}, {"text", m_text(message)}});
+    m_events.send("message", {{"severity", "warning"}, {"text", messageText(message)}});
   }
 
 private:
@@ -61,7 +61,6 @@ private:
 
   EventHub& m_events;
   const int m_job;
-  const std::function<std::string(std::string_view)>& m_text;
   std::mutex m_mutex;  ///< guards the next
   std::string m_stage;
   std::atomic<std::size_t> m_total{0}, m_done{0};
@@ -74,9 +73,8 @@ Conflict busyWith(const RunningJob& running) {
 
 }  // namespace
 
-JobRunner::JobRunner(EventHub& events, std::function<std::string(std::string_view)> text,
-                     std::function<void()> changed)
-    : m_events(events), m_text(std::move(text)), m_changed(std::move(changed)) {}
+JobRunner::JobRunner(EventHub& events, std::function<void()> changed)
+    : m_events(events), m_changed(std::move(changed)) {}
 
 JobRunner::~JobRunner() {
   cancelAll();
@@ -90,7 +88,7 @@ int JobRunner::start(const std::string& name, bool changes, Work work) {
     const std::lock_guard lock(m_mutex);
     if (m_running) throw busyWith(*m_running);
     job = ++m_last;
-    m_progress = std::make_unique<JobProgress>(m_events, job, m_text);
+    m_progress = std::make_unique<JobProgress>(m_events, job);
     m_running = RunningJob{job, name, changes};
     ended = std::move(m_thread);
   }
@@ -129,11 +127,12 @@ void JobRunner::run(int job, const Work& work, Progress& progress) {
   } catch (const Error& error) {
     const bool cancelled = error.kind() == ErrorKind::Cancelled;
     done["cancelled"] = cancelled;
-    done["text"] = cancelled ? std::string("cancelled; nothing has changed") : m_text(error.what());
+    done["text"] =
+        cancelled ? std::string("cancelled; nothing has changed") : messageText(error.what());
   } catch (const std::bad_alloc&) {
     done["text"] = "there is not enough memory";
   } catch (const std::exception& error) {
-    done["text"] = m_text(std::string("unexpected: ") + error.what());
+    done["text"] = messageText(std::string("unexpected: ") + error.what());
   }
   end();
   try {

@@ -8,7 +8,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <thread>
 
 #include "converters/base/progress.h"
@@ -28,10 +27,8 @@ public:
   /// Throws as a stage; returns the sentence that reports the outcome.
   using Work = std::function<std::string(Progress&)>;
 
-  /// `changed` is called, without any lock, when a job has begun or ended. `text` makes every
-  /// message fit for a page.
-  JobRunner(EventHub& events, std::function<std::string(std::string_view)> text,
-            std::function<void()> changed);
+  /// `changed` is called, without any lock, when a job has begun or ended.
+  JobRunner(EventHub& events, std::function<void()> changed);
   /// Cancels the running job and waits for its end.
   ~JobRunner();
   JobRunner(const JobRunner&) = delete;
@@ -54,7 +51,6 @@ private:
   void end();
 
   EventHub& m_events;
-  const std::function<std::string(std::string_view)> m_text;
   const std::function<void()> m_changed;
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::condition_variable m_ended;

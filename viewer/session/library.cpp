@@ -65,14 +65,11 @@ CaseList casesIn(const fs::path& folder) {
   return list;
 }
 
-Library::Library(CaseList list, std::function<void()> more)
-    : m_list(std::move(list)), m_more(std::move(more)), m_figures(m_list.cases.size()) {}
-
-Library::~Library() {
-  end();
-}
-
-void Library::start() {
+void Library::open(CaseList list, std::function<void()> more) {
+  m_list = std::move(list);
+  m_more = std::move(more);
+  m_figures.resize(m_list.cases.size());
+  m_isOpen = true;
   m_thread = std::thread([this] { read(); });
 }
 
@@ -106,7 +103,9 @@ void Library::read() {
   }
 }
 
-Json Library::json() const {
+Tagged Library::pack() const {
+  if (!m_isOpen) return {};
+  const std::size_t read = m_read;  // before the figures: never newer than they are
   Json list = Json::array();
   const std::lock_guard lock(m_mutex);
   for (std::size_t i = 0; i < m_list.cases.size(); ++i) {
@@ -122,34 +121,16 @@ Json Library::json() const {
     }
     list.push_back(std::move(entry));
   }
-  return {{"name", m_list.name}, {"cases", std::move(list)}};
+  return tagged(std::to_string(read),
+                jsonText({{"name", m_list.name}, {"cases", std::move(list)}}));
 }
 
-void OpenLibrary::open(CaseList list, std::function<void()> more) {
-  m_library = std::make_unique<Library>(std::move(list), std::move(more));
-  m_library->start();
-}
-
-void OpenLibrary::end() {
-  if (m_library) m_library->end();
-}
-
-Tagged OpenLibrary::pack() const {
-  if (!m_library) return {};
-  const std::size_t read = m_library->readCount();  // before the figures: never newer than they are
-  return tagged(std::to_string(read), jsonText(m_library->json()));
-}
-
-std::uint64_t OpenLibrary::revision() const {
-  return m_library ? m_library->readCount() + 1 : 0;
-}
-
-void OpenLibrary::setOpenCase(std::size_t index) {
+void Library::setOpenCase(std::size_t index) {
   const std::lock_guard lock(m_mutex);
   m_openCase = index;
 }
 
-std::optional<std::size_t> OpenLibrary::openCase() const {
+std::optional<std::size_t> Library::openCase() const {
   const std::lock_guard lock(m_mutex);
   return m_openCase;
 }

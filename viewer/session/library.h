@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -42,28 +41,33 @@ struct CaseList {
 /// its format.
 CaseList casesIn(const std::filesystem::path& folder);
 
-/// A list of cases, each of which is read in the background for its figures. All calls are
-/// thread-safe.
+/// The list of cases that the page chooses from, if there is one, and the open case of it. Each is
+/// read in the background for its figures. All calls are thread-safe.
 class Library {
 public:
-  /// `more` is called, without any lock, when more figures are there.
-  Library(CaseList list, std::function<void()> more);
-  ~Library();
-  /// Begins to read the cases.
-  void start();
-  /// Ends reading for good; `more` is not called any more.
-  void end();
+  Library() = default;
+  ~Library() { end(); }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
+  /// Begins to read the cases; `more` is called, without any lock, when more figures are there. Once,
+  /// before any other call.
+  void open(CaseList list, std::function<void()> more);
+  /// Ends reading for good; `more` is not called any more.
+  void end();
+
+  [[nodiscard]] bool isOpen() const { return m_isOpen; }
   /// {"name", "cases": [{"name", "branches", "length", "error"}]}; figures are null until the case
-  /// has been read, and stay null for one that cannot be read, whose "error" is the reason.
-  [[nodiscard]] Json json() const;
+  /// has been read, and stay null for one that cannot be read, whose "error" is the reason. Empty if
+  /// no list is open.
+  [[nodiscard]] Tagged pack() const;
+  /// Counts up as cases are read; 0 without a list.
+  [[nodiscard]] std::uint64_t revision() const { return isOpen() ? m_read + 1 : 0; }
   [[nodiscard]] std::size_t size() const { return m_list.cases.size(); }
   [[nodiscard]] const ListedCase& at(std::size_t index) const { return m_list.cases[index]; }
   [[nodiscard]] bool isPublished() const { return m_list.isPublished; }
-  /// The number of cases that have been read.
-  [[nodiscard]] std::size_t readCount() const { return m_read; }
+  void setOpenCase(std::size_t index);
+  [[nodiscard]] std::optional<std::size_t> openCase() const;
 
 private:
   struct Figures {
@@ -73,37 +77,14 @@ private:
   };
   void read();
 
-  const CaseList m_list;
-  const std::function<void()> m_more;
-  mutable std::mutex m_mutex;  ///< guards the figures
+  CaseList m_list;
+  std::function<void()> m_more;
+  std::atomic<std::size_t> m_read{0};  ///< number of cases that have been read
+  std::atomic<bool> m_isOpen{false}, m_ended{false};
+  mutable std::mutex m_mutex;  ///< guards the next two
   std::vector<std::optional<Figures>> m_figures;
-  std::atomic<std::size_t> m_read{0};
-  std::atomic<bool> m_ended{false};
-  std::thread m_thread;
-};
-
-/// The library that the page chooses from, if there is one, and the open case of it. All calls are
-/// thread-safe.
-class OpenLibrary {
-public:
-  /// Once, before any other call.
-  void open(CaseList list, std::function<void()> more);
-  /// Ends reading for good.
-  void end();
-
-  /// Null if none is open.
-  [[nodiscard]] const Library* library() const { return m_library.get(); }
-  /// The list of cases as JSON.
-  [[nodiscard]] Tagged pack() const;
-  /// Counts up as cases are read; 0 without a library.
-  [[nodiscard]] std::uint64_t revision() const;
-  void setOpenCase(std::size_t index);
-  [[nodiscard]] std::optional<std::size_t> openCase() const;
-
-private:
-  std::unique_ptr<Library> m_library;
-  mutable std::mutex m_mutex;  ///< guards the next
   std::optional<std::size_t> m_openCase;
+  std::thread m_thread;
 };
 
 }  // namespace lumen::viewer

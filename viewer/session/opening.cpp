@@ -6,16 +6,16 @@
 
 #include "converters/base/error.h"
 #include "converters/engine/answers/answer_text.h"
-#include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
+#include "converters/engine/source_input.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/content/file_content.h"
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/operations/case_of.h"
+#include "viewer/session/document/arguments.h"
 #include "viewer/session/document/document_seeds.h"
-#include "viewer/session/packs/surface_pack.h"
 
 namespace lumen::viewer {
 
@@ -31,7 +31,8 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
   if (!inVoxels) return seeds;
   if (volume == nullptr)
     throw invalidInput(opening.label + ": these seeds are in voxels; open their volume first");
-  auto result = convert::placeSeeds(seeds, volume->geometry, opening.path, engine::optionWord());
+  auto result =
+      convert::placeSeeds(seeds, volume->geometry, opening.file.path(), engine::optionWord());
   for (const convert::SeedFailure& failure : result.leftOut)
     progress.warn(opening.label + ": seed \"" + failure.label +
                   "\" is left out: " + failure.reason);
@@ -40,25 +41,27 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
 
 formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
                      const engine::VolumeArguments& volume, Progress& progress) {
-  if (format.kind == engine::FormatKind::Case) return format.readCase(opening.path);
-  const auto loaded = engine::loadCenterline(opening.path, format, volume, {}, progress);
-  operations::Source source;
+  if (format.kind == engine::FormatKind::Case) return format.readCase(opening.file);
+  operations::Source source =
+      engine::loadSource(opening.file, format, {volume, {}, {}, {}}, false, progress);
   source.name = opening.label;
-  source.centerline = operations::CenterlinePart{loaded.file, opening.label};
   operations::CaseOptions options;
   options.models.emplace();
   return operations::caseOf(std::move(source), options, engine::operationContext(progress)).value;
 }
 
-/// A mesh in mm. The arguments state its unit, and from where a scene may take it.
-convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& arguments) {
-  const engine::FileFormat& format = engine::inputFormat(opening.path, "");
-  convert::MeshFile mesh = format.readScene != nullptr
-                               ? format.readScene(opening.path, {{}, arguments.allowDetached})
-                               : format.readMesh(opening.path);
-  const auto unit = engine::millimetresByUnit().find(arguments.unit);
-  if (unit != engine::millimetresByUnit().end()) mesh.unitMm = unit->second;
-  return inMillimetres(std::move(mesh));
+/// A mesh in mm, as one without a unit is taken to be. The arguments state its unit, and from where a
+/// scene may take it.
+convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& arguments,
+                         Progress& progress) {
+  const engine::FileFormat& format = engine::inputFormat(opening.file, "");
+  convert::MeshFile mesh =
+      engine::loadMesh(opening.file, format, {{}, arguments.allowDetached}, progress).file;
+  const double unit = arguments.options().unit.value_or(mesh.unitMm);
+  if (unit > 0)
+    for (Eigen::Vector3d& p : mesh.mesh.position) p *= unit;
+  mesh.unitMm = 1;
+  return mesh;
 }
 
 /// A volume. Files of a folder of DICOM that cannot be read are left out, and reported.
@@ -68,7 +71,7 @@ std::shared_ptr<const convert::Volume> volumeOf(const Opening& opening,
   if (!opening.series.empty()) arguments.series = opening.series;
   arguments.skipFaulty = true;
   return std::make_shared<const convert::Volume>(
-      engine::loadVolume(opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
+      engine::loadVolume(opening.file, engine::inputFormat(opening.file, ""), arguments, progress));
 }
 
 /// Options of the command line are for the first volume. A second one keeps where its header may
@@ -91,7 +94,8 @@ void closeSecond(Document& document) {
 
 Document add(Document document, const Opening& opening, FileRole role, int id,
              const engine::VolumeArguments& arguments, Progress& progress) {
-  const FileStamp stamp = readFileStamp(opening.path);
+  const fs::path named = opening.file.isInMemory() ? fs::path() : opening.file.path();
+  const FileStamp stamp = readFileStamp(named);
   switch (role) {
     case FileRole::Volume:
       document.volume = volumeOf(opening, arguments, progress);
@@ -101,8 +105,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
       break;
     case FileRole::Second:
       if (!document.volume)
-        throw Error(ErrorKind::Usage,
-                    opening.label + ": open the volume first that it is to be seen beside");
+        refuse(opening.label + ": open the volume first that it is to be seen beside");
       document.second = volumeOf(opening, secondArguments(arguments), progress);
       document.secondSource =
           std::make_shared<const formats::SourceVolume>(convert::describeSource(*document.second));
@@ -110,7 +113,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Case:
     case FileRole::Truth: {
       auto value = std::make_shared<const formats::Case>(
-          caseOf(opening, engine::inputFormat(opening.path, ""), arguments, progress));
+          caseOf(opening, engine::inputFormat(opening.file, ""), arguments, progress));
       if (role == FileRole::Truth) {
         document.truth = std::move(value);
         break;
@@ -123,34 +126,32 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Seeds:
       document.seeds =
           joined(placed(document.volume.get(),
-                        convert::readSeeds(opening.path, engine::TrackArguments().reading()),
+                        convert::readSeeds(opening.file, engine::TrackArguments().reading()),
                         opening, progress),
                  trackedSeeds(document));
       break;
     case FileRole::Mesh:
       document.meshes.push_back(
           {id, opening.label,
-           std::make_shared<const convert::MeshFile>(meshOf(opening, arguments))});
+           std::make_shared<const convert::MeshFile>(meshOf(opening, arguments, progress))});
       break;
   }
   if (role != FileRole::Mesh) dropFiles(document, role);
-  document.files.push_back({id, role, opening.label, opening.dropped ? fs::path() : opening.path,
-                            stamp, opening.series});
+  document.files.push_back({id, role, opening.label, named, stamp, opening.series});
   return document;
 }
 
 }  // namespace
 
 FileRole openingRole(const Opening& opening) {
-  engine::requireInput(opening.path, "file");
-  if (convert::detectContent(opening.path).kind == convert::ContentKind::Seeds)
+  if (!opening.file.isInMemory()) engine::requireInput(opening.file.path(), "file");
+  if (convert::detectContent(opening.file).kind == convert::ContentKind::Seeds)
     return FileRole::Seeds;
-  const engine::FileFormat& format = engine::inputFormat(opening.path, "");
+  const engine::FileFormat& format = engine::inputFormat(opening.file, "");
   if (opening.as == OpenAs::Truth && format.kind != engine::FormatKind::Case)
-    throw Error(ErrorKind::Usage, opening.label + ": the truth must be a case");
+    refuse(opening.label + ": the truth must be a case");
   if (opening.as == OpenAs::Second && format.kind != engine::FormatKind::Volume)
-    throw Error(ErrorKind::Usage,
-                opening.label + ": only a volume can be seen beside the first volume");
+    refuse(opening.label + ": only a volume can be seen beside the first volume");
   switch (format.kind) {
     case engine::FormatKind::Volume:
       return opening.as == OpenAs::Second ? FileRole::Second : FileRole::Volume;
@@ -172,8 +173,7 @@ Document withoutFile(const Document& document, int id) {
   Document result = document;
   const auto file = std::find_if(result.files.begin(), result.files.end(),
                                  [id](const OpenFile& f) { return f.id == id; });
-  if (file == result.files.end())
-    throw Error(ErrorKind::Usage, "no file of number " + std::to_string(id) + " is open");
+  if (file == result.files.end()) refuse("no file of number " + std::to_string(id) + " is open");
   const FileRole role = file->role;
   switch (role) {
     case FileRole::Volume:

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -22,12 +21,11 @@ enum class OpenAs : std::uint8_t {
 };
 
 struct Opening {
-  std::filesystem::path path;
-  std::string label;     ///< its name in messages
-  bool dropped = false;  ///< its bytes came from the page; `path` is temporary
+  InputFile file;  ///< in memory if it came from the page
+  std::string label;        ///< its name in messages
   OpenAs as = OpenAs::Auto;
-  std::string series{};                       ///< instance UID, of a folder of DICOM
-  std::shared_ptr<const DroppedFile> kept{};  ///< keeps a dropped folder while it is read
+  std::string series{};                         ///< instance UID, of a folder of DICOM
+  std::shared_ptr<const DroppedFiles> bytes{};  ///< of a file in memory
 };
 
 /// The role of the file, by its content and the ending of its name. Throws Error(Unsupported) for a

@@ -1,42 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations that pages ask for.
+// Operations that pages ask for (viewer/README.md). Each answers {"revision"}, or {"job"} for work
+// that takes long. `from` is the document as the page saw it. Each throws Error(Usage) for a request
+// that does not fit it, and Conflict. One call at a time.
 #pragma once
 
-#include <memory>
-#include <mutex>
 #include <string>
 
-#include "viewer/session/file_operations.h"
-#include "viewer/session/stage_jobs.h"
-#include "viewer/session/workspace.h"
+#include "viewer/session/corrections.h"
+#include "viewer/session/session.h"
 
 namespace lumen::viewer {
 
-/// Takes requests one at a time: no other request comes between the look at the document and the
-/// change of it, or the start of the job that will change it. All calls are thread-safe.
-class Operations {
-public:
-  explicit Operations(Workspace& workspace)
-      : m_workspace(workspace), m_files(workspace), m_stages(workspace) {}
+using PageOperation = Json(Session& session, const Arguments& request, const Moment& from);
 
-  /// Runs the operation of a request (viewer/README.md): {"revision"} or {"job"}. Throws Conflict,
-  /// Error(Usage) for a request that does not fit the document, and as the stages.
-  Json run(formats::JsonValue request);
-  /// Opens a dropped file as a job: {"job"}.
-  Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, OpenAs as);
+/// The operation of that name. Throws as the stages, too.
+Json runOperation(Session& session, const std::string& op, const Arguments& request,
+                  const Moment& from);
 
-private:
-  Json change(const std::string& op, const Arguments& request, const Moment& from);
-  Json acceptVolume(const Moment& from);
-  /// Ignores a place of the check, or stops ignoring one.
-  Json decide(const std::string& op, const Arguments& request, const Moment& from);
-  Json reject(const Arguments& request, const Moment& from);
-  Json step(bool forward);
+// Files (file_operations.cpp).
 
-  Workspace& m_workspace;
-  FileOperations m_files;
-  StageJobs m_stages;
-  std::mutex m_gate;  ///< held while a request is taken, not while its job runs
-};
+/// Looks through dropped files of DICOM: opens their only series, or lets pages choose.
+PageOperation listSeries;
+/// One of the listed series, as the volume or as the second one.
+PageOperation openSeries;
+PageOperation closeSeries;
+/// Opens a case of the library in place of all that is open.
+PageOperation openCase;
+PageOperation reload;
+PageOperation closeFile;
+PageOperation save;
+/// Takes the unsaved work of an earlier program, or removes it.
+PageOperation recover;
+PageOperation forget;
+
+// Stages of the chain as jobs (stage_jobs.cpp).
+
+PageOperation track;
+/// Places a seed and tracks it, as one change.
+PageOperation trackFrom;
+/// Finds the vessels that the case lacks: they become the proposals.
+PageOperation find;
+/// Makes vessels of proposals, and fits them.
+PageOperation accept;
+/// Fits all models anew.
+PageOperation fit;
+PageOperation check;
+PageOperation compare;
+PageOperation measure;
+/// Fits the stale models of a correction, and then commits it.
+Json refit(Session& session, Correction correction, const Moment& from);
 
 }  // namespace lumen::viewer

@@ -64,19 +64,9 @@ Case readyToGrow(const Case& known, std::vector<std::string>& dropped) {
 
 }  // namespace
 
-std::set<std::string> takenLabels(const Document& document) {
-  std::set<std::string> labels;
-  if (document.value)
-    for (const formats::Branch& branch : document.value->tree.branches) labels.insert(branch.label);
-  for (const convert::SeedBranch& seed : *document.seeds) labels.insert(seed.label);
-  return labels;
-}
-
 std::string freeLabel(const std::string& label, const std::set<std::string>& taken) {
-  if (!taken.contains(label)) return label;
-  const std::string stem = label.substr(0, label.find_last_of('-'));
-  for (std::size_t i = 1;; ++i)
-    if (std::string name = stem + "-" + std::to_string(i); !taken.contains(name)) return name;
+  return taken.contains(label) ? numberedLabel(label.substr(0, label.find_last_of('-')), taken)
+                               : label;
 }
 
 Joints::Joints(const Case& proposals) : m_at(proposals.tree.nodeCount()) {

@@ -14,9 +14,6 @@
 
 namespace lumen::viewer {
 
-/// The names of the vessels and of the seeds of a document.
-std::set<std::string> takenLabels(const Document& document);
-
 /// A name that is not `taken`: the label, or its stem with the first number that is free.
 std::string freeLabel(const std::string& label, const std::set<std::string>& taken);
 

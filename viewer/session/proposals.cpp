@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "converters/base/error.h"
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/text.h"
 #include "converters/base/tree_figures.h"
@@ -101,8 +100,7 @@ std::shared_ptr<const Case> proposalsFor(const Document& document,
 }
 
 std::vector<bool> chosenProposals(const Document& document, const Arguments& request) {
-  if (!document.proposals)
-    throw Error(ErrorKind::Usage, "no vessel is proposed; find vessels first");
+  if (!document.proposals) refuse("no vessel is proposed; find vessels first");
   const auto& branches = document.proposals->tree.branches;
   if (!request.has("labels")) return std::vector<bool>(branches.size(), true);
   std::vector<bool> chosen(branches.size(), false);
@@ -110,8 +108,7 @@ std::vector<bool> chosenProposals(const Document& document, const Arguments& req
     const auto found = std::find_if(branches.begin(), branches.end(),
                                     [&label](const auto& branch) { return branch.label == label; });
     if (found == branches.end())
-      throw Error(ErrorKind::Usage,
-                  "no proposal has the name \"" + formats::printable(label) + "\"");
+      refuse("no proposal has the name \"" + formats::printable(label) + "\"");
     chosen[static_cast<std::size_t>(found - branches.begin())] = true;
   }
   return chosen;

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -17,32 +17,23 @@
 
 namespace lumen::viewer {
 
-/// A folder that the user has named, or one that holds dropped files, which goes with this object.
-struct SeriesFolder {
-  std::filesystem::path path;
-  std::string label;                        ///< for people; any text
-  std::shared_ptr<const DroppedFile> kept;  ///< null for a folder that was named
-};
-
 /// Takes files that are dropped one after the other, and keeps the listing of a folder until
 /// another one comes. All calls are thread-safe.
 class SeriesChoice {
 public:
   static constexpr std::size_t kMostFiles = 20000;  ///< limit: of one batch
 
-  explicit SeriesChoice(DroppedFiles& dropped) : m_dropped(dropped) {}
+  /// Takes one more file of the batch with that number; another number begins a new batch. `name` is
+  /// a label; `read` gives its bytes, at most `bytes`. Throws Error(Usage) for more than `mostBytes`
+  /// in a batch, or more than kMostFiles, and as `read`.
+  void take(std::int64_t batch, const std::string& name, std::uint64_t bytes,
+            std::uint64_t mostBytes, const std::function<std::string()>& read);
+  /// The files of that batch, which ends. Throws Error(Usage) if there is none.
+  std::shared_ptr<const DroppedFiles> end(std::int64_t batch);
 
-  /// A place for one more file of the batch with that number; another number begins a new batch.
-  /// `name` is a label; `bytes` its size. Throws Error(Usage) for more than `mostBytes` in a batch,
-  /// or more than kMostFiles.
-  std::filesystem::path placeFor(std::int64_t batch, const std::string& name, std::uint64_t bytes,
-                                 std::uint64_t mostBytes);
-  /// The folder of that batch, which ends. Throws Error(Usage) if there is none.
-  SeriesFolder take(std::int64_t batch);
-
-  /// Pages choose among these from now on.
-  void offer(SeriesFolder folder, convert::DicomListing listing);
-  void clear();
+  /// Pages choose among these series of `folder` from now on.
+  void offer(Opening folder, convert::DicomListing listing);
+  void clear() { offer({"", {}}, {}); }
   /// How to open a series of the listing whose revision is `of` in the request. Throws Error(Usage) if
   /// there is none, and Conflict if the listing is another one.
   [[nodiscard]] Opening opening(const Arguments& request, const char* name) const;
@@ -54,13 +45,12 @@ public:
   [[nodiscard]] Tagged picture(std::size_t index) const;
 
 private:
-  DroppedFiles& m_dropped;
   mutable std::mutex m_mutex;  ///< guards all that follow
-  std::shared_ptr<const DroppedFile> m_batch;
+  std::shared_ptr<DroppedFiles> m_batch;
   std::int64_t m_batchNumber = -1;
   std::size_t m_files = 0;
   std::uint64_t m_bytes = 0, m_revision = 0;
-  SeriesFolder m_folder;
+  Opening m_folder{"", {}};  ///< without a name: there is none
   convert::DicomListing m_listing;
 };
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "converters/base/error.h"
 #include "converters/base/options/edit_steps.h"
 #include "converters/judge/check/check.h"
 #include "formats/container/printable.h"
+#include "viewer/session/document/arguments.h"
 
 namespace lumen::viewer {
 
@@ -78,13 +78,11 @@ std::optional<std::string> otherSource(const Document& document) {
 
 void requireOneSource(const Document& document) {
   if (const auto other = otherSource(document))
-    throw Error(ErrorKind::Usage,
-                *other + ". Close one of them, or answer that they belong to one patient");
+    refuse(*other + ". Close one of them, or answer that they belong to one patient");
 }
 
 Document withAcceptedVolume(const Document& document) {
-  if (!otherSource(document))
-    throw Error(ErrorKind::Usage, "the case is not of another volume than the one that is open");
+  if (!otherSource(document)) refuse("the case is not of another volume than the one that is open");
   auto value = std::make_shared<formats::Case>(*document.value);
   addStep(value->metadata,
           {kAcceptStep, "lumen " LUMEN_VERSION, {{kDigest, document.volumeSource->sha256}}});

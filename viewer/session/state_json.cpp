@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// workspace.h: the state as pages get it.
+// session.h: the state as pages get it.
 #include <set>
 #include <string_view>
 
@@ -9,8 +9,8 @@
 #include "formats/container/printable.h"
 #include "viewer/session/document/document_seeds.h"
 #include "viewer/session/proposals.h"
+#include "viewer/session/session.h"
 #include "viewer/session/source_match.h"
-#include "viewer/session/workspace.h"
 
 namespace lumen::viewer {
 
@@ -21,12 +21,12 @@ Json orNull(const std::optional<std::string>& text) {
 }
 
 Json seedsJson(const Document& document) {
-  const auto labels = vesselLabels(document);
+  const auto labels = vesselLabels(document.value);
   Json list = Json::array();
   for (const convert::SeedBranch& seed : *document.seeds) {
     Json points = Json::array();
     for (const convert::SeedPoint& point : seed.points)
-      points.push_back({{"position", {point.position.x(), point.position.y(), point.position.z()}},
+      points.push_back({{"position", engine::vectorJson(point.position)},
                         {"radius", point.radius ? Json(*point.radius) : Json(nullptr)}});
     list.push_back({{"label", seed.label},
                     {"kind", formats::enumName(formats::kBranchKindNames, seed.kind)},
@@ -78,8 +78,8 @@ std::string makeTitle(const Document& document) {
   return "lumen";
 }
 
-Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
-  const std::uint64_t surface = workspace.surfaces.revision();
+Json revisionsJson(const Session& session, const PartRevisions& parts) {
+  const std::uint64_t surface = session.surfaces.revision();
   return {{"case", parts.value},
           {"surface", surface},
           {"volume", parts.volume},
@@ -88,9 +88,9 @@ Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
           {"proposals", parts.proposals},
           {"meshes", parts.meshes},
           {"truth", parts.truth},
-          {"library", workspace.library.revision()},
-          {"measures", workspace.findings.measuresRevision()},
-          {"series", workspace.series.revision()},
+          {"library", session.library.revision()},
+          {"measures", session.findings.measuresRevision()},
+          {"series", session.series.revision()},
           // of a surface and a truth
           {"distance", surface + parts.truth}};
 }
@@ -112,13 +112,12 @@ Json unsavedJson(const std::vector<std::filesystem::path>& files,
 
 }  // namespace
 
-Json Workspace::state() const {
-  const Workspace& workspace = *this;
-  const Moment now = workspace.history.now();
+Json Session::state() const {
+  const Moment now = history.now();
   const Document& document = now.document;
   Json json;
   json["revision"] = now.revision;
-  json["revisions"] = revisionsJson(workspace, now.parts);
+  json["revisions"] = revisionsJson(*this, now.parts);
   json["title"] = makeTitle(document);
   json["hasVolume"] = document.volume != nullptr;
   json["hasCase"] = document.value != nullptr;
@@ -131,28 +130,25 @@ Json Workspace::state() const {
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);
   json["proposals"] = proposalsJson(document);
-  json["undo"] = orNull(workspace.history.undoName());
-  json["redo"] = orNull(workspace.history.redoName());
-  json["unsaved"] = workspace.saving.unsaved(document).any();
-  const auto running = workspace.jobs.running();
+  json["undo"] = orNull(history.undoName());
+  json["redo"] = orNull(history.redoName());
+  json["unsaved"] = saving.unsaved(document).any();
+  const auto running = jobs.running();
   json["job"] = running ? Json({{"job", running->job}, {"name", running->name}}) : Json(nullptr);
   json["formats"] = formatsJson(document);
-  json["files"] = filesJson(document, workspace.changedFiles.ids());
-  const auto openCase = workspace.library.openCase();
+  json["files"] = filesJson(document, changedFiles.ids());
+  const auto openCase = library.openCase();
   json["openCase"] = openCase ? Json(*openCase) : Json(nullptr);
-  const auto target = workspace.saving.target(document);
-  json["series"] = workspace.series.json();
-  json["unsavedBefore"] = unsavedJson(workspace.unsavedWork.found(), target);
+  const auto target = saving.target(document);
+  json["series"] = series.json();
+  json["unsavedBefore"] = unsavedJson(unsavedWork.found(), target);
   json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
-  json["check"] = workspace.findings.check();
-  json["work"] = workspace.findings.work(document);
-  json["checkIsOld"] = workspace.findings.isCheckOld(document);
-  json["figures"] = workspace.findings.figures(document);
-  const auto& look = workspace.options.look;
-  json["look"] = look ? Json({look->x(), look->y(), look->z()}) : Json(nullptr);
-  const auto& time = workspace.options.time;
+  findings.addTo(json, document);
+  const auto& look = options.look;
+  json["look"] = look ? engine::vectorJson(*look) : Json(nullptr);
+  const auto& time = options.time;
   json["time"] = time ? Json(*time) : Json(nullptr);
-  json["measuresAreOld"] = workspace.findings.areMeasuresOld(document);
+  json["measuresAreOld"] = findings.areMeasuresOld(document);
   return json;
 }
 

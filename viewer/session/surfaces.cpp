@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "converters/engine/answers/answer_text.h"
+#include "converters/operations/surface_of.h"
 #include "converters/stages/surface/to_surface_mesh.h"
 #include "viewer/session/packs/surface_pack.h"
 
@@ -55,9 +57,8 @@ void Surfaces::show(std::shared_ptr<const formats::Case> value) {
   const std::lock_guard lock(m_mutex);
   if (value == m_case) return;
   m_case = std::move(value);
-  m_quick.reset();
   m_levels = {};
-  m_failed = {};
+  m_hasFailed = {};
   m_isAsked = false;
   ++m_revision;
   if (m_progress) m_progress->cancel();
@@ -79,19 +80,18 @@ std::uint64_t Surfaces::revision() const {
 std::shared_ptr<const ReadySurface> Surfaces::get(int level) {
   {
     const std::lock_guard lock(m_mutex);
-    for (std::size_t l = static_cast<std::size_t>(level); l < kLevels; ++l)
-      if (m_levels[l]) return m_levels[l];
+    for (int l = level; l < kLevels; ++l)
+      if (m_levels[place(l)]) return m_levels[place(l)];
   }
   return quick();
 }
 
 void Surfaces::waitFor(int level, const Progress& progress) {
-  const auto l = static_cast<std::size_t>(level);
   std::unique_lock lock(m_mutex);
   m_isAsked = true;
   m_wake.notify_all();
   while (!m_wake.wait_for(lock, kCancelCheckInterval, [&] {
-    return !hasSurface(m_case) || !m_allowed || m_ended || m_levels[l] || m_failed[l];
+    return !hasSurface(m_case) || !m_allowed || m_ended || isTried(level);
   }))
     progress.check();
 }
@@ -112,14 +112,14 @@ std::shared_ptr<const ReadySurface> Surfaces::readyQuick() {
   {
     const std::lock_guard lock(m_mutex);
     if (!hasSurface(m_case)) return nullptr;
-    if (m_quick) return m_quick;
+    if (m_levels[kQuick]) return m_levels[kQuick];
     value = m_case;
     number = ++m_number;
   }
   Progress silent;
-  auto made = make(*value, kLevels, number, silent);
+  auto made = make(*value, kQuick, number, silent);
   const std::lock_guard lock(m_mutex);
-  if (m_case == value) m_quick = made;
+  if (m_case == value) m_levels[kQuick] = made;
   return made;
 }
 
@@ -127,64 +127,57 @@ std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, i
                                                    std::uint64_t number, Progress& progress) {
   auto result = std::make_shared<ReadySurface>();
   result->tag = std::to_string(number);
-  convert::ClosedSurface made;
-  const bool isQuick = level >= kLevels;
+  operations::Surface made;
+  const bool isQuick = level == kQuick;
   if (isQuick) {
     made.levels.push_back(convert::quickSurface(value, progress));
   } else {
-    convert::ClosedSurfaceOptions options;
-    options.edge.share *= 1 << level;
-    made = convert::closedSurface(value, options, progress);
+    operations::SurfaceOptions options;
+    options.closed.edge.share *= 1 << level;
+    made = operations::surfaceOf(value, options, "", engine::operationContext(progress));
   }
   const std::optional<convert::MeshSkin> skin = skinOfFirst(value, made.levels);
-  result->pack = surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels},
-                             made.report, skin ? &*skin : nullptr);
+  result->pack =
+      surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels},
+                  made.report.value_or(convert::SurfaceReport{}), skin ? &*skin : nullptr);
   result->mesh = std::make_shared<const convert::SurfaceMesh>(std::move(made.levels.front()));
   return result;
+}
+
+int Surfaces::nextLevel() const {
+  if (!m_allowed || !hasSurface(m_case)) return -1;
+  if (!isTried(kQuick)) return kQuick;  // a page begins with it
+  int level = m_isAsked ? kLevels - 1 : -1;
+  while (level >= 0 && isTried(level)) --level;
+  return level;
 }
 
 void Surfaces::work() {
   std::unique_lock lock(m_mutex);
   while (!m_ended) {
-    if (hasSurface(m_case) && m_allowed && !m_quick && m_quickTried != m_case) {
-      // a page begins with the quick surface
-      m_quickTried = m_case;
-      lock.unlock();
-      try {
-        readyQuick();
-      } catch (const std::exception&) {
-        // a request for it gets the error
-      }
-      lock.lock();
-      continue;
-    }
-    int level = kLevels - 1;
-    const auto isDone = [this](int l) {
-      return m_levels[static_cast<std::size_t>(l)] || m_failed[static_cast<std::size_t>(l)];
-    };
-    while (level >= 0 && isDone(level)) --level;
-    if (level < 0 || !m_allowed || !m_isAsked || !hasSurface(m_case)) {
+    const int level = nextLevel();
+    if (level < 0) {
       m_wake.wait(lock);
       continue;
     }
     const auto value = m_case;
     const auto progress = std::make_shared<Progress>();
-    const std::uint64_t number = ++m_number;
+    const std::uint64_t number = level == kQuick ? 0 : ++m_number;
     m_progress = progress;
     lock.unlock();
     std::shared_ptr<const ReadySurface> made;
     try {
-      made = make(*value, level, number, *progress);
+      made = level == kQuick ? readyQuick() : make(*value, level, number, *progress);
     } catch (const std::exception&) {
-      // cancelled, or a case that has no such surface: the quick one stays
+      // cancelled, or a case that has no such surface: a request for the quick one gets the error
     }
     lock.lock();
     m_progress.reset();
     if (m_case != value || (!made && progress->cancelled())) continue;
-    m_failed[static_cast<std::size_t>(level)] = !made;
+    m_hasFailed[place(level)] = !made;
     m_wake.notify_all();
-    if (!made) continue;
-    m_levels[static_cast<std::size_t>(level)] = std::move(made);
+    if (!made || level == kQuick) continue;
+    m_levels[place(level)] = std::move(made);
     ++m_revision;
     m_wake.notify_all();
     lock.unlock();

@@ -56,7 +56,17 @@ public:
   [[nodiscard]] std::uint64_t revision() const;
 
 private:
+  static constexpr int kQuick = kLevels;  ///< behind the levels
+  static std::size_t place(int level) { return static_cast<std::size_t>(level); }
+
   void work();
+  // Call these with the mutex held.
+  [[nodiscard]] bool isTried(int level) const {
+    return m_levels[place(level)] || m_hasFailed[place(level)];
+  }
+  /// What the background is to make; -1: nothing.
+  [[nodiscard]] int nextLevel() const;
+
   std::shared_ptr<const ReadySurface> readyQuick();
   std::shared_ptr<const ReadySurface> make(const formats::Case& value, int level,
                                            std::uint64_t number, Progress& progress);
@@ -66,10 +76,8 @@ private:
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::condition_variable m_wake;
   std::shared_ptr<const formats::Case> m_case;
-  std::shared_ptr<const ReadySurface> m_quick;
-  std::shared_ptr<const formats::Case> m_quickTried;
-  std::array<std::shared_ptr<const ReadySurface>, kLevels> m_levels;
-  std::array<bool, kLevels> m_failed{};
+  std::array<std::shared_ptr<const ReadySurface>, kLevels + 1> m_levels;
+  std::array<bool, kLevels + 1> m_hasFailed{};
   std::shared_ptr<Progress> m_progress;  ///< progress of the surface that the background makes
   std::uint64_t m_revision = 1, m_number = 0;
   bool m_allowed = true, m_ended = false;

@@ -77,7 +77,7 @@ Seeds clicksOn(const formats::CenterlineTree& tree) {
 }  // namespace
 
 Seeds untrackedSeeds(const Document& document, const Arguments& request) {
-  std::set<std::string_view> known = vesselLabels(document);
+  std::set<std::string_view> known = vesselLabels(document.value);
   std::set<std::string> wanted;
   if (request.has("labels"))
     for (std::string& label : request.texts("labels")) wanted.insert(std::move(label));
@@ -142,10 +142,11 @@ std::shared_ptr<const formats::Case> findProposals(const Document& document, Tra
 
 Json vesselNear(const Eigen::Vector3d& click, const Document& document, TrackingCache& cache,
                 const convert::TrackOptions& options) {
-  if (!document.volume) throw Error(ErrorKind::Usage, "there is no volume to look for a vessel in");
-  const auto json = [](const Eigen::Vector3d& v) -> Json { return {v.x(), v.y(), v.z()}; };
+  if (!document.volume) refuse("there is no volume to look for a vessel in");
   if (!document.volume->geometry.containsWorld(click))
-    return {{"found", false}, {"position", json(click)}, {"reason", "outside of the volume"}};
+    return {{"found", false},
+            {"position", engine::vectorJson(click)},
+            {"reason", "outside of the volume"}};
   convert::SeedBranch seed;
   seed.label = "click";
   seed.points.push_back({click, std::nullopt});
@@ -153,8 +154,8 @@ Json vesselNear(const Eigen::Vector3d& click, const Document& document, Tracking
   const auto vessel =
       convert::vesselAtClick(*cache.volumeFor(document, {seed}, options, silent), click);
   return {{"found", vessel.found},
-          {"position", json(vessel.position)},
-          {"direction", json(vessel.direction)},
+          {"position", engine::vectorJson(vessel.position)},
+          {"direction", engine::vectorJson(vessel.direction)},
           {"radius", vessel.radius},
           {"reason", vessel.reason}};
 }

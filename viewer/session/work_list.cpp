@@ -179,10 +179,6 @@ bool isIgnored(const WorkItem& item, const std::vector<IgnoredPlace>& ignored) {
   });
 }
 
-Json positionJson(const Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
 }  // namespace
 
 std::vector<WorkItem> listWork(const formats::Case& value, const convert::CheckReport& report,
@@ -213,7 +209,7 @@ Json workJson(const std::vector<WorkItem>& items, std::size_t firstId, const for
     if (!isLeft(item, value.tree, node) || isIgnored(item, ignored)) continue;
     left.push_back({{"id", firstId + i},
                     {"kind", kindName(item.kind)},
-                    {"position", positionJson(item.position)},
+                    {"position", engine::vectorJson(item.position)},
                     {"node", node},
                     {"branch", value.tree.branch[node]},
                     {"about", item.about},
@@ -221,7 +217,7 @@ Json workJson(const std::vector<WorkItem>& items, std::size_t firstId, const for
   }
   for (const IgnoredPlace& place : ignored)
     set.push_back({{"kind", place.kind},
-                   {"position", positionJson(place.position)},
+                   {"position", engine::vectorJson(place.position)},
                    {"reason", place.reason}});
   return {{"items", std::move(left)}, {"found", items.size()}, {"ignored", std::move(set)}};
 }

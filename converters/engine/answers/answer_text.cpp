@@ -37,6 +37,10 @@ Json jsonNumber(double value) {
   return value;
 }
 
+Json vectorJson(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
 Json caseSummary(const formats::Case& value) {
   Json json;
   json["branches"] = value.tree.branches.size();

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "converters/base/field_word.h"
@@ -27,6 +28,9 @@ using Json = nlohmann::ordered_json;
 /// finite.
 Json jsonNumber(float value);
 Json jsonNumber(double value);
+
+/// [x, y, z].
+Json vectorJson(const Eigen::Vector3d& vector);
 
 /// Answer of convert, track and fit: branches, nodes, points, blobs, length_mm.
 Json caseSummary(const formats::Case& value);

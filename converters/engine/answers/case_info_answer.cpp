@@ -30,14 +30,7 @@ Json provenanceJson(const formats::Metadata& metadata) {
       metadata.parentSha256.empty() ? Json(nullptr) : Json(metadata.parentSha256);
   json["point_step_mm"] =
       metadata.pointQuantisation ? jsonNumber(metadata.pointQuantisation->step) : Json(nullptr);
-  json["steps"] = Json::array();
-  for (const auto& step : metadata.steps) {
-    Json parameters = Json::object();
-    for (const auto& [key, value] : step.parameters)
-      std::visit([&, &name = key](const auto& v) { parameters[name] = v; }, value);
-    json["steps"].push_back(
-        {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
-  }
+  json["steps"] = stepsJson(metadata);
   return json;
 }
 
@@ -173,6 +166,18 @@ std::string caseInfoText(const convert::CaseInfo& info) {
   addExtras(info, lines);
   for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));
   return lines.text() + "\n" + branchTable(info) + "\nLengths and radii in mm.\n";
+}
+
+Json stepsJson(const formats::Metadata& metadata) {
+  Json list = Json::array();
+  for (const formats::Step& step : metadata.steps) {
+    Json parameters = Json::object();
+    for (const auto& [name, value] : step.parameters)
+      std::visit([&parameter = parameters[name]](const auto& v) { parameter = v; }, value);
+    list.push_back(
+        {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
+  }
+  return list;
 }
 
 Json reachJson(const std::optional<convert::Reach>& reach) {

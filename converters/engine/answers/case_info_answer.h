@@ -16,6 +16,9 @@ namespace lumen::engine {
 Json caseInfoJson(const convert::CaseInfo& info);
 std::string caseInfoText(const convert::CaseInfo& info);
 
+/// Steps of a case: name, tool and parameters of each.
+Json stepsJson(const formats::Metadata& metadata);
+
 /// length_mm, of_mm and closed; null for nothing.
 Json reachJson(const std::optional<convert::Reach>& reach);
 

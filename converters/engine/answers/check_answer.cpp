@@ -35,10 +35,6 @@ Json offsetsJson(const convert::Offsets& o, double voxel) {
   return json;
 }
 
-Json vectorJson(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
 Json regionsJson(const convert::Regions& regions, const formats::CenterlineTree& tree) {
   Json json = Json::array();
   for (const convert::Region& region : regions.regions)
@@ -221,9 +217,8 @@ constexpr int kPlaceDecimals = 2;  // a hundredth of a mm
 Json placeJson(const std::optional<convert::GatePlace>& place,
                const formats::CenterlineTree& tree) {
   if (!place) return nullptr;
-  const Eigen::Vector3d& p = place->position;
   return {{"measure", place->measure},
-          {"position", {p.x(), p.y(), p.z()}},
+          {"position", vectorJson(place->position)},
           {"branch", convert::labelOf(tree, place->node)},
           {"node", place->node}};
 }

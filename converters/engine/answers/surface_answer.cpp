@@ -14,14 +14,10 @@
 namespace lumen::engine {
 namespace {
 
-Json placeJson(const Eigen::Vector3d& p) {
-  return Json::array({p.x(), p.y(), p.z()});
-}
-
 Json wallJson(const std::optional<convert::WallThickness>& wall) {
   if (!wall) return nullptr;
   return {{"least_mm", wall->least},
-          {"least_place", placeJson(wall->place)},
+          {"least_place", vectorJson(wall->place)},
           {"median_mm", wall->median},
           {"step", convert::WallThickness::kStep},
           {"histogram", wall->histogram}};
@@ -51,13 +47,6 @@ SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
     if (error.kind() == ErrorKind::Cancelled) throw;
     return {std::nullopt, {std::string("there is no closed surface: ") + error.what()}};
   }
-}
-
-void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
-                   Progress& progress) {
-  for (const std::string& sentence :
-       operations::surfaceWarnings(report, operationContext(progress)))
-    progress.warn(formats::printable(file) + ": " + sentence);
 }
 
 std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
@@ -106,12 +95,12 @@ Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const form
   json["errors_mm"] = Json::array();
   for (const double error : report->errors)
     json["errors_mm"].push_back(error < 0 ? Json() : jsonNumber(error));
-  for (const Eigen::Vector3d& place : report->cuts) json["cuts"].push_back(placeJson(place));
+  for (const Eigen::Vector3d& place : report->cuts) json["cuts"].push_back(vectorJson(place));
   for (const convert::Overlap& o : report->overlaps)
     json["overlaps"].push_back(
         {{"branches", {value.tree.branches[o.branch].label, value.tree.branches[o.other].label}},
          {"depth_mm", 2 * o.depth},
-         {"place", placeJson(o.place)}});
+         {"place", vectorJson(o.place)}});
   return json;
 }
 

@@ -23,10 +23,6 @@ struct SurfaceFindings {
 /// without models. Takes as long as the surface. Throws Error(Cancelled).
 SurfaceFindings examineSurface(const formats::Case& value, Progress& progress);
 
-/// Warns with operations::surfaceWarnings(), after the name of the file.
-void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
-                   Progress& progress);
-
 /// Lines for the answer: triangles, ends, and where vessels overlap and by how much. Empty without
 /// a surface.
 std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,

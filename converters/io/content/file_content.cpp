@@ -75,7 +75,8 @@ FileContent jsonContent(std::string_view text) {
 /// Empty for a file that cannot be read.
 std::string readBeginning(const InputFile& file) {
   std::error_code ignored;
-  if (!file.isInMemory() && !fs::is_regular_file(file.path(), ignored)) return {};
+  if (file.isFolder() || (!file.isInMemory() && !fs::is_regular_file(file.path(), ignored)))
+    return {};
   try {
     std::string text(kLookedAt, '\0');
     const std::unique_ptr<std::istream> stream = file.open();

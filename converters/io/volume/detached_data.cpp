@@ -82,33 +82,33 @@ std::vector<fs::path> detachedFiles(const InputFile& input, const DetachedNames&
                                     const std::vector<fs::path>& allowed, const FieldWord& word,
                                     const std::string& what) {
   const fs::path& header = input.path();
-  if (input.isInMemory())
-    throw invalidInput(header.string() + ": " + what + " in " +
-                       formats::printable(names.count > 0 ? names.name(0) : std::string()) +
-                       "; expected them behind its header, as it is in memory");
-  std::vector<fs::path> places = {resolved(header.parent_path())};
+  std::vector<fs::path> places;
+  if (!input.isInMemory()) places.push_back(resolved(header.parent_path()));
   for (const fs::path& path : allowed) places.push_back(resolved(path));
   std::erase_if(places, [](const fs::path& place) { return place.empty(); });
   std::vector<fs::path> files;
   for (std::uint64_t n = 0; n < names.count; ++n) {
     const std::string name = names.name(n);
-    const fs::path stated = header.parent_path() / name;
+    const fs::path stated = input.isInMemory() ? fs::path(name) : header.parent_path() / name;
     const auto refuse = [&](const std::string& why) {
       return invalidInput(header.string() + ": " + what + " in " +
-                          formats::printable(stated.string()) + ", " + why);
+                          formats::printable(stated.string()) + why);
     };
+    if (input.isInMemory() && (allowed.empty() || !stated.is_absolute()))
+      throw refuse("; expected them behind its header, as it is in memory");
     std::error_code error;
     fs::path file =
         name.find('\0') == std::string::npos ? fs::canonical(stated, error) : fs::path();
     if (error || file.empty())
-      throw refuse("which cannot be read (" +
+      throw refuse(", which cannot be read (" +
                    (error ? error.message() : std::string("no name of a file")) + ")");
     const bool within = std::any_of(places.begin(), places.end(),
                                     [&](const fs::path& place) { return isWithin(file, place); });
     if (!within)
-      throw refuse("outside of the header's folder; if they are meant, " + word("allow-detached") +
-                   " " + formats::printable(file.parent_path().string()) + " allows it");
-    if (!fs::is_regular_file(file, error)) throw refuse("which is not a regular file");
+      throw refuse(", outside of the header's folder; if they are meant, " +
+                   word("allow-detached") + " " + formats::printable(file.parent_path().string()) +
+                   " allows it");
+    if (!fs::is_regular_file(file, error)) throw refuse(", which is not a regular file");
     files.push_back(std::move(file));
   }
   return files;

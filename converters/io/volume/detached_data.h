@@ -21,9 +21,9 @@ struct DetachedNames {
   std::function<std::string(std::uint64_t)> name;
 };
 
-/// These names resolved: from the header's folder on, every link followed. Throws
-/// Error(InvalidInput), naming the header, for a header in memory; naming the field "allow-detached", too, for a place outside of the header's
-/// folder and of `allowed`, and for a missing or non-regular file. `what`: content of those files,
+/// These names resolved: from the header's folder on, every link followed. A header in memory has no
+/// folder. Throws Error(InvalidInput), naming the header and, for a place outside of its folder and of
+/// `allowed`, the field "allow-detached", and for a missing or non-regular file. `what`: content of those files,
 /// for messages.
 std::vector<std::filesystem::path> detachedFiles(const InputFile& header,
                                                  const DetachedNames& names,

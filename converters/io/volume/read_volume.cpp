@@ -45,7 +45,7 @@ void checkPlace(const InputFile& file, VolumeFormat format, const ReadVolumeOpti
   std::error_code ignored;
   if (!file.isInMemory() && !fs::exists(path, ignored))
     throw invalidInput(path.string() + ": no such file or directory");
-  const bool folder = !file.isInMemory() && fs::is_directory(path, ignored);
+  const bool folder = file.isFolder();
   if (format == VolumeFormat::Dicom && !folder)
     throw invalidInput(path.string() +
                        ": this is a file; a DICOM series is read from the folder that holds it");

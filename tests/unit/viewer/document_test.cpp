@@ -126,8 +126,7 @@ TEST(History, WhatCanBeUndoneIsForgottenFromTheOldestOnBeyondItsBytes) {
 TEST(Jobs, OneRunsAtATimeAndCanBeCancelled) {
   viewer::EventHub events;
   const auto listener = events.listen();
-  viewer::JobRunner jobs(
-      events, [](std::string_view text) { return std::string(text); }, [] {});
+  viewer::JobRunner jobs(events, [] {});
   const int job = jobs.start("waiting", true, [](Progress& progress) -> std::string {
     for (;;) {
       progress.check();
@@ -151,8 +150,7 @@ TEST(Jobs, OneRunsAtATimeAndCanBeCancelled) {
 
 TEST(Jobs, OnlyAJobThatChangesTheDocumentKeepsOthersFromChangingIt) {
   viewer::EventHub events;
-  viewer::JobRunner jobs(
-      events, [](std::string_view text) { return std::string(text); }, [] {});
+  viewer::JobRunner jobs(events, [] {});
   const auto untilCancelled = [](Progress& progress) -> std::string {
     for (;;) {
       progress.check();
@@ -172,8 +170,7 @@ TEST(Jobs, OnlyAJobThatChangesTheDocumentKeepsOthersFromChangingIt) {
 
 TEST(Jobs, OneOfManyThreadsStartsItsJobWithItsOwnKind) {
   viewer::EventHub events;
-  viewer::JobRunner jobs(
-      events, [](std::string_view text) { return std::string(text); }, [] {});
+  viewer::JobRunner jobs(events, [] {});
   std::atomic<int> begun{0}, wrong{0};
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t)
@@ -199,11 +196,9 @@ TEST(Jobs, OneOfManyThreadsStartsItsJobWithItsOwnKind) {
 TEST(Jobs, AnExceptionBeforeOrAfterTheWorkLeavesTheRunnerFree) {
   viewer::EventHub events;
   std::atomic<int> calls{0};
-  viewer::JobRunner jobs(
-      events, [](std::string_view text) { return std::string(text); },
-      [&calls] {
-        if (++calls <= 1 || calls == 3) throw std::bad_alloc();
-      });
+  viewer::JobRunner jobs(events, [&calls] {
+    if (++calls <= 1 || calls == 3) throw std::bad_alloc();
+  });
   const auto nothing = [](Progress&) { return std::string(); };
   EXPECT_THROW(jobs.start("first", true, nothing), std::bad_alloc);
   EXPECT_FALSE(jobs.running());
@@ -216,8 +211,7 @@ TEST(Jobs, AnExceptionBeforeOrAfterTheWorkLeavesTheRunnerFree) {
 TEST(Jobs, AConflictEndsAJobWithItsOwnSentence) {
   viewer::EventHub events;
   const auto listener = events.listen();
-  viewer::JobRunner jobs(
-      events, [](std::string_view text) { return std::string(text); }, [] {});
+  viewer::JobRunner jobs(events, [] {});
   jobs.start("late", true, [](Progress&) -> std::string { throw viewer::Conflict("too late"); });
   jobs.wait();
   EXPECT_EQ(Json::parse(listener->wait(std::chrono::seconds(10))->data)["text"], "too late");
@@ -226,8 +220,7 @@ TEST(Jobs, AConflictEndsAJobWithItsOwnSentence) {
 TEST(Jobs, AnErrorEndsAJobWithItsSentence) {
   viewer::EventHub events;
   const auto listener = events.listen();
-  viewer::JobRunner jobs(
-      events, [](std::string_view text) { return std::string(text); }, [] {});
+  viewer::JobRunner jobs(events, [] {});
   jobs.start("failing", false, [](Progress& progress) -> std::string {
     progress.warn("careful");
     throw failed("it broke");

@@ -4,7 +4,7 @@
 #include "converters/library/index/library_file.h"
 #include "served.h"
 #include "viewer/session/document/arguments.h"
-#include "viewer/session/file_operations.h"
+#include "viewer/session/operations.h"
 
 namespace lumen::test {
 
@@ -178,63 +178,62 @@ TEST_F(ReloadTest, WhatHasBecomeAnotherKindOfFileIsNotTakenForTheOldOne) {
   EXPECT_EQ(perform({{"op", "reload"}, {"id", 77}}).status, 400);
 }
 
-/// A workspace with an open case, without a server.
+/// A session with an open case, without a server.
 class SavingTest : public ServedTest {
 protected:
   void SetUp() override {
     writeCase("two.lumen", twoVessels());
     open("two.lumen");
-    workspace.saving.saveTo(path("two.lumen"));
+    own.saving.saveTo(path("two.lumen"));
   }
   void open(const std::string& name) {
     Progress silent;
-    files.open({path(name), name}, silent);
+    own.open({path(name), name}, silent);
   }
   /// What `reload` of the first open file does for a page that saw `seen`.
   void reload(const viewer::Moment& seen) {
     const Json request = {{"op", "reload"}, {"id", seen.document.files[0].id}};
     const formats::JsonDocument parsed = viewer::parseRequest(request.dump(), 1000);
-    files.reload(viewer::Arguments(parsed.root()), seen);
-    workspace.jobs.wait();
+    viewer::reload(own, viewer::Arguments(parsed.root()), seen);
+    own.jobs.wait();
   }
   fs::path save(const viewer::Moment& seen) {
     viewer::Document document = seen.document;
-    return workspace.saving.save(document, false);
+    return own.saving.save(document, false);
   }
 
-  viewer::Workspace workspace{viewer::SessionOptions{}};
-  viewer::FileOperations files{workspace};
+  viewer::Session own{viewer::SessionOptions{}};
 };
 
 TEST_F(SavingTest, AReloadThatComesTooLateChangesNothingOfWhatIsSaved) {
-  const viewer::Moment seen = workspace.history.now();
+  const viewer::Moment seen = own.history.now();
   write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   open("wall.obj");
   writeCase("two.lumen", named("from elsewhere"));
   reload(seen);
-  EXPECT_FALSE(workspace.hasUnsaved()) << "the case is that of its file as it was read";
-  EXPECT_THROW(save(workspace.history.now()), viewer::Conflict) << "which has changed since";
+  EXPECT_FALSE(own.hasUnsaved()) << "the case is that of its file as it was read";
+  EXPECT_THROW(save(own.history.now()), viewer::Conflict) << "which has changed since";
 }
 
 TEST_F(SavingTest, ADocumentThatAnotherHasReplacedIsNotSavedIntoTheFileOfThat) {
   writeCase("other.lumen", named("other"));
-  const viewer::Moment seen = workspace.history.now();
+  const viewer::Moment seen = own.history.now();
   open("other.lumen");
-  workspace.saving.saveTo(path("other.lumen"));
+  own.saving.saveTo(path("other.lumen"));
   const Json request = {{"op", "save"}};
   const formats::JsonDocument parsed = viewer::parseRequest(request.dump(), 1000);
-  EXPECT_THROW(files.save(viewer::Arguments(parsed.root()), seen), viewer::Conflict);
+  EXPECT_THROW(viewer::save(own, viewer::Arguments(parsed.root()), seen), viewer::Conflict);
   EXPECT_EQ(formats::readCaseFile(path("other.lumen"))->tree.branches[0].label, "other");
 }
 
 TEST_F(SavingTest, ATargetThatComesWhileAnotherIsWrittenKeepsItsOwnStamp) {
   writeCase("other.lumen", twoVessels());
-  const viewer::Moment now = workspace.history.now();
+  const viewer::Moment now = own.history.now();
   for (int k = 0; k < 100; ++k) {
-    workspace.saving.saveTo(path("two.lumen"));
+    own.saving.saveTo(path("two.lumen"));
     std::thread other([this, k] {
       std::this_thread::sleep_for(std::chrono::microseconds(20 * k));
-      workspace.saving.saveTo(path("other.lumen"));
+      own.saving.saveTo(path("other.lumen"));
     });
     save(now);
     other.join();
@@ -309,9 +308,10 @@ TEST_F(UnsavedTest, OfADocumentWithoutAFileIsKeptAtThePlaceForIt) {
   session = std::make_unique<viewer::Session>(options);
   serveSession();
   EXPECT_TRUE(session->findUnsaved().empty());
-  writeCase("two.lumen", twoVessels());
+  const auto dropped = std::make_shared<viewer::DroppedFiles>();
+  dropped->add("two.lumen", bytesOf(twoVessels()));
   Progress silent;
-  session->open({path("two.lumen"), "two.lumen", true}, silent);
+  session->open({dropped->first(), "two.lumen", viewer::OpenAs::Auto, {}, dropped}, silent);
   const fs::path kept = path("state/lumen/lumen.unsaved.lumen");
   EXPECT_TRUE(session->keepUnsaved().empty());
   EXPECT_FALSE(fs::exists(path("state"))) << "what is saved leaves no folder";

@@ -57,7 +57,7 @@ protected:
   [[nodiscard]] Json branches() const { return ReadPack(get("case").body).json["branches"]; }
   /// The last sentence of a job that is started now.
   [[nodiscard]] std::string outcome(const Json& request) const {
-    const auto listener = session->events().listen();
+    const auto listener = session->events.listen();
     performAll(request);
     for (;;) {
       const auto event = listener->wait(std::chrono::seconds(10));
@@ -215,7 +215,7 @@ TEST_F(ProposalsTest, NamesOfSeedsThatWaitAreNotTakenTwice) {
 }
 
 TEST_F(ProposalsTest, AnAcceptedTreeIsSavedWithoutTracesOfProposals) {
-  session->saveTo(path("tree.lumen"));
+  session->saving.saveTo(path("tree.lumen"));
   find();
   performAll({{"op", "accept"}});
   ASSERT_EQ(perform({{"op", "save"}}).status, 200);
@@ -304,7 +304,7 @@ TEST_F(ProposalsTest, AVolumeWithoutVesselsIsReported) {
 TEST_F(ProposalsTest, CancelledFindingLeavesTheDocumentAsItWas) {
   const auto answer = perform({{"op", "find"}});
   ASSERT_EQ(answer.status, 200);
-  ASSERT_TRUE(session->cancel(Json::parse(answer.body)["job"]));
+  ASSERT_TRUE(session->jobs.cancel(Json::parse(answer.body)["job"]));
   waitForJob();
   EXPECT_EQ(proposals().size(), 0U);
   EXPECT_EQ(state()["undo"], nullptr);

@@ -247,7 +247,7 @@ TEST_F(SafetyTest, ManyPagesLeaveRoomForRequests) {
   EXPECT_EQ(refused, 1);
   EXPECT_EQ(get("state").status, 200);
   stop = true;
-  session->events().close();
+  session->events.close();
   for (std::thread& page : pages) page.join();
 }
 

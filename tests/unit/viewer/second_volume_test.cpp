@@ -48,7 +48,7 @@ protected:
   void serveBoth(const std::vector<std::string>& first, const std::string& second) {
     serve(first);
     Progress silent;
-    session->open({path(second), second, false, viewer::OpenAs::Second}, silent);
+    session->open({path(second), second, viewer::OpenAs::Second}, silent);
   }
   [[nodiscard]] std::string doubt() const {
     const Json said = state()["second"]["doubt"];

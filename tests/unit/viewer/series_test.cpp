@@ -36,6 +36,7 @@ protected:
 };
 
 TEST_F(SeriesTest, DroppedFilesAreListedAndOneSeriesIsOpened) {
+  const NoTemporaryFolder none;
   serve({});
   sendAll(7, slices("1.2.1", "Angio"));
   sendAll(7, slices("1.2.2", "Mask"));  // of equal names, as from another folder
@@ -54,7 +55,7 @@ TEST_F(SeriesTest, DroppedFilesAreListedAndOneSeriesIsOpened) {
   EXPECT_EQ(series["faulty"], 1);
   EXPECT_EQ(series["others"], 1);
   const std::string fault = series["faults"][0];
-  EXPECT_TRUE(fault.starts_with("broken: ")) << fault;  // without the temporary folder
+  EXPECT_TRUE(fault.starts_with("broken: ")) << fault;
   EXPECT_FALSE(state()["hasVolume"]);
   const ReadPack picture(get("seriesPicture?series=1").body);
   EXPECT_EQ(picture.json["arrays"]["pixel"]["shape"], (Json{3, 4}));

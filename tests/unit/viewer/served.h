@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "../mesh/synthetic.h"
 #include "../tracking/tube_volume.h"
 #include "converters/io/volume/write_volume.h"
+#include "formats/case/case_encoding.h"
 #include "formats/case/case_file.h"
 #include "viewer/server/html_page.h"
 #include "viewer/server/server.h"
@@ -43,6 +45,12 @@ inline formats::Case twoVessels() {
   addVessel(value, "right", straightPath({0, 10, 0}, {1, 0, 0}, 6), 0.8, 1.0);
   addModels(value);
   return value;
+}
+
+/// The case as a file.
+inline std::string bytesOf(const formats::Case& value) {
+  const std::vector<std::byte> bytes = formats::encodeBinary(value);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 /// A page, each file of which holds its own name.
@@ -78,6 +86,26 @@ struct ReadPack {
   }
 };
 
+/// While it lives there is no folder for temporary files: whoever asks for it fails.
+class NoTemporaryFolder {
+public:
+  NoTemporaryFolder() {
+    if (const char* const named = std::getenv("TMPDIR")) m_before = named;
+    setenv("TMPDIR", "/nowhere/at/all", 1);
+  }
+  ~NoTemporaryFolder() {
+    if (m_before)
+      setenv("TMPDIR", m_before->c_str(), 1);
+    else
+      unsetenv("TMPDIR");
+  }
+  NoTemporaryFolder(const NoTemporaryFolder&) = delete;
+  NoTemporaryFolder& operator=(const NoTemporaryFolder&) = delete;
+
+private:
+  std::optional<std::string> m_before;
+};
+
 class ServedTest : public ::testing::Test {
 protected:
   ServedTest() {
@@ -109,7 +137,7 @@ protected:
     Progress silent;
     for (const std::string& name : names) {
       session->open({path(name), name}, silent);
-      if (name.ends_with(".lumen")) session->saveTo(path(name));
+      if (name.ends_with(".lumen")) session->saving.saveTo(path(name));
     }
     serveSession();
   }

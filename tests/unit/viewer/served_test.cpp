@@ -150,7 +150,7 @@ TEST_F(LookTest, DistancesToTheTruthBelongToTheSurfacesVertices) {
   serve({"two.lumen"});
   EXPECT_EQ(get("distance").status, 404);
   Progress silent;
-  session->open({path("truth.lumen"), "truth.lumen", false, viewer::OpenAs::Truth}, silent);
+  session->open({path("truth.lumen"), "truth.lumen", viewer::OpenAs::Truth}, silent);
   const ReadPack surface(get("surface?quick=1").body), pack(get("distance?quick=1").body);
   const auto distance = pack.array<float>("distance");
   ASSERT_EQ(3 * distance.size(), surface.array<float>("position").size());
@@ -235,7 +235,7 @@ TEST_F(WorkTest, ATruthThatIsClosedUndoneAndClosedAgainHasOtherDistances) {
   writeCase("two.lumen", twoVessels());
   serve({"two.lumen"});
   Progress silent;
-  session->open({path("two.lumen"), "truth.lumen", false, viewer::OpenAs::Truth}, silent);
+  session->open({path("two.lumen"), "truth.lumen", viewer::OpenAs::Truth}, silent);
   const auto revisions = [this] {
     const Json now = state();
     return std::pair(now["revisions"]["truth"].get<int>(), get("distance?quick=1").status);
@@ -400,41 +400,30 @@ TEST_F(WorkTest, ALongJobIsCancelledAndLeavesTheDocumentAsItWas) {
             200);
   const Json job = Json::parse(perform({{"op", "track"}}).body);
   EXPECT_EQ(perform({{"op", "undo"}}).status, 409);
-  EXPECT_TRUE(session->cancel(job["job"]));
-  session->wait();
+  EXPECT_TRUE(session->jobs.cancel(job["job"]));
+  session->jobs.wait();
   EXPECT_EQ(session->now().revision, revision + 1);
   EXPECT_EQ(session->now().document.value, nullptr);
 }
 
-TEST_F(FilesTest, ADroppedCaseOpensAndItsBytesAreGoneAfterwards) {
-  writeCase("two.lumen", twoVessels());
-  const auto bytes = formats::readFileBytes(path("two.lumen"));
+TEST_F(FilesTest, ADroppedFileAndADownloadNeedNoTemporaryFolder) {
+  const NoTemporaryFolder none;
   serve({});
-  const std::string body(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  ASSERT_EQ(post("file?name=a%20case.lumen&as=auto", body).status, 200);
+  ASSERT_EQ(post("file?name=a%20case.lumen&as=auto", bytesOf(twoVessels())).status, 200);
   waitForJob();
   EXPECT_EQ(state()["title"], "a case.lumen");
   EXPECT_EQ(state()["saveAs"], nullptr);
-  const auto probe = session->placeFor("x")->path().parent_path();
-  std::size_t left = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(probe.parent_path()))
-    left += entry.path() != probe;
-  EXPECT_EQ(left, 0U);
-  server.reset();
-  session.reset();
-  EXPECT_FALSE(std::filesystem::exists(probe.parent_path()));
-}
-
-TEST_F(FilesTest, ADownloadLeavesNoFileBehind) {
-  writeCase("two.lumen", twoVessels());
-  serve({"two.lumen"});
-  const auto own = session->placeFor("x")->path().parent_path();
   for (const char* const format : {"seeds", "lumen", "obj", "swc"})
-    ASSERT_EQ(get(std::string("save?format=") + format).status, 200) << format;
-  EXPECT_TRUE(std::filesystem::is_empty(own.parent_path()));
+    EXPECT_EQ(get(std::string("save?format=") + format).status, 200) << format;
+  ASSERT_EQ(post("file?name=t.nrrd",
+                 convert::encodeVolume(tubeVolume(), convert::VolumeFormat::Nrrd, true, "t.nrrd"))
+                .status,
+            200);
+  waitForJob();
+  EXPECT_TRUE(state()["hasVolume"]);
 }
 
-TEST_F(FilesTest, AFileThatIsDroppedDuringAJobIsRefusedAndNotKept) {
+TEST_F(FilesTest, AFileThatIsDroppedDuringAJobIsRefused) {
   writeTube("tube.nrrd");
   viewer::SessionOptions endless;
   endless.track.options.minTrials = endless.track.options.maxTrials = 1000000;
@@ -447,8 +436,6 @@ TEST_F(FilesTest, AFileThatIsDroppedDuringAJobIsRefusedAndNotKept) {
             200);
   ASSERT_EQ(perform({{"op", "track"}}).status, 200);
   EXPECT_EQ(post("file?name=a.obj", "v 0 0 0\n").status, 409);
-  const auto own = session->placeFor("x")->path().parent_path();
-  EXPECT_TRUE(std::filesystem::is_empty(own.parent_path()));
 }
 
 TEST_F(FilesTest, ADroppedCaseIsNotSavedIntoTheFileOfTheOneItReplaces) {
@@ -470,7 +457,7 @@ TEST_F(FilesTest, ADroppedCaseIsNotSavedIntoTheFileOfTheOneItReplaces) {
 
 TEST_F(FilesTest, ABrokenFileIsRefusedByItsNameWithoutAPath) {
   serve({});
-  const auto listener = session->events().listen();
+  const auto listener = session->events.listen();
   ASSERT_EQ(post("file?name=broken.lumen", "nothing of a case").status, 200);
   waitForJob();
   std::string text;

@@ -54,6 +54,33 @@ TEST_F(DicomListingTest, SeriesAreDescribedAndFaultyFilesStopNothing) {
   EXPECT_EQ(listing.others, 1U);
 }
 
+TEST_F(DicomListingTest, AFolderInMemoryIsReadAsOneOnDisk) {
+  writeMixture();
+  std::vector<std::string> bytes;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory())) {
+    names.push_back(entry.path().filename().string());
+    bytes.push_back(bytesOf(entry.path()));
+  }
+  std::vector<InputFile> files;
+  for (std::size_t n = 0; n < names.size(); ++n) files.emplace_back(names[n], bytes[n]);
+  const InputFile folder("dropped", files);
+  const ReadVolumeOptions first{.series = "1.2.3.1", .skipFaulty = true};
+  const Volume expected = readQuietly(directory(), first);
+  Progress silent;
+  const DicomListing listing = listDicomSeries(folder, {}, silent);
+  EXPECT_EQ(listing.series.size(), 2U);
+  EXPECT_EQ(listing.series[1].picture.pixel, list().series[1].picture.pixel);
+  ASSERT_EQ(listing.faults.size(), 2U);
+  EXPECT_TRUE(listing.faults[0].starts_with("broken.dcm: ")) << listing.faults[0];
+  EXPECT_EQ(listing.others, 1U);
+  const Volume read = readVolume(folder, VolumeFormat::Dicom, first, Progress());
+  EXPECT_EQ(read.voxels, expected.voxels);
+  EXPECT_EQ(read.assumptions, expected.assumptions);
+  expectRefused(refusal([&] { (void)readVolume(folder, VolumeFormat::Nrrd, {}, Progress()); }),
+                {"3: ", "dropped", "is a folder"});
+}
+
 TEST_F(DicomListingTest, ThePictureIsTheMiddleSliceAndSmall) {
   writeMixture();
   const DicomListing listing = list();

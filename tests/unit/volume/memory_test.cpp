@@ -92,6 +92,22 @@ TEST_F(VolumeInMemory, OpensNoFileThatItsHeaderNames) {
                 {"3: ", "w.mhd", "voxels.raw", "expected them behind its header"});
 }
 
+TEST_F(VolumeInMemory, OpensAFileThatIsAllowedByItsWholeName) {
+  const std::string voxels = path("voxels.raw").string();
+  writeNewFile(std::string(std::size_t{2} * 2 * 2, '\1') + '\2', voxels);
+  const std::string header =
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 3 1\nspacings: 1 1 1\nencoding: raw\ndata "
+      "file: ";
+  ReadVolumeOptions allowed;
+  allowed.allowedDetached = {path("")};
+  EXPECT_EQ(readBytes("w.nhdr", header + voxels + "\n", allowed).geometry.voxelCount(), 9U);
+  expectRefused(refusal([&] { (void)readBytes("w.nhdr", header + voxels + "\n"); }),
+                {"3: ", "w.nhdr", "expected them behind its header"});
+  const std::string relative = header + "voxels.raw\n";
+  expectRefused(refusal([&] { (void)readBytes("w.nhdr", relative, allowed); }),
+                {"3: ", "w.nhdr", "expected them behind its header"});
+}
+
 TEST_F(VolumeInMemory, ThatIsNoVolumeIsRefusedByItsContent) {
   expectRefused(refusal([&] { (void)readBytes("v.nrrd", " <html><body>404</body></html>"); }),
                 {"3: ", "v.nrrd", "web page"});

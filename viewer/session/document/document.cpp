@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/document/document.h"
 
+#include <array>
 #include <set>
 #include <variant>
 
@@ -50,21 +51,8 @@ std::size_t sizeOf(const Seeds& seeds) {
 }  // namespace
 
 std::string roleName(FileRole role) {
-  switch (role) {
-    case FileRole::Volume:
-      return "volume";
-    case FileRole::Second:
-      return "second";
-    case FileRole::Case:
-      return "case";
-    case FileRole::Truth:
-      return "truth";
-    case FileRole::Seeds:
-      return "seeds";
-    case FileRole::Mesh:
-      break;
-  }
-  return "mesh";
+  constexpr std::array kNames = {"volume", "second", "case", "truth", "seeds", "mesh"};
+  return kNames[static_cast<std::size_t>(role)];
 }
 
 FileStamp readFileStamp(const std::filesystem::path& file) {
@@ -85,11 +73,23 @@ std::string Document::labelOf(FileRole role) const {
   return file != nullptr ? file->label : std::string();
 }
 
-std::set<std::string_view> vesselLabels(const Document& document) {
+std::set<std::string_view> vesselLabels(const std::shared_ptr<const formats::Case>& value) {
   std::set<std::string_view> labels;
-  if (document.value)
-    for (const formats::Branch& branch : document.value->tree.branches) labels.insert(branch.label);
+  if (value)
+    for (const formats::Branch& branch : value->tree.branches) labels.insert(branch.label);
   return labels;
+}
+
+std::set<std::string> takenLabels(const Document& document) {
+  const std::set<std::string_view> vessels = vesselLabels(document.value);
+  std::set<std::string> labels(vessels.begin(), vessels.end());
+  for (const convert::SeedBranch& seed : *document.seeds) labels.insert(seed.label);
+  return labels;
+}
+
+std::string numberedLabel(const std::string& stem, const std::set<std::string>& taken) {
+  for (std::size_t i = 1;; ++i)
+    if (std::string label = stem + "-" + std::to_string(i); !taken.contains(label)) return label;
 }
 
 std::size_t countBytes(const std::vector<const Document*>& documents) {

@@ -75,8 +75,15 @@ struct Document {
   [[nodiscard]] const OpenFile* fileOf(FileRole role) const;
 };
 
-/// Labels of the vessels of the case: a seed with one of them is tracked. They live as the case does.
-std::set<std::string_view> vesselLabels(const Document& document);
+/// Labels of the vessels of a case, or none for null: a seed with one of them is tracked. They live as
+/// the case does.
+std::set<std::string_view> vesselLabels(const std::shared_ptr<const formats::Case>& value);
+
+/// The labels of the vessels and of the seeds of a document.
+std::set<std::string> takenLabels(const Document& document);
+
+/// The stem with the first number that makes a label that is not `taken`.
+std::string numberedLabel(const std::string& stem, const std::set<std::string>& taken);
 
 /// Bytes in memory of the parts of these documents, each part once.
 std::size_t countBytes(const std::vector<const Document*>& documents);

@@ -15,7 +15,7 @@ namespace lumen::viewer {
 namespace {
 
 Seeds chosen(const Document& document, bool areTracked) {
-  const auto vessels = vesselLabels(document);
+  const auto vessels = vesselLabels(document.value);
   Seeds out;
   for (const convert::SeedBranch& seed : *document.seeds)
     if (isTracked(seed, vessels) == areTracked) out.push_back(seed);
@@ -51,7 +51,7 @@ Seeds seedsInCase(const formats::Case& value, const std::string& label, Progress
 
 std::shared_ptr<const formats::Case> caseWithSeeds(const Document& document) {
   if (!document.value) return nullptr;
-  const auto vessels = vesselLabels(document);
+  const auto vessels = vesselLabels(document.value);
   Seeds seeds = *document.seeds;
   for (convert::SeedBranch& seed : seeds) seed.isTracked = isTracked(seed, vessels);
   if (convert::holdsSeeds(*document.value, seeds)) return document.value;

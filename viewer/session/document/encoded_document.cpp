@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "converters/base/error.h"
 #include "converters/engine/command.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"
 #include "converters/io/seeds/case_seeds.h"
-#include "converters/stages/fitting/fit.h"
+#include "converters/operations/case_of.h"
+#include "viewer/session/document/arguments.h"
 #include "viewer/session/document/document_seeds.h"
 
 namespace lumen::viewer {
@@ -29,8 +29,7 @@ engine::OutputOptions outputOptions(const SavingOptions& options, const engine::
   engine::addEncodingRows(table, output.encoding);
   for (const auto& [name, value] : options) {
     const OptionRow* const row = table.find(name);
-    if (row == nullptr)
-      throw Error(ErrorKind::Usage, "\"" + name + "\" is no option of a download");
+    if (row == nullptr) refuse("\"" + name + "\" is no option of a download");
     table.set(name, {value.empty() && row->isFlag() ? "true" : value});
   }
   engine::requireCompatible(table);
@@ -44,8 +43,7 @@ engine::OutputOptions outputOptions(const SavingOptions& options, const engine::
 const engine::FileFormat& writableFormat(const std::string& name) {
   for (const engine::FileFormat& format : engine::fileFormats())
     if (format.name == name && engine::canWrite(format)) return format;
-  throw Error(ErrorKind::Usage, "\"" + name + "\" is no format; lumen writes " +
-                                    engine::formatNames(engine::canWrite));
+  refuse("\"" + name + "\" is no format; lumen writes " + engine::formatNames(engine::canWrite));
 }
 
 std::string encodedSeeds(Seeds seeds) {
@@ -61,14 +59,14 @@ std::string encoded(const Document& document, const std::string& format,
                     Progress& progress) {
   if (format == "seeds") return encodedSeeds(*document.seeds);
   const engine::FileFormat& writer = writableFormat(format);
-  if (!document.value) throw Error(ErrorKind::Usage, "there is no case to save");
+  if (!document.value) refuse("there is no case to save");
   const engine::OutputOptions output = outputOptions(options, writer, progress);
   const std::string name = "case" + std::string(writer.endings.front());
   const auto value = caseWithSeeds(document);
   if (!engine::canWriteMesh(writer) || value->models)
     return writer.encodeCase(*value, name, output, progress).bytes;
-  formats::Case fitted = *value;
-  convert::fit(fitted, settings.fit, progress);
+  const formats::Case fitted =
+      operations::fitted(*value, {settings.fit}, engine::operationContext(progress));
   return writer.encodeCase(fitted, name, output, progress).bytes;
 }
 

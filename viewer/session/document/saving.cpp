@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "converters/base/error.h"
 #include "converters/base/progress.h"
 #include "converters/engine/file_format.h"
 #include "converters/io/seeds/case_seeds.h"
@@ -79,7 +78,7 @@ fs::path Saving::checkedTarget(const Document& document, bool force) const {
     throw Conflict(file.filename().string() +
                    " was changed by another program since it was read; saving would undo that");
   if (file.empty() || !document.value)
-    throw Error(ErrorKind::Usage, "there is no case, or no file that it came from; download it");
+    refuse("there is no case, or no file that it came from; download it");
   return file;
 }
 

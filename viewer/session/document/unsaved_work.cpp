@@ -81,58 +81,36 @@ bool holdsProposals(const fs::path& file) {
   return file.filename().string().ends_with(kProposals);
 }
 
-template <class Part, class Write>
-void UnsavedWork::writePart(fs::path& file, std::shared_ptr<const Part>& written,
-                            const std::shared_ptr<const Part>& part, const char* ending,
-                            const Write& write) {
-  if (!part) removeFile(file);
-  if (part && part != written) {
-    if (file.empty()) {
+void UnsavedWork::keepPart(Copy& copy, const Parts& parts, const char* ending,
+                           const std::function<void(const fs::path&)>& write) {
+  if (!parts.first) removeFile(copy.file);
+  if (parts.first && parts != copy.parts) {
+    if (copy.file.empty()) {
       makeFolder(m_place.parent_path());
-      file = freeName(m_place, ending);
+      copy.file = freeName(m_place, ending);
     }
-    write(part, file);
+    write(copy.file);
   }
-  written = part;
-}
-
-void UnsavedWork::forgetPlace(const fs::path& place) {
-  m_place = place;
-  m_caseFile.clear();
-  m_seedsFile.clear();
-  m_proposalsFile.clear();
-  m_case = nullptr;
-  m_caseSeeds = nullptr;
-  m_seeds = nullptr;
-  m_proposals = nullptr;
-}
-
-void UnsavedWork::writeCasePart(const std::shared_ptr<const formats::Case>& value,
-                                const std::shared_ptr<const Seeds>& seeds) {
-  if (seeds != m_caseSeeds) m_case = nullptr;  // written anew
-  writePart(m_caseFile, m_case, value, kCase, [&seeds](const auto& part, const fs::path& file) {
-    Document document;
-    document.value = part;
-    document.seeds = seeds;
-    engine::writeCase(*caseWithSeeds(document), file, formats::CaseEncoding::Binary, {});
-  });
-  m_caseSeeds = seeds;
+  copy.parts = parts;
 }
 
 std::vector<fs::path> UnsavedWork::keep(const fs::path& place, const Document& document,
                                         const UnsavedParts& parts) {
+  const auto writeCase = [](const formats::Case& value, const fs::path& file) {
+    engine::writeCase(value, file, formats::CaseEncoding::Binary, {});
+  };
   const std::lock_guard lock(m_keepMutex);
-  if (place != m_place) forgetPlace(place);
-  writeCasePart(parts.hasCase ? document.value : nullptr, document.seeds);
-  writePart(m_proposalsFile, m_proposals, parts.hasProposals ? document.proposals : nullptr,
-            kProposals, [](const auto& part, const fs::path& file) {
-              engine::writeCase(*part, file, formats::CaseEncoding::Binary, {});
-            });
-  writePart(m_seedsFile, m_seeds, parts.hasSeeds ? document.seeds : nullptr, kSeeds,
-            [](const auto& part, const fs::path& file) { convert::writeSeeds(*part, file); });
+  if (place != m_place) m_case = m_seeds = m_proposals = {};
+  m_place = place;
+  keepPart(m_case, {parts.hasCase ? document.value : nullptr, document.seeds}, kCase,
+           [&](const fs::path& file) { writeCase(*caseWithSeeds(document), file); });
+  keepPart(m_proposals, {parts.hasProposals ? document.proposals : nullptr, nullptr}, kProposals,
+           [&](const fs::path& file) { writeCase(*document.proposals, file); });
+  keepPart(m_seeds, {parts.hasSeeds ? document.seeds : nullptr, nullptr}, kSeeds,
+           [&](const fs::path& file) { convert::writeSeeds(*document.seeds, file); });
   std::vector<fs::path> copies;
-  for (const fs::path& file : {m_caseFile, m_seedsFile, m_proposalsFile})
-    if (!file.empty()) copies.push_back(file);
+  for (const Copy* const copy : {&m_case, &m_seeds, &m_proposals})
+    if (!copy->file.empty()) copies.push_back(copy->file);
   return copies;
 }
 

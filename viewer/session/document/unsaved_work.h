@@ -4,9 +4,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/session/document/document.h"
@@ -40,19 +42,18 @@ public:
   void remove(const std::filesystem::path& file);
 
 private:
-  void forgetPlace(const std::filesystem::path& place);
-  void writeCasePart(const std::shared_ptr<const formats::Case>& value,
-                     const std::shared_ptr<const Seeds>& seeds);
-  template <class Part, class Write>
-  void writePart(std::filesystem::path& file, std::shared_ptr<const Part>& written,
-                 const std::shared_ptr<const Part>& part, const char* ending, const Write& write);
+  /// What a copy holds: a case with its seeds, or one part alone.
+  using Parts = std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>;
+  struct Copy {
+    std::filesystem::path file;  ///< empty: there is none
+    Parts parts;
+  };
+  void keepPart(Copy& copy, const Parts& parts, const char* ending,
+                const std::function<void(const std::filesystem::path&)>& write);
 
-  std::mutex m_keepMutex;  ///< guards the next eight; never held with the other mutex
-  std::filesystem::path m_place, m_caseFile, m_seedsFile, m_proposalsFile;
-  std::shared_ptr<const formats::Case> m_case;
-  std::shared_ptr<const Seeds> m_caseSeeds;  ///< written with the case
-  std::shared_ptr<const Seeds> m_seeds;
-  std::shared_ptr<const formats::Case> m_proposals;
+  std::mutex m_keepMutex;  ///< guards the next four; never held with the other mutex
+  std::filesystem::path m_place;
+  Copy m_case, m_seeds, m_proposals;
 
   mutable std::mutex m_foundMutex;  ///< guards the next
   std::vector<std::filesystem::path> m_found;

@@ -17,7 +17,7 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
-#include "converters/judge/facts/case_info.h"
+#include "converters/engine/answers/case_info_answer.h"
 #include "converters/judge/facts/reachable.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/enum_names.h"
@@ -42,18 +42,6 @@ Json branchesJson(const formats::CenterlineTree& tree) {
                     {"stopReason", formats::enumName(formats::kStopReasonNames, branch.stopReason)},
                     {"confidence", mean ? engine::jsonNumber(*mean) : Json(nullptr)},
                     {"length", engine::jsonNumber(formats::branchLength(tree, branch))}});
-  }
-  return list;
-}
-
-Json stepsJson(const formats::Metadata& metadata) {
-  Json list = Json::array();
-  for (const formats::Step& step : metadata.steps) {
-    Json parameters = Json::object();
-    for (const auto& [name, value] : step.parameters)
-      std::visit([&parameter = parameters[name]](const auto& v) { parameter = v; }, value);
-    list.push_back(
-        {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
   }
   return list;
 }
@@ -152,7 +140,7 @@ std::string casePack(const formats::Case& value, bool withPoints, Progress& prog
   pack.set("voxelSize", voxel ? engine::jsonNumber(*voxel) : Json(nullptr));
   pack.set("hasModels", value.models.has_value());
   pack.set("reachable", reachableJson(value, progress));
-  pack.set("steps", stepsJson(value.metadata));
+  pack.set("steps", engine::stepsJson(value.metadata));
   return pack.bytes();
 }
 

@@ -113,11 +113,9 @@ Json overlapsJson(const convert::SurfaceReport& report) {
     list.push_back({{"branch", overlap.branch},
                     {"other", overlap.other},
                     {"depth", overlap.depth},
-                    {"position", {overlap.place.x(), overlap.place.y(), overlap.place.z()}}});
+                    {"position", engine::vectorJson(overlap.place)}});
   return list;
 }
-
-using convert::Triangle;
 
 constexpr double kMostError = 1.0 / 3;     // share of the mean radius by which a wall may move
 constexpr std::size_t kMinTriangles = 16;  // triangles of a run, where it has as many
@@ -208,13 +206,6 @@ std::string meshPack(const convert::MeshFile& mesh) {
            }));
   pack.set("kind", "mesh");
   return pack.bytes();
-}
-
-convert::MeshFile inMillimetres(convert::MeshFile mesh) {
-  if (mesh.unitMm > 0)
-    for (Eigen::Vector3d& p : mesh.mesh.position) p *= mesh.unitMm;
-  mesh.unitMm = 1;
-  return mesh;
 }
 
 MovingSurface movingSurface(std::span<const convert::Float3> position,

@@ -31,9 +31,6 @@ std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel&
 /// The pack `surface` of a mesh that was opened, in mm.
 std::string meshPack(const convert::MeshFile& mesh);
 
-/// The mesh in mm; a file without a unit is in mm.
-convert::MeshFile inMillimetres(convert::MeshFile mesh);
-
 /// A run of triangles.
 struct TriangleRun {
   std::size_t first = 0, count = 0;

@@ -58,8 +58,8 @@ VolumePack::VolumePack(std::shared_ptr<const convert::Volume> volume, const std:
   const auto window = greyRange();
   PackWriter pack;
   pack.set("size", m_size);
-  pack.set("spacing", {spacing.x(), spacing.y(), spacing.z()});
-  pack.set("origin", {origin.x(), origin.y(), origin.z()});
+  pack.set("spacing", engine::vectorJson(spacing));
+  pack.set("origin", engine::vectorJson(origin));
   pack.set("direction", std::vector<double>(direction.data(), direction.data() + 9));
   pack.set("sourceSize", geometry.size);
   pack.set("reduction", m_reduction);

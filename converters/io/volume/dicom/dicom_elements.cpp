@@ -205,10 +205,13 @@ private:
 
 }  // namespace
 
-DicomBytes::DicomBytes(const fs::path& path) : m_file(path, std::ios::binary) {
-  std::error_code error;
-  m_size = fs::file_size(path, error);
-  if (!m_file || error) throw invalidInput("cannot be opened");
+DicomBytes::DicomBytes(const InputFile& file) {
+  try {
+    m_file = file.open();
+    m_size = file.size();
+  } catch (const Error&) {
+    throw invalidInput("cannot be opened");
+  }
 }
 
 void DicomBytes::read(std::uint64_t at, std::span<std::byte> to) {
@@ -226,10 +229,10 @@ void DicomBytes::read(std::uint64_t at, std::span<std::byte> to) {
 }
 
 void DicomBytes::readAt(std::uint64_t at, std::span<std::byte> to) {
-  m_file.clear();
-  m_file.seekg(static_cast<std::streamoff>(at));
-  m_file.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
-  if (static_cast<std::size_t>(m_file.gcount()) == to.size()) return;
+  m_file->clear();
+  m_file->seekg(static_cast<std::streamoff>(at));
+  m_file->read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+  if (static_cast<std::size_t>(m_file->gcount()) == to.size()) return;
   m_window.clear();
   refuse(at, "it cannot be read");
 }

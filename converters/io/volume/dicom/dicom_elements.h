@@ -7,12 +7,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <functional>
+#include <istream>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "converters/base/input_file.h"
 
 namespace lumen::convert {
 
@@ -23,8 +25,8 @@ inline constexpr DicomTag kPixelData = 0x7fe00010;
 /// Random access to a file's numbers and bytes.
 class DicomBytes {
 public:
-  /// Throws Error(InvalidInput), without the file's name, if `path` cannot be opened.
-  explicit DicomBytes(const std::filesystem::path& path);
+  /// Throws Error(InvalidInput), without the file's name, if `file` cannot be opened.
+  explicit DicomBytes(const InputFile& file);
   [[nodiscard]] std::uint64_t size() const { return m_size; }
   /// Fills `to`, which must lie within the file.
   void read(std::uint64_t at, std::span<std::byte> to);
@@ -32,7 +34,7 @@ public:
 private:
   void readAt(std::uint64_t at, std::span<std::byte> to);
 
-  std::ifstream m_file;
+  std::unique_ptr<std::istream> m_file;
   std::uint64_t m_size = 0, m_windowAt = 0;
   std::vector<std::byte> m_window;
 };

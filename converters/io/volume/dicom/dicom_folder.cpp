@@ -19,11 +19,16 @@ using formats::printable;
 
 constexpr std::size_t kMostFiles = 500000;
 
-/// Folders of a series' images, below `folder`, sorted; the folder itself is ".".
-std::set<fs::path> foldersOf(const std::vector<DicomImage>& images, const fs::path& folder) {
+/// The folder of a file, below `folder`; the folder itself is ".".
+fs::path placeOf(const InputFile& file, const InputFile& folder) {
+  return file.path().parent_path().lexically_relative(folder.isInMemory() ? fs::path()
+                                                                          : folder.path());
+}
+
+/// Folders of a series' images, below `folder`, sorted.
+std::set<fs::path> foldersOf(const std::vector<DicomImage>& images, const InputFile& folder) {
   std::set<fs::path> folders;
-  for (const DicomImage& image : images)
-    folders.insert(image.file.parent_path().lexically_relative(folder));
+  for (const DicomImage& image : images) folders.insert(placeOf(image.file, folder));
   return folders;
 }
 
@@ -37,7 +42,7 @@ std::string placeText(const std::set<fs::path>& folders) {
 }
 
 /// One line per series: number, UID, files, modality, description, size of an image, folder.
-std::string listing(const DicomFolder& folder, const fs::path& path) {
+std::string listing(const DicomFolder& folder, const InputFile& place) {
   std::string text;
   int number = 0;
   for (const auto& [uid, images] : folder.series) {
@@ -47,23 +52,24 @@ std::string listing(const DicomFolder& folder, const fs::path& path) {
     for (const std::string& word : {first.modality, first.description})
       if (!word.empty()) text += ", " + printable(word);
     text += ", " + std::to_string(first.columns) + " x " + std::to_string(first.rows) +
-            placeText(foldersOf(images, path)) + ")";
+            placeText(foldersOf(images, place)) + ")";
   }
   return text;
 }
 
 std::string chooseSeries(const DicomFolder& folder, const ReadVolumeOptions& options,
-                         const fs::path& path) {
+                         const InputFile& place) {
+  const std::string path = place.path().string();
   const std::string& wanted = options.series;
   const auto& series = folder.series;
   if (series.empty() && !folder.faulty.empty()) throw *folder.faulty[0].fault;
   if (series.empty())
-    throw invalidInput(path.string() + ": holds no DICOM images, and no folder below it does");
+    throw invalidInput(path + ": holds no DICOM images, and no folder below it does");
   if (wanted.empty()) {
     if (series.size() == 1) return series.begin()->first;
-    throw invalidInput(path.string() + ": holds " + std::to_string(series.size()) +
+    throw invalidInput(path + ": holds " + std::to_string(series.size()) +
                        " DICOM series; choose one with " + options.word("series") +
-                       ", by number or UID:" + listing(folder, path));
+                       ", by number or UID:" + listing(folder, place));
   }
   if (series.contains(wanted)) return wanted;
   std::size_t number = 0;
@@ -71,14 +77,21 @@ std::string chooseSeries(const DicomFolder& folder, const ReadVolumeOptions& opt
   const auto parsed = std::from_chars(wanted.data(), end, number);
   if (parsed.ec == std::errc() && parsed.ptr == end && number >= 1 && number <= series.size())
     return std::next(series.begin(), static_cast<std::ptrdiff_t>(number) - 1)->first;
-  throw invalidInput(path.string() + ": has no series \"" + wanted +
-                     "\"; it holds:" + listing(folder, path));
+  throw invalidInput(path + ": has no series \"" + wanted +
+                     "\"; it holds:" + listing(folder, place));
 }
 
 /// Files below a folder, sorted. A folder below it that cannot be listed is an error: a series
 /// might lack slices without a word.
-std::vector<fs::path> filesBelow(const fs::path& folder, const Progress& progress) {
-  std::vector<fs::path> files;
+std::vector<InputFile> filesBelow(const InputFile& input, const Progress& progress) {
+  const auto inOrder = [](std::vector<InputFile> all) {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.path() < b.path(); });
+    return all;
+  };
+  if (input.files() != nullptr) return inOrder(*input.files());
+  const fs::path& folder = input.path();
+  std::vector<InputFile> files;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
@@ -87,22 +100,20 @@ std::vector<fs::path> filesBelow(const fs::path& folder, const Progress& progres
     if (entry->is_directory(ignored) && entry->path().filename().string().starts_with('.'))
       entry.disable_recursion_pending();
     if (!entry->is_regular_file(ignored)) continue;
-    files.push_back(entry->path());
+    files.emplace_back(entry->path());
     if (files.size() > kMostFiles)
       throw invalidInput(folder.string() + ": more than " + std::to_string(kMostFiles) +
                          " files lie below it; expected the folder of one patient's images");
   }
   if (error) throw invalidInput(folder.string() + ": cannot be listed (" + error.message() + ")");
-  std::sort(files.begin(), files.end());
-  return files;
+  return inOrder(std::move(files));
 }
 
 }  // namespace
 
-DicomFolder scanDicomFolder(const fs::path& folder, const Progress& progress) {
-  const std::vector<fs::path> files = filesBelow(folder, progress);
+DicomFolder scanDicomFolder(const InputFile& folder, const Progress& progress) {
   DicomFolder found;
-  for (const fs::path& file : files) {
+  for (const InputFile& file : filesBelow(folder, progress)) {
     progress.check();
     DicomScan scan = scanDicom(file);
     if (scan.fault)
@@ -115,7 +126,7 @@ DicomFolder scanDicomFolder(const fs::path& folder, const Progress& progress) {
   return found;
 }
 
-DicomChoice findDicomSeries(const fs::path& folder, const ReadVolumeOptions& options,
+DicomChoice findDicomSeries(const InputFile& folder, const ReadVolumeOptions& options,
                             const Progress& progress) {
   DicomFolder found = scanDicomFolder(folder, progress);
   const std::string uid = chooseSeries(found, options, folder);
@@ -123,13 +134,14 @@ DicomChoice findDicomSeries(const fs::path& folder, const ReadVolumeOptions& opt
   const std::set<fs::path> folders = foldersOf(found.series[uid], folder);
   for (const DicomScan& scan : found.faulty) {
     const bool isOfOther = !scan.series.empty() && scan.series != uid;
-    const fs::path place = scan.file.parent_path().lexically_relative(folder);
-    if (isOfOther || (scan.series.empty() && !folders.contains(place))) continue;
+    if (isOfOther || (scan.series.empty() && !folders.contains(placeOf(scan.file, folder))))
+      continue;
     if (!options.skipFaulty) throw *scan.fault;
-    // the sentence begins with the path, which may be temporary
-    const std::string fault = scan.fault->what(), before = scan.file.string() + ": ";
-    choice.assumptions.push_back(printable(scan.file.filename().string()) + " is left out: " +
-                                 (fault.starts_with(before) ? fault.substr(before.size()) : fault));
+    // the sentence begins with the path
+    const std::string fault = scan.fault->what(), before = scan.file.path().string() + ": ";
+    choice.assumptions.push_back(
+        printable(scan.file.path().filename().string()) +
+        " is left out: " + (fault.starts_with(before) ? fault.substr(before.size()) : fault));
   }
   choice.images = std::move(found.series[uid]);
   return choice;

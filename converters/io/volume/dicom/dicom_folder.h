@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,12 +18,12 @@ namespace lumen::convert {
 struct DicomFolder {
   std::map<std::string, std::vector<DicomImage>> series;  ///< by instance UID
   std::vector<DicomScan> faulty;
-  std::vector<std::filesystem::path> others;  ///< files that are no DICOM images
+  std::vector<InputFile> others;  ///< files that are no DICOM images
 };
 
 /// Throws Error(InvalidInput) for a folder that cannot be listed, and one with more than half a
 /// million files below it; Error(Cancelled).
-DicomFolder scanDicomFolder(const std::filesystem::path& folder, const Progress& progress);
+DicomFolder scanDicomFolder(const InputFile& folder, const Progress& progress);
 
 /// The images of one series.
 struct DicomChoice {
@@ -36,7 +35,7 @@ struct DicomChoice {
 /// the only one). Throws Error(InvalidInput) if there is no such series or several (the message
 /// lists them); the fault of a file that belongs to the series, or that names none and lies in
 /// a folder of the series, unless the options leave such files out; Error(Cancelled).
-DicomChoice findDicomSeries(const std::filesystem::path& folder, const ReadVolumeOptions& options,
+DicomChoice findDicomSeries(const InputFile& folder, const ReadVolumeOptions& options,
                             const Progress& progress);
 
 }  // namespace lumen::convert

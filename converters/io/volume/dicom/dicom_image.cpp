@@ -375,7 +375,7 @@ void scanInto(DicomScan& scan, DicomBytes& bytes, const Beginning& beginning) {
 
 }  // namespace
 
-DicomScan scanDicom(const std::filesystem::path& file) {
+DicomScan scanDicom(const InputFile& file) {
   DicomScan scan;
   scan.file = file;
   Beginning beginning{.hasMark = true};
@@ -389,7 +389,7 @@ DicomScan scanDicom(const std::filesystem::path& file) {
     scan.image.reset();
     // without the mark the format was a guess
     if (beginning.hasMark || !scan.series.empty())
-      scan.fault = Error(error.kind(), file.string() + ": " + error.what());
+      scan.fault = Error(error.kind(), file.path().string() + ": " + error.what());
   }
   return scan;
 }

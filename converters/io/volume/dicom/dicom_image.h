@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +30,7 @@ struct DicomPlane {
 };
 
 struct DicomImage {
-  std::filesystem::path file;
+  InputFile file{""};
   std::string series, description;  ///< instance UID, text
   std::string modality;             ///< such as CT
   std::string transferSyntax;       ///< UID
@@ -49,7 +48,7 @@ struct DicomImage {
 
 /// Result of reading one file of a folder as a DICOM image.
 struct DicomScan {
-  std::filesystem::path file;
+  InputFile file{""};
   std::string series;  ///< series that the file names, even if it is damaged further on
   std::optional<DicomImage>
       image;                   ///< empty without a fault: no image, such as a text or a DICOMDIR
@@ -58,6 +57,6 @@ struct DicomScan {
 
 /// Reads all of `file` but its pixels. A fault is InvalidInput for a file that is damaged or whose
 /// numbers describe no image, and Unsupported for features of DICOM that lumen does not read.
-DicomScan scanDicom(const std::filesystem::path& file);
+DicomScan scanDicom(const InputFile& file);
 
 }  // namespace lumen::convert

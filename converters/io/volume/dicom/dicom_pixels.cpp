@@ -317,7 +317,7 @@ Voxels readDicomFrame(const DicomImage& image, std::size_t frame, const Progress
     return image.isSigned ? decodeVoxels<std::int32_t>(pixels, image, plane)
                           : decodeVoxels<std::uint32_t>(pixels, image, plane);
   } catch (const Error& error) {
-    throw Error(error.kind(), image.file.string() + ": " + error.what());
+    throw Error(error.kind(), image.file.path().string() + ": " + error.what());
   }
 }
 

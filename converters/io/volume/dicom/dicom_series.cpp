@@ -13,8 +13,6 @@
 namespace lumen::convert {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kMostPixels = 128;  // along an edge of a picture
 // Shares of the pixels that are black and white in a picture.
 constexpr double kDarkShare = 0.02, kBrightShare = 0.995;
@@ -58,7 +56,7 @@ GreyPicture pictureOf(const DicomImage& image, std::size_t frame, const Progress
 }
 
 DicomSeries describe(std::vector<DicomImage> images, const ReadVolumeOptions& options,
-                     const fs::path& folder, const Progress& progress) {
+                     const InputFile& folder, const Progress& progress) {
   DicomSeries series;
   const DicomImage& first = images[0];
   series.uid = first.series;
@@ -71,7 +69,7 @@ DicomSeries describe(std::vector<DicomImage> images, const ReadVolumeOptions& op
                  static_cast<int>(frames)};
   const DicomImage middle = images[images.size() / 2];
   try {
-    const DicomStack stack = stackOf({std::move(images), {}}, options, folder);
+    const DicomStack stack = stackOf({std::move(images), {}}, options, folder.path());
     series.spacing = stack.geometry.spacing;
     const DicomFrame& frame = stack.slices[stack.slices.size() / 2];
     series.picture = pictureOf(*frame.image, frame.frame, progress);
@@ -85,7 +83,7 @@ DicomSeries describe(std::vector<DicomImage> images, const ReadVolumeOptions& op
 
 }  // namespace
 
-DicomListing listDicomSeries(const fs::path& folder, const ReadVolumeOptions& options,
+DicomListing listDicomSeries(const InputFile& folder, const ReadVolumeOptions& options,
                              Progress& progress) {
   progress.begin("looking for series", 0);
   DicomFolder found = scanDicomFolder(folder, progress);

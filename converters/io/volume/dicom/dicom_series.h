@@ -6,13 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "converters/base/progress.h"
+#include "converters/base/input_file.h"
 #include "converters/io/volume/read_volume_options.h"
 
 namespace lumen::convert {
@@ -43,7 +43,7 @@ struct DicomListing {
 /// listed and stops nothing. The options state a spacing that files lack. Throws
 /// Error(InvalidInput) for a folder that cannot be listed, Error(Unsupported) where lumen is built
 /// without DICOM, and Error(Cancelled).
-DicomListing listDicomSeries(const std::filesystem::path& folder, const ReadVolumeOptions& options,
+DicomListing listDicomSeries(const InputFile& folder, const ReadVolumeOptions& options,
                              Progress& progress);
 
 }  // namespace lumen::convert

@@ -46,7 +46,7 @@ Vector3d pixelSpacing(const DicomFrame& slice, const ReadVolumeOptions& options)
   const bool sound = stated && (*stated)[0] > 0 && (*stated)[1] > 0;
   if (!sound && !options.spacing)
     throw invalidInput(
-        slice.image->file.string() + ": its pixel spacing (0028,0030) is " +
+        slice.image->file.path().string() + ": its pixel spacing (0028,0030) is " +
         (stated ? longNumber((*stated)[0]) + " and " + longNumber((*stated)[1]) : "not stated") +
         "; expected two positive numbers of mm; state the spacing with " + options.word("spacing"));
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -56,7 +56,7 @@ Vector3d pixelSpacing(const DicomFrame& slice, const ReadVolumeOptions& options)
 /// Refuses slices without a position in space, which cannot be stacked.
 void checkPlaced(const DicomFrame& slice) {
   if (!slice.plane.position || !slice.plane.orientation)
-    throw invalidInput(slice.image->file.string() +
+    throw invalidInput(slice.image->file.path().string() +
                        ": has no image position and orientation; expected a slice of a volume");
 }
 
@@ -129,7 +129,7 @@ VolumeGeometry stackFrames(const std::vector<DicomFrame>& slices, const ReadVolu
                            std::vector<std::string>& assumptions) {
   const DicomFrame& first = slices[0];
   if (!first.plane.distance && !options.spacing)
-    throw invalidInput(first.image->file.string() +
+    throw invalidInput(first.image->file.path().string() +
                        ": does not state the distance between its frames; expected a volume; state "
                        "the spacing with " +
                        options.word("spacing"));
@@ -149,7 +149,7 @@ std::vector<DicomFrame> slicesOf(const std::vector<DicomImage>& images) {
   std::vector<DicomFrame> slices;
   for (const DicomImage& image : images) {
     if (image.frames > 1 && images.size() > 1)
-      throw invalidInput(image.file.string() + ": holds " + std::to_string(image.frames) +
+      throw invalidInput(image.file.path().string() + ": holds " + std::to_string(image.frames) +
                          " frames beside other files of its series; expected one frame for each "
                          "file");
     for (std::size_t frame = 0; frame < image.frames; ++frame)
@@ -165,7 +165,7 @@ void reportRest(DicomStack& stack) {
     const std::size_t used = image.frameBytes() * image.frames;
     if (image.pixels.encapsulated || image.pixels.value.length < used + image.frameBytes())
       continue;
-    stack.assumptions.push_back(image.file.filename().string() + " holds " +
+    stack.assumptions.push_back(image.file.path().filename().string() + " holds " +
                                 std::to_string(image.pixels.value.length - used) +
                                 " bytes of pixels more than it announces, which are left out");
     return;
@@ -180,7 +180,7 @@ DicomStack stackOf(DicomChoice choice, const ReadVolumeOptions& options, const f
   stack.assumptions = std::move(choice.assumptions);
   stack.slices = slicesOf(stack.images);
   if (stack.slices.size() < 2)
-    throw invalidInput(stack.images[0].file.string() +
+    throw invalidInput(stack.images[0].file.path().string() +
                        ": is the only slice of its series, so it is not 3-D; expected a series of "
                        "slices in one folder, or a file of several frames");
   const auto& perFrame = stack.images[0].perFrame;

@@ -19,7 +19,7 @@ struct DicomFrame {
   DicomPlane plane;
   double position = 0;  ///< mm along the slices' normal
   [[nodiscard]] std::string name() const {
-    const std::string file = image->file.filename().string();
+    const std::string file = image->file.path().filename().string();
     return image->frames == 1 ? file : file + " (frame " + std::to_string(frame + 1) + ")";
   }
 };

@@ -20,9 +20,9 @@ OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& /*options
   refuse(folder.path());
 }
 
-DicomListing listDicomSeries(const std::filesystem::path& folder,
-                             const ReadVolumeOptions& /*options*/, Progress& /*progress*/) {
-  refuse(folder);
+DicomListing listDicomSeries(const InputFile& folder, const ReadVolumeOptions& /*options*/,
+                             Progress& /*progress*/) {
+  refuse(folder.path());
 }
 
 }  // namespace lumen::convert

@@ -69,7 +69,7 @@ OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
   const fs::path& path = folder.path();
   // shared, because slices point to its images
   const auto stack = std::make_shared<const DicomStack>(
-      stackOf(findDicomSeries(path, options, progress), options, path));
+      stackOf(findDicomSeries(folder, options, progress), options, path));
   const DicomImage& first = stack->images[0];
   OpenVolume open;
   VolumeHeader& header = open.header;
@@ -77,7 +77,7 @@ OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
   header.storedType = (first.isSigned ? "int" : "uint") + std::to_string(first.bitsAllocated);
   header.encoding = encodingName(first.packing);
   header.voxelBytes = first.frameBytes() * stack->slices.size();
-  for (const DicomImage& image : stack->images) header.storedBytes += fs::file_size(image.file);
+  for (const DicomImage& image : stack->images) header.storedBytes += image.file.size();
   header.assumptions = stack->assumptions;
   open.readVoxels = [stack](const Progress& running, std::vector<std::string>&) {
     return readSlices(*stack, running);
