@@ -213,10 +213,10 @@ class Case:
         --------
         >>> case.mesh(edge="0.25r").to_pyvista().plot(scalars="group")
         """
-        is_case = isinstance(case, Case)
-        name, case = ("case.lumen", case) if is_case else (os.fspath(case), read(case))
+        source: Any = case
+        name, core = case._given() if isinstance(case, Case) else (os.fsdecode(source), read(source)._core)
         watch = watch_of(options)
-        *arrays, warnings, details = called(_lumen.mesh_of, case._core, name, texts_of("convert", options), *watch,
+        *arrays, warnings, details = called(_lumen.mesh_of, core, name, texts_of("convert", options), *watch,
                                             known=[name])
         report(warnings, details)
         return Mesh(*arrays)

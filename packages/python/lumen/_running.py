@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import os
-from typing import Any, Dict, List, Mapping, Tuple
+from typing import Any, Dict, Mapping, Tuple
 
 from . import _images, _lumen
 from ._calls import called, report, watch_of
@@ -80,8 +80,8 @@ class Values:
     """Inputs and outputs of a command in memory, by the names that its arguments, options and messages have."""
 
     def __init__(self, arguments):
-        self.given: Dict[str, Any] = {}
-        self.kept: List[str] = []
+        self.given = {}
+        self.kept = []
         flat = itertools.chain.from_iterable(one if isinstance(one, (list, tuple)) else [one] for one in arguments)
         self._taken = {os.fsdecode(one) for one in flat if _is_path(one) and not isinstance(one, Kept)}
 
