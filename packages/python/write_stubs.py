@@ -3,7 +3,8 @@
 """Writes the stubs of the package lumen: write_stubs.py TEMPLATES PACKAGE
 
 A line "{options COMMAND -NAME...}" of a template becomes the keyword arguments of that command's rows, without those
-that are named; "{run}" becomes progress, threads and strict. PACKAGE is the built package, which lists the rows."""
+that are named; "{run}" becomes progress, threads and strict; "{groups}" the classes of lumen.options.
+PACKAGE is the built package, which lists the rows."""
 import pathlib, re, sys
 
 LINE = re.compile(r"^(?P<indent> *)\{(?P<what>run|options (?P<command>\w+)(?P<without>( -\S+)*))\}\n", re.MULTILINE)
@@ -25,17 +26,16 @@ def main():
         return "".join(f"{match['indent']}{line},\n" for line in lines)
 
     def kind(row):
-        if row["name"] == "seeds":
-            return "Seeds"
-        if row["name"] in ("volume", "label-map"):
-            return "VolumeLike"
-        if row["name"] == "against":
-            return "Union[Case, PathLike]"
         kinds = re.split(r" \| ", _options.type_of(row))
         return kinds[0] if len(kinds) == 1 else f"Union[{', '.join(kinds)}]"
 
+    def classes():
+        for name, rows in sorted(_options.group_rows().items()):
+            yield f"class {name}(TypedDict, total=False):\n"
+            yield from (f"    {_options.keyword_of(row['name'])}: {kind(row)}\n" for row in rows)
+
     for template in sorted(templates.glob("*.pyi.in")):
-        text = LINE.sub(keywords, template.read_text(encoding="utf-8"))
+        text = LINE.sub(keywords, template.read_text(encoding="utf-8")).replace("{groups}\n", "".join(classes()))
         (package / template.name[:-3]).write_text(text, encoding="utf-8")
 
 

@@ -69,27 +69,6 @@ std::string noteText(const std::string& text) {
   return out;
 }
 
-std::string encodeNrrd(const Volume& volume, bool compressed, const VolumeNotes& notes) {
-  constexpr std::array kTypes = {"unsigned char", "short", "unsigned short", "float"};
-  const VolumeGeometry& g = volume.geometry;
-  std::string directions;
-  for (Eigen::Index a = 0; a < 3; ++a)
-    directions += " (" + exactTexts(g.direction.col(a) * g.spacing[a], ",") + ")";
-  std::string file =
-      "NRRD0004\n# Complete NRRD file format specification at:\n"
-      "# http://teem.sourceforge.net/nrrd/format.html\ntype: ";
-  file += kTypes.at(volume.voxels.index());
-  file += "\ndimension: 3\nspace: left-posterior-superior\nsizes: " + joinedNumbers(g.size, " ") +
-          "\nspace directions:" + directions + "\nkinds: domain domain domain\n";
-  if (volume.voxels.index() > 0) file += "endian: little\n";
-  file += std::string("encoding: ") + (compressed ? "gzip" : "raw") + "\nspace origin: (" +
-          exactTexts(g.origin, ",") + ")\n";
-  for (const auto& [key, text] : notes) file += noteText(key) + ":=" + noteText(text) + "\n";
-  file += "\n";
-  file += compressed ? deflated({voxelBytes(volume)}, Stream::Gzip, kFast) : voxelBytes(volume);
-  return file;
-}
-
 /// The header of a MetaImage file; `packed` is the line about compression.
 std::string metaHeader(const Volume& volume, const std::string& packed, const std::string& data) {
   constexpr std::array kTypes = {"MET_UCHAR", "MET_SHORT", "MET_USHORT", "MET_FLOAT"};
@@ -123,11 +102,42 @@ std::string encodeNifti(const Volume& volume, bool compressed, const fs::path& f
 
 }  // namespace
 
+std::string nrrdHeader(const NrrdVoxels& voxels, std::string_view encoding,
+                       const VolumeNotes& notes) {
+  const VolumeGeometry& g = voxels.geometry;
+  std::string header =
+      "NRRD0004\n# Complete NRRD file format specification at:\n"
+      "# http://teem.sourceforge.net/nrrd/format.html\ntype: ";
+  header.append(voxels.type).append("\ndimension: 3\nspace: ").append(voxels.space);
+  header += "\nsizes: " + joinedNumbers(g.size, " ") + "\nspace directions:";
+  for (Eigen::Index a = 0; a < 3; ++a)
+    header += " (" + exactTexts(g.direction.col(a) * g.spacing[a], ",") + ")";
+  header += "\nkinds: domain domain domain\n";
+  if (!voxels.type.ends_with("char")) header += "endian: little\n";
+  header.append("encoding: ").append(encoding) += '\n';
+  if (!voxels.unit.empty()) {
+    const std::string unit = " \"" + std::string(voxels.unit) + "\"";
+    header += "space units:" + unit + unit + unit + "\n";
+  }
+  header += "space origin: (" + exactTexts(g.origin, ",") + ")\n";
+  for (const auto& [key, text] : notes) header += noteText(key) + ":=" + noteText(text) + "\n";
+  return header + "\n";
+}
+
+std::string encodeNrrd(const NrrdVoxels& voxels, std::string_view bytes, bool compressed,
+                       const VolumeNotes& notes) {
+  if (!compressed) return nrrdHeader(voxels, "raw", notes).append(bytes);
+  return nrrdHeader(voxels, "gzip", notes) + deflated({bytes}, Stream::Gzip, kFast);
+}
+
 std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
                          const fs::path& file, const VolumeNotes& notes) {
   switch (format) {
-    case VolumeFormat::Nrrd:
-      return encodeNrrd(volume, compressed, notes);
+    case VolumeFormat::Nrrd: {
+      constexpr std::array kTypes = {"unsigned char", "short", "unsigned short", "float"};
+      return encodeNrrd({kTypes.at(volume.voxels.index()), volume.geometry}, voxelBytes(volume),
+                        compressed, notes);
+    }
     case VolumeFormat::Nifti:
       return encodeNifti(volume, compressed, file);
     case VolumeFormat::MetaImage:

@@ -16,6 +16,23 @@ namespace lumen::convert {
 /// Texts that a header of NRRD holds beside its own fields.
 using VolumeNotes = std::map<std::string, std::string>;
 
+/// Voxels of any type as a header of NRRD describes them.
+struct NrrdVoxels {
+  std::string_view type;  ///< NRRD's name: "short"
+  VolumeGeometry geometry{};
+  std::string_view space = "left-posterior-superior";
+  std::string_view unit{};  ///< of lengths; empty: not stated
+};
+
+/// The header of a file of NRRD, up to the voxels, which follow little-endian in `encoding`: "raw" or
+/// "gzip".
+std::string nrrdHeader(const NrrdVoxels& voxels, std::string_view encoding,
+                       const VolumeNotes& notes = {});
+
+/// The bytes of a file of NRRD with these voxels, little-endian.
+std::string encodeNrrd(const NrrdVoxels& voxels, std::string_view bytes, bool compressed,
+                       const VolumeNotes& notes = {});
+
 /// The bytes of one file with header and voxels; equal volumes give equal bytes. `file` is named in
 /// messages; notes are for NRRD alone. Throws Error(Unsupported) for DICOM, and for more than 32767
 /// voxels along an axis of NIfTI.

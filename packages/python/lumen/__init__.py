@@ -17,12 +17,12 @@ from ._inputs import Volume
 from ._parts import Branch, Change, Mesh, Models, Motion, Picture, Points, Tree
 from ._editing import Editor
 from ._running import Answer, run
-from ._case import Case
-from ._operations import (Phantom, check, convert, export, find_vessels, fit, measure, mesh,
-                          options_of, phantom, picture, read, targets, track, validate)
-from . import blob
+from ._case import Case, read
+from ._operations import (Phantom, case_of, check, convert, export, find_vessels, fit, measure, mesh,
+                          options_of, phantom, picture, targets, track, validate)
+from . import blob, options
 
 __all__ = ["Answer", "Branch", "Case", "Change", "Editor", "Error", "Mesh", "Models", "Motion",
-           "Phantom", "Picture", "Points", "Tree", "Volume", "Warning", "blob", "check", "convert", "export",
-           "find_vessels", "fit", "measure", "mesh", "options_of", "phantom", "picture", "read", "run",
-           "targets", "track", "validate"]
+           "Phantom", "Picture", "Points", "Tree", "Volume", "Warning", "blob", "case_of", "check", "convert",
+           "export", "find_vessels", "fit", "measure", "mesh", "options", "options_of", "phantom", "picture",
+           "read", "run", "targets", "track", "validate"]

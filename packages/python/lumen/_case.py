@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 
 from . import _lumen
+from ._calls import called, report, watch_of
 from ._editing import Editor
-from ._inputs import Staging
-from ._mesh_file import read_mesh
-from ._options import document
+from ._exchange import graph_of
+from ._options import document, mesh_rows, texts_of
 from ._parts import Change, Mesh, Models, Motion, Picture, Points, Tree
-from ._running import Answer, called, run_staged, warn
+from ._running import Answer, Kept, call, run
 
 
 class Case:
@@ -163,84 +163,158 @@ class Case:
         return Editor(self)
 
     # ------------------------------------------------------------ work
-    def validate(self, **options) -> Answer:
-        """All faults of the case: see :func:`lumen.validate`."""
-        from ._operations import validate
-        return validate(self, **options)
+    # those whose first argument is no self are functions of lumen, too, which take the path of a case
+    # pylint: disable=no-self-argument
+    @document("validate")
+    def validate(source, **options) -> Answer:
+        """All faults of a case.
 
-    def fit(self, *, progress=None, threads=None, strict=False, **options) -> "Case":
+        Returns
+        -------
+        Answer
+            ``valid``, ``errors``, ``warnings``, ``information`` and ``issues``, each with code, number,
+            severity, pointer or offset, arguments and message.
+        """
+        if isinstance(source, Case):
+            errors, warnings, notes, issues = source._core.issues(int(options.get("max_issues") or 100))
+            if errors:
+                answer = Answer(file=None, valid=False, complete=len(issues) == errors + warnings + notes,
+                                errors=errors, warnings=warnings, information=notes, issues=issues)
+                answer.text = "\n".join(f"{i['code']} at {i['pointer']}: {i['message']}" for i in issues)
+                answer.code, answer.warnings = 3, []
+                return answer
+        whole = run("validate", source, **options)
+        answer = Answer(whole["files"][0])
+        if isinstance(source, Case):
+            answer["file"] = None
+        answer.text, answer.code, answer.warnings = whole.text, whole.code, whole.warnings
+        return answer
+
+    @document("fit", "to")
+    def fit(case, **options) -> "Case":
         """Fits models to the wall points; returns a new case."""
-        return self._made("fit", progress, threads, strict, options)
+        return case_made("fit", case, **options)
 
-    def trim(self, *, progress=None, threads=None, strict=False, **options) -> "Case":
+    @document("trim", "to")
+    def trim(case, **options) -> "Case":
         """Removes ends of vessels that are too thin or too short; returns a new case."""
-        return self._made("trim", progress, threads, strict, options)
+        return case_made("trim", case, **options)
 
-    def mesh(self, *, progress=None, threads=None, strict=False, **options) -> Mesh:
+    @document("convert", rows=mesh_rows())
+    def mesh(case, **options) -> Mesh:
         """The closed surface, or its patches, as arrays.
 
         Returns
         -------
         Mesh
             Vertices (v, 3) float32, mm, LPS; triangles (t, 3) int32, facing outwards.
-        """
-        with Staging() as staging:
-            path = staging.name("mesh.ply")
-            run_staged(staging, "convert", (self, path), options, progress, threads, strict)
-            return read_mesh(path)
 
-    def measure(self, *, progress=None, threads=None, strict=False, **options) -> Answer:
+        Examples
+        --------
+        >>> case.mesh(edge="0.25r").to_pyvista().plot(scalars="group")
+        """
+        source: Any = case
+        name, core = case._given() if isinstance(case, Case) else (os.fsdecode(source), read(source)._core)
+        watch = watch_of(options)
+        *arrays, warnings, details = called(_lumen.mesh_of, core, name, texts_of("convert", options), *watch,
+                                            known=[name])
+        report(warnings, details)
+        return Mesh(*arrays)
+
+    def surface(self, **options) -> Tuple[np.ndarray, np.ndarray]:
+        """The closed surface as two arrays; options as those of :meth:`mesh`.
+
+        Returns
+        -------
+        vertices : (v, 3) float32
+            mm, LPS.
+        triangles : (t, 3) int32
+            Indices of vertices, counter-clockwise seen from outside.
+
+        Examples
+        --------
+        >>> vertices, triangles = case.surface()
+        >>> axes = matplotlib.pyplot.figure().add_subplot(projection="3d")
+        >>> axes.plot_trisurf(*vertices.T, triangles=triangles)
+        """
+        mesh = self.mesh(**options)
+        return mesh.vertices, mesh.triangles
+
+    def to_pyvista(self, **options):
+        """The closed surface as a ``pyvista.PolyData``, mm, LPS; options as those of :meth:`mesh`.
+
+        Examples
+        --------
+        >>> plotter = pyvista.Plotter()
+        >>> plotter.add_mesh(case.to_pyvista(), opacity=0.3)
+        >>> plotter.add_mesh(case.tree.to_pyvista(), scalars="radius")
+        >>> plotter.show()
+        """
+        return self.mesh(**options).to_pyvista()
+
+    def to_networkx(self):
+        """The tree as a ``networkx.DiGraph`` whose edges lead from parents to children.
+
+        Returns
+        -------
+        networkx.DiGraph
+            Nodes 0 to n - 1 with ``centre`` (x, y, z), mm, LPS, ``radius``, mm, ``branch``, its label, ``inlier_rate``
+            where it is known, and the values of :attr:`node_arrays`. Edges with ``length``, mm, and ``link``, true for
+            those of :attr:`Tree.links`, which close loops.
+
+        Examples
+        --------
+        >>> graph = case.to_networkx()
+        >>> places = {node: centre[::2] for node, centre in graph.nodes(data="centre")}   # x and z: from the front
+        >>> networkx.draw(graph, places, node_size=[10 * radius for _, radius in graph.nodes(data="radius")])
+        """
+        return graph_of(self)
+
+    @document("measure")
+    def measure(case, **options) -> Answer:
         """Measures vessels, paths, forks, narrowings and aneurysms, each with its uncertainty.
 
         Returns
         -------
         Answer
-            Tables with units in their keys: spec/answers/measure.schema.json.
+            Tables with units in their keys, as spec/answers states them; :meth:`lumen.Answer.tables` gives them to
+            pandas.
         """
-        return self._asked("measure", (), progress, threads, strict, options)
+        return run("measure", case, **options)
 
-    def check(self, volume, *, progress=None, threads=None, strict=False, **options) -> Answer:
-        """Agreement with the volume (a path, or a :class:`Volume`): wall, dark lumen, missing
+    @document("check")
+    def check(self, volume, **options) -> Answer:
+        """Agreement with the volume (a path, a :class:`Volume` or an image): wall, dark lumen, missing
         vessels."""
-        with Staging() as staging:
-            return run_staged(staging, "check", (volume, self), options, progress, threads, strict)
+        return run("check", volume, self, **options)
 
-    def compare(self, truth, *, progress=None, threads=None, strict=False, **options) -> Answer:
+    @document("compare")
+    def compare(self, truth, **options) -> Answer:
         """Scores of this case against the true one, a path or a Case."""
-        return self._asked("compare", (truth,), progress, threads, strict, options)
+        return run("compare", self, truth, **options)
 
-    def export(self, target: str, folder, *, progress=None, threads=None, strict=False,
-               **options) -> Answer:
+    @document("export", "list")
+    def export(self, target: str, folder, **options) -> Answer:
         """Writes the folder that a simulator loads; :func:`lumen.targets` lists the targets."""
-        with Staging() as staging:
-            arguments = (target, self, os.fspath(folder))
-            return run_staged(staging, "export", arguments, options, progress, threads, strict)
+        return run("export", target, self, os.fspath(folder), **options)
 
-    def info(self, *, progress=None, threads=None, strict=False, **options) -> Answer:
+    @document("info")
+    def info(self, **options) -> Answer:
         """Figures of the content: counts, lengths, radii, branches."""
-        return self._asked("info", (), progress, threads, strict, options)
+        return run("info", self, **options)
 
-    def picture(self, *, progress=None, threads=None, strict=False, **options) -> Picture:
-        """Draws the case: the bytes of a PNG, which a notebook shows. ``volume`` may be a path or a
-        :class:`Volume`; ``size`` is (width, height)."""
-        with Staging() as staging:
-            path = staging.name("picture.png")
-            run_staged(staging, "picture", (self, path), options, progress, threads, strict)
-            with open(path, "rb") as file:
-                return Picture(file.read())
+    @document("picture", "turntable")
+    def picture(case, **options) -> Picture:
+        """Draws the case: the bytes of a PNG, which a notebook shows. ``volume`` may be a path, a
+        :class:`Volume` or an image; ``size`` is (width, height)."""
+        return Picture(call("picture", case, Kept("picture.png"), **options)[1][0])
 
     def _repr_png_(self) -> Optional[bytes]:
         return None if self.models is None else bytes(self.picture(size=(800, 600)))
 
-    def _asked(self, command, others, progress, threads, strict, options) -> Answer:
-        with Staging() as staging:
-            return run_staged(staging, command, (self, *others), options, progress, threads, strict)
-
-    def _made(self, command, progress, threads, strict, options) -> "Case":
-        with Staging() as staging:
-            path = staging.name("made.lumen")
-            run_staged(staging, command, (self, path), options, progress, threads, strict)
-            return Case(_lumen.Case.read(path))
+    def _given(self):
+        """The name and the content by which commands take this case."""
+        return "case.lumen", self._core
 
     # ------------------------------------------------------------ object
     def __eq__(self, other):
@@ -264,5 +338,26 @@ def _bits(point_bits: int) -> int:
     return point_bits
 
 
-for _name in ("fit", "trim", "measure", "check", "compare", "export", "info", "picture"):
-    document(getattr(Case, _name), _name, "to", "turntable", "list")
+def read(path) -> Case:
+    """Reads a case, .lumen or .lumen.json, by its content.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    Case
+        Its arrays cannot be written to.
+
+    Raises
+    ------
+    Error
+        With file, place, rule, and the values found and expected.
+    """
+    return Case(called(_lumen.Case.read, os.fspath(path)))
+
+
+def case_made(command: str, *arguments, **options) -> Case:
+    """The case that a command writes as its last argument."""
+    return Case(call(command, *arguments, Kept("made.lumen"), **options)[1][0])

@@ -2,14 +2,9 @@
 """Corrections of a case by hand."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from . import _lumen
+from ._calls import called
 from ._parts import Change
-from ._running import called
-
-if TYPE_CHECKING:
-    from ._case import Case
 
 
 class Editor:
@@ -20,86 +15,85 @@ class Editor:
     happened. Raises lumen.Error for what a correction does not allow.
     """
 
-    def __init__(self, case: "Case"):
+    def __init__(self, case):
         self._case = case
 
-    def delete(self, branch, *, children: bool = False, refit: bool = True, progress=None) -> "Case":
+    def delete(self, branch, *, children: bool = False, refit: bool = True, progress=None):
         """Deletes a branch; with ``children`` all that hangs on it, too, which else becomes trees
         of its own."""
         return self._edited(_lumen.edit_delete, (self._branch(branch), children), refit, progress)
 
     def cut(self, node: int, *, keep_joined: bool = False, label: str = "", refit: bool = True,
-            progress=None) -> "Case":
+            progress=None):
         """Ends a branch before a node. The rest becomes a branch ``label`` of a tree of its own, or,
         with ``keep_joined``, a child in the same lumen."""
         return self._edited(_lumen.edit_cut, (self._node(node), keep_joined, label), refit, progress)
 
-    def join(self, branch, node: int, *, refit: bool = True, progress=None) -> "Case":
+    def join(self, branch, node: int, *, refit: bool = True, progress=None):
         """Joins a branch by its first node to a node of another one."""
         return self._edited(_lumen.edit_join, (self._branch(branch), self._node(node)), refit,
                             progress)
 
-    def merge(self, branch, *, refit: bool = True, progress=None) -> "Case":
+    def merge(self, branch, *, refit: bool = True, progress=None):
         """Appends a branch to the one whose last node it is joined to."""
         return self._edited(_lumen.edit_merge, (self._branch(branch),), refit, progress)
 
-    def reverse(self, branch, *, refit: bool = True, progress=None) -> "Case":
+    def reverse(self, branch, *, refit: bool = True, progress=None):
         """Makes the last node of a branch its first; the branch becomes a tree of its own."""
         return self._edited(_lumen.edit_reverse, (self._branch(branch),), refit, progress)
 
-    def root(self, branch, *, refit: bool = True, progress=None) -> "Case":
+    def root(self, branch, *, refit: bool = True, progress=None):
         """Makes the last node of a branch the root of its tree."""
         return self._edited(_lumen.edit_root, (self._branch(branch),), refit, progress)
 
-    def kind(self, branch, kind: str, *, refit: bool = True, progress=None) -> "Case":
+    def kind(self, branch, kind: str, *, refit: bool = True, progress=None):
         """Makes a branch a "vessel" or an "aneurysm"."""
         return self._edited(_lumen.edit_kind, (self._branch(branch), kind), refit, progress)
 
-    def rename(self, branch, label: str, *, refit: bool = True, progress=None) -> "Case":
+    def rename(self, branch, label: str, *, refit: bool = True, progress=None):
         """Gives a branch another label, which no other branch has."""
         return self._edited(_lumen.edit_rename, (self._branch(branch), label), refit, progress)
 
-    def move(self, node: int, position, radius: float, *, refit: bool = True, progress=None) -> "Case":
+    def move(self, node: int, position, radius: float, *, refit: bool = True, progress=None):
         """Moves a node to a position (3,), mm, LPS, and sets the radius there, mm."""
         return self._edited(_lumen.edit_move, (self._node(node), _three(position), radius), refit,
                             progress)
 
     def widen(self, node: int, radius: float, reach: float, *, refit: bool = True,
-              progress=None) -> "Case":
+              progress=None):
         """Gives a vessel another radius at a node, mm, and less and less up to ``reach`` mm along
         it."""
         return self._edited(_lumen.edit_widen, (self._node(node), radius, reach), refit, progress)
 
-    def push(self, node: int, at, by, radius: float, *, refit: bool = True, progress=None) -> "Case":
+    def push(self, node: int, at, by, radius: float, *, refit: bool = True, progress=None):
         """Pushes the wall near a node: points within ``radius`` mm of ``at`` (3,), mm, LPS, move by
         ``by`` (3,), mm, and less and less towards the rim."""
         arguments = (self._node(node), _three(at), _three(by), radius)
         return self._edited(_lumen.edit_push, arguments, refit, progress)
 
-    def add_node(self, node: int, *, refit: bool = True, progress=None) -> "Case":
+    def add_node(self, node: int, *, refit: bool = True, progress=None):
         """Puts a node halfway between a node and the next one of its branch."""
         return self._edited(_lumen.edit_add_node, (self._node(node),), refit, progress)
 
-    def delete_node(self, node: int, *, refit: bool = True, progress=None) -> "Case":
+    def delete_node(self, node: int, *, refit: bool = True, progress=None):
         """Deletes a node; its neighbours take its wall points."""
         return self._edited(_lumen.edit_delete_node, (self._node(node),), refit, progress)
 
-    def refit(self, nodes, *, progress=None, threads=None) -> "Case":
+    def refit(self, nodes, *, progress=None, threads=None):
         """Fits the models of some nodes again, such as ``new.change.stale``, with the options of
         the case's last fit."""
-        from ._case import Case
         core = self._case._core  # pylint: disable=protected-access
         nodes = [int(node) for node in nodes]
-        return Case(called(_lumen.refit, core, nodes, progress, threads or 0), self._case.change)
+        new = called(_lumen.refit, core, nodes, progress, threads or 0)
+        return type(self._case)(new, self._case.change)
 
-    def _edited(self, function, arguments, refit, progress) -> "Case":
-        from ._case import Case
+    def _edited(self, function, arguments, refit, progress):
         core = self._case._core  # pylint: disable=protected-access
         new, change = called(function, core, *arguments)
         change = Change(*change)
         if refit and len(change.stale) > 0:
             new = called(_lumen.refit, new, change.stale.tolist(), progress, 0)
-        return Case(new, change)
+        return type(self._case)(new, change)
 
     def _branch(self, branch) -> int:
         return self._case.branch(branch)

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Volumes and seeds in memory, and the files that commands read them from."""
+"""Volumes in memory."""
 from __future__ import annotations
 
-import json
 import os
-import secrets
-import tempfile
-from typing import Any
 
 import numpy as np
 
-from . import _lumen
+from . import _images, _lumen
+from ._calls import called, report
+from ._options import texts_of
 
-_NRRD_TYPES = {"i1": "int8", "u1": "uint8", "i2": "int16", "u2": "uint16", "i4": "int32",
-               "u4": "uint32", "f4": "float", "f8": "double"}
+# The engine's names of types, and the types that it holds of others.
+_TYPES = {"b1": "unsigned char", "i1": "signed char", "u1": "unsigned char", "i2": "short", "u2": "unsigned short",
+          "i4": "int", "u4": "unsigned int", "f4": "float", "f8": "double"}
+_HELD = {"i1": "i2", "i4": "f4", "u4": "f4", "f8": "f4"}
 
 
 class Volume:
@@ -23,7 +23,8 @@ class Volume:
     ----------
     array : array_like, shape (nk, nj, ni)
         Voxels, the slowest axis first, as SimpleITK returns them. Integers of 8 to 32 bits, floats
-        or booleans. It is not copied if it is an array of NumPy.
+        or booleans; integers of 64 bits whose values have 32. It is not copied if it is an array of NumPy
+        of the others.
     spacing : float or (3,) floats
         Distance of voxels along i, j and k, mm.
     origin : (3,) floats
@@ -36,28 +37,88 @@ class Volume:
     ``position = origin + direction @ (spacing * (i, j, k))`` for voxel ``array[k, j, i]``.
     """
 
+    _is_placed = _has_unit = True
+
     def __init__(self, array, spacing=1.0, origin=(0.0, 0.0, 0.0), direction=None):
         self.array = np.asarray(array)
         if self.array.ndim != 3 or self.array.size == 0:
             raise ValueError(f"array: found shape {self.array.shape}, expected (nk, nj, ni)")
+        is_long = self.array.dtype.kind in "iu" and self.array.dtype.itemsize == 8
+        if is_long and -2**31 <= self.array.min() and self.array.max() < 2**31:
+            self.array = self.array.astype(np.int32)
         self.spacing = tuple(float(s) for s in np.broadcast_to(spacing, 3))
         self.origin = tuple(float(o) for o in origin)
         self.direction = np.eye(3) if direction is None else np.array(direction, float).reshape(3, 3)
         if len(self.origin) != 3:
             raise ValueError(f"origin: found {len(self.origin)} numbers, expected 3")
-        self._type_name()
+        if self.array.dtype.str[1:] not in _TYPES:
+            raise ValueError(f"array: found {self.array.dtype}, expected integers of 8 to 32 bits, "
+                             "float32, float64 or bool")
+
+    @classmethod
+    def of(cls, image) -> "Volume":
+        """The volume of an image of SimpleITK, ITK, nibabel or xarray, by its own axes and frame.
+
+        Parameters
+        ----------
+        image : SimpleITK.Image, itk.Image, nibabel image, xarray.DataArray, Volume or (nk, nj, ni) array
+            3-D, one number a voxel. nibabel's affine leads to RAS, in the unit of its header. A DataArray has the dims
+            x, y and z in any order, positions in LPS as their coordinates, in mm or in their attribute ``units``, and
+            the attribute ``direction`` if ITK made it. An array alone has voxels of 1 mm at the origin.
+
+        Raises
+        ------
+        ValueError
+            For an image of more axes, of several numbers a voxel, or with uneven coordinates.
+        """
+        if isinstance(image, Volume):
+            return image
+        if not _images.package_of(image):
+            return cls(image)
+        found = _images.image_of(image)
+        volume = cls(found.array, found.spacing, found.origin, found.direction)
+        volume._is_placed, volume._has_unit = found.is_placed, found.has_unit
+        return volume
+
+    @classmethod
+    def of_affine(cls, array, affine, frame="ras") -> "Volume":
+        """The volume of an array [i, j, k], such as nibabel's ``image.get_fdata()``, and its affine.
+
+        Parameters
+        ----------
+        array : (ni, nj, nk)
+            The fastest axis of :class:`Volume` first: the other way round than ``Volume(array)``.
+        affine : (4, 4)
+            From (i, j, k) to mm; its axes are orthogonal.
+        frame : "ras" or "lps"
+            Frame that the affine leads to: NIfTI's is RAS.
+        """
+        found = _images.of_affine(array, affine, frame)
+        return cls(found.array, found.spacing, found.origin, found.direction)
 
     @classmethod
     def read(cls, path, *, progress=None, **options) -> "Volume":
         """Reads NRRD, NIfTI, MetaImage, or a folder of DICOM; options as those of a volume in
         :func:`lumen.convert` (series, crop, spacing, unit...). The array points into the volume."""
-        from ._running import called, warn
-        from ._options import texts_of
-        path = os.fspath(path)
-        voxels, warnings = called(_lumen.read_volume, path, texts_of("convert", options), progress,
-                                  known=[path])
-        warn(warnings)
+        return cls._read(os.fspath(path), None, progress, options)
+
+    @classmethod
+    def from_bytes(cls, data: bytes, *, name="volume.nrrd", progress=None, **options) -> "Volume":
+        """Reads the content of a file of NRRD, NIfTI or MetaImage. Its name states the format, and messages begin
+        with it; options as those of :meth:`read`."""
+        return cls._read(name, bytes(data), progress, options)
+
+    @classmethod
+    def _read(cls, name, data, progress, options):
+        voxels, warnings = called(_lumen.read_volume, name, data, texts_of("convert", options), progress, known=[name])
+        report(warnings)
         return cls(voxels.array, voxels.spacing, voxels.origin, voxels.direction)
+
+    def like(self, array) -> "Volume":
+        """The volume of another array at the place of this one, such as labels of the same shape."""
+        if np.shape(array) != self.shape:
+            raise ValueError(f"array: found shape {np.shape(array)}, expected that of the volume, {self.shape}")
+        return Volume(array, self.spacing, self.origin, self.direction)
 
     @property
     def shape(self):
@@ -69,111 +130,30 @@ class Volume:
         return np.asarray(index) * self.spacing @ self.direction.T + self.origin
 
     def write(self, path) -> None:
-        """Writes NRRD, uncompressed, atomically: a reader sees the old file or the new one."""
+        """Writes NRRD, NIfTI or MetaImage, by the ending of the name, atomically: a reader sees the old file or the
+        new one.
+
+        Parameters
+        ----------
+        path : path
+            ``.nrrd`` holds every type of voxels as it is; ``.nii``, ``.nii.gz`` and ``.mha`` hold int8 as int16, and
+            integers of 32 bits and float64 as float32.
+        """
         path = os.fspath(path)
-        if not path.endswith(".nrrd"):
-            raise ValueError(f"{path}: found a name without .nrrd, expected one with it")
-        unfinished = os.path.join(os.path.dirname(path), f".lumen-{secrets.token_hex(8)}.nrrd")
-        with open(unfinished, "xb") as file:
-            try:
-                self._write_to(file)
-                file.flush()
-                os.fsync(file.fileno())
-                os.replace(unfinished, path)
-            except BaseException:
-                os.unlink(unfinished)
-                raise
+        is_exact = path.lower().endswith(".nrrd")
+        called(_lumen.write_volume, path, self._parts({} if is_exact else _HELD), known=[path])
 
-    def _type_name(self):
-        kind = "u1" if self.array.dtype == bool else self.array.dtype.str[1:]
-        if kind not in _NRRD_TYPES:
-            raise ValueError(f"array: found {self.array.dtype}, expected integers of 8 to 32 bits, "
-                             "float32, float64 or bool")
-        return _NRRD_TYPES[kind]
+    def _given(self):
+        """The name and the content by which commands take this volume."""
+        return "volume.nrrd", self._parts({})
 
-    def _write_to(self, file) -> None:
-        vector = lambda numbers: "(" + ",".join(repr(float(n)) for n in numbers) + ")"
-        axes = " ".join(vector(self.direction[:, a] * self.spacing[a]) for a in range(3))
-        sizes = " ".join(str(n) for n in reversed(self.array.shape))
-        header = (f"NRRD0004\ntype: {self._type_name()}\ndimension: 3\n"
-                  f"space: left-posterior-superior\nsizes: {sizes}\nspace directions: {axes}\n"
-                  f"kinds: domain domain domain\nendian: little\nencoding: raw\n"
-                  f"space units: \"mm\" \"mm\" \"mm\"\nspace origin: {vector(self.origin)}\n\n")
-        file.write(header.encode())
-        little = self.array.dtype.newbyteorder("<") if self.array.dtype != bool else "u1"
-        np.ascontiguousarray(self.array).astype(little, copy=False).tofile(file)
+    def _parts(self, types):
+        """What the compiled module takes: the voxels in the machine's order, in the place of `types`, of which there
+        is a copy only where the array's memory is in another order."""
+        kind = self.array.dtype.str[1:]
+        kind = types.get(kind, kind)
+        return (np.ascontiguousarray(self.array, "<" + kind), _TYPES[kind], self.spacing, self.origin,
+                self.direction.ravel().tolist(), self._is_placed, self._has_unit)
 
     def __repr__(self):
         return f"<lumen.Volume {self.array.shape} {self.array.dtype}, {self.spacing} mm>"
-
-
-def seeds_document(seeds: Any) -> dict:
-    """Seeds as lumen's JSON (spec/seeds.md): a document as it is, a list of branches, or a mapping
-    of labels to points (n, 3)."""
-    if isinstance(seeds, dict) and "format" in seeds:
-        return seeds
-    if isinstance(seeds, dict):
-        seeds = [{"label": label, "points": points} for label, points in seeds.items()]
-    branches = [{key: _plain(value) for key, value in branch.items()} for branch in seeds]
-    return {"format": "lumen-seeds", "version": 1, "coordinateSystem": "LPS", "units": "mm",
-            "branches": branches}
-
-
-def _plain(value):
-    """Arrays as nested lists, a single point as a list of one."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    return value
-
-
-class Staging:
-    """A folder for what a command reads and writes by name, removed at the end."""
-
-    def __init__(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="lumen-")
-        self._count = 0
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._folder.cleanup()
-
-    def name(self, name: str) -> str:
-        """A new file's name in the folder."""
-        self._count += 1
-        folder = os.path.join(self._folder.name, str(self._count))
-        os.mkdir(folder)
-        return os.path.join(folder, name)
-
-    def path_of(self, value: Any) -> str:
-        """The file of an argument: a path as it is, a case or a volume written for it."""
-        from ._case import Case
-        if isinstance(value, Case):
-            path = self.name("case.lumen")
-            value.write(path)
-            return path
-        if isinstance(value, np.ndarray):
-            value = Volume(value)
-        if isinstance(value, Volume):
-            path = self.name("volume.nrrd")
-            with open(path, "wb") as file:
-                value._write_to(file)  # pylint: disable=protected-access
-            return path
-        return os.fspath(value)
-
-    def seeds(self, value: Any) -> Any:
-        """The file of seeds: a path as it is, others written as lumen's JSON."""
-        if value is None or isinstance(value, (str, os.PathLike)):
-            return value
-        path = self.name("seeds.json")
-        with open(path, "w", encoding="utf-8") as file:
-            json.dump(seeds_document(value), file)
-        return path
-
-    def without_folder(self, message: str) -> str:
-        """A message without the folder: names of its files alone."""
-        parts = message.split(self._folder.name + os.sep)
-        return parts[0] + "".join(part.partition(os.sep)[2] for part in parts[1:])

@@ -4,101 +4,52 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, List, NamedTuple, Optional
+from typing import Any, List, Mapping, NamedTuple
 
-from . import _lumen
-from ._case import Case
-from ._inputs import Staging, Volume
-from ._options import commands, document, keyword_of, mesh_rows, rows_of
-from ._running import Answer, called, run, run_staged
-
-
-def read(path) -> Case:
-    """Reads a case, .lumen or .lumen.json, by its content.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    Case
-        Its arrays cannot be written to.
-
-    Raises
-    ------
-    Error
-        With file, place, rule, and the values found and expected.
-    """
-    return Case(called(_lumen.Case.read, os.fspath(path)))
+from ._case import Case, case_made
+from ._images import package_of
+from ._inputs import Volume
+from ._options import commands, document, keyword_of, rows_of
+from ._running import Answer, Kept, call, run
 
 
-def validate(source, *, progress=None, threads=None, strict=False, **options) -> Answer:
-    """All faults of a case.
-
-    Parameters
-    ----------
-    source : path or Case
-
-    Returns
-    -------
-    Answer
-        ``valid``, ``errors``, ``warnings``, ``information`` and ``issues``, each with code, number,
-        severity, pointer or offset, arguments and message.
-    """
-    if isinstance(source, Case):
-        errors, warnings, notes, issues = source._core.issues(  # pylint: disable=protected-access
-            int(options.get("max_issues") or 100))
-        if errors:
-            answer = Answer(file=None, valid=False, complete=len(issues) == errors + warnings + notes,
-                            errors=errors, warnings=warnings, information=notes, issues=issues)
-            answer.text = "\n".join(f"{i['code']} at {i['pointer']}: {i['message']}" for i in issues)
-            answer.code, answer.warnings = 3, []
-            return answer
-    with Staging() as staging:
-        whole = run_staged(staging, "validate", (source,), options, progress, threads, strict)
-    answer = Answer(whole["files"][0])
-    if isinstance(source, Case):
-        answer["file"] = None
-    answer.text, answer.code, answer.warnings = whole.text, whole.code, whole.warnings
-    return answer
-
-
-def track(volume, *, seeds=None, progress=None, threads=None, strict=False, **options) -> Case:
+@document("track", "to", "seeds")
+def track(volume, *, seeds=None, **options) -> Case:
     """Tracks vessels through a volume: a case with its tree and wall points, without models.
 
     Parameters
     ----------
-    volume : path, Volume or (nk, nj, ni) array
-        An array alone has voxels of 1 mm at the origin; :class:`Volume` states the geometry.
+    volume : path, Volume, image or (nk, nj, ni) array
+        An array alone has voxels of 1 mm at the origin; :class:`Volume` states the geometry. Images of SimpleITK, ITK,
+        nibabel and xarray have their own: :meth:`Volume.of`.
     seeds : path, dict or list of dicts, optional
         Hints on the vessels, and starts of others: a file, ``{label: points (n, 3)}`` in mm, LPS, or
         branches with the keys of spec/seeds.md.
-    progress : callable, optional
-        Called with (stage, done, total or 0). An exception that it raises cancels the work.
-    threads : int, optional
-        Most threads.
-    strict : bool
-        A warning is an error.
 
     Returns
     -------
     Case
     """
-    return _made("track", volume, dict(options, seeds=seeds), progress, threads, strict)
+    return case_made("track", volume, seeds=seeds, **options)
 
 
-def convert(source, to=None, *, progress=None, threads=None, strict=False, **options) -> Any:
+@document("convert", "to")
+def convert(source, to=None, **options) -> Any:
     """Turns a volume, a surface, a label map, a centerline or a case into a case, or into a file.
 
     Parameters
     ----------
-    source : path, Volume, (nk, nj, ni) array or Case
+    source : path, Volume, image, (nk, nj, ni) array or Case
+        As for :func:`track`.
     to : path, optional
         File to write: .lumen, a mesh (.glb, .vtp, .stl, .ply, .obj) or a centerline (.swc, .vtp).
         The name states the format, so no ``to=`` option of the program is needed.
-    progress, threads, strict
-        As for :func:`track`.
+    label_map : path, Volume, image or array, optional
+        Labels by which the branches that are found get their names.
+    label_table : path, name or dict, optional
+        Names of the labels, such as ``{1: "BA"}``.
+    labels : str or dict, optional
+        The volume holds labels, and these are of vessels, such as ``{1: "ICA", 2: "MCA"}``.
 
     Returns
     -------
@@ -106,20 +57,63 @@ def convert(source, to=None, *, progress=None, threads=None, strict=False, **opt
         Without ``to``: tracked and fitted.
     Answer
         With ``to``: what was written.
+
+    Examples
+    --------
+    >>> from lumen.options import Fitting, Tracking
+    >>> case = lumen.convert(nibabel.load("head.nii.gz"), **Tracking(inlier_rate=0.6), **Fitting(accuracy=0.2))
+    >>> case.to_pyvista().plot()
     """
-    if to is None:
-        return _made("convert", source, options, progress, threads, strict)
-    with Staging() as staging:
-        return run_staged(staging, "convert", (source, os.fspath(to)), options, progress, threads,
-                          strict)
+    return case_made("convert", source, **options) if to is None else run("convert", source, os.fspath(to), **options)
 
 
-def find_vessels(source, *, progress=None, threads=None, strict=False, **options) -> List[dict]:
+def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) -> Case:
+    """The case of a volume in memory, tracked and fitted: :func:`convert` without a file.
+
+    Parameters
+    ----------
+    source : array, Volume, image, path or Case
+        As for :func:`convert`; an array [k, j, i] without ``affine``, and [i, j, k] with it.
+    affine : (4, 4), optional
+        From the indices (i, j, k) of the array to mm, as nibabel's ``image.affine``; its axes are orthogonal.
+    affine_frame : "ras" or "lps"
+        Frame that the affine leads to.
+    labels : array, Volume, image or dict, optional
+        Labels beside the volume, which name its branches: an array of the same shape and axes as ``source``, or an
+        image. A dict ``{1: "ICA"}`` states that the volume itself holds labels, and which are of vessels.
+    **options
+        Those of :func:`convert`, such as ``label_table={1: "BA", 2: "ICA"}``.
+
+    Returns
+    -------
+    Case
+
+    Examples
+    --------
+    >>> case = lumen.case_of(image.get_fdata(), affine=image.affine, labels=segmentation, label_table={1: "BA"})
+    >>> plane = case.surface()[0][:, [0, 2]]                      # x and z: from the front
+    >>> matplotlib.pyplot.scatter(*plane.T, s=1)
+    """
+    is_array = lambda value: hasattr(value, "__array__") and not package_of(value)
+    placed = lambda array: Volume.of_affine(array, affine, affine_frame)
+    if affine is not None:
+        source = placed(source)
+    elif is_array(source) or package_of(source):
+        source = Volume.of(source)
+    if labels is not None and not isinstance(labels, (str, Mapping)):
+        if is_array(labels):
+            labels = source.like(labels) if affine is None else placed(labels)
+        options["label_map"], labels = labels, None
+    return case_made("convert", source, labels=labels, **options)
+
+
+@document("seeds")
+def find_vessels(source, **options) -> List[dict]:
     """The vessels of a volume as seeds to edit, found without a click.
 
     Parameters
     ----------
-    source : path, Volume or (nk, nj, ni) array; or a Case, whose seeds are returned
+    source : path, Volume, image or (nk, nj, ni) array; or a Case, whose seeds are returned
 
     Returns
     -------
@@ -127,11 +121,11 @@ def find_vessels(source, *, progress=None, threads=None, strict=False, **options
         Branches with ``label``, ``points`` (mm, LPS), ``radius`` and ``parent`` (spec/seeds.md), as
         ``seeds=`` of :func:`track` and :func:`convert` takes them.
     """
-    with Staging() as staging:
-        path = staging.name("seeds.json")
-        run_staged(staging, "seeds", (source, path), options, progress, threads, strict)
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)["branches"]
+    return _branches(call("seeds", source, Kept("seeds.json"), **options)[1][0])
+
+
+def _branches(seeds: bytes) -> List[dict]:
+    return json.loads(seeds)["branches"]
 
 
 class Phantom(NamedTuple):
@@ -141,7 +135,8 @@ class Phantom(NamedTuple):
     seeds: List[dict]  #: the clicks that a user would make, spec/seeds.md
 
 
-def phantom(name: str, *, progress=None, threads=None, strict=False, **options) -> Phantom:
+@document("phantom", "truth", "seeds", "motion", "phases")
+def phantom(name: str, **options) -> Phantom:
     """Makes a synthetic angiogram with a known truth, such as "bifurcation" or "patient".
 
     Returns
@@ -149,43 +144,26 @@ def phantom(name: str, *, progress=None, threads=None, strict=False, **options) 
     Phantom
         ``volume``, ``truth`` and ``seeds``.
     """
-    with Staging() as staging:
-        image, truth, seeds = map(staging.name, ("volume.nrrd", "truth.lumen", "seeds.json"))
-        options = dict(options, truth=truth, seeds=seeds)
-        run_staged(staging, "phantom", (name, image), options, progress, threads, strict)
-        with open(seeds, encoding="utf-8") as file:
-            branches = json.load(file)["branches"]
-        return Phantom(Volume.read(image), read(truth), branches)
-
-
-def fit(case, **options) -> Case:
-    """Fits models to a tracked case, a path or a Case: see :meth:`Case.fit`."""
-    return _case(case).fit(**options)
-
-
-def mesh(case, **options):
-    """The surface of a case, a path or a Case, as arrays: see :meth:`Case.mesh`."""
-    return _case(case).mesh(**options)
-
-
-def measure(case, **options) -> Answer:
-    """Measures of a case, a path or a Case: see :meth:`Case.measure`."""
-    return _case(case).measure(**options)
+    if options.get("motion") not in (None, "none"):
+        raise ValueError("motion: found several phases, which are files: lumen.run(\"phantom\", name, path, "
+                         f"motion={options['motion']!r}), expected one volume")
+    _, (volume, truth, seeds) = call("phantom", name, Kept("volume.nrrd"), truth=Kept("truth.lumen"),
+                                     seeds=Kept("seeds.json"), **options)
+    return Phantom(Volume.from_bytes(volume), Case(truth), _branches(seeds))
 
 
 def check(volume, case, **options) -> Answer:
     """Agreement of a case with its volume: see :meth:`Case.check`."""
-    return _case(case).check(volume, **options)
+    return run("check", volume, case, **options)
 
 
 def export(target: str, case, folder, **options) -> Answer:
     """The folder that a simulator loads: see :meth:`Case.export`."""
-    return _case(case).export(target, folder, **options)
+    return run("export", target, case, os.fspath(folder), **options)
 
 
-def picture(case, **options):
-    """The bytes of a PNG: see :meth:`Case.picture`."""
-    return _case(case).picture(**options)
+# of a case, or of a path of one
+validate, fit, mesh, measure, picture = Case.validate, Case.fit, Case.mesh, Case.measure, Case.picture
 
 
 def targets() -> List[dict]:
@@ -201,24 +179,3 @@ def options_of(command: str) -> List[dict]:
     return [{"keyword": keyword_of(row["name"]),
              **{key: row[key] for key in ("type", "placeholder", "default", "range", "words", "help")}}
             for row in rows_of(command)]
-
-
-def _case(source) -> Case:
-    return source if isinstance(source, Case) else read(source)
-
-
-def _made(command, source, options, progress, threads, strict) -> Case:
-    with Staging() as staging:
-        path = staging.name("made.lumen")
-        run_staged(staging, command, (source, path), options, progress, threads, strict)
-        return Case(called(_lumen.Case.read, path))
-
-
-document(track, "track", "to")
-document(convert, "convert", "to")
-document(find_vessels, "seeds")
-document(phantom, "phantom", "truth", "seeds")
-document(validate, "validate")
-_of_meshes = {row["name"] for row in mesh_rows()}
-document(Case.mesh, "convert", *(
-    row["name"] for row in rows_of("convert") if row["name"] not in _of_meshes))

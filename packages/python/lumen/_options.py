@@ -8,7 +8,7 @@ import keyword
 import os
 import re
 import textwrap
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple, TypedDict
 
 from . import _lumen
 
@@ -88,8 +88,16 @@ def in_python(message: str) -> str:
                   lambda match: keyword_of(match[1]), message)
 
 
+# Options whose values may be in memory, by the types of the stubs.
+_IN_MEMORY = {"seeds": "Seeds", "volume": "VolumeLike", "image": "VolumeLike", "label-map": "VolumeLike",
+              "label-table": "PathLike | Mapping[int, str]", "labels": "str | Mapping[int, str]",
+              "against": "Case | PathLike"}
+
+
 def type_of(row: Row) -> str:
     """The type of an option's value, as a stub states it."""
+    if row["name"] in _IN_MEMORY:
+        return _IN_MEMORY[row["name"]]
     single = {"flag": "bool", "int": "int", "float": "float"}.get(row["type"], "str")
     if row["words"]:
         single = f"Literal[{', '.join(map(repr, row['words']))}]"
@@ -105,9 +113,47 @@ def type_of(row: Row) -> str:
     return f"{single} | Sequence[{single}]" if row["delimited"] and "Sequence" not in single else single
 
 
-def document(function, command: str, *without: str):
-    """Completes a function's docstring and signature by the rows of its command."""
-    rows = [row for row in rows_of(command) if row["name"] not in without]
+# Commands whose rows make the groups of lumen.options: of two with a group of one name, the first.
+_GROUPED = ("convert", "export", "picture", "phantom")
+
+
+@functools.lru_cache(maxsize=None)
+def group_rows() -> Dict[str, List[Row]]:
+    """The rows of each class of lumen.options."""
+    rows: Dict[str, List[Row]] = {}
+    for command in _GROUPED:
+        of_command: Dict[str, List[Row]] = {}
+        for row in rows_of(command):
+            if row["group"]:
+                of_command.setdefault(class_of(row["group"]), []).append(row)
+        rows = {**of_command, **rows}
+    return rows
+
+
+def class_of(group: str) -> str:
+    """The class of a group: "Case file" is CaseFile."""
+    return "".join(word[0].upper() + word[1:] for word in group.split())
+
+
+@functools.lru_cache(maxsize=None)
+def groups() -> Dict[str, type]:
+    """The classes of lumen.options by name: TypedDicts whose keys are keywords."""
+    return {name: _group(name, rows) for name, rows in sorted(group_rows().items())}
+
+
+def _group(name: str, rows: List[Row]) -> type:
+    words = {keyword_of(row["name"]): type_of(row) for row in rows}
+    group = TypedDict(name, words, total=False)  # type: ignore[misc]
+    group.__module__ = f"{__package__}.options"
+    group.__doc__ = f"Options of the group {name}.\n\n{_described(rows)}"
+    parameters = [inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, annotation=kind, default=...)
+                  for word, kind in words.items()]
+    group.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    return group
+
+
+def _described(rows: List[Row]) -> str:
+    """Keywords with types, defaults, helps and ranges."""
     lines = []
     for row in rows:
         default = f", default {row['default']}" if row["default"] else ""
@@ -115,13 +161,42 @@ def document(function, command: str, *without: str):
         lines.append(f"{keyword_of(row['name'])} : {type_of(row)}{default}")
         lines += textwrap.wrap(in_python(row["help"]) + limits, 92, initial_indent="    ",
                                subsequent_indent="    ")
-    body = inspect.cleandoc(function.__doc__)
-    title = f"Options of lumen {command}"
-    function.__doc__ = f"{body}\n\n{title}\n{'-' * len(title)}\n" + "\n".join(lines) + "\n"
-    signature = inspect.signature(function)
-    own = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
-    taken = {p.name for p in own}
-    extra = [inspect.Parameter(keyword_of(row["name"]), inspect.Parameter.KEYWORD_ONLY, default=None)
-             for row in rows if keyword_of(row["name"]) not in taken]
-    function.__signature__ = signature.replace(parameters=own + extra)
-    return function
+    return "\n".join(lines) + "\n"
+
+
+def _listed(rows: List[Row]) -> str:
+    """Rows without a class of lumen.options in full, the others by their keywords under the name of their class."""
+    members = {name: {row["name"] for row in some} for name, some in group_rows().items()}
+    alone: List[Row] = []
+    grouped: Dict[str, List[str]] = {}
+    for row in rows:
+        name = class_of(row["group"])
+        if row["name"] in members.get(name, ()):
+            grouped.setdefault(name, []).append(keyword_of(row["name"]))
+        else:
+            alone.append(row)
+    lines = []
+    for name, words in grouped.items():
+        lines += [f"lumen.options.{name}", *textwrap.wrap(", ".join(words), 92, initial_indent="    ",
+                                                          subsequent_indent="    ")]
+    return _described(alone) + "\n".join(lines) + "\n"
+
+
+_RUN = {"progress": None, "threads": None, "strict": False}
+
+
+def document(command: str, *without: str, rows=None):
+    """Decorates a function with ``**options``: completes its docstring and signature by the rows of its command."""
+    rows = [row for row in (rows_of(command) if rows is None else rows) if row["name"] not in without]
+
+    def decorated(function):
+        body, title = inspect.cleandoc(function.__doc__), f"Options of lumen {command}"
+        function.__doc__ = (f"{body}\n\n{title}\n{'-' * len(title)}\nprogress, threads, strict\n"
+                            f"    As for :func:`lumen.run`.\n{_listed(rows)}")
+        signature = inspect.signature(function)
+        *own, options = signature.parameters.values()
+        run = [inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=default)
+               for word, default in _RUN.items()]
+        function.__signature__ = signature.replace(parameters=[*own, *run, options])
+        return function
+    return decorated

@@ -7,6 +7,8 @@ from typing import List, NamedTuple, Optional
 
 import numpy as np
 
+from ._exchange import PolyData
+
 
 class Branch(NamedTuple):
     """A vessel or an aneurysm: a contiguous range of nodes, each the child of the one before."""
@@ -32,7 +34,7 @@ class Change(NamedTuple):
     dropped_arrays: List[str]   #: names of node arrays that were dropped; "motion" for the motion
 
 
-class Tree:
+class Tree(PolyData):
     """The centerlines: n nodes, a forest, branches in contiguous ranges."""
 
     def __init__(self, core):
@@ -63,6 +65,14 @@ class Tree:
     def branches(self) -> List[Branch]:
         """The branches in the order of their nodes."""
         return [Branch(*facts) for facts in self._core.branches]
+
+    def _poly_data(self):
+        """A line for each branch, from its parent's node on."""
+        lines = [np.arange(one.first_node, one.first_node + one.node_count) for one in self.branches]
+        lines = [line if one.parent_node < 0 else np.insert(line, 0, one.parent_node)
+                 for line, one in zip(lines, self.branches)]
+        of_points = {"radius": self.radius, "direction": self.direction, "branch": self.branch}
+        return self.centre, "Lines", lines, of_points, {"branch": np.arange(len(lines), dtype=np.int32)}
 
     def __repr__(self):
         return f"<lumen.Tree {len(self)} nodes, {len(self._core.branches)} branches>"
@@ -150,7 +160,7 @@ class Picture(bytes):
             file.write(self)
 
 
-class Mesh:
+class Mesh(PolyData):
     """A surface of triangles.
 
     Attributes
@@ -183,6 +193,10 @@ class Mesh:
     def _crosses(self):
         a, b, c = np.moveaxis(self.vertices.astype(float)[self.triangles], 1, 0)
         return np.cross(b - a, c - a)
+
+    def _poly_data(self):
+        of_cells = {"group": self.group} if len(self.group) else {}
+        return self.vertices, "Polys", self.triangles, self.attributes, of_cells
 
     def __repr__(self):
         return f"<lumen.Mesh {len(self.vertices)} vertices, {len(self.triangles)} triangles>"

@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs of the program's commands."""
+"""Runs of the program's commands, whose inputs and outputs may be values in memory."""
 from __future__ import annotations
 
+import itertools
 import json
-import logging
 import os
-import sys
-import types
-import warnings as python_warnings
-from typing import Optional
+from typing import Any, Dict, Mapping, Tuple
 
-from . import _lumen
-from ._errors import Error, Warning  # pylint: disable=redefined-builtin
-from ._inputs import Staging
-from ._options import commands, in_python, texts_of
-
-_LOG = logging.getLogger("lumen")
+from . import _images, _lumen
+from ._calls import called, report, watch_of
+from ._errors import Error
+from ._exchange import tables_of
+from ._inputs import Volume
+from ._options import commands, option_of, texts_of
 
 
 class Answer(dict):
@@ -36,60 +33,121 @@ class Answer(dict):
     code: int
     warnings: list
 
+    def tables(self) -> Dict[str, Any]:
+        """The tables of :meth:`lumen.Case.measure` as pandas.DataFrames.
 
-def warn(messages) -> None:
-    """Shows warnings at the line that called lumen."""
-    folder, level = os.path.dirname(__file__), 2
-    frame: Optional[types.FrameType] = sys._getframe(1)  # pylint: disable=protected-access
-    while frame is not None and os.path.dirname(frame.f_code.co_filename) == folder:
-        frame, level = frame.f_back, level + 1
-    for message in messages:
-        python_warnings.warn(in_python(message), Warning, stacklevel=level)
+        Returns
+        -------
+        dict of DataFrames
+            "stations", "vessels", "paths", "forks", "narrowings" and "sacs", and the changes against an earlier case,
+            with the columns that ``lumen measure --out`` writes: units in their names, ``_pm`` for the uncertainty,
+            NaN for what is absent, with the reason in the column "absent".
 
-
-def called(function, *arguments, staging=None, known=()):
-    """The result of a function of the module. Messages of errors have keywords for options."""
-    try:
-        return function(*arguments)
-    except Error as error:
-        raise _worded(error, staging, known) from None
-
-
-def _worded(error: Error, staging, known) -> Error:
-    message = in_python(staging.without_folder(str(error)) if staging else str(error))
-    file = error.file or next((name for name in known if str(error).startswith(name + ":")), None)
-    if staging and file:
-        file = staging.without_folder(file)
-    return Error(message, error.exit_code, file=file, place=error.place, code=error.code,
-                 number=error.number, found=error.found and in_python(error.found),
-                 expected=error.expected and in_python(error.expected))
+        Examples
+        --------
+        >>> stations = case.measure().tables()["stations"]
+        >>> stations.plot("along_mm", "area_mm2", yerr="area_mm2_pm")
+        """
+        return tables_of(self)
 
 
-def run_staged(staging: Staging, command: str, arguments, options, progress=None, threads=None,
-               strict=False) -> Answer:
-    """Runs a command whose arguments and options may be cases, volumes and seeds in memory."""
-    names = [staging.path_of(argument) for argument in arguments]
-    files = {row["name"] for row in commands()[command]["rows"] if row["placeholder"] == "FILE"}
-    given = dict(options)
-    for word, value in options.items():
-        if word == "seeds":
-            given[word] = staging.seeds(value)
-        elif word in files and value is not None:
-            given[word] = staging.path_of(value)
-    texts = texts_of(command, given)
+def seeds_document(seeds: Any) -> dict:
+    """Seeds as lumen's JSON (spec/seeds.md): a document as it is, a list of branches, or a mapping
+    of labels to points (n, 3)."""
+    if isinstance(seeds, dict) and "format" in seeds:
+        return seeds
+    if isinstance(seeds, dict):
+        seeds = [{"label": label, "points": points} for label, points in seeds.items()]
+    branches = [{key: _plain(value) for key, value in branch.items()} for branch in seeds]
+    return {"format": "lumen-seeds", "version": 1, "coordinateSystem": "LPS", "units": "mm",
+            "branches": branches}
+
+
+def _plain(value):
+    """Arrays as nested lists, a single point as a list of one."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    return value
+
+
+class Kept(str):
+    """The name of an output that stays in memory."""
+
+
+class Values:
+    """Inputs and outputs of a command in memory, by the names that its arguments, options and messages have."""
+
+    def __init__(self, arguments):
+        self.given = {}
+        self.kept = []
+        flat = itertools.chain.from_iterable(one if isinstance(one, (list, tuple)) else [one] for one in arguments)
+        self._taken = {os.fsdecode(one) for one in flat if _is_path(one) and not isinstance(one, Kept)}
+
+    def _new(self, name: str) -> str:
+        """The name, or one with a number if another value or a file has it."""
+        stem, _, ending = name.partition(".")
+        names = itertools.chain([name], (f"{stem}-{number}.{ending}" for number in itertools.count(2)))
+        new = next(one for one in names if one not in self._taken)
+        self._taken.add(new)
+        return new
+
+    def _give(self, name: str, value: Any) -> str:
+        name = self._new(name)
+        self.given[name] = value
+        return name
+
+    def name_of(self, value: Any) -> str:
+        """The name of an argument: a path as it is, a case, a volume or an image by a name for it."""
+        if isinstance(value, Kept):
+            self.kept.append(self._new(value))
+            return self.kept[-1]
+        if _is_path(value):
+            return os.fsdecode(value)
+        if _images.package_of(value) or hasattr(value, "__array__"):
+            value = Volume.of(value)
+        if hasattr(value, "_given"):
+            return self._give(*value._given())  # pylint: disable=protected-access
+        raise TypeError(f"found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, a "
+                        "lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
+
+    def option(self, row: Dict[str, Any], value: Any) -> Any:
+        """The value of an option as texts can state it: names in place of values in memory."""
+        if value is None or isinstance(value, (str, os.PathLike)):
+            return self.name_of(value) if isinstance(value, Kept) else value
+        if row["name"] == "seeds":
+            return self._give("seeds.json", json.dumps(seeds_document(value)))
+        if row["name"] == "label-table":
+            return self._give("labels.json", json.dumps({str(int(label)): name for label, name in value.items()}))
+        if row["name"] == "labels" and isinstance(value, Mapping):
+            return ",".join(f"{int(label)}={name}" for label, name in value.items())
+        return self.name_of(value) if row["placeholder"] == "FILE" else value
+
+
+def _is_path(value: Any) -> bool:
+    return isinstance(value, (str, bytes, os.PathLike))
+
+
+def call(command: str, *arguments, **options) -> Tuple[Answer, list]:
+    """The answer of a command whose arguments and options may be values in memory, and its outputs whose names are
+    Kept: cases of the compiled module, or bytes."""
+    watch = watch_of(options)
+    values = Values([*arguments, *options.values()])
+    names = [values.name_of(argument) for argument in arguments]
+    rows = {row["name"]: row for row in commands()[command]["rows"]}
+    texts = texts_of(command, {
+        word: values.option(rows.get(option_of(word), {"name": word, "placeholder": ""}), value)
+        for word, value in options.items()})
     words = [row["name"] for row in commands()[command]["rows"] if row["argument"]]
     known = [name for name, word in zip(names, words + words[-1:] * len(names))
-             if word not in ("NAME", "TARGET")] + [text for _, values in texts for text in values]
-    json_text, text, code, warnings, details = called(
-        _lumen.run, command, names, texts, progress, threads or 0, strict, staging=staging,
-        known=known)
-    for detail in details:
-        _LOG.debug("%s", detail)
-    answer = Answer(json.loads(staging.without_folder(json_text)) if json_text else {})
-    answer.text, answer.code = staging.without_folder(text), code
-    answer.warnings = [staging.without_folder(warning) for warning in warnings]
-    warn(answer.warnings)
-    return answer
+             if word not in ("NAME", "TARGET")] + [text for _, some in texts for text in some]
+    json_text, text, code, warnings, details, kept = called(
+        _lumen.run, command, names, texts, values.given, values.kept, *watch, known=known)
+    answer = Answer(json.loads(json_text) if json_text else {})
+    answer.text, answer.code, answer.warnings = text, code, warnings
+    report(warnings, details)
+    return answer, [kept[name] for name in values.kept]
 
 
 def run(command: str, *arguments, progress=None, threads=None, strict=False, **options) -> Answer:
@@ -117,5 +175,4 @@ def run(command: str, *arguments, progress=None, threads=None, strict=False, **o
     """
     if command not in commands():
         raise Error(f"{command}: there is no such command", 2)
-    with Staging() as staging:
-        return run_staged(staging, command, arguments, options, progress, threads, strict)
+    return call(command, *arguments, progress=progress, threads=threads, strict=strict, **options)[0]

@@ -17,51 +17,30 @@
 #include "formats/case/enum_names.h"
 #include "formats/case/metadata_json.h"
 #include "formats/container/printable.h"
+#include "packages/python/src/array_views.h"
 #include "packages/python/src/python_error.h"
 
 namespace py = pybind11;
 
 namespace lumen::python {
 
-namespace {
-
-using formats::Case;
-namespace fs = std::filesystem;
-
-template <class Element>
-struct Row {
-  using Number = Element;
-  static constexpr py::ssize_t columns = 1;
-};
 template <>
 struct Row<formats::Vec3f> {
   using Number = float;
   static constexpr py::ssize_t columns = 3;
 };
-template <>
-struct Row<std::array<std::uint32_t, 2>> {
-  using Number = std::uint32_t;
-  static constexpr py::ssize_t columns = 2;
-};
 
-/// A view of the numbers of `data`, which `self`, a CaseObject, holds: (rows,) or (rows, columns).
+namespace {
+
+using formats::Case;
+namespace fs = std::filesystem;
+
+/// A view of the numbers of `data`, which `self`, a CaseObject, holds.
 template <class Element>
 py::array viewOf(const py::object& self, const std::vector<Element>& data,
                  py::ssize_t columns = Row<Element>::columns) {
-  using Number = typename Row<Element>::Number;
-  constexpr auto kSize = static_cast<py::ssize_t>(sizeof(Number));
-  const auto count = static_cast<py::ssize_t>(data.size()) * Row<Element>::columns;
-  std::vector<py::ssize_t> shape{count / columns}, strides{kSize * columns};
-  if (columns > 1) {
-    shape.push_back(columns);
-    strides.push_back(kSize);
-  }
-  // NumPy would take a null pointer for a request to allocate
-  static const Number nothing{};
-  const void* const at = data.empty() ? static_cast<const void*>(&nothing) : data.data();
-  py::array view(py::dtype::of<Number>(), shape, strides, at, self);
-  if (!self.cast<const CaseObject&>().isWritable) view.attr("setflags")(py::arg("write") = false);
-  return view;
+  const bool isWritable = self.cast<const CaseObject&>().isWritable;
+  return viewAs<typename Row<Element>::Number>(self, data, isWritable, columns);
 }
 
 const Case& caseOf(const py::object& self) {
@@ -140,22 +119,12 @@ void addParts(py::class_<CaseObject, SharedCase>& type) {
 SharedCase readCase(const fs::path& file) {
   const auto read = released([&] { return formats::readFileBytes(file); });
   if (!read) raise(read.error(), formats::printable(file.string()));
-  auto value = released([&] { return formats::decodeCase(*read); });
-  if (!value) raise(value.error(), formats::printable(file.string()));
-  return sharedCase(*std::move(value));
+  return decodedCase(*read, formats::printable(file.string()));
 }
 
 SharedCase decodeBytes(const py::bytes& bytes) {
   const auto text = static_cast<std::string_view>(bytes);
-  auto value = released(
-      [&] { return formats::decodeCase(std::as_bytes(std::span(text.data(), text.size()))); });
-  if (!value) raise(value.error(), "");
-  return sharedCase(*std::move(value));
-}
-
-void requireValid(const CaseObject& self) {
-  const formats::Status valid = released([&] { return formats::validate(self.value); });
-  if (!valid) raise(valid.error(), "");
+  return decodedCase(std::as_bytes(std::span(text.data(), text.size())));
 }
 
 /// Numbers of all poses, of which each has `columns` from the float `first` of its record on:
@@ -249,6 +218,17 @@ py::tuple issuesOf(const CaseObject& self, std::size_t most) {
 }
 
 }  // namespace
+
+SharedCase decodedCase(std::span<const std::byte> bytes, const std::string& file) {
+  auto value = released([&] { return formats::decodeCase(bytes); });
+  if (!value) raise(value.error(), file);
+  return sharedCase(*std::move(value));
+}
+
+void requireValid(const CaseObject& self) {
+  const formats::Status valid = released([&] { return formats::validate(self.value); });
+  if (!valid) raise(valid.error(), "");
+}
 
 void addCase(py::module_& module) {
   py::class_<CaseObject, SharedCase> type(module, "Case", "A case in memory, and views of it.");

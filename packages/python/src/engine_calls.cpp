@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "packages/python/src/engine_calls.h"
 
-#include <memory>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "converters/engine/command.h"
 #include "converters/engine/scope.h"
-#include "converters/engine/tracking_input.h"
-#include "packages/python/src/python_error.h"
+#include "formats/case/case_encoding.h"
+#include "packages/python/src/case_object.h"
+#include "packages/python/src/volume_object.h"
 #include "packages/python/src/watched_work.h"
 
 namespace py = pybind11;
@@ -22,9 +23,6 @@ namespace py = pybind11;
 namespace lumen::python {
 
 namespace {
-
-using Options = std::vector<std::pair<std::string, std::vector<std::string>>>;
-using convert::Volume;
 
 /// Type of an option's value: flag, int, float, text.
 const char* valueType(const OptionRow& row) {
@@ -77,59 +75,65 @@ py::dict listCommands() {
   return all;
 }
 
-/// Answer of a command as (JSON or None, text, exit code, warnings, details).
-py::tuple runCommand(const std::string& name, const std::vector<std::string>& arguments,
-                     const Options& options, const py::object& report, int threads, bool strict) {
+using Cases = std::vector<std::pair<std::string, const CaseObject*>>;
+
+/// Gives the memory bytes and volumes, which the caller keeps, by their names. Returns the cases,
+/// which are valid.
+Cases giveValues(const py::dict& given, MemoryFiles& memory) {
+  Cases cases;
+  for (const auto& [key, value] : given) {
+    const auto name = key.cast<std::string>();
+    if (py::isinstance<CaseObject>(value)) {
+      cases.emplace_back(name, value.cast<const CaseObject*>());
+      requireValid(*cases.back().second);
+    } else if (py::isinstance<py::tuple>(value)) {
+      const GivenVolume volume(value.cast<py::tuple>());
+      memory.give(name, convert::nrrdHeader(volume.voxels, "raw"), volume.bytes);
+    } else {
+      memory.give(name, value.cast<std::string>());
+    }
+  }
+  return cases;
+}
+
+/// A case of lumen for the bytes of one, else the bytes.
+py::object keptValue(const std::string& name, const std::string& bytes) {
+  if (!name.ends_with(".lumen")) return py::bytes(bytes);
+  return py::cast(decodedCase(std::as_bytes(std::span(bytes.data(), bytes.size())), name));
+}
+
+/// Runs a command whose arguments and options name files and values in memory: `given` are cases,
+/// parts of volumes and texts, `kept` outputs. Returns (JSON or None, text, exit code, warnings,
+/// details, outputs by name).
+py::tuple runCommand(const Operation& operation, const py::dict& given,
+                     const std::vector<std::string>& kept, const Watch& watch) {
   const engine::Engine commands = engine::makeEngine();
+  MemoryFiles memory;
+  const Cases cases = giveValues(given, memory);
+  for (const std::string& name : kept) memory.keep(name);
+  std::vector<std::vector<std::byte>> encoded;
   engine::Answer answer;
-  std::string text;
-  const Messages messages = runWatched({report, threads, strict}, [&](Progress& progress) {
+  std::string text, json;
+  const Messages messages = runWatched(watch, [&](Progress& progress) {
+    for (const auto& [name, object] : cases) {
+      encoded.push_back(formats::encodeBinary(object->value));
+      const auto* const bytes = reinterpret_cast<const char*>(encoded.back().data());
+      memory.give(name, "", {bytes, encoded.back().size()});
+    }
     engine::RunContext context{commands, progress};
-    context.threads = threads;
-    context.strict = strict;
+    context.threads = watch.threads;
+    context.strict = watch.strict;
+    context.memory = &memory;
     context.answerEarly = [&text](const engine::Answer& early) { text += early.text; };
-    answer = commands.run({name, arguments, options}, context);
+    answer = commands.run(operation, context);
+    using Json = engine::Json;
+    if (!answer.json.is_null())
+      json = answer.json.dump(-1, ' ', false, Json::error_handler_t::replace);
   });
-  using Json = engine::Json;
-  py::object json = py::none();
-  if (!answer.json.is_null())
-    json = py::str(
-        released([&] { return answer.json.dump(-1, ' ', false, Json::error_handler_t::replace); }));
-  return py::make_tuple(json, text + answer.text, answer.code, messages.warnings, messages.details);
-}
-
-/// (3,) or (3, 3) numbers as nested tuples.
-py::tuple tupleOf(const Eigen::Vector3d& v) {
-  return py::make_tuple(v[0], v[1], v[2]);
-}
-
-/// The voxels as an array [k, j, i] that points into the volume.
-py::array voxelsOf(const py::object& self) {
-  const Volume& volume = self.cast<const Volume&>();
-  const auto& size = volume.geometry.size;
-  return std::visit(
-      [&](const auto& voxels) -> py::array {
-        using Number = typename std::decay_t<decltype(voxels)>::value_type;
-        return py::array_t<Number>({size[2], size[1], size[0]}, voxels.data(), self);
-      },
-      volume.voxels);
-}
-
-std::pair<std::shared_ptr<Volume>, std::vector<std::string>> readVolume(const std::string& file,
-                                                                        const Options& options,
-                                                                        const py::object& report) {
-  auto volume = std::make_shared<Volume>();
-  const Messages messages = runWatched({report}, [&](Progress& progress) {
-    OptionTable table;
-    engine::VolumeArguments arguments;
-    engine::addVolumeRows(table, arguments);
-    engine::setRows(table, {"", {}, options});
-    if (isAddress(file)) throw invalidInput(std::string("volume: ") + kAddressFault);
-    const engine::FileFormat& format = engine::inputFormat(file, "");
-    if (format.readVolume == nullptr) throw unsupported(file + ": this is not a volume");
-    *volume = engine::readVolumeFile(file, format, arguments, progress);
-  });
-  return {volume, messages.warnings};
+  py::dict outputs;
+  for (const std::string& name : kept) outputs[name.c_str()] = keptValue(name, memory.keep(name));
+  return py::make_tuple(json.empty() ? py::object(py::none()) : py::str(json), text + answer.text,
+                        answer.code, messages.warnings, messages.details, outputs);
 }
 
 }  // namespace
@@ -137,17 +141,11 @@ std::pair<std::shared_ptr<Volume>, std::vector<std::string>> readVolume(const st
 void addEngine(py::module_& module) {
   module.attr("version") = LUMEN_VERSION;
   module.def("commands", &listCommands);
-  module.def("run", &runCommand);
-  module.def("read_volume", &readVolume);
-  py::class_<Volume, std::shared_ptr<Volume>>(module, "Voxels")
-      .def_property_readonly("array", &voxelsOf)
-      .def_property_readonly("spacing",
-                             [](const Volume& self) { return tupleOf(self.geometry.spacing); })
-      .def_property_readonly("origin",
-                             [](const Volume& self) { return tupleOf(self.geometry.origin); })
-      .def_property_readonly("direction", [](const Volume& self) {
-        const Eigen::Matrix3d rows = self.geometry.direction.transpose();
-        return py::make_tuple(tupleOf(rows.col(0)), tupleOf(rows.col(1)), tupleOf(rows.col(2)));
+  module.def(
+      "run", [](const std::string& name, const std::vector<std::string>& arguments,
+                const Options& options, const py::dict& given, const std::vector<std::string>& kept,
+                const py::object& report, int threads, bool strict) {
+        return runCommand({name, arguments, options}, given, kept, {report, threads, strict});
       });
 }
 

@@ -5,11 +5,14 @@
 #include "packages/python/src/blob_records.h"
 #include "packages/python/src/case_object.h"
 #include "packages/python/src/engine_calls.h"
+#include "packages/python/src/volume_object.h"
 
 PYBIND11_MODULE(_lumen, module) {
   module.doc() = "The compiled part of lumen. Use lumen and lumen.blob.";
   lumen::python::addCase(module);
   lumen::python::addEdits(module);
   lumen::python::addEngine(module);
+  lumen::python::addSurfaces(module);
+  lumen::python::addVolumes(module);
   lumen::python::addBlob(module);
 }

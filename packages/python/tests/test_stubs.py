@@ -13,7 +13,7 @@ except ImportError:
     mypy = None
 
 # Modules that are not for users or need packages that are not here, aliases of types, classes that users do not make, pybind11's metaclass.
-EXPECTED = re.compile(r"lumen\._|lumen\.(blob\.)?(Floats|PathLike|Report|Seeds|VolumeLike|Doubles|Nodes|Truth) is not present"
+EXPECTED = re.compile(r"lumen\._|lumen\.(blob\.)?(Floats|PathLike|Report|Seeds|\w+Like|Doubles|Nodes|Truth) is not present"
                       r"|lumen\.torch failed to import|.*metaclass differs|lumen\.(blob\.)?(Case|Mesh|Models|Motion|Points|Tree|Answer|Approaches|Hessian|Hits|Nearest)"
                       r"\.__init__ is inconsistent")
 PROGRAM = """
@@ -26,6 +26,14 @@ reveal_type(case.tree.radius)
 reveal_type(lumen.blob.Model(case).query(np.zeros((3, 3))).distance)
 lumen.convert("a.nrrd", inlier_rte=0.6)
 case.picture(view="back")
+from lumen.options import Fitting, Tracking
+reveal_type(lumen.convert("a.nrrd", **Tracking(inlier_rate=0.6), **Fitting(accuracy=0.2)))
+Tracking(inlier_rte=0.6)
+class Image:
+    affine: object
+    dataobj: object
+reveal_type(lumen.convert(Image(), label_map=np.zeros((2, 3, 4)), label_table={1: "BA"}))
+reveal_type(lumen.fit("a.lumen").surface())
 """
 
 
@@ -54,8 +62,10 @@ class StubsTest(unittest.TestCase):
         self.assertEqual(revealed[:2], ["lumen.Case", "lumen.Answer"])
         self.assertIn("_32Bit", revealed[2])
         self.assertIn("_64Bit", revealed[3])
+        self.assertEqual(revealed[4:6], ["lumen.Case", "lumen.Case"])
+        self.assertIn("_32Bit", revealed[6])
         wrong = [line.split(":")[1] for line in lines if ": error: " in line]
-        self.assertEqual(wrong, ["9", "10"])
+        self.assertEqual(wrong, ["9", "10", "13"])
 
 
 if __name__ == "__main__":
