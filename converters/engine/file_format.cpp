@@ -27,19 +27,19 @@ using convert::VolumeFormat;
 
 namespace {
 
-template <VolumeFormat format>
+template <const VolumeFormat& format>
 convert::Volume readVolumeAs(const InputFile& file, const convert::ReadVolumeOptions& options,
                              const Progress& progress) {
   return convert::readVolume(file, format, options, progress);
 }
 
-template <VolumeFormat format>
+template <const VolumeFormat& format>
 convert::VolumeHeader readHeaderAs(const InputFile& file, const convert::ReadVolumeOptions& options,
                                    const Progress& progress) {
   return convert::readVolumeHeader(file, format, options, progress);
 }
 
-template <VolumeFormat format, bool compressed>
+template <const VolumeFormat& format, bool compressed>
 std::string encodeVolumeAs(const convert::Volume& volume, const fs::path& file) {
   return convert::encodeVolume(volume, format, compressed, file);
 }

@@ -11,10 +11,10 @@
 
 #include "converters/base/text.h"
 #include "converters/io/volume/nifti_header.h"
-#include "converters/io/volume/open_volume.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/io/volume/stored_voxels.h"
 #include "converters/io/volume/text_header.h"
+#include "converters/io/volume/volume_format.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {

@@ -252,8 +252,6 @@ void noteScaling(const TextHeader& header, std::vector<std::string>& assumptions
       "its ElementToIntensityFunction is not applied: voxels have the values that are stored");
 }
 
-}  // namespace
-
 OpenVolume openMetaImage(const InputFile& file, const ReadVolumeOptions& options,
                          const Progress& progress) {
   progress.check();
@@ -282,5 +280,9 @@ OpenVolume openMetaImage(const InputFile& file, const ReadVolumeOptions& options
   if (header.voxels.files.size() > 1) header.voxels.packedSize.reset();  // the sum of all files
   return openImage(std::move(header), options, path);
 }
+
+}  // namespace
+
+constinit const VolumeFormat VolumeFormat::MetaImage{openMetaImage, encodeAsMetaImage};
 
 }  // namespace lumen::convert

@@ -85,8 +85,6 @@ StoredVoxels storedVoxels(const InputFile& file, const NiftiHeader& header, Pack
   return stored;
 }
 
-}  // namespace
-
 OpenVolume openNifti(const InputFile& file, const ReadVolumeOptions& options,
                      const Progress& progress) {
   const fs::path& path = file.path();
@@ -109,5 +107,9 @@ OpenVolume openNifti(const InputFile& file, const ReadVolumeOptions& options,
   checkExtensions(*bytes, header, path);
   return open;
 }
+
+}  // namespace
+
+constinit const VolumeFormat VolumeFormat::Nifti{openNifti, encodeAsNifti};
 
 }  // namespace lumen::convert

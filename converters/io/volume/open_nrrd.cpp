@@ -210,8 +210,6 @@ void setFiles(const TextHeader& header, const std::vector<std::int64_t>& sizes,
     voxels.files.emplace_back(file);
 }
 
-}  // namespace
-
 OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
                     const Progress& progress) {
   progress.check();
@@ -237,5 +235,9 @@ OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
   setFiles(fields, sizes, options, voxels);
   return openImage(std::move(header), options, path);
 }
+
+}  // namespace
+
+constinit const VolumeFormat VolumeFormat::Nrrd{openNrrd, encodeAsNrrd};
 
 }  // namespace lumen::convert

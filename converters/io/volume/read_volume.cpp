@@ -12,16 +12,12 @@
 
 #include "converters/base/number_text.h"
 #include "converters/io/volume/image_header.h"
-#include "converters/io/volume/open_volume.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One row for each format, in the order of VolumeFormat.
-constexpr std::array kOpeners = {openNrrd, openNifti, openMetaImage, openDicom};
 
 /// Refuses an error page that a server sent instead of the file.
 void refuseWebPage(const InputFile& file) {
@@ -39,17 +35,18 @@ void refuseWebPage(const InputFile& file) {
                        "download with a page of its own");
 }
 
-/// Throws unless the path is a folder for DICOM, and a file for any other format.
-void checkPlace(const InputFile& file, VolumeFormat format, const ReadVolumeOptions& options) {
+/// Throws unless the path is a folder for a format of folders, and a file for any other.
+void checkPlace(const InputFile& file, const VolumeFormat& format,
+                const ReadVolumeOptions& options) {
   const fs::path& path = file.path();
   std::error_code ignored;
   if (!file.isInMemory() && !fs::exists(path, ignored))
     throw invalidInput(path.string() + ": no such file or directory");
   const bool folder = file.isFolder();
-  if (format == VolumeFormat::Dicom && !folder)
+  if (format.isFolder && !folder)
     throw invalidInput(path.string() +
                        ": this is a file; a DICOM series is read from the folder that holds it");
-  if (format != VolumeFormat::Dicom && folder)
+  if (!format.isFolder && folder)
     throw invalidInput(path.string() + ": this is a folder; expected a file");
   if (!folder && !file.isInMemory() && !fs::is_regular_file(path, ignored))
     throw invalidInput(path.string() + ": this is a device or a pipe; expected a file");
@@ -82,24 +79,24 @@ void crop(Volume& volume, const CellBox& box, const fs::path& path) {
   std::visit([&](auto& voxels) { voxels = cropped(voxels, whole, box); }, volume.voxels);
 }
 
-OpenVolume open(const InputFile& file, VolumeFormat format, const ReadVolumeOptions& options,
+OpenVolume open(const InputFile& file, const VolumeFormat& format, const ReadVolumeOptions& options,
                 const Progress& progress) {
   checkPlace(file, format, options);
   progress.check();
-  return kOpeners.at(static_cast<std::size_t>(format))(file, options, progress);
+  return format.open(file, options, progress);
 }
 
 }  // namespace
 
-VolumeHeader readVolumeHeader(const InputFile& file, VolumeFormat format,
+VolumeHeader readVolumeHeader(const InputFile& file, const VolumeFormat& format,
                               const ReadVolumeOptions& options, const Progress& progress) {
   VolumeHeader header = open(file, format, options, progress).header;
   if (options.crop) cropGeometry(header.geometry, *options.crop, file.path());
   return header;
 }
 
-Volume readVolume(const InputFile& file, VolumeFormat format, const ReadVolumeOptions& options,
-                  const Progress& progress) {
+Volume readVolume(const InputFile& file, const VolumeFormat& format,
+                  const ReadVolumeOptions& options, const Progress& progress) {
   OpenVolume opened = open(file, format, options, progress);
   Volume volume{opened.header.geometry, {}, std::move(opened.header.assumptions)};
   volume.voxels = opened.readVoxels(progress, volume.assumptions);

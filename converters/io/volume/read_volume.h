@@ -6,7 +6,7 @@
 
 #include "converters/base/input_file.h"
 #include "converters/base/progress.h"
-#include "converters/io/volume/read_volume_options.h"
+#include "converters/io/volume/volume_format.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -14,7 +14,7 @@ namespace lumen::convert {
 /// The header of a volume, with the options applied, in a time that does not depend on the number
 /// of its voxels. Throws as readVolume() does for faults that show without a voxel, such as a file
 /// that is too short for the voxels that its header announces.
-VolumeHeader readVolumeHeader(const InputFile& file, VolumeFormat format,
+VolumeHeader readVolumeHeader(const InputFile& file, const VolumeFormat& format,
                               const ReadVolumeOptions& options, const Progress& progress);
 
 /// Reads a file of NIfTI-1, NRRD or MetaImage, or a DICOM series (of the files of a folder and
@@ -25,7 +25,7 @@ VolumeHeader readVolumeHeader(const InputFile& file, VolumeFormat format,
 /// it, for a DICOM stack with gaps, for an ambiguous DICOM series (the message lists them), or for
 /// voxels in a file outside of the header's folder that the options do not allow;
 /// Error(Unsupported) for features of these formats that lumen does not read; Error(Cancelled).
-Volume readVolume(const InputFile& file, VolumeFormat format, const ReadVolumeOptions& options,
-                  const Progress& progress);
+Volume readVolume(const InputFile& file, const VolumeFormat& format,
+                  const ReadVolumeOptions& options, const Progress& progress);
 
 }  // namespace lumen::convert

@@ -16,10 +16,6 @@
 
 namespace lumen::convert {
 
-/// Storage format of a volume. The voxels of NRRD and MetaImage may be in files of their own that
-/// the header names.
-enum class VolumeFormat { Nrrd, Nifti, MetaImage, Dicom };
-
 struct ReadVolumeOptions {
   /// DICOM: instance UID of a series, or its number in the listing, from 1; empty: the only one.
   std::string series{};

@@ -83,7 +83,10 @@ std::string metaHeader(const Volume& volume, const std::string& packed, const st
          "\n";
 }
 
-std::string encodeMetaImage(const Volume& volume, bool compressed) {
+}  // namespace
+
+std::string encodeAsMetaImage(const Volume& volume, bool compressed, const fs::path& /*file*/,
+                              const VolumeNotes& /*notes*/) {
   if (!compressed) return metaImageHeader(volume, "LOCAL").append(voxelBytes(volume));
   const std::string bytes = deflated({voxelBytes(volume)}, Stream::Zlib, kFast);
   return metaHeader(
@@ -93,14 +96,13 @@ std::string encodeMetaImage(const Volume& volume, bool compressed) {
          bytes;
 }
 
-std::string encodeNifti(const Volume& volume, bool compressed, const fs::path& file) {
+std::string encodeAsNifti(const Volume& volume, bool compressed, const fs::path& file,
+                          const VolumeNotes& /*notes*/) {
   const std::string header = niftiHeader(volume, file);
   if (compressed)
     return deflated({header, voxelBytes(volume)}, Stream::Gzip, Z_DEFAULT_COMPRESSION);
   return header + std::string(voxelBytes(volume));
 }
-
-}  // namespace
 
 std::string nrrdHeader(const NrrdVoxels& voxels, std::string_view encoding,
                        const VolumeNotes& notes) {
@@ -130,22 +132,18 @@ std::string encodeNrrd(const NrrdVoxels& voxels, std::string_view bytes, bool co
   return nrrdHeader(voxels, "gzip", notes) + deflated({bytes}, Stream::Gzip, kFast);
 }
 
-std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
+std::string encodeAsNrrd(const Volume& volume, bool compressed, const fs::path& /*file*/,
+                         const VolumeNotes& notes) {
+  constexpr std::array kTypes = {"unsigned char", "short", "unsigned short", "float"};
+  return encodeNrrd({kTypes.at(volume.voxels.index()), volume.geometry}, voxelBytes(volume),
+                    compressed, notes);
+}
+
+std::string encodeVolume(const Volume& volume, const VolumeFormat& format, bool compressed,
                          const fs::path& file, const VolumeNotes& notes) {
-  switch (format) {
-    case VolumeFormat::Nrrd: {
-      constexpr std::array kTypes = {"unsigned char", "short", "unsigned short", "float"};
-      return encodeNrrd({kTypes.at(volume.voxels.index()), volume.geometry}, voxelBytes(volume),
-                        compressed, notes);
-    }
-    case VolumeFormat::Nifti:
-      return encodeNifti(volume, compressed, file);
-    case VolumeFormat::MetaImage:
-      return encodeMetaImage(volume, compressed);
-    case VolumeFormat::Dicom:
-      break;
-  }
-  throw unsupported(file.string() + ": DICOM is not written");
+  if (format.encode == nullptr)
+    throw unsupported(file.string() + ": this format of volumes is not written");
+  return format.encode(volume, compressed, file, notes);
 }
 
 std::string metaImageHeader(const Volume& volume, const std::string& raw) {

@@ -3,18 +3,14 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 
-#include "converters/io/volume/read_volume_options.h"
+#include "converters/io/volume/volume_format.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
-
-/// Texts that a header of NRRD holds beside its own fields.
-using VolumeNotes = std::map<std::string, std::string>;
 
 /// Voxels of any type as a header of NRRD describes them.
 struct NrrdVoxels {
@@ -34,9 +30,9 @@ std::string encodeNrrd(const NrrdVoxels& voxels, std::string_view bytes, bool co
                        const VolumeNotes& notes = {});
 
 /// The bytes of one file with header and voxels; equal volumes give equal bytes. `file` is named in
-/// messages; notes are for NRRD alone. Throws Error(Unsupported) for DICOM, and for more than 32767
+/// messages; notes are for NRRD alone. Throws Error(Unsupported) for a format that is not written, and for more than 32767
 /// voxels along an axis of NIfTI.
-std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
+std::string encodeVolume(const Volume& volume, const VolumeFormat& format, bool compressed,
                          const std::filesystem::path& file, const VolumeNotes& notes = {});
 
 /// The header of a MetaImage file whose voxels are in the file `raw` beside it, as voxelBytes().

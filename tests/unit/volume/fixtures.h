@@ -67,7 +67,7 @@ inline std::string refusal(const std::function<void()>& action) {
 }
 
 /// The format that these tests' files have by their names; a folder is one of DICOM.
-inline VolumeFormat formatOf(const std::filesystem::path& path) {
+inline const VolumeFormat& formatOf(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".nrrd" || extension == ".nhdr") return VolumeFormat::Nrrd;
   if (extension == ".mha" || extension == ".mhd") return VolumeFormat::MetaImage;

@@ -156,7 +156,7 @@ private:
       add(name + ".mhd", metaImageHeader(volume, raw), about + "; in `" + raw + "`");
       add(name + ".raw", std::string(voxelBytes(volume)), "");
     }
-    const auto addAs = [&](const std::string& file, VolumeFormat format) {
+    const auto addAs = [&](const std::string& file, const VolumeFormat& format) {
       add(file, encodeVolume(volume, format, true, file, makeNotes(m_input.source.tree)), about);
     };
     if (wants(m_options, GridFormat::Nrrd)) addAs(name + ".nrrd", VolumeFormat::Nrrd);

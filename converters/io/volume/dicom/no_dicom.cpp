@@ -2,7 +2,7 @@
 // Replacement of the DICOM reader where lumen is built without it.
 #include "converters/base/error.h"
 #include "converters/io/volume/dicom/dicom_series.h"
-#include "converters/io/volume/open_volume.h"
+#include "converters/io/volume/volume_format.h"
 
 namespace lumen::convert {
 namespace {
@@ -13,12 +13,14 @@ namespace {
                     "(LUMEN_WITH_DICOM); convert the series to NRRD or NIfTI first");
 }
 
-}  // namespace
-
 OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& /*options*/,
                      const Progress& /*progress*/) {
   refuse(folder.path());
 }
+
+}  // namespace
+
+constinit const VolumeFormat VolumeFormat::Dicom{openDicom, nullptr, true};
 
 DicomListing listDicomSeries(const InputFile& folder, const ReadVolumeOptions& /*options*/,
                              Progress& /*progress*/) {

@@ -8,7 +8,7 @@
 #include "converters/io/volume/dicom/dicom_folder.h"
 #include "converters/io/volume/dicom/dicom_pixels.h"
 #include "converters/io/volume/dicom/dicom_stack.h"
-#include "converters/io/volume/open_volume.h"
+#include "converters/io/volume/volume_format.h"
 
 namespace lumen::convert {
 namespace {
@@ -62,8 +62,6 @@ Voxels readSlices(const DicomStack& stack, const Progress& progress) {
   return all;
 }
 
-}  // namespace
-
 OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
                      const Progress& progress) {
   const fs::path& path = folder.path();
@@ -84,5 +82,9 @@ OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
   };
   return open;
 }
+
+}  // namespace
+
+constinit const VolumeFormat VolumeFormat::Dicom{openDicom, nullptr, true};
 
 }  // namespace lumen::convert
