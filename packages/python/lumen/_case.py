@@ -9,12 +9,13 @@ from typing import Any, Dict, Optional
 import numpy as np
 
 from . import _lumen
+from ._calls import called
 from ._editing import Editor
 from ._inputs import Staging
 from ._mesh_file import read_mesh
 from ._options import document
 from ._parts import Change, Mesh, Models, Motion, Picture, Points, Tree
-from ._running import Answer, called, run_staged, warn
+from ._running import Answer, run_staged
 
 
 class Case:
@@ -165,7 +166,6 @@ class Case:
     # ------------------------------------------------------------ work
     def validate(self, **options) -> Answer:
         """All faults of the case: see :func:`lumen.validate`."""
-        from ._operations import validate
         return validate(self, **options)
 
     def fit(self, *, progress=None, threads=None, strict=False, **options) -> "Case":
@@ -232,6 +232,11 @@ class Case:
     def _repr_png_(self) -> Optional[bytes]:
         return None if self.models is None else bytes(self.picture(size=(800, 600)))
 
+    def _staged(self, staging: Staging) -> str:
+        path = staging.name("case.lumen")
+        self.write(path)
+        return path
+
     def _asked(self, command, others, progress, threads, strict, options) -> Answer:
         with Staging() as staging:
             return run_staged(staging, command, (self, *others), options, progress, threads, strict)
@@ -256,6 +261,37 @@ class Case:
         blobs = 0 if self.models is None else len(self.models)
         return (f"<lumen.Case {len(self.branches)} branches, {len(self.tree)} nodes, {points} points, "
                 f"{blobs} blobs>")
+
+
+def validate(source, *, progress=None, threads=None, strict=False, **options) -> Answer:
+    """All faults of a case.
+
+    Parameters
+    ----------
+    source : path or Case
+
+    Returns
+    -------
+    Answer
+        ``valid``, ``errors``, ``warnings``, ``information`` and ``issues``, each with code, number,
+        severity, pointer or offset, arguments and message.
+    """
+    if isinstance(source, Case):
+        errors, warnings, notes, issues = source._core.issues(  # pylint: disable=protected-access
+            int(options.get("max_issues") or 100))
+        if errors:
+            answer = Answer(file=None, valid=False, complete=len(issues) == errors + warnings + notes,
+                            errors=errors, warnings=warnings, information=notes, issues=issues)
+            answer.text = "\n".join(f"{i['code']} at {i['pointer']}: {i['message']}" for i in issues)
+            answer.code, answer.warnings = 3, []
+            return answer
+    with Staging() as staging:
+        whole = run_staged(staging, "validate", (source,), options, progress, threads, strict)
+    answer = Answer(whole["files"][0])
+    if isinstance(source, Case):
+        answer["file"] = None
+    answer.text, answer.code, answer.warnings = whole.text, whole.code, whole.warnings
+    return answer
 
 
 def _bits(point_bits: int) -> int:

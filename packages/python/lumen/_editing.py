@@ -2,17 +2,16 @@
 """Corrections of a case by hand."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Generic, TypeVar
 
 from . import _lumen
+from ._calls import called
 from ._parts import Change
-from ._running import called
 
-if TYPE_CHECKING:
-    from ._case import Case
+Case = TypeVar("Case")  # the class of a case, which knows this module
 
 
-class Editor:
+class Editor(Generic[Case]):
     """Corrections of a case. Each returns a new case and leaves the old one as it is.
 
     A branch is its label or its index, a node its index. Models that are out of date are fitted
@@ -20,7 +19,7 @@ class Editor:
     happened. Raises lumen.Error for what a correction does not allow.
     """
 
-    def __init__(self, case: "Case"):
+    def __init__(self, case: Case):
         self._case = case
 
     def delete(self, branch, *, children: bool = False, refit: bool = True, progress=None) -> "Case":
@@ -87,19 +86,18 @@ class Editor:
     def refit(self, nodes, *, progress=None, threads=None) -> "Case":
         """Fits the models of some nodes again, such as ``new.change.stale``, with the options of
         the case's last fit."""
-        from ._case import Case
         core = self._case._core  # pylint: disable=protected-access
         nodes = [int(node) for node in nodes]
-        return Case(called(_lumen.refit, core, nodes, progress, threads or 0), self._case.change)
+        new = called(_lumen.refit, core, nodes, progress, threads or 0)
+        return type(self._case)(new, self._case.change)
 
     def _edited(self, function, arguments, refit, progress) -> "Case":
-        from ._case import Case
         core = self._case._core  # pylint: disable=protected-access
         new, change = called(function, core, *arguments)
         change = Change(*change)
         if refit and len(change.stale) > 0:
             new = called(_lumen.refit, new, change.stale.tolist(), progress, 0)
-        return Case(new, change)
+        return type(self._case)(new, change)
 
     def _branch(self, branch) -> int:
         return self._case.branch(branch)

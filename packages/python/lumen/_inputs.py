@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from . import _lumen
+from ._calls import called, warn
+from ._options import texts_of
 
 _NRRD_TYPES = {"i1": "int8", "u1": "uint8", "i2": "int16", "u2": "uint16", "i4": "int32",
                "u4": "uint32", "f4": "float", "f8": "double"}
@@ -51,8 +53,6 @@ class Volume:
     def read(cls, path, *, progress=None, **options) -> "Volume":
         """Reads NRRD, NIfTI, MetaImage, or a folder of DICOM; options as those of a volume in
         :func:`lumen.convert` (series, crop, spacing, unit...). The array points into the volume."""
-        from ._running import called, warn
-        from ._options import texts_of
         path = os.fspath(path)
         voxels, warnings = called(_lumen.read_volume, path, texts_of("convert", options), progress,
                                   known=[path])
@@ -150,11 +150,8 @@ class Staging:
 
     def path_of(self, value: Any) -> str:
         """The file of an argument: a path as it is, a case or a volume written for it."""
-        from ._case import Case
-        if isinstance(value, Case):
-            path = self.name("case.lumen")
-            value.write(path)
-            return path
+        if hasattr(value, "_staged"):
+            return value._staged(self)  # pylint: disable=protected-access
         if isinstance(value, np.ndarray):
             value = Volume(value)
         if isinstance(value, Volume):

@@ -7,7 +7,7 @@ import os
 from typing import Any, List, NamedTuple, Optional
 
 from . import _lumen
-from ._case import Case
+from ._case import Case, validate
 from ._inputs import Staging, Volume
 from ._options import commands, document, keyword_of, mesh_rows, rows_of
 from ._running import Answer, called, run, run_staged
@@ -31,37 +31,6 @@ def read(path) -> Case:
         With file, place, rule, and the values found and expected.
     """
     return Case(called(_lumen.Case.read, os.fspath(path)))
-
-
-def validate(source, *, progress=None, threads=None, strict=False, **options) -> Answer:
-    """All faults of a case.
-
-    Parameters
-    ----------
-    source : path or Case
-
-    Returns
-    -------
-    Answer
-        ``valid``, ``errors``, ``warnings``, ``information`` and ``issues``, each with code, number,
-        severity, pointer or offset, arguments and message.
-    """
-    if isinstance(source, Case):
-        errors, warnings, notes, issues = source._core.issues(  # pylint: disable=protected-access
-            int(options.get("max_issues") or 100))
-        if errors:
-            answer = Answer(file=None, valid=False, complete=len(issues) == errors + warnings + notes,
-                            errors=errors, warnings=warnings, information=notes, issues=issues)
-            answer.text = "\n".join(f"{i['code']} at {i['pointer']}: {i['message']}" for i in issues)
-            answer.code, answer.warnings = 3, []
-            return answer
-    with Staging() as staging:
-        whole = run_staged(staging, "validate", (source,), options, progress, threads, strict)
-    answer = Answer(whole["files"][0])
-    if isinstance(source, Case):
-        answer["file"] = None
-    answer.text, answer.code, answer.warnings = whole.text, whole.code, whole.warnings
-    return answer
 
 
 def track(volume, *, seeds=None, progress=None, threads=None, strict=False, **options) -> Case:

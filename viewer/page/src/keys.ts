@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Keys that hold everywhere on the page; views and lists have their own. */
-import type { Actions } from "./tools/actions";
+import type { Actions } from "./panels/actions";
 import { kTools } from "./panels/bar";
 import type { Hand } from "./tools/hand";
 import { kLayouts, type App } from "./model/model";
 import { askPosition } from "./panels/probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
 import { slabKey } from "./slices/slice_controls";
-import { resetPlanes } from "./slices/slice_input";
+import { resetPlanes } from "./tools/slice_input";
 import { renameBranch } from "./panels/tree_panel";
 import type { WorkList } from "./panels/work_list";
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The view of a case: it survives a reload of the page, and may be kept as a small file beside the case. */
-import { isBeside, type Beside } from "../slices/beside";
+import { isBeside, type Beside } from "./beside";
 import { fromHex, toHex, type Rgb } from "../base/colour";
 import { kColourTitles } from "./colouring";
 import { kInitial, kLayouts, type App, type Measurement, type View } from "./model";
-import { areSlabs, type Slabs } from "../slices/slab";
+import { areSlabs, type Slabs } from "./slab";
 import type { Vec3 } from "../base/types";
 
 /** The name of the format in the list of exports, and how such a file's name ends. */

@@ -2,13 +2,13 @@
 /** The page's model: values of a few owners, which panels and views watch. */
 import type { Model } from "../../../../libblob/wasm/blob.mjs";
 import { branchColour, type Rgb } from "../base/colour";
-import type { Deviation } from "../scene/mesh_view";
-import { kNoBeside, type Beside } from "../slices/beside";
-import { kNoSlabs, type Slabs } from "../slices/slab";
+import type { Deviation } from "../case/deviation";
+import { kNoBeside, type Beside } from "./beside";
+import { kNoSlabs, type Slabs } from "./slab";
 import type { OpenAs, Source } from "../net/source";
 import type { Stage } from "../drawing/stage";
 import { Store } from "../base/store";
-import type { Stroke } from "../tools/stroke";
+import type { Stroke } from "./stroke";
 import type { Surface } from "../case/surface";
 import type { Tree } from "../case/tree";
 import { kEmptyState, type Seed, type State, type Vec3 } from "../base/types";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The time of a moving case: what the views show then, and the way back to the case at rest. */
 import type { App, View } from "./model";
-import { namesTree } from "../net/performer";
+import { namesTree } from "./performer";
 import type { Tree } from "../case/tree";
 import type { Operation } from "../base/types";
 import { distance } from "../base/vec";

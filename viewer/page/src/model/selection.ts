@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selected vessel and the cursor along it; list, views, plot and keys share them. */
 import { isShown, shownTree, type App, type View } from "./model";
-import { vesselFrame } from "../slices/slice_frame";
+import { vesselFrame } from "./slice_frame";
 import type { Vec3 } from "../base/types";
 import { length, sub } from "../base/vec";
 

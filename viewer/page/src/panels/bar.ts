@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The bar on top: files, history, tools, layout. */
 import { kViewFormat } from "../model/kept_view";
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import { kLayouts, type App, type Layout, type Tool } from "../model/model";
 import { button, h, select } from "../base/ui";
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Display settings: volumes, parts of the 3D view, colours, planes. */
 import { kColourTitles, numbersOf } from "../model/colouring";
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import type { App, ColourBy, Layers, Planes } from "../model/model";
 import { followVessel } from "../model/selection";
-import { resetPlanes, turnPlanes } from "../slices/slice_input";
+import { resetPlanes, turnPlanes } from "../tools/slice_input";
 import { button, checkbox, h, section, select, slider } from "../base/ui";
 import { secondSection, volumeSection } from "./volume_panel";
 

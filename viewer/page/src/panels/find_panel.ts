@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Find vessels: what the volume shows and the case lacks, as a list to accept or to reject. */
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import type { App } from "../model/model";
 import { goTo } from "../model/selection";
 import type { Proposal, State } from "../base/types";

@@ -2,7 +2,7 @@
 /** The legends of colours, in the corner of the 3D view: of the surface, and of meshes. */
 import { mapColour, toCss, type MapName } from "../base/colour";
 import { colouring } from "../model/colouring";
-import { deviationText, kDeviationMap, sharedRange } from "../scene/mesh_view";
+import { deviationText, kDeviationMap, sharedRange } from "../case/deviation";
 import type { App } from "../model/model";
 import { brief, h } from "../base/ui";
 

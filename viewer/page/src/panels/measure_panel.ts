@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Measurements, gaps between vessels, and the figures of a comparison. */
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import type { Hand } from "../tools/hand";
 import { measurementsCsv } from "../model/kept_view";
 import { gaps } from "../tools/measure";

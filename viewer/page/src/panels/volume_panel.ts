@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The volume and the one beside it: window, presets, histogram, and how both are seen together. */
-import { kBesideModes, type Beside } from "../slices/beside";
+import { kBesideModes, type Beside } from "../model/beside";
 import { kFirst, kSecond, type App, type Cast, type View, type VolumeKeys } from "../model/model";
 import { brief, button, checkbox, h, section, select, slider } from "../base/ui";
 import type { Volume } from "../case/volume";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The check as a list of work: every place with what to do, walked through by keys, until nothing is left. */
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import type { App } from "../model/model";
 import { goTo, goToNode } from "../model/selection";
 import type { IgnoredPlace, State, WorkItem } from "../base/types";

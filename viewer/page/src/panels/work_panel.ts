@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Work on the document: files, seeds and tracking, what the check found, corrections of the tree. */
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import { editSection } from "./edit_panel";
 import type { Hand } from "../tools/hand";
 import type { App } from "../model/model";

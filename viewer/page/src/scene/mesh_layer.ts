@@ -2,7 +2,8 @@
 /** Meshes that were opened beside the case: each with an opacity of its own, in grey or coloured by its distance from the
  * wall of the case. */
 import type { App, View } from "../model/model";
-import { deviationOf, deviationText, MeshView, sharedRange, type Deviation } from "./mesh_view";
+import { MeshView } from "./mesh_view";
+import { deviationOf, deviationText, sharedRange, type Deviation } from "../case/deviation";
 import { Pack } from "../case/pack";
 import type { SceneView } from "./scene_view";
 import type { Vec3 } from "../base/types";

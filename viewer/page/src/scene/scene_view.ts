@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
-import { clearedContext } from "../drawing/over";
+import { clearedContext } from "../overlay/over";
 import {
   DoubleSide,
   FrontSide,
@@ -12,7 +12,7 @@ import {
   type Object3D,
   type WebGLRenderer,
 } from "three";
-import { OrbitCamera } from "./camera";
+import { OrbitCamera } from "../drawing/camera";
 import { Caster } from "./cast";
 import { colouring } from "../model/colouring";
 import { colourOf, isShown, opacityOf, shownTree, type App, type View } from "../model/model";

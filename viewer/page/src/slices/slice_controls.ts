@@ -2,9 +2,9 @@
 /** The controls of a slice: its slab, by keys and fields, and the line between two volumes. */
 import { h, select } from "../base/ui";
 import type { App } from "../model/model";
-import { showsSecond } from "./beside";
-import { kSlabKinds, type Slab, type Slabs } from "./slab";
-import { kSliceNames, type SliceName } from "./slice_frame";
+import { showsSecond } from "../model/beside";
+import { kSlabKinds, type Slab, type Slabs } from "../model/slab";
+import { kSliceNames, type SliceName } from "../model/slice_frame";
 
 const kLeast = 0.5, // mm
   kMost = 200, // mm

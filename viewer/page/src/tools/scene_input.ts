@@ -2,9 +2,9 @@
 /** Pointer and keys in the 3D view. Drag turns, with shift or the middle button moves, the wheel comes nearer; a click
  * picks a vessel or uses the tool. */
 import type { App } from "../model/model";
-import type { SceneView } from "./scene_view";
-import { shiftWindow } from "../slices/slice_input";
-import type { Tools } from "../tools/tools";
+import type { SceneView } from "../scene/scene_view";
+import { shiftWindow } from "./slice_input";
+import type { Tools } from "./tools";
 
 const kClick = 4; // pixels that a click may move
 const kTurn = 0.008; // radians for a pixel

@@ -5,9 +5,9 @@ import { divide, holdsSeeds, isVolume, type Dropped } from "../net/dropped_files
 import type { App, Tool } from "../model/model";
 import type { SceneView } from "../scene/scene_view";
 import type { SliceView } from "../slices/slice_view";
-import { openHelp } from "../panels/help";
+import { openHelp } from "./help";
 import { applyView, kViewEnding, kViewFormat, readView, takeView } from "../model/kept_view";
-import { askPart } from "../panels/series_dialog";
+import { askPart } from "./series_dialog";
 import { Refused, type OpenAs } from "../net/source";
 import { askYes, errorText, h, saveBlob, saveText } from "../base/ui";
 

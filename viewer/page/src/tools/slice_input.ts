@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Pointer and keys in a slice. Left: the tool (or the crosshair); right: window and level; middle or shift: pan; wheel:
  * slices, with control zoom; control and left: turns the planes. */
-import { isSecondAt } from "./beside";
+import { isSecondAt } from "../model/beside";
 import { kFirst, kPatientFrame, kSecond, type App, type VolumeKeys } from "../model/model";
-import { slabKey } from "./slice_controls";
-import type { SliceView } from "./slice_view";
-import type { Tools } from "../tools/tools";
+import { slabKey } from "../slices/slice_controls";
+import type { SliceView } from "../slices/slice_view";
+import type { Tools } from "./tools";
 import type { Vec3 } from "../base/types";
 import { rotate, type Frame } from "../base/vec";
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Listens to the server and to what is dropped; shows what goes on. */
-import type { Actions } from "../tools/actions";
-import { droppedFiles } from "./dropped_files";
+import type { Actions } from "../panels/actions";
+import { droppedFiles } from "../net/dropped_files";
 import type { Loader } from "./loader";
 import type { App } from "../model/model";
 import type { Shell } from "../panels/shell";
