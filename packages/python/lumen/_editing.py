@@ -2,13 +2,13 @@
 """Corrections of a case by hand."""
 from __future__ import annotations
 
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from . import _lumen
 from ._calls import called
 from ._parts import Change
 
-Case = TypeVar("Case")  # the class of a case, which knows this module
+Case = TypeVar("Case", bound=Any)  # the class of the case, which knows this module
 
 
 class Editor(Generic[Case]):

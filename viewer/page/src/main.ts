@@ -82,7 +82,7 @@ async function start(root: HTMLElement): Promise<void> {
   const hand = new Hand(app);
   const flight = new Flight(app, scene);
   const actions = new Actions(app, scene, slices, flight),
-    work = new WorkList(app, actions);
+    work = new WorkList(app);
   offerUnsaved(app);
   offerSeries(app);
   if (frame === null) keepView(app);
@@ -96,8 +96,8 @@ async function start(root: HTMLElement): Promise<void> {
     ...oneSourcePanel(app),
     ...assumptionsPanel(app),
     ...libraryPanel(app),
-    ...findPanel(app, actions),
-    ...workPanel(app, actions, hand, work),
+    ...findPanel(app),
+    ...workPanel(app, hand, work),
     ...displayPanel(app, actions),
     new MeshLayer(app, scene).panel,
     ...measurePanel(app, actions, hand),

@@ -27,28 +27,6 @@ export class Actions {
   tool(tool: Tool): void {
     this.app.store.set({ tools: { tool, pending: [] } });
   }
-  undo(): Promise<boolean> {
-    return this.app.perform({ op: "undo" });
-  }
-  redo(): Promise<boolean> {
-    return this.app.perform({ op: "redo" });
-  }
-  track(labels: string[] | null): Promise<boolean> {
-    return this.app.perform({ op: "track", labels });
-  }
-  find(): Promise<boolean> {
-    return this.app.perform({ op: "find" });
-  }
-  /** Proposals by their labels; null: all. */
-  accept(labels: string[] | null): Promise<boolean> {
-    return this.app.perform({ op: "accept", labels });
-  }
-  reject(labels: string[] | null): Promise<boolean> {
-    return this.app.perform({ op: "reject", labels });
-  }
-  check(): Promise<boolean> {
-    return this.app.perform({ op: "check" });
-  }
   async compare(): Promise<void> {
     if (await this.app.perform({ op: "compare" })) this.app.store.set({ scene: { colourBy: "compare" } });
   }

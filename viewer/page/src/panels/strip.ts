@@ -3,7 +3,7 @@
 import type { Actions } from "./actions";
 import { toCss } from "../base/colour";
 import type { Flight } from "../scene/flight";
-import { colourOf, type App, type View } from "../model/model";
+import { colourOf, type CursorPart, type View } from "../model/model";
 import { findPlaces, reference, type Place } from "../case/narrowing";
 import { followVessel, goToNode, stepAlong } from "../model/selection";
 import { clearedContext, niceLength } from "../overlay/over";
@@ -52,8 +52,8 @@ export class Strip {
 
   constructor(
     readonly element: HTMLElement,
-    private readonly app: App,
-    actions: Actions,
+    private readonly app: CursorPart<"page">,
+    actions: Pick<Actions, "fly">,
     flight: Flight,
   ) {
     const seek = slider("flight-position", "Position of the flight", [0, 1, 0.001], 0, value =>

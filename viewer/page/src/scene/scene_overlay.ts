@@ -88,7 +88,7 @@ function drawSelected(
 export function drawSceneOverlay(
   c: CanvasRenderingContext2D,
   camera: OrbitCamera,
-  view: View,
+  view: Omit<View, "page">,
   width: number,
   height: number,
 ): void {

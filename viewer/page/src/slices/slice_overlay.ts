@@ -70,7 +70,7 @@ function drawOutlines(
   });
 }
 
-function drawLines(c: Context, slice: SliceProjection, view: View): void {
+function drawLines(c: Context, slice: SliceProjection, view: Omit<View, "page">): void {
   const tree = shownTree(view);
   if (tree === null || !view.scene.layers.lines) return;
   const near = reachOf(view, slice, 2 * slice.mmPerPixel + (tree.voxelSize || 0.5)),
@@ -261,7 +261,7 @@ function title(slice: SliceProjection, view: Pick<View, "slices">): string {
 export function drawSliceOverlay(
   c: Context,
   slice: SliceProjection,
-  view: View,
+  view: Omit<View, "page">,
   width: number,
   height: number,
 ): void {

@@ -3,7 +3,7 @@
 import { drawingOf, showsSecond } from "../model/beside";
 import { slabControl, splitLine } from "./slice_controls";
 import type { WebGLRenderer } from "three";
-import type { App, View } from "../model/model";
+import type { Part, View } from "../model/model";
 import { drawProposalsInSlice } from "../overlay/proposal_lines";
 import { frameOf, type Pixel, type SliceName, type SliceProjection } from "../model/slice_frame";
 import { clearedContext } from "../overlay/over";
@@ -43,7 +43,7 @@ export class SliceView implements StageView, SliceProjection {
   constructor(
     readonly name: SliceName,
     readonly element: HTMLElement,
-    readonly app: App,
+    private readonly app: Part<keyof View, "stage">,
   ) {
     this.over = element.querySelector("canvas")!;
     element.querySelector(".viewtools")!.append(slabControl(app, name));
