@@ -79,7 +79,7 @@ MAY_INCLUDE["converters/cli"] = MAY_INCLUDE["viewer/server"] + ["viewer/server"]
 MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session/packs"]
 MAY_INCLUDE["packages/python/lumen"] = []
 
-# The rooms of the page from the bottom up. A room may import all before its own; slices and the scene do not know each other.
+# The rooms of the page from the bottom up. A room may import all before its own; those of one list do not know each other.
 PAGE = "viewer/page/src"
 PAGE_ROOMS = [["base"], ["case"], ["drawing", "net"], ["model"], ["overlay"], ["slices", "scene"], ["tools"], ["panels"], ["updates"]]
 below = []
