@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks which way includes go, that strings do not go the other way (docs/architecture.md), and that no test is left out of the build.
+"""Checks which way includes of C++ and imports of the page and of the Python package go, that strings do not go the other way
+(docs/architecture.md), and that no test is left out of the build.
 
 check_includes.py [--table]
 
-Prints every include that runs from a folder to one above it, and every cycle of files; with --table also
-the folders with their lines, files and the folders that they include. Exit status: 0 neither, 1 some."""
-import argparse, pathlib, re, sys
+Prints every include or import that runs from a folder to one above it, and every cycle of files, imports of types and
+those within functions included; with --table also the folders with their lines, files and the folders that they include. Exit status: 0 neither, 1 some."""
+import argparse, ast, os, pathlib, re, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -76,18 +77,44 @@ MAY_INCLUDE["viewer/server"] = MAY_INCLUDE["viewer/session"] + ["viewer/session"
 MAY_INCLUDE["converters/cli"] = MAY_INCLUDE["viewer/server"] + ["viewer/server"]
 # The Python module stands beside them.
 MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session/packs"]
+MAY_INCLUDE["packages/python/lumen"] = []
+
+# The rooms of the page from the bottom up. A room may import all before its own; those of one list do not know each other.
+PAGE = "viewer/page/src"
+PAGE_ROOMS = [["base"], ["case"], ["drawing", "net"], ["model"], ["overlay"], ["slices", "scene"], ["tools"], ["panels"], ["updates"]]
+below = []
+for rooms in PAGE_ROOMS:
+    MAY_INCLUDE.update({f"{PAGE}/{room}": below for room in rooms})
+    below = below + [f"{PAGE}/{room}" for room in rooms]
+MAY_INCLUDE[PAGE] = below
 
 
 def sources():
-    """Every C or C++ file of the product, relative to the root."""
-    for top in ("formats", "libblob/include", "libblob/src", "libblob/cuda", "converters", "viewer/session", "viewer/server", "packages/python/src"):
-        yield from (p.relative_to(ROOT) for p in sorted((ROOT / top).rglob("*")) if p.suffix in (".h", ".cpp", ".c"))
+    """Every C, C++ or TypeScript file of the product, and those of the Python package, relative to the root."""
+    for top in ("formats", "libblob/include", "libblob/src", "libblob/cuda", "converters", "viewer/session", "viewer/server", "packages/python/src", PAGE):
+        yield from (p.relative_to(ROOT) for p in sorted((ROOT / top).rglob("*")) if p.suffix in (".h", ".cpp", ".c", ".ts"))
+    yield from (p.relative_to(ROOT) for p in sorted((ROOT / "packages/python/lumen").glob("*.py")))
+
+
+def python_modules(text):
+    """Modules beside it that a module of the Python package imports, wherever it does so."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.ImportFrom) and node.level == 1:
+            yield from [node.module] if node.module else (alias.name for alias in node.names)
+
+
+def named(file, text):
+    """The names of files that a file includes or imports."""
+    if file.suffix == ".py": return [f"{module}.py" for module in python_modules(text)]
+    if file.suffix == ".ts": return [f"{name}.ts" for name in re.findall(r'(?:\bfrom|\bimport)[ (]"(\.[^"]+)"', text)]
+    return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.M)
 
 
 def resolve(file, name, files):
-    """The file that an include names, or None for one of another project."""
+    """The file that an include or import names, or None for one of another project."""
     for base in (pathlib.Path(), file.parent, pathlib.Path("libblob/src"), pathlib.Path("libblob/include"), pathlib.Path("formats/include"), pathlib.Path("converters/api/include")):
-        if base / name in files: return base / name
+        found = pathlib.Path(os.path.normpath(base / name))
+        if found in files: return found
     return None
 
 
@@ -149,7 +176,7 @@ def main():
     options = parser.parse_args()
     files = set(sources())
     text = {file: (ROOT / file).read_text() for file in files}
-    arrows = {file: sorted({other for name in re.findall(r'^\s*#\s*include\s+"([^"]+)"', text[file], re.M)
+    arrows = {file: sorted({other for name in named(file, text[file])
                             if (other := resolve(file, name, files)) and other != file}) for file in sorted(files)}
     folder = lambda file: file.parent.as_posix()
     wrong = [f"{file} includes {other}, which is not below it" for file in arrows for other in arrows[file]
@@ -157,7 +184,7 @@ def main():
     wrong += [f"{file}: its folder is not in the list of this script" for file in arrows if folder(file) not in MAY_INCLUDE]
     wrong += ["cycle: " + " -> ".join(map(str, cycle)) for cycle in cycles(arrows)]
     for file in sorted(files):
-        spelled = [] if file.as_posix().startswith(KNOW_OPTIONS) else options_spelled(text[file])
+        spelled = [] if file.as_posix().startswith(KNOW_OPTIONS) or file.suffix in (".ts", ".py") else options_spelled(text[file])
         if spelled:
             wrong.append(f"{file} spells {spelled[0]} in a string; base/field_word.h names a field, base/options/option_name.h the option of a command")
         if file.as_posix().startswith(ON_VALUES):
@@ -169,7 +196,7 @@ def main():
             inside = [f for f in files if folder(f) == name]
             below = sorted({folder(o) for f in inside for o in arrows[f]} - {name})
             print(f"| {name} | {len(inside)} | {sum(text[f].count(chr(10)) for f in inside)} | {', '.join(below)} |")
-    print("\n".join(wrong) if wrong else f"{sum(map(len, arrows.values()))} includes among {len(files)} files, none upwards, no cycle")
+    print("\n".join(wrong) if wrong else f"{sum(map(len, arrows.values()))} includes and imports among {len(files)} files, none upwards, no cycle")
     sys.exit(1 if wrong else 0)
 
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Keys that hold everywhere on the page; views and lists have their own. */
-import type { Actions } from "./tools/actions";
+import type { Actions } from "./panels/actions";
 import { kTools } from "./panels/bar";
+import { trackOn } from "./tools/track_on";
 import type { Hand } from "./tools/hand";
-import { kLayouts, type App } from "./model/model";
+import { kLayouts, type App, type Part } from "./model/model";
 import { askPosition } from "./panels/probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
 import { slabKey } from "./slices/slice_controls";
-import { resetPlanes } from "./slices/slice_input";
+import { resetPlanes } from "./tools/slice_input";
 import { renameBranch } from "./panels/tree_panel";
 import type { WorkList } from "./panels/work_list";
 
@@ -33,16 +34,16 @@ export function listenToKeys(app: App, actions: Actions, hand: Hand, work: WorkL
   });
 }
 
-function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
+function withControl(e: KeyboardEvent, app: Pick<App, "source" | "perform">, actions: Actions): boolean {
   const { live } = app.source;
   switch (e.key.toLowerCase()) {
     case "z":
       if (typing(e)) return false;
-      if (live) void (e.shiftKey ? actions.redo() : actions.undo());
+      if (live) void app.perform({ op: e.shiftKey ? "redo" : "undo" });
       return live;
     case "y":
       if (typing(e)) return false;
-      if (live) void actions.redo();
+      if (live) void app.perform({ op: "redo" });
       return live;
     case "s":
       if (live) void actions.save();
@@ -146,11 +147,11 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case "f2":
       return onVessel(() => void renameBranch(app, selected));
     case "t":
-      return working(() => void actions.track(null));
+      return working(() => void app.perform({ op: "track", labels: null }));
     case "Shift+F":
-      return working(() => void actions.find());
+      return working(() => void app.perform({ op: "find" }));
     case "k":
-      return working(() => void actions.check());
+      return working(() => void app.perform({ op: "check" }));
     case "r":
       return working(() => void hand.askRadius());
     case "j":
@@ -177,7 +178,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case "escape":
       return giveUp(app, actions, hand);
     case "Shift+T":
-      return working(() => void hand.trackOn());
+      return working(() => void trackOn(app));
     case "Shift+A":
       return working(() => atCursor(app, node => void app.perform({ op: "nodeAdd", node }), "adds a node"));
     case "Shift+D":
@@ -189,7 +190,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
   }
 }
 
-function giveUp(app: App, actions: Actions, hand: Hand): boolean {
+function giveUp(app: Part<"document" | "tools">, actions: Actions, hand: Hand): boolean {
   const {
     tools: { pending, clicks, tool },
     document: { job },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page begins here. */
-import { Actions } from "./tools/actions";
+import { Actions } from "./panels/actions";
 import { makeBar } from "./panels/bar";
 import { caseMeasuresPanel } from "./panels/case_measures_panel";
 import { displayPanel } from "./panels/display_panel";
@@ -11,7 +11,7 @@ import { Hand } from "./tools/hand";
 import { listenToKeys } from "./keys";
 import { deviationLegend, surfaceLegend } from "./panels/legend";
 import { libraryPanel } from "./panels/library_panel";
-import { Loader } from "./net/loader";
+import { Loader } from "./updates/loader";
 import { LumenCase } from "./lumen_case";
 import { keepView } from "./model/kept_view";
 import { LocalModel } from "./scene/local_model";
@@ -19,17 +19,17 @@ import { MeshLayer } from "./scene/mesh_layer";
 import { measurePanel } from "./panels/measure_panel";
 import { newStore, type App } from "./model/model";
 import { motionBar } from "./panels/motion_bar";
-import { Performer } from "./net/performer";
+import { Performer } from "./model/performer";
 import { mayChange, Posing } from "./model/posing";
 import { offerUnsaved } from "./panels/recover";
 import { ProbeLine } from "./panels/probe_line";
-import { listenToScene } from "./scene/scene_input";
+import { listenToScene } from "./tools/scene_input";
 import { assumptionsPanel, oneSourcePanel } from "./panels/one_source";
 import { SceneView } from "./scene/scene_view";
 import { offerSeries } from "./panels/series_dialog";
 import { makeShell, toast, type Shell } from "./panels/shell";
-import { listenToSlice } from "./slices/slice_input";
-import { kSliceNames } from "./slices/slice_frame";
+import { listenToSlice } from "./tools/slice_input";
+import { kSliceNames } from "./model/slice_frame";
 import { SliceView } from "./slices/slice_view";
 import { Refused, type Source } from "./net/source";
 import { EmbeddedSource } from "./net/source_embedded";
@@ -39,7 +39,7 @@ import { Strip } from "./panels/strip";
 import { Tools } from "./tools/tools";
 import { TreePanel } from "./panels/tree_panel";
 import { errorText, h } from "./base/ui";
-import { applyLayout, Watcher } from "./net/watcher";
+import { applyLayout, Watcher } from "./updates/watcher";
 import { WorkList } from "./panels/work_list";
 import { workPanel } from "./panels/work_panel";
 
@@ -82,7 +82,7 @@ async function start(root: HTMLElement): Promise<void> {
   const hand = new Hand(app);
   const flight = new Flight(app, scene);
   const actions = new Actions(app, scene, slices, flight),
-    work = new WorkList(app, actions);
+    work = new WorkList(app);
   offerUnsaved(app);
   offerSeries(app);
   if (frame === null) keepView(app);
@@ -96,8 +96,8 @@ async function start(root: HTMLElement): Promise<void> {
     ...oneSourcePanel(app),
     ...assumptionsPanel(app),
     ...libraryPanel(app),
-    ...findPanel(app, actions),
-    ...workPanel(app, actions, hand, work),
+    ...findPanel(app),
+    ...workPanel(app, hand, work),
     ...displayPanel(app, actions),
     new MeshLayer(app, scene).panel,
     ...measurePanel(app, actions, hand),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Values that views watch, in a few owners. Setting values calls the watchers of what changed once, in the same turn. */
+/** Values that views watch, in a few owners. Setting values calls the watchers of what changed once, in the same turn. A store of
+ * many owners is also one of some of them. */
 
 /** An owner, or one of its values as `owner.value`. */
 export type Path<T> = {
@@ -10,7 +11,7 @@ export type Path<T> = {
 type Change<T> = { [O in keyof T]?: Partial<T[O]> };
 
 export class Store<T extends { [O in keyof T]: object }> {
-  private readonly listeners: { paths: readonly Path<T>[]; call: (value: T) => void }[] = [];
+  private readonly listeners: { paths: readonly string[]; call(value: T): void }[] = [];
   private changed = new Set<string>();
   private notifying = false;
 

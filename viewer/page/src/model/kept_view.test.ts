@@ -2,8 +2,6 @@
 import { describe, expect, it } from "vitest";
 import { measurementsCsv, readView, takeView } from "./kept_view";
 import { kInitial, type Measurement, type View } from "./model";
-import { inAxes, parsePosition } from "../panels/probe_line";
-import { aboutUnsaved } from "../panels/recover";
 
 const measured: Measurement = {
   id: 4,
@@ -56,27 +54,6 @@ describe("measurementsCsv", () => {
   it("hasARowForEachAndQuotesWhatNeedsIt", () => {
     expect(measurementsCsv([measured])).toBe(
       'number,kind,result,about,x_mm_lps,y_mm_lps,z_mm_lps\n1,distance,5.2 mm,"a ""b"", c",1.000,2.000,3.000\n',
-    );
-  });
-});
-describe("coordinates", () => {
-  it("areTurnedBetweenTheAxesAndBack", () => {
-    expect(inAxes([1, -2, 3], "RAS")).toEqual([-1, 2, 3]);
-    expect(inAxes([0, 0, 3], "RAS")).toEqual([0, 0, 3]);
-    expect(inAxes([1, -2, 3], "LPS")).toEqual([1, -2, 3]);
-  });
-  it("areReadWithBlanksCommasOrSemicolons", () => {
-    expect(parsePosition(" 1.5  -2, 3e1;")).toBeNull();
-    expect(parsePosition(" 1.5  -2, 3e1")).toEqual([1.5, -2, 30]);
-    for (const text of ["", "1 2", "1 2 3 4", "1 2 x"]) expect(parsePosition(text)).toBeNull();
-  });
-});
-describe("aboutUnsaved", () => {
-  it("saysWhichOfBothIsNewer", () => {
-    const file = { name: "a.unsaved.lumen", written: 0, newer: true };
-    expect(aboutUnsaved(file, "a.lumen")).toContain("after a.lumen");
-    expect(aboutUnsaved({ ...file, newer: false }, "a.lumen")).toContain(
-      "a.lumen has been written since and is newer",
     );
   });
 });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The view of a case: it survives a reload of the page, and may be kept as a small file beside the case. */
-import { isBeside, type Beside } from "../slices/beside";
+import { isBeside, type Beside } from "./beside";
 import { fromHex, toHex, type Rgb } from "../base/colour";
 import { kColourTitles } from "./colouring";
-import { kInitial, kLayouts, type App, type Measurement, type View } from "./model";
-import { areSlabs, type Slabs } from "../slices/slab";
+import { kInitial, kLayouts, type Part, type Measurement, type View } from "./model";
+import { areSlabs, type Slabs } from "./slab";
 import type { Vec3 } from "../base/types";
 
 /** The name of the format in the list of exports, and how such a file's name ends. */
@@ -129,7 +129,10 @@ export function readView(text: string): KeptView {
   return value as unknown as KeptView;
 }
 
-export function applyView(app: App, kept: KeptView): void {
+export function applyView(
+  app: Part<"selection" | "slices" | "scene" | "tools" | "page">,
+  kept: KeptView,
+): void {
   const of = <O extends Owner>(owner: O): Plain[O] =>
     Object.fromEntries(kPlain[owner].map(name => [name, kept[name]])) as unknown as Plain[O];
   const now = app.store.get().tools.measurements,
@@ -163,7 +166,7 @@ export function measurementsCsv(measurements: readonly Measurement[]): string {
 }
 
 /** Brings back the view that the page had before it was loaded again, once all is there, and keeps it from then on. */
-export function keepView(app: App): void {
+export function keepView(app: Part<keyof View>): void {
   const place = `lumen-view:${location.pathname}`;
   let isBack = false,
     timer = 0;

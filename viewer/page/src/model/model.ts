@@ -2,16 +2,16 @@
 /** The page's model: values of a few owners, which panels and views watch. */
 import type { Model } from "../../../../libblob/wasm/blob.mjs";
 import { branchColour, type Rgb } from "../base/colour";
-import type { Deviation } from "../scene/mesh_view";
-import { kNoBeside, type Beside } from "../slices/beside";
-import { kNoSlabs, type Slabs } from "../slices/slab";
+import type { Deviation } from "../case/deviation";
+import { kNoBeside, type Beside } from "./beside";
+import { kNoSlabs, type Slabs } from "./slab";
 import type { OpenAs, Source } from "../net/source";
 import type { Stage } from "../drawing/stage";
 import { Store } from "../base/store";
-import type { Stroke } from "../tools/stroke";
+import type { Stroke } from "./stroke";
 import type { Surface } from "../case/surface";
 import type { Tree } from "../case/tree";
-import { kEmptyState, type Seed, type State, type Vec3 } from "../base/types";
+import { kEmptyState, type Operation, type Seed, type State, type Vec3 } from "../base/types";
 import type { Frame } from "../base/vec";
 import type { Volume } from "../case/volume";
 
@@ -258,15 +258,25 @@ export const kFirst = { volume: "volume", ready: "volumeReady", window: "window"
   kSecond = { volume: "second", ready: "secondReady", window: "secondWindow" } as const;
 export type VolumeKeys = typeof kFirst | typeof kSecond;
 
-export interface App {
-  store: Store<View>;
+interface Services {
   source: Source;
   stage: Stage;
   /** Shows the user a line that goes away, and to assistive technology. */
   inform: (text: string, severity?: "note" | "warning" | "error") => void;
   /** Changes the document and reports a refusal. True if it was done. */
-  perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
+  perform: (operation: Operation) => Promise<boolean>;
 }
+/** What a part of the page gets: the values of some owners, which it watches and sets, and services. */
+export type Part<O extends keyof View, S extends keyof Services = never> = Pick<Services, S> & {
+  store: Store<Pick<View, O>>;
+};
+/** A part that moves the cursor along vessels, which every view shows. */
+export type CursorPart<O extends keyof View = never, S extends keyof Services = never> = Part<
+  "document" | "selection" | "motion" | "slices" | O,
+  S
+>;
+/** All of it, which the page puts together for its parts. */
+export type App = Part<keyof View, keyof Services>;
 
 /** The tree where the views show it: at the time of its motion, or at rest. */
 export const shownTree = ({

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The time of a moving case: what the views show then, and the way back to the case at rest. */
-import type { App, View } from "./model";
-import { namesTree } from "../net/performer";
+import type { CursorPart, Part, View } from "./model";
+import { namesTree } from "./performer";
 import type { Tree } from "../case/tree";
 import type { Operation } from "../base/types";
 import { distance } from "../base/vec";
@@ -12,7 +12,7 @@ const kSame = 1e-4; // mm: a crosshair on a node
 const kAtRest = new Set(["fit", "seedAdd", "seedMove", "seedDelete", "track", "trackFrom", "find", "accept"]);
 
 /** Shows the case at a time of its motion, s. Tools act at rest: navigation takes the place of another. */
-export function goToTime(app: App, time: number): void {
+export function goToTime(app: Part<"document" | "motion" | "tools">, time: number): void {
   const { store } = app,
     {
       document: { tree },
@@ -27,7 +27,7 @@ export function goToTime(app: App, time: number): void {
 }
 
 /** Shows the case at rest. A crosshair on a node stays on it. */
-export function goToRest(app: App): void {
+export function goToRest(app: CursorPart): void {
   const { store } = app,
     {
       document: { tree },
@@ -45,7 +45,7 @@ export function goToRest(app: App): void {
 
 /** Whether an operation may be done now. At a time of the motion, one that changes vessels, more than their names, is not:
  * the views go back to the case at rest, which it acts on, and it waits to be asked for again. */
-export function mayChange(app: App, operation: Operation): boolean {
+export function mayChange(app: CursorPart<never, "inform">, operation: Operation): boolean {
   const isAtRest = kAtRest.has(operation.op) || (namesTree(operation) && operation.op !== "rename");
   if (app.store.get().motion.time === null || !isAtRest) return true;
   goToRest(app);
@@ -54,7 +54,7 @@ export function mayChange(app: App, operation: Operation): boolean {
 }
 
 /** Plays the motion, or stops it; false without a motion. */
-export function playOrPause(app: App): boolean {
+export function playOrPause(app: Part<"document" | "motion" | "tools">): boolean {
   const {
       document: { tree },
       motion: { time, playing },
@@ -72,7 +72,7 @@ export class Posing {
   private tree: Tree | null = null;
   private last = 0; // ms: when the time was set while it plays
 
-  constructor(private readonly app: App) {
+  constructor(private readonly app: CursorPart<"tools", "inform">) {
     const { store } = app;
     store.watch(["document.tree"], ({ document: { tree } }) => {
       if (tree === this.tree) return;

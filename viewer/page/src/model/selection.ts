@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selected vessel and the cursor along it; list, views, plot and keys share them. */
-import { isShown, shownTree, type App, type View } from "./model";
-import { vesselFrame } from "../slices/slice_frame";
+import { isShown, shownTree, type CursorPart, type Part, type View } from "./model";
+import { vesselFrame } from "./slice_frame";
 import type { Vec3 } from "../base/types";
 import { length, sub } from "../base/vec";
 
 /** Selects a branch, or none (-1). */
-export function select(app: App, branch: number): void {
+export function select(app: Part<"document" | "selection">, branch: number): void {
   const { store } = app,
     {
       document: { tree },
@@ -22,7 +22,7 @@ export function select(app: App, branch: number): void {
 }
 
 /** Puts cursor and crosshair on a node of the tree, and turns the planes with it if they follow the vessel. */
-export function goToNode(app: App, node: number): void {
+export function goToNode(app: CursorPart, node: number): void {
   const { store } = app,
     { planes } = store.get().slices,
     tree = shownTree(store.get());
@@ -38,7 +38,7 @@ export function goToNode(app: App, node: number): void {
 }
 
 /** Selects a branch and shows it in every view: at its cursor if it is selected already, else in its middle. */
-export function showBranch(app: App, branch: number): void {
+export function showBranch(app: CursorPart, branch: number): void {
   const {
     document: { tree },
     selection: { selected, node },
@@ -63,7 +63,11 @@ export function isCursorShown(view: Pick<View, "document" | "motion" | "selectio
 }
 
 /** Acts on the cursor's node where every view shows it. Elsewhere the views go there first, and nothing else happens. */
-export function atCursor(app: App, act: (node: number) => void, doing = "cuts"): void {
+export function atCursor(
+  app: CursorPart<never, "inform">,
+  act: (node: number) => void,
+  doing = "cuts",
+): void {
   const view = app.store.get();
   if (view.selection.node < 0) return;
   if (isCursorShown(view)) {
@@ -75,12 +79,12 @@ export function atCursor(app: App, act: (node: number) => void, doing = "cuts"):
 }
 
 /** Puts the crosshair anywhere. */
-export function goTo(app: App, p: Vec3): void {
+export function goTo(app: Part<"slices">, p: Vec3): void {
   app.store.set({ slices: { crosshair: p } });
 }
 
 /** Steps along the selected vessel. */
-export function stepAlong(app: App, count: number): void {
+export function stepAlong(app: CursorPart, count: number): void {
   const {
     document: { tree },
     selection: { selected, node },
@@ -94,7 +98,7 @@ export function stepAlong(app: App, count: number): void {
 }
 
 /** Planes across and along the selected vessel; with none selected, the nearest of those shown. */
-export function followVessel(app: App): void {
+export function followVessel(app: CursorPart): void {
   const { store } = app,
     view = store.get();
   if (view.document.tree === null) return;
@@ -107,7 +111,7 @@ export function followVessel(app: App): void {
   goToNode(app, node);
 }
 
-export function toggleHidden(app: App, branch: number): void {
+export function toggleHidden(app: Part<"document" | "selection">, branch: number): void {
   const { store } = app,
     view = store.get(),
     label = view.document.tree?.branches[branch]?.label;
@@ -116,16 +120,16 @@ export function toggleHidden(app: App, branch: number): void {
   if (!hidden.delete(label)) hidden.add(label);
   store.set({ selection: { hidden, solo: null } });
 }
-export function toggleSolo(app: App, branch: number): void {
+export function toggleSolo(app: Part<"document" | "selection">, branch: number): void {
   const { store } = app,
     view = store.get(),
     label = view.document.tree?.branches[branch]?.label ?? null;
   store.set({ selection: { solo: view.selection.solo === label ? null : label } });
 }
-export function showAll(app: App): void {
+export function showAll(app: Part<"selection">): void {
   app.store.set({ selection: { hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1 } });
 }
-export function setOpacity(app: App, branch: number, value: number): void {
+export function setOpacity(app: Part<"document" | "selection">, branch: number, value: number): void {
   const { store } = app,
     view = store.get(),
     label = view.document.tree?.branches[branch]?.label;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The bar on top: files, history, tools, layout. */
 import { kViewFormat } from "../model/kept_view";
-import type { Actions } from "../tools/actions";
-import { kLayouts, type App, type Layout, type Tool } from "../model/model";
+import type { Actions } from "./actions";
+import { kLayouts, type Part, type Layout, type Tool } from "../model/model";
 import { button, h, select } from "../base/ui";
 
 export const kTools: { tool: Tool; label: string; key: string; live?: boolean }[] = [
@@ -26,18 +26,22 @@ const kLayoutTitles: Record<Layout, string> = {
   sagittal: "Sagittal only",
 };
 
-export function makeBar(element: HTMLElement, app: App, actions: Actions): void {
+export function makeBar(
+  element: HTMLElement,
+  app: Part<"document" | "tools" | "page", "source" | "perform">,
+  actions: Actions,
+): void {
   const { store, source } = app,
     live = source.live;
   const title = h("span", { class: "title", id: "title" }),
     unsaved = h("span", { class: "unsaved", id: "unsaved", title: "Changes are not saved" }, "●");
   const undo = button(
     { icon: "undo", label: "Undo", key: "Control+Z", id: "undo" },
-    () => void actions.undo(),
+    () => void app.perform({ op: "undo" }),
   );
   const redo = button(
     { icon: "redo", label: "Redo", key: "Control+Shift+Z", id: "redo" },
-    () => void actions.redo(),
+    () => void app.perform({ op: "redo" }),
   );
   const save = button(
     { icon: "save", label: "Save the case", key: "Control+S", id: "save" },

@@ -10,13 +10,15 @@ import {
   type MeasureRow,
   type MeasureTables,
 } from "../case/case_measures";
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import { goTo, select } from "../model/selection";
 import { button, h, replaceRows, saveBlob, section, select as selectBox } from "../base/ui";
 
 const kMostRows = 500;
 
-export function caseMeasuresPanel(app: App): HTMLElement[] {
+export function caseMeasuresPanel(
+  app: Part<"document" | "selection" | "slices", "source" | "perform">,
+): HTMLElement[] {
   return app.source.live ? [new CaseMeasures(app).section] : [];
 }
 
@@ -43,7 +45,7 @@ class CaseMeasures {
     () => void this.save(),
   );
 
-  constructor(private readonly app: App) {
+  constructor(private readonly app: Part<"document" | "selection" | "slices", "source" | "perform">) {
     const run = button(
       {
         icon: "section",

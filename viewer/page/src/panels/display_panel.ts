@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Display settings: volumes, parts of the 3D view, colours, planes. */
 import { kColourTitles, numbersOf } from "../model/colouring";
-import type { Actions } from "../tools/actions";
-import type { App, ColourBy, Layers, Planes } from "../model/model";
+import type { Actions } from "./actions";
+import type { CursorPart, Part, ColourBy, Layers, Planes } from "../model/model";
 import { followVessel } from "../model/selection";
-import { resetPlanes, turnPlanes } from "../slices/slice_input";
+import { resetPlanes, turnPlanes } from "../tools/slice_input";
 import { button, checkbox, h, section, select, slider } from "../base/ui";
 import { secondSection, volumeSection } from "./volume_panel";
 
@@ -26,11 +26,17 @@ const kLayerTitles: [keyof Layers, string, string][] = [
   ["slices", "Slices in 3D", "The three slices as planes in the 3D view"],
 ];
 
-export function displayPanel(app: App, actions: Actions): HTMLElement[] {
+export function displayPanel(
+  app: CursorPart<"scene" | "page", "inform">,
+  actions: Pick<Actions, "lookFrom" | "parallel">,
+): HTMLElement[] {
   return [volumeSection(app), secondSection(app), sceneSection(app, actions), planesSection(app)];
 }
 
-function sceneSection(app: App, actions: Actions): HTMLElement {
+function sceneSection(
+  app: Part<"document" | "selection" | "scene">,
+  actions: Pick<Actions, "lookFrom" | "parallel">,
+): HTMLElement {
   const { store } = app;
   const boxes = kLayerTitles.map(([name, title, tip]) => ({
     name,
@@ -112,7 +118,7 @@ function sceneSection(app: App, actions: Actions): HTMLElement {
   );
 }
 
-function planesSection(app: App): HTMLElement {
+function planesSection(app: CursorPart): HTMLElement {
   const { store } = app;
   const planes = select<Planes>(
     "planes",

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Corrections of the tree, of its nodes and of walls. */
-import type { Hand } from "../tools/hand";
-import type { App, View } from "../model/model";
+import type { CursorPart, Part, View } from "../model/model";
 import { atCursor } from "../model/selection";
+import { trackOn } from "../tools/track_on";
 import { renameBranch } from "./tree_panel";
+import type { Operation } from "../base/types";
 import { button, h, section } from "../base/ui";
 
 /** Corrections of the cursor's node, which act where every view shows it. */
@@ -15,7 +16,7 @@ const kAtCursor: Record<string, string | undefined> = {
 
 /** A length in mm, or nothing: then `usual` counts. */
 function lengthField(
-  app: App,
+  app: Part<"tools">,
   id: "stretch" | "brush",
   text: string,
   usual: string,
@@ -42,14 +43,14 @@ function lengthField(
   return h("label", { class: "line" }, `${text}, mm`, input);
 }
 
-export function editSection(app: App, hand: Hand): HTMLElement {
+export function editSection(app: CursorPart<"tools", "source" | "inform" | "perform">): HTMLElement {
   const { store } = app,
     name = h("p", { class: "hint", id: "edit-name" });
   const act = (
     id: string,
     text: string,
     label: string,
-    make: (view: View) => { op: string; [key: string]: unknown } | null,
+    make: (view: Pick<View, "document" | "selection">) => Operation | null,
     iconName?: string,
     key?: string,
   ): HTMLButtonElement =>
@@ -137,7 +138,7 @@ export function editSection(app: App, hand: Hand): HTMLElement {
         key: "Shift+T",
         class: "button text",
       },
-      () => void hand.trackOn(),
+      () => void trackOn(app),
     ),
     act("fit", "Fit all", "Fit all models anew", () => ({ op: "fit" }), undefined, "Control+Enter"),
   ];

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Find vessels: what the volume shows and the case lacks, as a list to accept or to reject. */
-import type { Actions } from "../tools/actions";
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import { goTo } from "../model/selection";
 import type { Proposal, State } from "../base/types";
 import { brief, button, h, link, mm, replaceRows, section } from "../base/ui";
+
+/** What these functions take of the page. */
+type Needs = Part<"document" | "selection" | "slices", "source" | "perform">;
 
 const kConfidence =
   "Confidence, 0 to 1: the share of the measured wall points that lie on the vessel's cylinders, as a mean of its nodes";
@@ -19,7 +21,7 @@ function aboutProposals(state: Pick<State, "hasCase" | "proposals">): string {
     : "Finds the vessels of the volume without a click, and proposes them.";
 }
 
-export function findPanel(app: App, actions: Actions): HTMLElement[] {
+export function findPanel(app: Needs): HTMLElement[] {
   if (!app.source.live) return [];
   const { store } = app,
     list = h("ul", { class: "list proposals", id: "proposal-list", "aria-label": "Proposed vessels" }),
@@ -33,15 +35,15 @@ export function findPanel(app: App, actions: Actions): HTMLElement[] {
       id: "find",
       class: "button primary",
     },
-    () => void actions.find(),
+    () => void app.perform({ op: "find" }),
   );
   const all = button(
       { text: "Accept all", label: "Accept all proposed vessels", id: "accept-all", class: "button text" },
-      () => void actions.accept(null),
+      () => void app.perform({ op: "accept", labels: null }),
     ),
     none = button(
       { text: "Reject all", label: "Reject all proposed vessels", id: "reject-all", class: "button text" },
-      () => void actions.reject(null),
+      () => void app.perform({ op: "reject", labels: null }),
     ),
     decide = h("div", { class: "row end" }, none, all),
     box = section(
@@ -62,7 +64,7 @@ export function findPanel(app: App, actions: Actions): HTMLElement[] {
     about.textContent = aboutProposals(state);
     replaceRows(
       list,
-      state.proposals.map(proposal => proposalRow(app, actions, proposal)),
+      state.proposals.map(proposal => proposalRow(app, proposal)),
     );
   });
   store.watch(["selection.proposal"], ({ selection: { proposal } }) => {
@@ -72,7 +74,7 @@ export function findPanel(app: App, actions: Actions): HTMLElement[] {
   return [box];
 }
 
-function proposalRow(app: App, actions: Actions, proposal: Proposal): HTMLElement {
+function proposalRow(app: Needs, proposal: Proposal): HTMLElement {
   const { label, parent } = proposal,
     busy = app.store.get().document.state.job !== null;
   const show = (): void => {
@@ -81,9 +83,12 @@ function proposalRow(app: App, actions: Actions, proposal: Proposal): HTMLElemen
   };
   const accept = button(
       { icon: "check", label: `Accept ${label}${proposal.parentWaits ? " and its parents" : ""}` },
-      () => void actions.accept([label]),
+      () => void app.perform({ op: "accept", labels: [label] }),
     ),
-    reject = button({ icon: "close", label: `Reject ${label}` }, () => void actions.reject([label]));
+    reject = button(
+      { icon: "close", label: `Reject ${label}` },
+      () => void app.perform({ op: "reject", labels: [label] }),
+    );
   accept.disabled = reject.disabled = busy;
   return h(
     "li",

@@ -2,8 +2,8 @@
 /** The legends of colours, in the corner of the 3D view: of the surface, and of meshes. */
 import { mapColour, toCss, type MapName } from "../base/colour";
 import { colouring } from "../model/colouring";
-import { deviationText, kDeviationMap, sharedRange } from "../scene/mesh_view";
-import type { App } from "../model/model";
+import { deviationText, kDeviationMap, sharedRange } from "../case/deviation";
+import type { Part } from "../model/model";
 import { brief, h } from "../base/ui";
 
 /** A title, a bar of colours and the numbers at its ends and in its middle. */
@@ -32,7 +32,7 @@ class Scale {
 }
 
 /** That of the surface's colours. */
-export function surfaceLegend(element: HTMLElement, app: App): void {
+export function surfaceLegend(element: HTMLElement, app: Part<"document" | "scene">): void {
   const scale = new Scale(element);
   app.store.watch(["scene.colourBy", "document.surface", "document.distance", "document.tree"], view => {
     const c = colouring(view);
@@ -42,7 +42,7 @@ export function surfaceLegend(element: HTMLElement, app: App): void {
 }
 
 /** That of meshes which are coloured by their deviation, with the figures of each. */
-export function deviationLegend(element: HTMLElement, app: App): void {
+export function deviationLegend(element: HTMLElement, app: Part<"document">): void {
   const scale = new Scale(element),
     lines = h("div", { class: "figures" });
   element.append(lines);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The cases of a folder: a list with search, of which one is open. */
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import { Refused } from "../net/source";
 import type { Library, LibraryCase } from "../base/types";
 import { askYes, errorText, h, mm, section } from "../base/ui";
+
+/** What these functions take of the page. */
+type Needs = Part<"document", "source" | "inform" | "perform">;
 
 /** The cases whose names hold every word of what is searched for, with their places in the library. */
 export function found(cases: LibraryCase[], wanted: string): [number, LibraryCase][] {
@@ -16,7 +19,7 @@ export function found(cases: LibraryCase[], wanted: string): [number, LibraryCas
     .filter(([, each]) => words.every(word => each.name.toLowerCase().includes(word)));
 }
 
-export function libraryPanel(app: App): HTMLElement[] {
+export function libraryPanel(app: Needs): HTMLElement[] {
   if (!app.source.live) return [];
   const list = h("ul", { class: "list", id: "library-list", "aria-label": "Cases" }),
     count = h("p", { class: "hint", id: "library-count", role: "status" });
@@ -71,7 +74,7 @@ export function libraryPanel(app: App): HTMLElement[] {
   return [box];
 }
 
-function row(app: App, each: LibraryCase, index: number, isOpen: boolean, busy: boolean): HTMLElement {
+function row(app: Needs, each: LibraryCase, index: number, isOpen: boolean, busy: boolean): HTMLElement {
   const about =
     each.error !== null
       ? "cannot be read"
@@ -98,7 +101,7 @@ function row(app: App, each: LibraryCase, index: number, isOpen: boolean, busy: 
 }
 
 /** Opens a case; asks first where changes of the one that is open are not saved. */
-async function openCase(app: App, index: number): Promise<void> {
+async function openCase(app: Needs, index: number): Promise<void> {
   const { source, store, inform } = app;
   try {
     await source.perform({ op: "openCase", index }, store.get().document.state.revision);

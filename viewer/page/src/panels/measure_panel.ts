@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Measurements, gaps between vessels, and the figures of a comparison. */
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import type { Hand } from "../tools/hand";
 import { measurementsCsv } from "../model/kept_view";
 import { gaps } from "../tools/measure";
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import { goTo } from "../model/selection";
 import { brief, button, h, link, saveText, section } from "../base/ui";
 
 const kMostGaps = 40;
 
-export function measurePanel(app: App, actions: Actions, hand: Hand): HTMLElement[] {
+export function measurePanel(
+  app: Part<"document" | "slices" | "tools", "source" | "inform">,
+  actions: Pick<Actions, "compare" | "open">,
+  hand: Hand,
+): HTMLElement[] {
   return [measureSection(app, hand), gapSection(app, hand), compareSection(app, actions)];
 }
 
-function measureSection(app: App, hand: Hand): HTMLElement {
+function measureSection(app: Part<"document" | "slices" | "tools", "inform">, hand: Hand): HTMLElement {
   const { store } = app,
     list = h("ul", { class: "list", id: "measure-list", "aria-label": "Measurements" });
   const clear = button(
@@ -90,7 +94,7 @@ function measureSection(app: App, hand: Hand): HTMLElement {
   );
 }
 
-function gapSection(app: App, hand: Hand): HTMLElement {
+function gapSection(app: Part<"document">, hand: Hand): HTMLElement {
   const { store } = app,
     list = h("ul", { class: "list", id: "gap-list", "aria-label": "Vessels that touch or nearly touch" });
   const find = (): void => {
@@ -151,7 +155,10 @@ const kFigures: [string, string, string][] = [
   ["false_mm", "False", "mm"],
 ];
 
-function compareSection(app: App, actions: Actions): HTMLElement {
+function compareSection(
+  app: Part<"document", "source">,
+  actions: Pick<Actions, "compare" | "open">,
+): HTMLElement {
   const { store } = app,
     table = h("dl", { id: "figures" }),
     hint = h("p", { class: "hint" });

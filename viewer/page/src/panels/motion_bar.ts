@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The bar of a case that moves, in the 3D view: play, a slider over the time, its number, and the case at rest. */
-import type { App } from "../model/model";
+import type { CursorPart } from "../model/model";
 import { goToRest, goToTime, playOrPause } from "../model/posing";
 import { button, h, icon, slider } from "../base/ui";
 
 const kSteps = 500, // of the slider
   kDigits = 3; // of a time in s
 
-export function motionBar(app: App): HTMLElement {
+export function motionBar(app: CursorPart<"tools">): HTMLElement {
   const { store } = app;
   const play = button({ id: "motion-play", label: "Play the motion", key: "Space", icon: "play" }, () =>
       playOrPause(app),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A volume and a case that may be of two patients: the page asks, aloud and until there is an answer. */
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import type { FileEntry, State } from "../base/types";
 import { button, choose, h } from "../base/ui";
 
@@ -20,7 +20,7 @@ export function requestFor(
   return file === undefined ? null : { op: "closeFile", id: file.id };
 }
 
-async function askWhich(app: App): Promise<void> {
+async function askWhich(app: Part<"document", "perform">): Promise<void> {
   const { otherSource } = app.store.get().document.state;
   if (otherSource === null) return;
   const answer = await choose(
@@ -33,7 +33,7 @@ async function askWhich(app: App): Promise<void> {
 }
 
 /** A line that stays while the question is open. The question comes by itself once for each pair. */
-export function oneSourcePanel(app: App): HTMLElement[] {
+export function oneSourcePanel(app: Part<"document", "source" | "perform">): HTMLElement[] {
   if (!app.source.live) return [];
   const text = h("p", { class: "warning", id: "other-source" }),
     line = h(
@@ -61,7 +61,7 @@ export function oneSourcePanel(app: App): HTMLElement[] {
 }
 
 /** What is not certain about the place of the voxels, such as which side is left; it stays on the page. */
-export function assumptionsPanel(app: App): HTMLElement[] {
+export function assumptionsPanel(app: Part<"document">): HTMLElement[] {
   const list = h("ul", { class: "list" }),
     box = h(
       "section",

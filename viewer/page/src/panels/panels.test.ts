@@ -5,7 +5,8 @@ import { aboutOthers, aboutSeries } from "./series_dialog";
 import { found } from "./library_panel";
 import { kPresets, presetOf, windowOf } from "./volume_panel";
 import { requestFor } from "./one_source";
-import { distanceText } from "./probe_line";
+import { distanceText, inAxes, parsePosition } from "./probe_line";
+import { aboutUnsaved } from "./recover";
 
 describe("windowOf", () => {
   it("spansTheWidthAboutTheCentre", () => {
@@ -87,5 +88,28 @@ describe("requestFor", () => {
   it("asksForNothingWithoutAnAnswer", () => {
     expect(requestFor(null, { files })).toBeNull();
     expect(requestFor("case", { files: files.slice(0, 1) })).toBeNull();
+  });
+});
+
+describe("coordinates", () => {
+  it("areTurnedBetweenTheAxesAndBack", () => {
+    expect(inAxes([1, -2, 3], "RAS")).toEqual([-1, 2, 3]);
+    expect(inAxes([0, 0, 3], "RAS")).toEqual([0, 0, 3]);
+    expect(inAxes([1, -2, 3], "LPS")).toEqual([1, -2, 3]);
+  });
+  it("areReadWithBlanksCommasOrSemicolons", () => {
+    expect(parsePosition(" 1.5  -2, 3e1;")).toBeNull();
+    expect(parsePosition(" 1.5  -2, 3e1")).toEqual([1.5, -2, 30]);
+    for (const text of ["", "1 2", "1 2 3 4", "1 2 x"]) expect(parsePosition(text)).toBeNull();
+  });
+});
+
+describe("aboutUnsaved", () => {
+  it("saysWhichOfBothIsNewer", () => {
+    const file = { name: "a.unsaved.lumen", written: 0, newer: true };
+    expect(aboutUnsaved(file, "a.lumen")).toContain("after a.lumen");
+    expect(aboutUnsaved({ ...file, newer: false }, "a.lumen")).toContain(
+      "a.lumen has been written since and is newer",
+    );
   });
 });

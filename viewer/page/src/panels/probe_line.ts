@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One line under everything: what is at the pointer, or at the crosshair while the pointer is elsewhere. */
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import { probe, type Answer, type Wall } from "../tools/probe";
 import type { Tools } from "../tools/tools";
 import { goTo } from "../model/selection";
@@ -41,7 +41,7 @@ export function parsePosition(text: string): Vec3 | null {
 }
 
 /** Asks for coordinates and goes there. */
-export async function askPosition(app: App): Promise<void> {
+export async function askPosition(app: Part<"slices", "inform">): Promise<void> {
   const { crosshair, axes } = app.store.get().slices,
     text = await askText(
       "Go to a place",
@@ -64,7 +64,7 @@ export class ProbeLine {
 
   constructor(
     element: HTMLElement,
-    private readonly app: App,
+    private readonly app: Part<"document" | "motion" | "slices", "inform">,
     tools: Tools,
   ) {
     const frame = h(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Work that an earlier program did not save: the page asks, in the middle, before anything else is done. */
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import type { State, UnsavedFile } from "../base/types";
 import { choose } from "../base/ui";
 
@@ -22,7 +22,7 @@ export function aboutUnsaved(file: UnsavedFile, saveAs: string | null): string {
 }
 
 /** Asks once for each file, when the page first hears of it. */
-export function offerUnsaved(app: App): void {
+export function offerUnsaved(app: Part<"document", "source" | "perform">): void {
   if (!app.source.live) return;
   const asked = new Set<string>();
   let asking = false;

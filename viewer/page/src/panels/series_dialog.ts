@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The series of a folder of DICOM, in the middle of the page: one of them is opened as the volume. */
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import { Pack } from "../case/pack";
 import type { DicomSeries, SeriesList } from "../base/types";
 import type { OpenAs } from "../net/source";
 import { brief, button, choose, h } from "../base/ui";
+
+/** What these functions take of the page. */
+type Needs = Part<"document" | "tools", "source" | "perform">;
 
 const kEdge = 128; // pixels of a picture's canvas
 
@@ -37,7 +40,7 @@ function paint(canvas: HTMLCanvasElement, pixel: Uint8Array, width: number, heig
   canvas.getContext("2d")!.putImageData(image, 0, 0);
 }
 
-async function fetchPicture(app: App, index: number, canvas: HTMLCanvasElement): Promise<void> {
+async function fetchPicture(app: Needs, index: number, canvas: HTMLCanvasElement): Promise<void> {
   const revision = app.store.get().document.state.revisions.series ?? 0,
     bytes = await app.source.bytes("seriesPicture", { series: String(index), of: String(revision) });
   if (bytes === null) return;
@@ -53,7 +56,7 @@ const kParts = [
 
 /** Asks whether a volume takes the place of the one that is open or is seen beside it; null: neither. Without an open
  * volume there is nothing to ask. */
-export async function askPart(app: App, name: string): Promise<OpenAs | null> {
+export async function askPart(app: Part<"document">, name: string): Promise<OpenAs | null> {
   const { volume, state } = app.store.get().document;
   if (!state.hasVolume) return "auto";
   return (await choose(
@@ -64,13 +67,13 @@ export async function askPart(app: App, name: string): Promise<OpenAs | null> {
 }
 
 /** Opens a series of the list `of` as the part that was chosen when its files were dropped; otherwise asks. */
-async function openSeries(app: App, series: DicomSeries, index: number, of: number): Promise<void> {
+async function openSeries(app: Needs, series: DicomSeries, index: number, of: number): Promise<void> {
   const part =
     app.store.get().tools.seriesAs ?? (await askPart(app, series.description || `Series ${index + 1}`));
   if (part !== null) await app.perform({ op: "openSeries", series: index, of, second: part === "second" });
 }
 
-function row(app: App, series: DicomSeries, index: number, choose: () => void): HTMLElement {
+function row(app: Needs, series: DicomSeries, index: number, choose: () => void): HTMLElement {
   const picture = h("canvas", { width: kEdge, height: kEdge, "aria-hidden": "true" }),
     name = series.description || `Series ${index + 1}`,
     action = h(
@@ -89,7 +92,7 @@ function row(app: App, series: DicomSeries, index: number, choose: () => void): 
   return h("li", {}, action);
 }
 
-export function openSeriesDialog(app: App): void {
+export function openSeriesDialog(app: Needs): void {
   const { series, revisions } = app.store.get().document.state,
     of = revisions.series ?? 0;
   document.getElementById("series-dialog")?.remove();
@@ -129,7 +132,7 @@ export function openSeriesDialog(app: App): void {
 }
 
 /** Shows the list whenever the server has another one of several series, or of one that cannot be opened. */
-export function offerSeries(app: App): void {
+export function offerSeries(app: Needs): void {
   let seen = 0;
   app.store.watch(["document.state"], ({ document: { state } }) => {
     const now = state.revisions.series ?? 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Under the views: radius along the selected vessel with a cursor, and the vessel laid straight. */
-import type { Actions } from "../tools/actions";
+import type { Actions } from "./actions";
 import { toCss } from "../base/colour";
 import type { Flight } from "../scene/flight";
-import { colourOf, type App, type View } from "../model/model";
+import { colourOf, type CursorPart, type View } from "../model/model";
 import { findPlaces, reference, type Place } from "../case/narrowing";
 import { followVessel, goToNode, stepAlong } from "../model/selection";
-import { clearedContext, niceLength } from "../drawing/over";
+import { clearedContext, niceLength } from "../overlay/over";
 import { reformat, straighten, type Straight } from "../case/straightened";
 import { distance } from "../base/vec";
 import { brief, button, h, slider } from "../base/ui";
@@ -52,8 +52,8 @@ export class Strip {
 
   constructor(
     readonly element: HTMLElement,
-    private readonly app: App,
-    actions: Actions,
+    private readonly app: CursorPart<"page">,
+    actions: Pick<Actions, "fly">,
     flight: Flight,
   ) {
     const seek = slider("flight-position", "Position of the flight", [0, 1, 0.001], 0, value =>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The list of vessels: a tree in the order of the case, or a table by any of its columns. */
 import { toHex, fromHex } from "../base/colour";
-import { colourOf, isShown, type App, type View } from "../model/model";
+import { colourOf, isShown, type CursorPart, type Part, type View } from "../model/model";
 import { goToNode, setOpacity, showAll, showBranch, toggleHidden, toggleSolo } from "../model/selection";
 import type { Branch, Tree } from "../case/tree";
 import { askText, brief, button, h, icon, mm, select, slider } from "../base/ui";
@@ -44,7 +44,7 @@ export class TreePanel {
 
   constructor(
     readonly element: HTMLElement,
-    private readonly app: App,
+    private readonly app: CursorPart<never, "source" | "perform">,
   ) {
     const search = h("input", {
       type: "search",
@@ -310,7 +310,10 @@ export class TreePanel {
   }
 }
 
-export async function renameBranch(app: App, branch: number): Promise<void> {
+export async function renameBranch(
+  app: Part<"document", "source" | "perform">,
+  branch: number,
+): Promise<void> {
   const { tree } = app.store.get().document,
     old = tree?.branches[branch]?.label;
   if (old === undefined || !app.source.live) return;

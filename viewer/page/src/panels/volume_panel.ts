@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The volume and the one beside it: window, presets, histogram, and how both are seen together. */
-import { kBesideModes, type Beside } from "../slices/beside";
-import { kFirst, kSecond, type App, type Cast, type View, type VolumeKeys } from "../model/model";
+import { kBesideModes, type Beside } from "../model/beside";
+import { kFirst, kSecond, type Part, type Cast, type View, type VolumeKeys } from "../model/model";
 import { brief, button, checkbox, h, section, select, slider } from "../base/ui";
 import type { Volume } from "../case/volume";
 
@@ -24,7 +24,7 @@ export function presetOf(window: readonly [number, number]): string {
   return kPresets.find(({ name }) => windowOf(name)!.every((x, i) => x === window[i]))?.name ?? "";
 }
 
-const setWindow = (app: App, keys: VolumeKeys, window: [number, number]): void =>
+const setWindow = (app: Part<"slices">, keys: VolumeKeys, window: [number, number]): void =>
   app.store.set({ slices: { [keys.window]: window } });
 
 /** A name and a geometry for people. */
@@ -33,7 +33,7 @@ function aboutVolume({ meta: m }: Volume): string {
   return `${m.name}: ${m.sourceSize.join(" × ")} voxels of ${m.spacing.map((s, i) => brief(s / (m.reduction[i] || 1))).join(" × ")} mm${reduced}`;
 }
 
-export function volumeSection(app: App): HTMLElement {
+export function volumeSection(app: Part<"document" | "slices" | "scene" | "page">): HTMLElement {
   const { store } = app;
   const cast = select<Cast>(
     "cast",
@@ -74,7 +74,7 @@ export function volumeSection(app: App): HTMLElement {
 }
 
 /** The volume beside the first: how it is seen, its own window, and what speaks against seeing both at one place. */
-export function secondSection(app: App): HTMLElement {
+export function secondSection(app: Part<"document" | "slices" | "page", "inform">): HTMLElement {
   const { store } = app,
     change = (to: Partial<Beside>): void =>
       store.set({ slices: { beside: { ...store.get().slices.beside, ...to } } });
@@ -145,7 +145,7 @@ export function secondSection(app: App): HTMLElement {
 
 /** The controls of a volume's window. `prefix`: of their ids. */
 function windowControls(
-  app: App,
+  app: Part<"document" | "slices" | "page">,
   keys: VolumeKeys,
   prefix: string,
 ): Record<"range" | "plot" | "preset" | "about", HTMLElement> {
@@ -191,7 +191,7 @@ function windowControls(
 
 /** Two fields for the edges of a window, and a button for the window that the volume came with. */
 function windowFields(
-  app: App,
+  app: Part<"document" | "slices">,
   keys: VolumeKeys,
   prefix: string,
 ): { range: HTMLElement; low: HTMLInputElement; high: HTMLInputElement } {
@@ -234,7 +234,7 @@ function windowFields(
 /** Moves the nearer edge of the window with the pointer. */
 function dragWindow(
   plot: HTMLCanvasElement,
-  app: App,
+  app: Part<"slices">,
   keys: VolumeKeys,
   counts: () => { low: number; high: number } | null,
 ): void {

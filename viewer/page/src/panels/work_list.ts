@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The check as a list of work: every place with what to do, walked through by keys, until nothing is left. */
-import type { Actions } from "../tools/actions";
-import type { App } from "../model/model";
+import type { CursorPart, Part } from "../model/model";
 import { goTo, goToNode } from "../model/selection";
 import type { IgnoredPlace, State, WorkItem } from "../base/types";
 import { askText, button, h, link, mm, replaceRows, section } from "../base/ui";
@@ -16,10 +15,7 @@ const kRemedyWords: Record<Remedy, { text: string; icon: string; label: string; 
 
 /** Acts on places and proposals, for buttons and keys alike. */
 export class WorkList {
-  constructor(
-    private readonly app: App,
-    private readonly actions: Actions,
-  ) {}
+  constructor(private readonly app: CursorPart<never, "inform" | "perform">) {}
 
   /** The item that was shown last and is left, or undefined. */
   private get current(): WorkItem | undefined {
@@ -78,7 +74,7 @@ export class WorkList {
   accept(): boolean {
     const proposal = this.proposed,
       item = this.current;
-    if (proposal !== undefined) void this.actions.accept([proposal]);
+    if (proposal !== undefined) void this.app.perform({ op: "accept", labels: [proposal] });
     else if (item !== undefined) void this.act(item, remediesOf(item)[0]);
     else return false;
     return true;
@@ -87,7 +83,7 @@ export class WorkList {
   dismiss(): boolean {
     const proposal = this.proposed,
       item = this.current;
-    if (proposal !== undefined) void this.actions.reject([proposal]);
+    if (proposal !== undefined) void this.app.perform({ op: "reject", labels: [proposal] });
     else if (item !== undefined) void this.ignore(item);
     else return false;
     return true;
@@ -131,7 +127,10 @@ function sentence(state: State): string {
   }`;
 }
 
-export function checkSection(app: App, actions: Actions, work: WorkList): HTMLElement {
+export function checkSection(
+  app: Part<"document" | "selection" | "slices", "perform">,
+  work: WorkList,
+): HTMLElement {
   const { store } = app,
     list = h("ul", { class: "list proposals", id: "work-list", "aria-label": "Places to look at" }),
     about = h("p", { class: "hint", id: "check-about", role: "status" }),
@@ -149,7 +148,7 @@ export function checkSection(app: App, actions: Actions, work: WorkList): HTMLEl
       id: "check",
       class: "button text",
     },
-    () => void actions.check(),
+    () => void app.perform({ op: "check" }),
   );
   const step = (id: string, text: string, label: string, key: string, by: 1 | -1): HTMLButtonElement =>
     button({ id, text, label, key, class: "button text" }, () => void work.walk(by));
@@ -194,7 +193,12 @@ export function checkSection(app: App, actions: Actions, work: WorkList): HTMLEl
   );
 }
 
-function workRow(app: App, work: WorkList, item: WorkItem, goesOn: boolean): HTMLElement {
+function workRow(
+  app: Part<"document" | "selection">,
+  work: WorkList,
+  item: WorkItem,
+  goesOn: boolean,
+): HTMLElement {
   const {
       document: { state },
       selection: { place },
@@ -237,7 +241,7 @@ function workRow(app: App, work: WorkList, item: WorkItem, goesOn: boolean): HTM
   );
 }
 
-function ignoredRow(app: App, place: IgnoredPlace, index: number): HTMLElement {
+function ignoredRow(app: Part<"slices", "perform">, place: IgnoredPlace, index: number): HTMLElement {
   return h(
     "li",
     { class: "row item" },

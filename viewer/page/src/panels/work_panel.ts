@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Work on the document: files, seeds and tracking, what the check found, corrections of the tree. */
-import type { Actions } from "../tools/actions";
 import { editSection } from "./edit_panel";
 import type { Hand } from "../tools/hand";
-import type { App } from "../model/model";
+import type { App, CursorPart, Part } from "../model/model";
 import { openSeriesDialog } from "./series_dialog";
 import { goTo } from "../model/selection";
 import type { Seed } from "../base/types";
 import { askYes, brief, button, h, link, section, select } from "../base/ui";
 import { checkSection, type WorkList } from "./work_list";
 
-export function workPanel(app: App, actions: Actions, hand: Hand, work: WorkList): HTMLElement[] {
+export function workPanel(
+  app: CursorPart<"tools", "source" | "inform" | "perform">,
+  hand: Hand,
+  work: WorkList,
+): HTMLElement[] {
   return app.source.live
-    ? [
-        seedSection(app, actions, hand),
-        checkSection(app, actions, work),
-        editSection(app, hand),
-        fileSection(app),
-      ]
+    ? [seedSection(app, hand), checkSection(app, work), editSection(app), fileSection(app)]
     : [];
 }
 
-function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
+function seedSection(app: Part<"document" | "slices" | "tools", "perform">, hand: Hand): HTMLElement {
   const { store } = app,
     list = h("ul", { class: "list", id: "seed-list", "aria-label": "Seeds" }),
     trackedCount = h("summary", {}),
@@ -78,12 +76,12 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
       id: "track-all",
       class: "button primary",
     },
-    () => void actions.track(null),
+    () => void app.perform({ op: "track", labels: null }),
   );
   store.watch(["document.state"], ({ document: { state } }) => {
     const waiting = state.seeds.filter(s => !s.tracked);
     all.disabled = waiting.length === 0 || state.job !== null || !state.hasVolume;
-    list.replaceChildren(...state.seeds.filter(s => !s.tracked).map(seed => seedRow(app, actions, seed)));
+    list.replaceChildren(...state.seeds.filter(s => !s.tracked).map(seed => seedRow(app, seed)));
     if (waiting.length === 0)
       list.append(
         h(
@@ -126,7 +124,7 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
 }
 
 /** A seed that the case was tracked with. */
-function trackedRow(app: App, seed: Seed): HTMLElement {
+function trackedRow(app: Part<"slices">, seed: Seed): HTMLElement {
   return h(
     "li",
     { class: "row item" },
@@ -135,12 +133,12 @@ function trackedRow(app: App, seed: Seed): HTMLElement {
   );
 }
 
-function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
+function seedRow(app: Part<"document" | "slices", "perform">, seed: Seed): HTMLElement {
   const radius = seed.points[0]?.radius ?? null,
     busy = app.store.get().document.state.job !== null;
   const track = button(
     { icon: "play", label: `Track ${seed.label}`, class: "button" },
-    () => void actions.track([seed.label]),
+    () => void app.perform({ op: "track", labels: [seed.label] }),
   );
   track.disabled = busy;
   return h(
@@ -160,7 +158,7 @@ function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
   );
 }
 
-function fileSection(app: App): HTMLElement {
+function fileSection(app: Part<"document" | "tools", "source" | "perform">): HTMLElement {
   const list = h("ul", { class: "list", id: "file-list", "aria-label": "Open files" }),
     box = section("section-files", "Files", false, list);
   let hadSeries = false;
@@ -238,7 +236,7 @@ function fileSection(app: App): HTMLElement {
   return box;
 }
 
-async function forget(app: App, name: string): Promise<void> {
+async function forget(app: Pick<App, "perform">, name: string): Promise<void> {
   if (await askYes("Delete the file?", `${name} holds the only copy of work that was not saved.`, "Delete"))
     await app.perform({ op: "forget", name });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A flight along the centerline inside of the lumen, from the root to the end of the selected vessel. */
-import type { App } from "../model/model";
+import type { CursorPart } from "../model/model";
 import { goToRest } from "../model/posing";
 import type { SceneView } from "./scene_view";
 import type { Vec3 } from "../base/types";
@@ -55,7 +55,7 @@ export class Flight {
   onChange: (() => void) | null = null;
 
   constructor(
-    private readonly app: App,
+    private readonly app: CursorPart<never, "stage" | "inform">,
     private readonly scene: SceneView,
   ) {
     app.store.watch(["document.tree"], () => {

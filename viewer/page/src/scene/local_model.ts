@@ -4,7 +4,7 @@
 import { BufferAttribute, BufferGeometry, Mesh } from "three";
 import { Flags, type Model } from "../../../../libblob/wasm/blob.mjs";
 import { kTetrahedra } from "../case/field_surface";
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import { PartMaterial } from "./part_material";
 import type { SceneView } from "./scene_view";
 import type { Tree } from "../case/tree";
@@ -79,7 +79,7 @@ function localSurface(
 export class LocalModel {
   private mesh: Mesh<BufferGeometry, PartMaterial> | null = null;
 
-  constructor(app: App, scene: SceneView) {
+  constructor(app: Part<"document" | "selection" | "motion" | "scene", "stage">, scene: SceneView) {
     app.store.watch(
       ["scene.layers", "selection.node", "document.blob", "document.tree", "motion.time"],
       view => {

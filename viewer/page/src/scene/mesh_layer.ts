@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Meshes that were opened beside the case: each with an opacity of its own, in grey or coloured by its distance from the
  * wall of the case. */
-import type { App, View } from "../model/model";
-import { deviationOf, deviationText, MeshView, sharedRange, type Deviation } from "./mesh_view";
+import type { Part, View } from "../model/model";
+import { MeshView } from "./mesh_view";
+import { deviationOf, deviationText, sharedRange, type Deviation } from "../case/deviation";
 import { Pack } from "../case/pack";
 import type { SceneView } from "./scene_view";
 import type { Vec3 } from "../base/types";
@@ -33,7 +34,7 @@ export class MeshLayer {
   private readonly rows = new Map<string, Row | null>(); // null: being fetched
 
   constructor(
-    private readonly app: App,
+    private readonly app: Part<"document" | "selection", "source" | "stage" | "inform">,
     private readonly scene: SceneView,
   ) {
     this.panel = section("section-meshes", "Meshes", true, this.list);

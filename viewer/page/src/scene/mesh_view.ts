@@ -1,42 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** A mesh as the 3D view draws it, and how far its vertices lie from the wall of the case. */
-import { usualRange, type MapName } from "../base/colour";
-import { mm } from "../base/ui";
+/** A mesh as the 3D view draws it. */
 import { BufferAttribute, BufferGeometry, Mesh } from "three";
+import { kDeviationMap } from "../case/deviation";
 import type { Pack } from "../case/pack";
 import { PartMaterial } from "./part_material";
 import { vertexNormals } from "../case/surface";
-
-export interface Deviation {
-  /** Name of the mesh. */
-  name: string;
-  /** Of each vertex to the wall, mm; negative in the lumen. */
-  distance: Float32Array;
-  /** Of the absolute distances, mm. */
-  median: number;
-  percentile90: number;
-}
-
-/** Blue in the lumen, red outside of it, white on the wall. */
-export const kDeviationMap: MapName = "diverging";
-
-/** Reads the distances of a mesh with the stated number of vertices. Throws if the answer is that of another mesh. */
-export function deviationOf(pack: Pack, name: string, vertices: number): Deviation {
-  const distance = pack.get("distance", "f32"),
-    { median, percentile90 } = pack.meta.figures as Record<string, unknown>;
-  if (distance.length !== vertices || typeof median !== "number" || typeof percentile90 !== "number")
-    throw new Error(`${name}: its distances are those of another mesh.`);
-  return { name, distance, median, percentile90 };
-}
-
-/** One range for all of them, so that a colour means one distance. */
-export function sharedRange(all: readonly Deviation[]): [number, number] {
-  const most = Math.max(...all.map(each => usualRange(each.distance, true)[1]));
-  return [-most, most];
-}
-
-export const deviationText = (deviation: Deviation): string =>
-  `median ${mm(deviation.median)}, 90 % within ${mm(deviation.percentile90)}`;
 
 const kGrey: [number, number, number] = [0.78, 0.76, 0.72],
   kOrder = 3; // after the vessels

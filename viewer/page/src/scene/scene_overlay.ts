@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Letters and lines over the 3D view: orientation, scale, measurements, seeds, the place of the crosshair. */
-import type { OrbitCamera } from "./camera";
+import type { OrbitCamera } from "../drawing/camera";
 import { toCss } from "../base/colour";
 import { colourOf, isShown, shownTree, type View } from "../model/model";
-import { drawProposalsInScene, strokeAxis } from "../drawing/proposal_lines";
-import { drawMeasurements, drawScaleBar, label } from "../drawing/over";
+import { drawProposalsInScene, strokeAxis } from "../overlay/proposal_lines";
+import { drawMeasurements, drawScaleBar, label } from "../overlay/over";
 import type { Vec3 } from "../base/types";
 import { dot } from "../base/vec";
-import { drawNamesInScene } from "../drawing/vessel_names";
+import { drawNamesInScene } from "../overlay/vessel_names";
 
 const kAxes: [Vec3, string, string][] = [
   [[1, 0, 0], "L", "#e2605c"],
@@ -88,7 +88,7 @@ function drawSelected(
 export function drawSceneOverlay(
   c: CanvasRenderingContext2D,
   camera: OrbitCamera,
-  view: View,
+  view: Omit<View, "page">,
   width: number,
   height: number,
 ): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
-import { clearedContext } from "../drawing/over";
+import { clearedContext } from "../overlay/over";
 import {
   DoubleSide,
   FrontSide,
@@ -12,10 +12,10 @@ import {
   type Object3D,
   type WebGLRenderer,
 } from "three";
-import { OrbitCamera } from "./camera";
+import { OrbitCamera } from "../drawing/camera";
 import { Caster } from "./cast";
 import { colouring } from "../model/colouring";
-import { colourOf, isShown, opacityOf, shownTree, type App, type View } from "../model/model";
+import { colourOf, isShown, opacityOf, shownTree, type Part, type View } from "../model/model";
 import { kFade, PartMaterial } from "./part_material";
 import { drawSceneOverlay } from "./scene_overlay";
 import { ball, centerlines, cylinders, placeCylinders, wallPoints } from "./scene_parts";
@@ -68,7 +68,7 @@ export class SceneView implements StageView {
 
   constructor(
     readonly element: HTMLElement,
-    readonly app: App,
+    private readonly app: Part<keyof View, "stage">,
   ) {
     this.over = element.querySelector("canvas")!;
     this.scene.add(this.lines, this.points, this.marks, this.extra, this.planes.group);

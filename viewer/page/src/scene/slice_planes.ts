@@ -12,7 +12,7 @@ import {
   Vector2,
 } from "three";
 import type { View } from "../model/model";
-import { frameOf, kSliceNames } from "../slices/slice_frame";
+import { frameOf, kSliceNames } from "../model/slice_frame";
 import type { Vec3 } from "../base/types";
 import { add, along, dot, scale, sub } from "../base/vec";
 import type { VolumeTexture } from "../drawing/volume_texture";

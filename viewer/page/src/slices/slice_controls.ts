@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The controls of a slice: its slab, by keys and fields, and the line between two volumes. */
 import { h, select } from "../base/ui";
-import type { App } from "../model/model";
-import { showsSecond } from "./beside";
-import { kSlabKinds, type Slab, type Slabs } from "./slab";
-import { kSliceNames, type SliceName } from "./slice_frame";
+import type { Part } from "../model/model";
+import { showsSecond } from "../model/beside";
+import { kSlabKinds, type Slab, type Slabs } from "../model/slab";
+import { kSliceNames, type SliceName } from "../model/slice_frame";
 
 const kLeast = 0.5, // mm
   kMost = 200, // mm
@@ -13,7 +13,7 @@ const kLeast = 0.5, // mm
 const within = (mm: number): number => Math.min(kMost, Math.max(kLeast, mm));
 
 /** Changes the slabs of the named slices; of all without a name. */
-function change(app: App, name: SliceName | null, to: (slab: Slab) => Slab): void {
+function change(app: Part<"slices">, name: SliceName | null, to: (slab: Slab) => Slab): void {
   const { slabs } = app.store.get().slices;
   app.store.set({
     slices: {
@@ -25,14 +25,14 @@ function change(app: App, name: SliceName | null, to: (slab: Slab) => Slab): voi
 }
 
 /** Slice, maximum, minimum, mean, and the slice again; all slices follow the first of them. */
-function nextKind(app: App, name: SliceName | null): void {
+function nextKind(app: Part<"slices">, name: SliceName | null): void {
   const now = app.store.get().slices.slabs[name ?? "axial"].kind,
     next = kSlabKinds[(kSlabKinds.findIndex(([kind]) => kind === now) + 1) % kSlabKinds.length][0];
   change(app, name, slab => ({ ...slab, kind: next }));
 }
 
 /** Makes slabs thinner (-1) or thicker (1). */
-function thicken(app: App, name: SliceName | null, way: 1 | -1): void {
+function thicken(app: Part<"slices">, name: SliceName | null, way: 1 | -1): void {
   change(app, name, slab => ({
     kind: slab.kind === "off" ? "max" : slab.kind,
     mm: Number(within(slab.mm * kStep ** way).toPrecision(2)),
@@ -40,7 +40,7 @@ function thicken(app: App, name: SliceName | null, way: 1 | -1): void {
 }
 
 /** The keys of slabs; false for another key. Without a name they act on all slices. */
-export function slabKey(app: App, name: SliceName | null, key: string): boolean {
+export function slabKey(app: Part<"slices">, name: SliceName | null, key: string): boolean {
   if (key === "7") nextKind(app, name);
   else if (key === "8") thicken(app, name, -1);
   else if (key === "9") thicken(app, name, 1);
@@ -49,7 +49,7 @@ export function slabKey(app: App, name: SliceName | null, key: string): boolean 
 }
 
 /** The control of a slice. */
-export function slabControl(app: App, name: SliceName): HTMLElement {
+export function slabControl(app: Part<"slices">, name: SliceName): HTMLElement {
   const kind = select(
     `slab-${name}`,
     `${name.charAt(0).toUpperCase()}${name.slice(1)}: one plane, or a slab of a thickness  (7)`,
@@ -88,7 +88,7 @@ export function slabControl(app: App, name: SliceName): HTMLElement {
 }
 
 /** The line between both volumes of a slice, and their names above it. */
-export function splitLine(app: App, view: HTMLElement): HTMLElement {
+export function splitLine(app: Part<"document" | "slices">, view: HTMLElement): HTMLElement {
   const { store } = app,
     before = h("span", { class: "before" }),
     after = h("span", { class: "after" }),

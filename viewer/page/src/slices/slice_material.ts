@@ -11,7 +11,7 @@ import {
   Vector3,
   type WebGLRenderer,
 } from "three";
-import { kMostSamples, throughOf, type Slab } from "./slab";
+import { kMostSamples, throughOf, type Slab } from "../model/slab";
 import type { Vec3 } from "../base/types";
 import type { Frame } from "../base/vec";
 import type { Volume } from "../case/volume";

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Lines and letters over a slice. */
 import { toCss } from "../base/colour";
-import { drawMeasurements, drawScaleBar, label } from "../drawing/over";
+import { drawMeasurements, drawScaleBar, label } from "../overlay/over";
 import { colourOf, isShown, shownTree, type View } from "../model/model";
-import type { Pixel, SliceProjection } from "./slice_frame";
-import { reachOf } from "./slab";
-import { branchesAt, pushed } from "../tools/stroke";
+import type { Pixel, SliceProjection } from "../model/slice_frame";
+import { reachOf } from "../model/slab";
+import { branchesAt, pushed } from "../model/stroke";
 import type { Surface } from "../case/surface";
 import type { MissingVessel, Vec3 } from "../base/types";
 import { dot, length, orientation, scale, sub, unit } from "../base/vec";
@@ -70,7 +70,7 @@ function drawOutlines(
   });
 }
 
-function drawLines(c: Context, slice: SliceProjection, view: View): void {
+function drawLines(c: Context, slice: SliceProjection, view: Omit<View, "page">): void {
   const tree = shownTree(view);
   if (tree === null || !view.scene.layers.lines) return;
   const near = reachOf(view, slice, 2 * slice.mmPerPixel + (tree.voxelSize || 0.5)),
@@ -261,7 +261,7 @@ function title(slice: SliceProjection, view: Pick<View, "slices">): string {
 export function drawSliceOverlay(
   c: Context,
   slice: SliceProjection,
-  view: View,
+  view: Omit<View, "page">,
   width: number,
   height: number,
 ): void {

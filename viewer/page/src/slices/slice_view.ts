@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One of three linked slices: the plane through the crosshair, seen along an axis of the shared frame. */
-import { drawingOf, showsSecond } from "./beside";
+import { drawingOf, showsSecond } from "../model/beside";
 import { slabControl, splitLine } from "./slice_controls";
 import type { WebGLRenderer } from "three";
-import type { App, View } from "../model/model";
-import { drawProposalsInSlice } from "../drawing/proposal_lines";
-import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
-import { clearedContext } from "../drawing/over";
+import type { Part, View } from "../model/model";
+import { drawProposalsInSlice } from "../overlay/proposal_lines";
+import { frameOf, type Pixel, type SliceName, type SliceProjection } from "../model/slice_frame";
+import { clearedContext } from "../overlay/over";
 import { drawSliceOverlay } from "./slice_overlay";
-import { drawNamesInSlice } from "../drawing/vessel_names";
-import { kMostSamples, pickInSlab, samplesOf } from "./slab";
+import { drawNamesInSlice } from "../overlay/vessel_names";
+import { kMostSamples, pickInSlab, samplesOf } from "../model/slab";
 import { ScenePicture } from "../drawing/scene_picture";
 import { SliceMaterial, type Plane } from "./slice_material";
 import type { StageView } from "../drawing/stage";
@@ -43,7 +43,7 @@ export class SliceView implements StageView, SliceProjection {
   constructor(
     readonly name: SliceName,
     readonly element: HTMLElement,
-    readonly app: App,
+    private readonly app: Part<keyof View, "stage">,
   ) {
     this.over = element.querySelector("canvas")!;
     element.querySelector(".viewtools")!.append(slabControl(app, name));

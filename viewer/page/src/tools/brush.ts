@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The brush, which pushes or pulls the wall of a vessel in a slice. */
-import { isShown, type App } from "../model/model";
+import { isShown, type CursorPart } from "../model/model";
 import { goToNode } from "../model/selection";
 import type { SliceView } from "../slices/slice_view";
 import type { Vec3 } from "../base/types";
@@ -15,7 +15,7 @@ const kUsual = 0.8, // radii of the vessel
 export class Brush {
   private held: { node: number; at: Vec3; by: Vec3; slice: SliceView } | null = null;
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: CursorPart<"tools", "source" | "inform" | "perform">) {}
 
   /** The node whose wall the brush works on at a place: of the selected vessel if one is selected. */
   private nodeAt(p: Vec3): number {

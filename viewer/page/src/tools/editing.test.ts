@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
-import { branchesAt, pushed, type Stroke } from "./stroke";
+import { branchesAt, pushed, type Stroke } from "../model/stroke";
 import { onward } from "./track_on";
 import { sampleTree } from "../case/sample_tree";
 

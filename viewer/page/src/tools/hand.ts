@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Clicks with a tool: seeds, measurements, a node that is moved. */
-import type { App, Measurement } from "../model/model";
+import type { CursorPart, Measurement } from "../model/model";
 import { isShown } from "../model/model";
 import { Brush } from "./brush";
 import { angle, gaps, sectionAt } from "./measure";
@@ -8,7 +8,6 @@ import { probe } from "./probe";
 import { goToNode, select } from "../model/selection";
 import type { SliceView } from "../slices/slice_view";
 import type { Hit } from "../case/surface";
-import { trackOn } from "./track_on";
 import type { MissingVessel, Seed, VesselAtClick, Vec3 } from "../base/types";
 import { along, circle, distance, dot, sub } from "../base/vec";
 import { askText, brief, errorText } from "../base/ui";
@@ -42,7 +41,7 @@ export class Hand {
   private nextId = 1;
   private placing: Promise<void> = Promise.resolve(); // clicks come in their order, however long each takes
 
-  constructor(private readonly app: App) {
+  constructor(private readonly app: CursorPart<"tools", "source" | "stage" | "inform" | "perform">) {
     this.brush = new Brush(app);
   }
 
@@ -320,9 +319,6 @@ export class Hand {
         ? { op: "widen", node, radius, reach }
         : { op: "move", node, position: tree!.position(node), radius },
     );
-  }
-  trackOn(): Promise<void> {
-    return trackOn(this.app);
   }
   /** Asks for the radius of the vessel at the cursor's node. */
   async askRadius(): Promise<void> {

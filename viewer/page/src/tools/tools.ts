@@ -2,7 +2,7 @@
 /** Actions of the pointer with the chosen tool. */
 import type { Flight } from "../scene/flight";
 import type { Hand } from "./hand";
-import { isShown, opacityOf, shownTree, type App, type Tool, type View } from "../model/model";
+import { isShown, opacityOf, shownTree, type CursorPart, type Tool, type View } from "../model/model";
 import { playOrPause } from "../model/posing";
 import { probe, type Answer } from "./probe";
 import type { SceneView } from "../scene/scene_view";
@@ -34,7 +34,7 @@ export class Tools {
   private pending: (() => void) | null = null;
 
   constructor(
-    private readonly app: App,
+    private readonly app: CursorPart<"scene" | "tools", "stage" | "inform">,
     private readonly hand: Hand,
     private readonly flight: Flight,
   ) {}

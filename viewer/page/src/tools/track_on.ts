@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selected vessel is tracked on: from the crosshair, or beyond its end. */
 import { errorText } from "../base/ui";
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
 import { along, distance } from "../base/vec";
@@ -29,7 +29,9 @@ export function onward(tree: Tree, branch: number, crosshair: Vec3): Onward {
   return isBefore ? { from: beyond(firstNode, -1), parent: null } : { from: beyond(last, 1), parent: label };
 }
 
-export async function trackOn(app: App): Promise<void> {
+export async function trackOn(
+  app: Part<"document" | "selection" | "slices", "source" | "inform" | "perform">,
+): Promise<void> {
   const {
     document: { tree, state, volume },
     selection: { selected },

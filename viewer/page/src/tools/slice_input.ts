@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Pointer and keys in a slice. Left: the tool (or the crosshair); right: window and level; middle or shift: pan; wheel:
  * slices, with control zoom; control and left: turns the planes. */
-import { isSecondAt } from "./beside";
-import { kFirst, kPatientFrame, kSecond, type App, type VolumeKeys } from "../model/model";
-import { slabKey } from "./slice_controls";
-import type { SliceView } from "./slice_view";
-import type { Tools } from "../tools/tools";
+import { isSecondAt } from "../model/beside";
+import { kFirst, kPatientFrame, kSecond, type Part, type VolumeKeys } from "../model/model";
+import { slabKey } from "../slices/slice_controls";
+import type { SliceView } from "../slices/slice_view";
+import type { Tools } from "./tools";
 import type { Vec3 } from "../base/types";
 import { rotate, type Frame } from "../base/vec";
+
+/** What these functions take of the page. */
+type Needs = Part<"document" | "slices", "stage">;
 
 function turnFrame(frame: Frame, axis: Vec3, angle: number): Frame {
   return {
@@ -18,16 +21,16 @@ function turnFrame(frame: Frame, axis: Vec3, angle: number): Frame {
 }
 
 /** Turns the shared planes about an axis; they are then neither the patient's nor the vessel's. */
-export function turnPlanes(app: App, axis: Vec3, angle: number): void {
+export function turnPlanes(app: Part<"slices">, axis: Vec3, angle: number): void {
   app.store.set({ slices: { planes: "free", frame: turnFrame(app.store.get().slices.frame, axis, angle) } });
 }
-export const resetPlanes = (app: App): void =>
+export const resetPlanes = (app: Part<"slices">): void =>
   app.store.set({ slices: { planes: "patient", frame: kPatientFrame } });
 
 const kWindowStep = 1 / 300; // of the window for a pixel
 const kZoomStep = 1.0015; // for a unit of the wheel
 
-export function shiftWindow(app: App, dx: number, dy: number, keys: VolumeKeys = kFirst): void {
+export function shiftWindow(app: Part<"slices">, dx: number, dy: number, keys: VolumeKeys = kFirst): void {
   const [low, high] = app.store.get().slices[keys.window],
     width = Math.max(high - low, 1e-6);
   const wider = width * Math.exp(dx * kWindowStep * 2),
@@ -35,7 +38,7 @@ export function shiftWindow(app: App, dx: number, dy: number, keys: VolumeKeys =
   app.store.set({ slices: { [keys.window]: [level - wider / 2, level + wider / 2] } });
 }
 
-export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
+export function listenToSlice(slice: SliceView, app: Needs, tools: Tools): void {
   const element = slice.element,
     { store, stage } = app;
   let drag: {
@@ -125,7 +128,7 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
 }
 
 /** Handles a key in a slice; false if it has no meaning there. */
-function sliceKey(slice: SliceView, app: App, tools: Tools, e: KeyboardEvent): boolean {
+function sliceKey(slice: SliceView, app: Needs, tools: Tools, e: KeyboardEvent): boolean {
   const { store } = app,
     f = slice.frame,
     {

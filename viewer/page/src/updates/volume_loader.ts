@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Fetches one volume of the document and shows its slices as they arrive. */
 import { Caster } from "../scene/cast";
-import { kFirst, type App, type VolumeKeys } from "../model/model";
+import { kFirst, type Part, type VolumeKeys } from "../model/model";
 import { headerEnd, Pack } from "../case/pack";
 import type { SceneView } from "../scene/scene_view";
 import type { SliceView } from "../slices/slice_view";
@@ -18,7 +18,7 @@ export class VolumeLoader {
 
   /** With a scene, which the first volume has, the volume is also cast in 3D. `began`: called when its header is there. */
   constructor(
-    private readonly app: App,
+    private readonly app: Part<"document" | "slices", "source" | "stage">,
     private readonly keys: VolumeKeys,
     private readonly slices: SliceView[],
     private readonly scene: SceneView | null = null,

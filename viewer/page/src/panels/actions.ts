@@ -5,9 +5,9 @@ import { divide, holdsSeeds, isVolume, type Dropped } from "../net/dropped_files
 import type { App, Tool } from "../model/model";
 import type { SceneView } from "../scene/scene_view";
 import type { SliceView } from "../slices/slice_view";
-import { openHelp } from "../panels/help";
+import { openHelp } from "./help";
 import { applyView, kViewEnding, kViewFormat, readView, takeView } from "../model/kept_view";
-import { askPart } from "../panels/series_dialog";
+import { askPart } from "./series_dialog";
 import { Refused, type OpenAs } from "../net/source";
 import { askYes, errorText, h, saveBlob, saveText } from "../base/ui";
 
@@ -26,28 +26,6 @@ export class Actions {
 
   tool(tool: Tool): void {
     this.app.store.set({ tools: { tool, pending: [] } });
-  }
-  undo(): Promise<boolean> {
-    return this.app.perform({ op: "undo" });
-  }
-  redo(): Promise<boolean> {
-    return this.app.perform({ op: "redo" });
-  }
-  track(labels: string[] | null): Promise<boolean> {
-    return this.app.perform({ op: "track", labels });
-  }
-  find(): Promise<boolean> {
-    return this.app.perform({ op: "find" });
-  }
-  /** Proposals by their labels; null: all. */
-  accept(labels: string[] | null): Promise<boolean> {
-    return this.app.perform({ op: "accept", labels });
-  }
-  reject(labels: string[] | null): Promise<boolean> {
-    return this.app.perform({ op: "reject", labels });
-  }
-  check(): Promise<boolean> {
-    return this.app.perform({ op: "check" });
   }
   async compare(): Promise<void> {
     if (await this.app.perform({ op: "compare" })) this.app.store.set({ scene: { colourBy: "compare" } });

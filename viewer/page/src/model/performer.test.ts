@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { beforeAll, expect, test } from "vitest";
-import { kInitial, type View } from "../model/model";
+import { kInitial, type View } from "./model";
 import { Performer } from "./performer";
-import type { Source } from "./source";
+import type { Source } from "../net/source";
 import { Store } from "../base/store";
 import type { Operation } from "../base/types";
 

@@ -2,7 +2,7 @@
 /** Keeps what is shown in step with the document: fetches the packs whose revision has changed, small ones first. */
 import { load as loadBlob, type Blob as BlobLibrary } from "../../../../libblob/wasm/blob.mjs";
 import { fillValues } from "../model/colouring";
-import { kFirst, kSecond, type App, type View } from "../model/model";
+import { kFirst, kSecond, type CursorPart, type View } from "../model/model";
 import { Pack } from "../case/pack";
 import { sameVessels } from "../model/same_vessel";
 import type { SceneView } from "../scene/scene_view";
@@ -26,7 +26,7 @@ export class Loader {
   private first = true;
 
   constructor(
-    private readonly app: App,
+    private readonly app: CursorPart<"scene", "source" | "stage" | "inform">,
     private readonly slices: SliceView[],
     private readonly scene: SceneView,
   ) {

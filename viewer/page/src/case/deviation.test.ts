@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { mapColour } from "../base/colour";
-import { deviationOf, deviationText, kDeviationMap, sharedRange, type Deviation } from "./mesh_view";
-import { makePack, Pack } from "../case/pack";
+import { deviationOf, deviationText, kDeviationMap, sharedRange, type Deviation } from "./deviation";
+import { makePack, Pack } from "./pack";
 
 const pack = (distance: number[], figures: Record<string, unknown>): Pack =>
   new Pack(

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Pointer and keys in the 3D view. Drag turns, with shift or the middle button moves, the wheel comes nearer; a click
  * picks a vessel or uses the tool. */
-import type { App } from "../model/model";
-import type { SceneView } from "./scene_view";
-import { shiftWindow } from "../slices/slice_input";
-import type { Tools } from "../tools/tools";
+import type { Part } from "../model/model";
+import type { SceneView } from "../scene/scene_view";
+import { shiftWindow } from "./slice_input";
+import type { Tools } from "./tools";
 
 const kClick = 4; // pixels that a click may move
 const kTurn = 0.008; // radians for a pixel
 const kZoomStep = 1.0012;
 
-export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
+export function listenToScene(scene: SceneView, app: Part<"slices">, tools: Tools): void {
   const { element, camera } = scene;
   let drag: { kind: "turn" | "pan" | "window"; x: number; y: number; far: number } | null = null;
   let pointers = 0;

@@ -2,7 +2,7 @@
 /** Letters, measured lines and the scale bar over any view, on its 2D canvas. */
 import type { Vec3 } from "../base/types";
 import type { View } from "../model/model";
-import type { Pixel } from "../slices/slice_frame";
+import type { Pixel } from "../model/slice_frame";
 
 type Context = CanvasRenderingContext2D;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Names of vessels in the views: the longest first, and none over another. */
-import type { OrbitCamera } from "../scene/camera";
+import type { OrbitCamera } from "../drawing/camera";
 import { isShown, shownTree, type View } from "../model/model";
-import type { SliceProjection } from "../slices/slice_frame";
+import type { SliceProjection } from "../model/slice_frame";
 import { label } from "./over";
 import type { BranchRecord } from "../base/types";
 

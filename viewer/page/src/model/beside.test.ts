@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { drawingOf, isBeside, isSecondAt, kNoBeside, showsSecond, type Beside } from "./beside";
-import { readView, takeView } from "../model/kept_view";
-import { kInitial, type View } from "../model/model";
+import { readView, takeView } from "./kept_view";
+import { kInitial, type View } from "./model";
 import type { Volume } from "../case/volume";
 
 const volume = {} as Volume,

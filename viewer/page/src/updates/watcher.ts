@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Listens to the server and to what is dropped; shows what goes on. */
-import type { Actions } from "../tools/actions";
-import { droppedFiles } from "./dropped_files";
+import type { Actions } from "../panels/actions";
+import { droppedFiles } from "../net/dropped_files";
 import type { Loader } from "./loader";
-import type { App } from "../model/model";
+import type { Part } from "../model/model";
 import type { Shell } from "../panels/shell";
 import type { Event, State } from "../base/types";
 import { button, errorText, h } from "../base/ui";
@@ -13,10 +13,10 @@ export class Watcher {
   private isLost = false; // the server does not answer
 
   constructor(
-    private readonly app: App,
+    private readonly app: Part<"document" | "page", "source" | "inform">,
     private readonly shell: Shell,
     private readonly loader: Loader,
-    private readonly actions: Actions,
+    private readonly actions: Pick<Actions, "cancel" | "open" | "openFolder" | "openDropped">,
   ) {
     this.showProgress();
     this.showEmpty();
@@ -217,7 +217,7 @@ export class Watcher {
 }
 
 /** Layout, theme and what hides with them are classes of the page. */
-export function applyLayout(app: App, shell: Shell): void {
+export function applyLayout(app: Part<"tools" | "page", "stage">, shell: Shell): void {
   app.store.watch(["page.layout"], view => {
     shell.views.dataset.layout = view.page.layout;
     app.stage.invalidate();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Proposed vessels over slices and over the 3D view: dashed lines in a colour that no vessel has. */
-import type { OrbitCamera } from "../scene/camera";
+import type { OrbitCamera } from "../drawing/camera";
 import type { View } from "../model/model";
-import type { SliceProjection } from "../slices/slice_frame";
+import type { SliceProjection } from "../model/slice_frame";
 import { label } from "./over";
 import type { Branch, Tree } from "../case/tree";
 

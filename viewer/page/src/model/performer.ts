@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Asks the document for changes, one after the other, each on the ground of what the user saw. */
 import type { Store } from "../base/store";
-import type { Source } from "./source";
-import type { View } from "../model/model";
+import type { Source } from "../net/source";
+import type { View } from "./model";
 import type { Operation } from "../base/types";
 
 const kLongest = 5000; // ms to wait for the state that an answer announced; without it the next request may be refused

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { readView, takeView } from "../model/kept_view";
-import { kInitial } from "../model/model";
+import { readView, takeView } from "./kept_view";
+import { kInitial } from "./model";
 import { kMostSamples, kNoSlabs, pickInSlab, samplesOf, throughOf } from "./slab";
 import type { Vec3 } from "../base/types";
 import type { Volume } from "../case/volume";
