@@ -196,9 +196,9 @@ class Case:
         return case_made("fit", case, **options)
 
     @document("trim", "to")
-    def trim(case, **options) -> "Case":
+    def trim(self, **options) -> "Case":
         """Removes ends of vessels that are too thin or too short; returns a new case."""
-        return case_made("trim", case, **options)
+        return case_made("trim", self, **options)
 
     @document("convert", rows=mesh_rows())
     def mesh(case, **options) -> Mesh:
