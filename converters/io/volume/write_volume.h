@@ -20,8 +20,8 @@ struct NrrdVoxels {
   std::string_view unit{};  ///< of lengths; empty: not stated
 };
 
-/// The header of a file of NRRD, up to the voxels, which follow little-endian in `encoding`: "raw" or
-/// "gzip".
+/// The header of a file of NRRD, up to the voxels, which follow little-endian in
+/// `encoding`: "raw" or "gzip".
 std::string nrrdHeader(const NrrdVoxels& voxels, std::string_view encoding,
                        const VolumeNotes& notes = {});
 

@@ -13,7 +13,6 @@ import tempfile
 import threading
 import time
 import unittest
-import unittest.mock
 import warnings
 import zlib
 

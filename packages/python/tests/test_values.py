@@ -89,7 +89,7 @@ class NamesTest(unittest.TestCase):
                 lumen.convert(other, label_map="volume.nrrd")  # grey values, of the file
             with open("case.lumen", "wb") as file:
                 file.write(b"no case")
-            self.assertEqual(self.case.compare(phantom.truth)["assd_mm"], self.case.compare(phantom.truth)["assd_mm"])
+            self.assertLess(self.case.compare(phantom.truth)["assd_mm"], 0.1)  # the value, beside the file
             with self.assertRaisesRegex(lumen.Error, r"^case\.lumen"):
                 self.case.compare("case.lumen")
             os.chdir(before)
