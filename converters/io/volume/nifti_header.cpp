@@ -23,16 +23,16 @@ struct ScalarType {
   int code;
   PixelType type;
 };
-constexpr std::array<ScalarType, 10> kTypes = {{{2, PixelType::UInt8},
-                                                {4, PixelType::Int16},
-                                                {8, PixelType::Int32},
-                                                {16, PixelType::Float32},
-                                                {64, PixelType::Float64},
-                                                {256, PixelType::Int8},
-                                                {512, PixelType::UInt16},
-                                                {768, PixelType::UInt32},
-                                                {1024, PixelType::Int64},
-                                                {1280, PixelType::UInt64}}};
+constexpr std::array<ScalarType, 10> kScalarTypes = {{{2, PixelType::UInt8},
+                                                      {4, PixelType::Int16},
+                                                      {8, PixelType::Int32},
+                                                      {16, PixelType::Float32},
+                                                      {64, PixelType::Float64},
+                                                      {256, PixelType::Int8},
+                                                      {512, PixelType::UInt16},
+                                                      {768, PixelType::UInt32},
+                                                      {1024, PixelType::Int64},
+                                                      {1280, PixelType::UInt64}}};
 
 /// Types of several numbers for each voxel.
 struct CompoundType {
@@ -128,9 +128,9 @@ PixelType typeOf(const Fields& fields, const fs::path& path) {
   for (const CompoundType& type : kCompoundTypes)
     if (type.code == code)
       refuse(path, std::string("each voxel has ") + type.components, "one number");
-  const auto* const type = std::find_if(kTypes.begin(), kTypes.end(),
+  const auto* const type = std::find_if(kScalarTypes.begin(), kScalarTypes.end(),
                                         [&](const ScalarType& t) { return t.code == code; });
-  if (type == kTypes.end())
+  if (type == kScalarTypes.end())
     throw unsupported(path.string() + ": its NIfTI datatype is " + std::to_string(code) +
                       "; expected integers of 8 to 64 bits, floats or doubles");
   const std::size_t expected = 8 * sizeOf(type->type);

@@ -134,8 +134,8 @@ std::string encodeNrrd(const NrrdVoxels& voxels, std::string_view bytes, bool co
 
 std::string encodeAsNrrd(const Volume& volume, bool compressed, const fs::path& /*file*/,
                          const VolumeNotes& notes) {
-  constexpr std::array kTypes = {"unsigned char", "short", "unsigned short", "float"};
-  return encodeNrrd({kTypes.at(volume.voxels.index()), volume.geometry}, voxelBytes(volume),
+  constexpr std::array kNrrdTypes = {"unsigned char", "short", "unsigned short", "float"};
+  return encodeNrrd({kNrrdTypes.at(volume.voxels.index()), volume.geometry}, voxelBytes(volume),
                     compressed, notes);
 }
 
