@@ -94,13 +94,13 @@ TEST_F(VolumeInMemory, OpensNoFileThatItsHeaderNames) {
 
 TEST_F(VolumeInMemory, OpensAFileThatIsAllowedByItsWholeName) {
   const std::string voxels = path("voxels.raw").string();
-  writeNewFile(std::string(std::size_t{2} * 2 * 2, '\1') + '\2', voxels);
+  writeNewFile(std::string(7, '\1') + '\2', voxels);
   const std::string header =
-      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 3 1\nspacings: 1 1 1\nencoding: raw\ndata "
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nspacings: 1 1 1\nencoding: raw\ndata "
       "file: ";
   ReadVolumeOptions allowed;
   allowed.allowedDetached = {path("")};
-  EXPECT_EQ(readBytes("w.nhdr", header + voxels + "\n", allowed).geometry.voxelCount(), 9U);
+  EXPECT_EQ(readBytes("w.nhdr", header + voxels + "\n", allowed).geometry.voxelCount(), 8U);
   expectRefused(refusal([&] { (void)readBytes("w.nhdr", header + voxels + "\n"); }),
                 {"3: ", "w.nhdr", "expected them behind its header"});
   const std::string relative = header + "voxels.raw\n";

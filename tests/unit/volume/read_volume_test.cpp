@@ -73,7 +73,7 @@ TEST_F(ReadVolume, LeftHandedAxesSurviveEachFormat) {
 TEST_F(ReadVolume, DicomIsNotWritten) {
   expectRefused(
       refusal([&] { (void)encodeVolume(oblique<float>(), VolumeFormat::Dicom, false, "v"); }),
-      {"4: ", "v: DICOM"});
+      {"4: ", "v: this format of volumes is not written"});
 }
 
 TEST_F(ReadVolume, NamesDoNotMatter) {
