@@ -50,9 +50,7 @@ std::vector<TextMesh> textMeshes() {
 
 double firstX(const TextMesh& mesh, const std::string& number, const std::string& start = "") {
   const std::string text = start + mesh.before + number + mesh.after;
-  return readMesh({"a", text}, mesh.format)
-      .mesh.position.at(0)
-      .x();
+  return readMesh({"a", text}, mesh.format).mesh.position.at(0).x();
 }
 
 TEST(ReadMeshNumbers, ThoseBeyondADoubleAreRefused) {

@@ -11,8 +11,8 @@
 
 #include <Eigen/Core>
 
-#include "converters/base/progress.h"
 #include "converters/base/input_file.h"
+#include "converters/base/progress.h"
 #include "converters/io/volume/read_volume_options.h"
 
 namespace lumen::convert {
