@@ -98,8 +98,9 @@ class Values:
         self.given[name] = value
         return name
 
-    def name_of(self, value: Any) -> str:
-        """The name of an argument: a path as it is, a case, a volume or an image by a name for it."""
+    def name_of(self, value: Any, role: str = "") -> str:
+        """The name of an argument: a path as it is, a case, a volume or an image by a name for it, or by the role that
+        it has as an option."""
         if isinstance(value, Kept):
             self.kept.append(self._new(value))
             return self.kept[-1]
@@ -108,7 +109,8 @@ class Values:
         if _images.package_of(value) or hasattr(value, "__array__"):
             value = Volume.of(value)
         if hasattr(value, "_given"):
-            return self._give(*value._given())  # pylint: disable=protected-access
+            name, held = value._given()  # pylint: disable=protected-access
+            return self._give(role + name[name.index("."):] if role else name, held)
         raise TypeError(f"found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, a "
                         "lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
 
@@ -122,7 +124,7 @@ class Values:
             return self._give("labels.json", json.dumps({str(int(label)): name for label, name in value.items()}))
         if row["name"] == "labels" and isinstance(value, Mapping):
             return ",".join(f"{int(label)}={name}" for label, name in value.items())
-        return self.name_of(value) if row["placeholder"] == "FILE" else value
+        return self.name_of(value, row["name"].replace("-", "_")) if row["placeholder"] == "FILE" else value
 
 
 def _is_path(value: Any) -> bool:

@@ -74,7 +74,7 @@ class NamesTest(unittest.TestCase):
         flat = self.volume.like(np.zeros(self.volume.shape, np.uint8))
         with self.assertRaisesRegex(lumen.Error, r"^volume\.nrrd: "):
             lumen.convert(flat)
-        with self.assertRaisesRegex(lumen.Error, r"^volume-2\.nrrd: "):
+        with self.assertRaisesRegex(lumen.Error, r"^label_map\.nrrd: "):
             lumen.convert(self.volume, label_map=lumen.Volume(np.full(self.volume.shape, 0.5)))
 
     def test_a_file_of_the_same_name_is_no_value(self):
