@@ -158,6 +158,7 @@ Json lookOnly(Json state) {
   for (const char* const name : {"undo", "redo", "job", "saveAs", "second"}) state[name] = nullptr;
   state["formats"] = state["proposals"] = Json::array();
   state["unsaved"] = state["measuresAreOld"] = false;
+  for (Json& file : state["files"]) file["named"] = false;  // the page reaches none
   return state;
 }
 
