@@ -58,4 +58,4 @@ __all__ = ["Answer", "Branch", "Case", "Change", "Editor", "Error", "Mesh", "Mis
 
 
 def __dir__():
-    return [*__all__, "__version__"]
+    return [*__all__, *(name for name in ("__version__", "torch") if name in globals())]

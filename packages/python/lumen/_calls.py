@@ -61,8 +61,8 @@ def watch_of(options: Dict[str, Any]) -> tuple:
     """Takes progress, threads and strict out of the options, as functions of the module take them."""
     progress, threads, strict = (options.pop(word, None) for word in ("progress", "threads", "strict"))
     if progress is not None and not callable(progress):
-        raise ValueFault(f"progress: found {shown(progress)}, expected a function of stage, units done and units in all, "
-                         "such as print")
+        raise ValueFault(f"progress: found {shown(progress)}, expected a function of stage, units done and units in "
+                         "all, such as print")
     if threads is not None and (not isinstance(threads, numbers.Integral) or isinstance(threads, bool) or threads < 1):
         raise ValueFault(f"threads: found {shown(threads)}, expected a whole number above 0")
     return progress, int(threads or 0), strict is not None and check_flag("strict", strict)

@@ -270,8 +270,8 @@ class Case:
         -------
         networkx.DiGraph
             Nodes 0 to n - 1 with ``centre`` (x, y, z) and ``x``, ``y``, ``z``, mm, LPS, ``radius``, mm, ``branch``, its
-            label, ``inlier_rate`` where it is known, and the values of :attr:`node_arrays`. Edges with ``length``, mm, and ``link``, true for
-            those of :attr:`Tree.links`, which close loops.
+            label, ``inlier_rate`` where it is known, and the values of :attr:`node_arrays`. Edges with ``length``, mm,
+            and ``link``, true for those of :attr:`Tree.links`, which close loops.
 
         Examples
         --------
@@ -366,11 +366,11 @@ def read(path) -> Case:
     Error
         With file, place, rule, and the values found and expected.
     """
-    path = os.fspath(path)
+    path = os.fsdecode(path)
     try:
         return Case(called(_lumen.Case.read, path, known=[path]))
     except Error as error:
-        if error.code != "NOT_LUMEN" or os.path.splitext(path)[1] not in (".nrrd", ".nii", ".gz", ".mha", ".mhd", ".dcm"):
+        if error.code != "NOT_LUMEN" or not path.endswith((".nrrd", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm")):
             raise
         raise Error(f"{error}; lumen.Volume.read reads a volume, and lumen.convert makes a case of one", error.exit_code,
                     file=error.file, place=error.place, code=error.code, number=error.number) from None

@@ -56,7 +56,7 @@ class Error(Exception):
 
 
 class ValueFault(Error, ValueError, TypeError):
-    """A value of an argument that is none of those allowed, found before the work: also a ValueError and a TypeError."""
+    """A value of an argument that is none of those allowed: also a ValueError and a TypeError."""
 
     def __init__(self, message: str, exit_code: int = 2, **facts):
         super().__init__(message, exit_code, **facts)

@@ -59,7 +59,8 @@ def turned(array: Any, axes: Tuple[int, ...], shape: Tuple[int, ...]) -> np.ndar
     own = tuple(shape[axes.index(axis)] for axis in range(3))
     if array.shape != own:
         names = ", ".join("kji"[axes.index(axis)] for axis in range(3))
-        raise ValueFault(f"labels: found shape {array.shape}, expected that of the volume in its own axes [{names}], {own}")
+        raise ValueFault(f"labels: found shape {array.shape}, expected that of the volume in its own axes [{names}], "
+                         f"{own}")
     return array.transpose(axes)
 
 
@@ -83,8 +84,8 @@ def _three_axes(array: Any) -> np.ndarray:
     """The array without further axes of one step. Raises ValueFault if more than three are left."""
     array = _without_ones(np.asanyarray(array))
     if array.dtype.names:
-        raise ValueFault(f"image: found {len(array.dtype.names)} numbers a voxel, expected 1: choose one colour first, such "
-                         f"as array[{array.dtype.names[0]!r}]")
+        raise ValueFault(f"image: found {len(array.dtype.names)} numbers a voxel, expected 1: choose one colour first, "
+                         f"such as array[{array.dtype.names[0]!r}]")
     if array.ndim != 3:
         raise ValueFault(f"image: found {array.ndim} axes, {' x '.join(map(str, array.shape))}, expected 3: choose one "
                          "volume of it first, such as image.slicer[..., 0] of nibabel, or array[..., 0]")
@@ -126,7 +127,12 @@ def _of_nibabel(image: Any) -> Image:
     scale = _MILLIMETRES.get(unit, 1.0)
     return found._replace(spacing=scale * np.array(found.spacing), origin=scale * np.array(found.origin),
                           is_placed=is_placed, has_unit=unit in _MILLIMETRES,
-                          file=os.path.basename((image.get_filename() if hasattr(image, "get_filename") else None) or ""))
+                          file=_file_of(image))
+
+
+def _file_of(image: Any) -> str:
+    path = image.get_filename() if hasattr(image, "get_filename") else None
+    return os.path.basename(os.fspath(path or ""))
 
 
 def _of_xarray(image: Any) -> Image:

@@ -44,8 +44,9 @@ class Volume:
     def __init__(self, array, spacing=1.0, origin=(0.0, 0.0, 0.0), direction=None):
         self.array = np.asarray(array)
         if self.array.ndim != 3:
-            hint = ": choose one of its numbers or volumes first, such as array[..., 0]" if self.array.ndim == 4 else ""
-            raise ValueFault(f"array: found shape {self.array.shape}, expected (nk, nj, ni){hint}")
+            hint = ": choose one of its numbers or volumes first, such as array[..., 0]"
+            raise ValueFault(f"array: found shape {self.array.shape}, expected (nk, nj, ni)"
+                             f"{hint if self.array.ndim == 4 else ''}")
         if self.array.size == 0:
             raise ValueFault(f"array: found shape {self.array.shape}, expected (nk, nj, ni) above 0: it has no voxels")
         is_long = self.array.dtype.kind in "iu" and self.array.dtype.itemsize == 8
@@ -73,7 +74,7 @@ class Volume:
 
         Raises
         ------
-        ValueError
+        ValueFault
             For an image of more axes, of several numbers a voxel, or with uneven coordinates.
         """
         if isinstance(image, Volume):
@@ -155,9 +156,10 @@ class Volume:
         if not self._is_placed:
             words += [(f'{name}: its space is "scanner-xyz", which does not', f"{name}: its header does not")]
         if not self._has_unit:
-            words += [(f'{name}: its space units are "?" "?" "?", which are not all known as lengths, so they are taken to be mm; '
-                       "state the unit with --unit", f"{name}: its header states no unit of length, so lengths are taken as "
-                       'mm; pass unit="mm" to state it')]
+            words += [(f'{name}: its space units are "?" "?" "?", which are not all known as lengths, so they are taken '
+                       "to be mm; state the unit with --unit",
+                       f'{name}: its header states no unit of length, so lengths are taken as mm; pass unit="mm" to '
+                       "state it")]
         return words + ([(name, self._file)] if self._file else [])
 
     def _given(self):

@@ -15,6 +15,9 @@ from ._options import commands, document, keyword_of, rows_of
 from ._running import Answer, Kept, call, run
 
 
+_NO_LABELS = re.compile("no voxel has the label|expected labels")
+
+
 @document("track", "to", "seeds")
 def track(volume, *, seeds=None, **options) -> Case:
     """Tracks vessels through a volume: a case with its tree and wall points, without models.
@@ -79,10 +82,11 @@ def _made(source, **options) -> Case:
     try:
         return case_made("convert", source, **options)
     except Error as error:
-        if not isinstance(options.get("labels"), Mapping) or not re.search("no voxel has the label|expected labels", str(error)):
+        if not isinstance(options.get("labels"), Mapping) or not _NO_LABELS.search(str(error)):
             raise
-        raise Error(f"{error}; labels= are those that the volume itself holds: did you mean label_table?", error.exit_code,
-                    file=error.file, place=error.place, found=error.found, expected=error.expected) from None
+        raise Error(f"{error}; labels= are those that the volume itself holds: did you mean label_table?",
+                    error.exit_code, file=error.file, place=error.place, found=error.found,
+                    expected=error.expected) from None
 
 
 def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) -> Case:
@@ -97,8 +101,9 @@ def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) 
     affine_frame : "ras" or "lps"
         Frame that the affine leads to.
     labels : array, Volume, image or dict, optional
-        Labels beside the volume, which name its branches: an array of the shape and in the axes of ``source``, which are
-        [i, j, k] for an image of nibabel or with ``affine``, and those of its dims for one of xarray; or an image. A dict ``{1: "ICA"}`` states that the volume itself holds labels, and which are of vessels.
+        Labels beside the volume, which name its branches: an image, or an array in the shape and axes of ``source``:
+        [i, j, k] for an image of nibabel or with ``affine``, those of its dims for one of xarray, else [k, j, i]. A
+        dict ``{1: "ICA"}`` states that the volume itself holds labels, and which are of vessels.
     **options
         Those of :func:`convert`, such as ``label_table={1: "BA", 2: "ICA"}``.
 
@@ -126,22 +131,23 @@ def _check_array(source) -> None:
     if package_of(source) == "nibabel":
         raise ValueFault("affine: the image has its own; leave it out, or pass image.get_fdata()")
     if package_of(source) or isinstance(source, (str, os.PathLike, Volume, Case)):
-        raise ValueFault(f"affine: the {type(source).__name__} has its own place; leave it out, or pass an array [i, j, k]")
+        raise ValueFault(f"affine: the {type(source).__name__} has its own place; leave it out, or pass an array "
+                         "[i, j, k]")
 
 
 def _beside(source, axes, options):
-    """The source and options, of which labels beside it become the map of its labels: arrays in the axes of the source."""
+    """The source and options, of which labels beside the source, arrays in its axes, become a label map."""
     labels = options.get("labels")
     if "affine" in options:
-        raise ValueFault("affine: use lumen.case_of(array, affine=...), or pass lumen.Volume.of_affine(array, affine)")
+        raise ValueFault("affine: use lumen.case_of(array, affine=...), or lumen.Volume.of_affine(array, affine)")
     if is_array(source) or package_of(source):
         source = Volume.of(source)
     if labels is None or isinstance(labels, (str, Mapping)):
         return source, options
     if is_array(labels):
         if not isinstance(source, Volume):
-            raise ValueFault("labels: found an array beside a value without axes, expected a volume or an image as the source, "
-                             "such as lumen.Volume.read(path)")
+            raise ValueFault("labels: found an array beside a value without axes, expected a volume or an image as the "
+                             "source, such as lumen.Volume.read(path)")
         labels = source.like(turned(labels, axes, source.shape))
     return source, {**options, "label_map": labels, "labels": None}
 

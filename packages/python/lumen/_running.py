@@ -142,8 +142,9 @@ class Values:
         if isinstance(value, dict) and value.keys() & _grouped().keys():
             name = next(group for word, group in _grouped().items() if word in value)
             raise ValueFault(f"found options as an argument, expected keywords: pass **{name}(...)")
-        raise ValueFault(f"{role or 'argument'}: found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, a "
-                        "lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
+        place = f"{role}: " if role else ""
+        raise ValueFault(f"{place}found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, "
+                         "a lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
 
     def option(self, row: Dict[str, Any], value: Any) -> Any:
         """The value of an option as texts can state it: names in place of values in memory."""
@@ -194,7 +195,8 @@ def call(command: str, *arguments, **options) -> Tuple[Answer, list]:
     json_text, text, code, warnings, details, kept = called(
         _lumen.run, command, names, texts, values.given, values.kept, *watch, known=known, words=values.words)
     answer = Answer(json.loads(json_text) if json_text else {})
-    answer.text, answer.code, answer.warnings = text, code, [reworded(one, values.words) for one in warnings]
+    answer.text, answer.code = text, code
+    answer.warnings = [reworded(one, values.words) for one in warnings]
     report(answer.warnings, details)
     return answer, [kept[name] for name in values.kept]
 

