@@ -23,7 +23,7 @@ Words = Sequence[Tuple[str, str]]  # of the engine, and those for users in their
 def reworded(message: str, words: Words) -> str:
     """A message with keywords for options, and with words for users in place of the engine's."""
     for old, new in words:
-        message = re.sub(rf"(?<![\w/-]){re.escape(old)}", lambda _, new=new: new, message)
+        message = new.join(re.split(rf"(?<![\w/-]){re.escape(old)}", message))
     return in_python(message)
 
 
@@ -51,7 +51,8 @@ def called(function, *arguments, known=(), words: Words = ()):
             reworded(str(error), words), error.exit_code, file=file and dict(words).get(file, file), place=error.place,
             code=error.code, number=error.number, found=found, expected=expected) from None
     except TypeError as error:
-        if "incompatible function arguments" not in str(error) or error.__traceback__.tb_next:
+        place = error.__traceback__
+        if "incompatible function arguments" not in str(error) or place is not None and place.tb_next is not None:
             raise  # of a function that the module called
         raise ValueFault(f"found arguments of the types {', '.join(type(one).__name__ for one in arguments)}, expected "
                          "those that help() states") from None

@@ -108,8 +108,9 @@ def columns_of(kind: str) -> List[str]:
         return []
     labels, places, values = (words.split() for words in _KEYS[table])
     nothing = {"value": None, "plus_minus": None, "absent": "-"}
-    facts = {**dict.fromkeys([*labels, *(["before"] if table != kind else [])], ""), **dict.fromkeys(places, [0, 0, 0]),
-             **{name: nothing for name in values}}
+    facts: Dict[str, Any] = dict.fromkeys([*labels, *(["before"] if table != kind else [])])
+    facts.update({name: [0, 0, 0] for name in places})
+    facts.update({name: nothing for name in values})
     return ["case", *_row(facts)]
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from ._errors import ValueFault
 
 _MILLIMETRES = {"meter": 1e3, "m": 1e3, "cm": 10.0, "mm": 1.0, "millimeter": 1.0, "micron": 1e-3, "um": 1e-3}
+I_FIRST = (2, 1, 0)  # places of k, j and i in arrays [i, j, k]
 _RAS = np.array([-1.0, -1.0, 1.0])
 
 
@@ -45,12 +46,12 @@ def image_of(value: Any) -> Image:
     return _READERS[package_of(value)](value)
 
 
-def axes_of(value: Any) -> Tuple[int, ...]:
+def axes_of(value: Any) -> Tuple[int, int, int]:
     """The places of k, j and i among the axes of arrays of a volume, an image or an array."""
     package = package_of(value)
     if package == "xarray":
-        return tuple(map(value.dims.index, "zyx"))
-    return (2, 1, 0) if package == "nibabel" else (0, 1, 2)
+        return value.dims.index("z"), value.dims.index("y"), value.dims.index("x")
+    return I_FIRST if package == "nibabel" else (0, 1, 2)
 
 
 def turned(array: Any, axes: Tuple[int, ...], shape: Tuple[int, ...]) -> np.ndarray:

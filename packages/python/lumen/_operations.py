@@ -9,7 +9,7 @@ from typing import Any, List, Mapping, NamedTuple
 
 from ._case import Case, case_made
 from ._errors import Error, ValueFault, shown
-from ._images import axes_of, is_array, package_of, turned
+from ._images import I_FIRST, axes_of, is_array, package_of, turned
 from ._inputs import Volume
 from ._options import commands, document, keyword_of, rows_of
 from ._running import Answer, Kept, call, run
@@ -35,7 +35,7 @@ def track(volume, *, seeds=None, **options) -> Case:
     -------
     Case
     """
-    volume, options = _beside(volume, axes_of(volume), options)
+    volume, options = _beside(volume, options)
     return case_made("track", volume, seeds=seeds, **options)
 
 
@@ -73,7 +73,7 @@ def convert(source, to=None, **options) -> Any:
     if to is not None and not isinstance(to, (str, os.PathLike)):
         hint = "keywords: pass **Tracking(...)" if isinstance(to, dict) else "a path"
         raise ValueFault(f"to: found {shown(to)}, expected {hint}")
-    source, options = _beside(source, axes_of(source), options)
+    source, options = _beside(source, options)
     return _made(source, **options) if to is None else run("convert", source, os.fspath(to), **options)
 
 
@@ -119,11 +119,9 @@ def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) 
     """
     if affine is not None:
         _check_array(source)
-        placed, axes = Volume.of_affine(source, affine, affine_frame), (2, 1, 0)
-    else:
-        placed, axes = source, axes_of(source)
-    placed, options = _beside(placed, axes, {"labels": labels, **options})
-    return _made(placed, **options)
+        source = Volume.of_affine(source, affine, affine_frame)
+    source, options = _beside(source, {"labels": labels, **options}, None if affine is None else I_FIRST)
+    return _made(source, **options)
 
 
 def _check_array(source) -> None:
@@ -135,11 +133,12 @@ def _check_array(source) -> None:
                          "[i, j, k]")
 
 
-def _beside(source, axes, options):
+def _beside(source, options, axes=None):
     """The source and options, of which labels beside the source, arrays in its axes, become a label map."""
     labels = options.get("labels")
     if "affine" in options:
         raise ValueFault("affine: use lumen.case_of(array, affine=...), or lumen.Volume.of_affine(array, affine)")
+    given = source
     if is_array(source) or package_of(source):
         source = Volume.of(source)
     if labels is None or isinstance(labels, (str, Mapping)):
@@ -148,7 +147,7 @@ def _beside(source, axes, options):
         if not isinstance(source, Volume):
             raise ValueFault("labels: found an array beside a value without axes, expected a volume or an image as the "
                              "source, such as lumen.Volume.read(path)")
-        labels = source.like(turned(labels, axes, source.shape))
+        labels = source.like(turned(labels, axes or axes_of(given), source.shape))
     return source, {**options, "label_map": labels, "labels": None}
 
 

@@ -122,6 +122,9 @@ class ArgumentsTest(FaultsTest):
         self.assertEqual(branches({"points": [point]}), [{"label": "points", "points": [point]}])
 
     def test_small_mistakes(self):
+        other = xarray_like(None)[0]
+        type(other).dims = ("a", "b", "c")
+        self.refuse("found the dims a, b, c, expected x, y and z", lumen.convert, other)
         self.refuse("it has no voxels", lumen.run, "info", np.zeros((0, 3, 4)))
         self.refuse(r"^label_table: found 'BA' as a label, expected \{1: 'BA'\}$", lumen.case_of, GREY, label_table={"BA": 1})
         self.refuse(r"pass \*\*Tracking\(\.\.\.\)$", lumen.convert, GREY, lumen.options.Tracking(rays=162))
