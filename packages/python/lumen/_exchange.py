@@ -9,7 +9,7 @@ import numpy as np
 
 
 class PolyData:
-    """What VTK draws: a mixin of classes with ``_poly_data``, which returns points (n, 3), the kind of cells ("Polys"
+    """Things that VTK draws: a mixin of classes with ``_poly_data``, which returns points (n, 3), the kind of cells ("Polys"
     or "Lines"), the cells as lists of points, and the arrays of points and of cells by name."""
 
     def to_vtk(self):

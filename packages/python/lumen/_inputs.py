@@ -167,7 +167,7 @@ class Volume:
         return "volume.nrrd", self._parts({})
 
     def _parts(self, types):
-        """What the compiled module takes: the voxels in the machine's order, in the place of `types`, of which there
+        """As the compiled module takes it: the voxels in the machine's order, in the place of `types`, of which there
         is a copy only where the array's memory is in another order."""
         kind = self.array.dtype.str[1:]
         kind = types.get(kind, kind)

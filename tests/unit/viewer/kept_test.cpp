@@ -190,7 +190,7 @@ protected:
     Progress silent;
     own.open({path(name), name}, silent);
   }
-  /// What `reload` of the first open file does for a page that saw `seen`.
+  /// The work that `reload` of the first open file does for a page that saw `seen`.
   void reload(const viewer::Moment& seen) {
     const Json request = {{"op", "reload"}, {"id", seen.document.files[0].id}};
     const formats::JsonDocument parsed = viewer::parseRequest(request.dump(), 1000);
