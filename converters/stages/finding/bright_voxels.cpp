@@ -12,6 +12,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/zeroed_array.h"
 #include "converters/stages/finding/background.h"
+#include "converters/stages/finding/ridge_marks.h"
 
 namespace lumen::convert {
 namespace {
@@ -19,20 +20,10 @@ namespace {
 constexpr double kAboveNoise = 4;    // standard deviations: excess that is no noise
 constexpr std::size_t kBins = 1024;  // of the histogram of excess
 constexpr double kMostLumen = 0.1;   // share of a volume that vessels may fill
-/// Share of the background that is on a ridge by noise or texture: 24 % in white noise. A part
-/// with ridges at a fifth of that or less is no background.
-constexpr double kFewRidges = 0.05;
-/// Multiples of the usual ridge: a vessel has one voxel of the latter at least, and goes on through
-/// voxels of the former. In white noise one voxel of 1000 exceeds 3.2, and none of 885,000 5.6.
-constexpr float kWeakRidge = 3.2F, kStrongRidge = 8;
 /// Share of the contrast of wide vessels: no wall is found on a thin vessel that is fainter.
 constexpr float kFaintest = 0.05F;
 /// Strength of the ridge of a thin vessel as a share of its contrast, at the scale that suits it.
 constexpr float kRidgeShare = 0.25F;
-constexpr int kRidgeBlock = 32;      // voxels along an edge
-constexpr std::size_t kSampled = 7;  // every seventh voxel shows the background's ridges
-
-enum Mark : std::uint8_t { kBackground = 0, kWeak = 1, kLumen = 2 };
 
 /// Calls visit(index, excess) for every voxel, row by row in parallel, with its brightness over the
 /// background.
@@ -140,85 +131,6 @@ float measureContrast(const Histogram& excess, std::size_t voxels) {
   return excess.medianFrom(bin);
 }
 
-/// The usual strength of the ridges in the background, by blocks of voxels: of noise and texture.
-class UsualRidges {
-public:
-  UsualRidges(const CellBox& cells, const ZeroedArray<float>& strength,
-              const ZeroedArray<std::uint8_t>& mark, const Progress& progress)
-      : m_median(blocksAround(cells).count()), m_blocks(blocksAround(cells)) {
-    std::vector<Samples> found(m_blocks.count());
-    tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
-      progress.check();
-      std::size_t n = 0;
-      CellBox{m_blocks.cell(b) * kRidgeBlock, Cell::Constant(kRidgeBlock)}.meet(cells).forEach(
-          [&](const Cell& cell) {
-            if (++n % kSampled != 0) return;
-            const std::size_t i = cells.index(cell);
-            if (mark[i] == kBackground) found[b].add(strength[i]);
-          });
-    });
-    Samples all;
-    for (const Samples& some : found) all.add(some);
-    const float everywhere = all.medianRidge();
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
-      Samples around;
-      const Cell at = m_blocks.cell(b);
-      m_blocks.meet(CellBox::between(at - Cell::Ones(), at + Cell::Ones()))
-          .forEach([&](const Cell& cell) { around.add(found[m_blocks.index(cell)]); });
-      m_median[b] = std::max(everywhere, around.medianRidge());
-    });
-  }
-
-  [[nodiscard]] float at(const Cell& cell) const {
-    return m_median[m_blocks.index(cell / kRidgeBlock)];
-  }
-
-private:
-  /// Voxels of the background, and the strengths of those on a ridge.
-  struct Samples {
-    std::size_t count = 0;
-    std::vector<float> ridges;
-
-    void add(float strength) {
-      ++count;
-      if (strength > 0) ridges.push_back(strength);
-    }
-    void add(const Samples& more) {
-      count += more.count;
-      ridges.insert(ridges.end(), more.ridges.begin(), more.ridges.end());
-    }
-    /// The median of the ridges, 0 if these are few. Reorders them.
-    float medianRidge() {
-      const auto few = kFewRidges * static_cast<double>(count);
-      return ridges.empty() || static_cast<double>(ridges.size()) < few ? 0 : upperMedian(ridges);
-    }
-  };
-  static CellBox blocksAround(const CellBox& cells) {
-    return {Cell::Zero(), (cells.size.array() + kRidgeBlock - 1) / kRidgeBlock};
-  }
-  std::vector<float> m_median;
-  CellBox m_blocks;
-};
-
-/// Adds the weak ridges that are connected with the lumen.
-void growIntoWeak(const CellBox& cells, ZeroedArray<std::uint8_t>& mark, const Progress& progress) {
-  std::vector<std::size_t> reached;
-  const auto from = [&](std::size_t i) {
-    cells.forEachNeighbour(cells.cell(i), [&](const Cell& cell) {
-      const std::size_t j = cells.index(cell);
-      if (mark[j] != kWeak) return;
-      mark[j] = kLumen;
-      reached.push_back(j);
-    });
-  };
-  for (std::size_t i = 0; i < mark.size(); ++i)
-    if (mark[i] == kLumen) from(i);
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    progress.check();
-    from(reached[k]);
-  }
-}
-
 /// Marks the lumen of wide vessels where they are less bright than the rest.
 void markFaded(const Volume& volume, const Background& background, float sign, float contrast,
                ZeroedArray<std::uint8_t>& mark, const Progress& progress) {
@@ -237,6 +149,9 @@ void markFaded(const Volume& volume, const Background& background, float sign, f
 }  // namespace
 
 BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress) {
+  if (!dark)
+    if (const auto levels = measureCtLevels(volume, progress))
+      return findCtLumen(volume, *levels, progress);
   const float sign = dark ? -1.0F : 1.0F;
   const Background background(volume, sign, progress);
   const Histogram excess = countExcess(volume, background, sign, progress);

@@ -8,6 +8,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/base/zeroed_array.h"
+#include "converters/stages/finding/ct_levels.h"
 #include "converters/voxels/cell_box.h"
 #include "converters/voxels/volume.h"
 
@@ -49,6 +50,7 @@ void growIntoFaded(const Excess& excess, float contrast, std::vector<bool>& isLu
 /// Lumen of a volume, before anything is known of its vessels.
 struct BrightVoxels {
   std::vector<std::size_t> indices;  ///< ascending, x fastest
+  std::vector<std::size_t> bone;     ///< the same: as bright, and no lumen; of tomography alone
   double contrast = 0;               ///< excess of wide vessels over their background, voxel units
   double noise = 0;                  ///< standard deviation of the background, voxel units
 };
@@ -56,7 +58,12 @@ struct BrightVoxels {
 /// Voxels of wide vessels, which are brighter than halfway between their background and the wide
 /// vessels of the volume; and those of thin ones, which lose brightness to blur, by the strength of
 /// the ridge that they are on (docs/method.md, section 1.13). Empty if nothing stands out of the
-/// noise. `dark`: vessels are darker than their background. Throws Error(Cancelled).
+/// noise. In computed tomography (ct_levels.h) wide vessels are those whose level is even, which
+/// bone's is not, and thin ones are connected with them or lie amid soft tissue.
+/// `dark`: vessels are darker than their background. Throws Error(Cancelled).
 BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress);
+
+/// The same in computed tomography.
+BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Progress& progress);
 
 }  // namespace lumen::convert

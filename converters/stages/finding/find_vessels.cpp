@@ -209,6 +209,7 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   FoundVessels found;
   found.geometry = volume.geometry;
   found.lumen = std::move(bright.indices);
+  found.bone = std::move(bright.bone);
   for (bool isMore = true; isMore;) {  // each pass takes bone away
     const VoxelSet set(grid, std::move(found.lumen));
     CourseFinder finder(set, progress);

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/finding/ct_levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace lumen::convert {
+namespace {
+
+// Hounsfield units: air is at -1000 and water at 0 by definition. Tissue: J. Bushberg et al., "The
+// essential physics of medical imaging", 2012, chapter 10; contrast of vessels, chapter 10 as well.
+struct Range {
+  float low, high;
+};
+constexpr Range kAir{-1050, -950}, kFat{-140, -60}, kSoft{0, 100}, kBody{-140, 100};
+/// Offsets of files that hold no negative numbers.
+constexpr std::array<float, 3> kOffsets = {0, -1000, -1024};
+
+constexpr Range kLevels{-1100, 4000};
+constexpr float kLevelWidth = 10, kMostDeviation = 256;
+constexpr double kLeastPresent = 0.001;  // of the volume, of air or fat that is there
+
+/// Multiples of the noise, and share of the contrast, that the deviation within a lumen may have:
+/// noise by chance, and blur of a wall nearby.
+constexpr float kCalmNoise = 2, kCalmShare = 0.05F;
+
+constexpr std::size_t kSmallest = 27;  // voxels with blood that show its level: a cube of three
+
+/// Counts of voxels by the mean and the deviation around them.
+class LevelCounts {
+public:
+  LevelCounts() : m_count(kLevelBins * kDeviationBins, 0) {}
+
+  void add(const Neighbourhood& around) {
+    if (!(around.mean >= kLevels.low && around.mean < kLevels.high) ||
+        !(around.deviation < kMostDeviation))
+      return;
+    ++m_count[binOf(around.mean) * kDeviationBins + static_cast<std::size_t>(around.deviation)];
+  }
+  void add(const LevelCounts& other) {
+    for (std::size_t i = 0; i < m_count.size(); ++i) m_count[i] += other.m_count[i];
+  }
+
+  /// Voxels of a level with less than a deviation.
+  [[nodiscard]] std::size_t count(std::size_t level, float deviation = kMostDeviation) const {
+    std::size_t sum = 0;
+    const auto end = std::min(kDeviationBins, static_cast<std::size_t>(deviation));
+    for (std::size_t d = 0; d < end; ++d) sum += m_count[level * kDeviationBins + d];
+    return sum;
+  }
+  [[nodiscard]] std::size_t count(const Range& range) const {
+    std::size_t sum = 0;
+    for (std::size_t b = binOf(range.low); b < binOf(range.high); ++b) sum += count(b);
+    return sum;
+  }
+  /// The level of a range that most voxels have.
+  [[nodiscard]] float mode(const Range& range) const {
+    std::size_t best = binOf(range.low);
+    for (std::size_t b = best; b < binOf(range.high); ++b)
+      if (count(b) > count(best)) best = b;
+    return levelOf(best);
+  }
+  /// The lower quartile of the deviation at a level.
+  [[nodiscard]] float quietDeviation(float level) const {
+    const std::size_t bin = binOf(level), quarter = count(bin) / 4;
+    std::size_t sum = 0, d = 0;
+    while (d + 1 < kDeviationBins && (sum += m_count[bin * kDeviationBins + d]) <= quarter) ++d;
+    return static_cast<float>(d) + 0.5F;
+  }
+
+  static constexpr std::size_t kLevelBins = static_cast<std::size_t>((kLevels.high - kLevels.low) /
+                                                                     kLevelWidth),
+                               kDeviationBins = static_cast<std::size_t>(kMostDeviation);
+  static std::size_t binOf(float level) {
+    return static_cast<std::size_t>((level - kLevels.low) / kLevelWidth);
+  }
+  static float levelOf(std::size_t bin) {
+    return kLevels.low + (static_cast<float>(bin) + 0.5F) * kLevelWidth;
+  }
+
+private:
+  std::vector<std::uint32_t> m_count;
+};
+
+LevelCounts countLevels(const Volume& volume, const Progress& progress) {
+  tbb::enumerable_thread_specific<LevelCounts> parts;
+  forEachNeighbourhood(volume, 0, progress, [&](std::size_t, const Neighbourhood& around) {
+    parts.local().add(around);
+  });
+  LevelCounts all;
+  for (const LevelCounts& part : parts) all.add(part);
+  return all;
+}
+
+Range moved(const Range& range, float offset) {
+  return {range.low - offset, range.high - offset};
+}
+
+/// Whether the counts are those of a body on Hounsfield's scale less an offset.
+bool isBody(const LevelCounts& counts, float offset, double voxels) {
+  const Range body = moved(kBody, offset);
+  const float level = counts.mode({-500 - offset, kLevels.high});
+  const auto least = static_cast<std::size_t>(kLeastPresent * voxels);
+  return level >= body.low && level < body.high &&
+         (counts.count(moved(kAir, offset)) > least || (offset == 0 && counts.count(kFat) > least));
+}
+
+/// The level above soft tissue that most calm voxels have, those with more contrast counting more.
+std::optional<float> bloodLevel(const LevelCounts& counts, const CtLevels& levels) {
+  const std::size_t first = LevelCounts::binOf(levels.soft + CtLevels::kLeastContrast);
+  std::vector<float> calm(LevelCounts::kLevelBins, 0.0F);
+  float all = 0;
+  for (std::size_t b = first; b < calm.size(); ++b) {
+    calm[b] = static_cast<float>(counts.count(b, levels.mostDeviation(LevelCounts::levelOf(b))));
+    all += calm[b];
+  }
+  if (all < static_cast<float>(kSmallest)) return {};
+  float most = 0, best = 0;
+  for (std::size_t b = first + 2; b + 2 < calm.size(); ++b) {
+    const float level = LevelCounts::levelOf(b);
+    const float around = calm[b - 2] + calm[b - 1] + calm[b] + calm[b + 1] + calm[b + 2];
+    if (around * (level - levels.soft) <= most) continue;
+    most = around * (level - levels.soft);
+    best = level;
+  }
+  return best;
+}
+
+}  // namespace
+
+float CtLevels::mostDeviation(float level) const {
+  const float contrast = std::min(level - soft, kMostContrast);
+  return std::max(kCalmNoise * noise, kCalmShare * contrast);
+}
+
+std::optional<CtLevels> measureCtLevels(const Volume& volume, const Progress& progress) {
+  if (std::holds_alternative<std::vector<std::uint8_t>>(volume.voxels)) return {};
+  const LevelCounts counts = countLevels(volume, progress);
+  const auto voxels = static_cast<double>(volume.geometry.voxelCount());
+  for (const float offset : kOffsets) {
+    if (!isBody(counts, offset, voxels)) continue;
+    CtLevels levels;
+    levels.soft = counts.mode(moved(kSoft, offset));
+    levels.noise = counts.quietDeviation(levels.soft);
+    levels.blood = bloodLevel(counts, levels);
+    return levels;
+  }
+  return {};
+}
+
+}  // namespace lumen::convert

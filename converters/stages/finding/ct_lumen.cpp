@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Declared in bright_voxels.h.
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/stages/finding/bright_voxels.h"
+#include "converters/stages/finding/ridge_marks.h"
+#include "converters/voxels/neighbourhood.h"
+
+namespace lumen::convert {
+namespace {
+
+/// Voxels from the last one whose neighbourhood is calm to the wall: half of a neighbourhood, and
+/// blur.
+constexpr int kRim = 2;
+constexpr int kSurroundings = 3;    // voxels around a ridge whose tissue is looked at
+constexpr double kLeastSoft = 0.5;  // share of these that is soft tissue of one level
+constexpr float kSoftRange = 50;    // Hounsfield units on either side of it
+constexpr float kAboveTissue = 4;   // standard deviations of the noise
+
+/// Finds lumen in a volume of computed tomography.
+class CtLumen {
+public:
+  CtLumen(const Volume& volume, const CtLevels& levels, const Progress& progress)
+      : m_volume(volume),
+        m_levels(levels),
+        m_progress(progress),
+        m_cells(volume.geometry.cells()),
+        m_mark(m_cells.count()),
+        m_isSoft(m_cells.count()) {}
+
+  BrightVoxels find() {
+    markCalm();
+    keepLargeCores();
+    growToWalls();
+    const ZeroedArray<float> strength = ridgeStrength(m_volume, 1, m_progress);
+    markRidges(strength, UsualRidges(m_cells, strength, m_mark, m_progress));
+    growIntoWeak(m_cells, m_mark, m_progress);
+    return collect();
+  }
+
+private:
+  [[nodiscard]] float value(std::size_t i) const {
+    return std::visit([i](const auto& voxels) { return static_cast<float>(voxels[i]); },
+                      m_volume.voxels);
+  }
+
+  /// Calm voxels are lumen or soft tissue by their level; all others are neither so far.
+  void markCalm() {
+    forEachNeighbourhood(
+        m_volume, m_levels.soft, m_progress, [&](std::size_t i, const Neighbourhood& around) {
+          const bool isCalm = m_levels.isCalm(around);
+          m_isSoft[i] = isCalm && std::abs(around.mean - m_levels.soft) < kSoftRange ? 1 : 0;
+          const bool isLumen = isCalm && m_levels.blood && around.mean > m_levels.half();
+          m_mark[i] = isLumen ? kLumen : m_isSoft[i] != 0 ? kBackground : kOtherTissue;
+        });
+  }
+
+  /// Fewer connected voxels than a cube of three are calm by chance.
+  void keepLargeCores() {
+    std::vector<bool> isSeen(m_mark.size(), false);
+    std::vector<std::size_t> part;
+    for (std::size_t first = 0; first < m_mark.size(); ++first) {
+      if (m_mark[first] != kLumen || isSeen[first]) continue;
+      m_progress.check();
+      part.assign(1, first);
+      isSeen[first] = true;
+      for (std::size_t k = 0; k < part.size(); ++k)
+        m_cells.forEachNeighbour(m_cells.cell(part[k]), [&](const Cell& cell) {
+          const std::size_t j = m_cells.index(cell);
+          if (m_mark[j] != kLumen || isSeen[j]) return;
+          isSeen[j] = true;
+          part.push_back(j);
+        });
+      if (part.size() >= kSpeck) continue;
+      for (const std::size_t i : part) m_mark[i] = kOtherTissue;
+    }
+  }
+
+  /// Adds the voxels between calm lumen and its walls.
+  void growToWalls() {
+    if (!m_levels.blood) return;
+    const float half = m_levels.half();
+    std::vector<std::size_t> layer, next;
+    const auto from = [&](std::size_t i) {
+      m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
+        const std::size_t j = m_cells.index(cell);
+        if (m_mark[j] == kLumen || !(value(j) > half)) return;
+        m_mark[j] = kLumen;
+        next.push_back(j);
+      });
+    };
+    for (std::size_t i = 0; i < m_mark.size(); ++i)
+      if (m_mark[i] == kLumen) layer.push_back(i);
+    for (int step = 0; step < kRim; ++step, layer.swap(next), next.clear()) {
+      m_progress.check();
+      for (const std::size_t i : layer) from(i);
+    }
+  }
+
+  /// Marks ridges: strong ones amid soft tissue are lumen, others may lead on from it.
+  void markRidges(const ZeroedArray<float>& strength, const UsualRidges& usual) {
+    const float noise = m_levels.soft + kAboveTissue * m_levels.noise,
+                bright = m_levels.soft + CtLevels::kLeastContrast;
+    float most = m_levels.soft + CtLevels::kMostContrast;
+    if (m_levels.blood) most = std::max(most, *m_levels.blood + kAboveTissue * m_levels.noise);
+    tbb::parallel_for(0, m_cells.size[2], [&](int z) {
+      m_progress.check();
+      for (int y = 0; y < m_cells.size[1]; ++y)
+        for (int x = 0; x < m_cells.size[0]; ++x) {
+          const Cell cell(x, y, z);
+          const std::size_t i = m_cells.index(cell);
+          if (m_mark[i] == kLumen || !(strength[i] > kWeakRidge * usual.at(cell))) continue;
+          const float at = value(i);
+          if (!(at > noise)) continue;
+          if (at > bright && strength[i] > kStrongRidge * usual.at(cell) && isAmidSoft(cell))
+            m_mark[i] = kLumen;
+          else if (!isBeside(cell, most))
+            m_mark[i] = kWeak;
+        }
+    });
+  }
+
+  /// Whether most of what surrounds a voxel is soft tissue of one level.
+  [[nodiscard]] bool isAmidSoft(const Cell& cell) const {
+    const Cell reach = Cell::Constant(kSurroundings);
+    const CellBox around = m_cells.meet(CellBox::between(cell - reach, cell + reach));
+    std::size_t soft = 0;
+    around.forEach([&](const Cell& other) { soft += m_isSoft[m_cells.index(other)]; });
+    return static_cast<double>(soft) > kLeastSoft * static_cast<double>(around.count());
+  }
+
+  /// Whether a voxel, or one that touches it, is brighter than blood.
+  [[nodiscard]] bool isBeside(const Cell& cell, float most) const {
+    bool is = value(m_cells.index(cell)) > most;
+    m_cells.forEachNeighbour(
+        cell, [&](const Cell& other) { is = is || value(m_cells.index(other)) > most; });
+    return is;
+  }
+
+  BrightVoxels collect() {
+    BrightVoxels out;
+    out.noise = static_cast<double>(m_levels.noise);
+    const float bright =
+        m_levels.blood ? m_levels.half() : m_levels.soft + CtLevels::kLeastContrast;
+    for (std::size_t i = 0; i < m_mark.size(); ++i) {
+      if (m_mark[i] == kLumen)
+        out.indices.push_back(i);
+      else if (value(i) > bright)
+        out.bone.push_back(i);
+    }
+    out.contrast = static_cast<double>(2 * (bright - m_levels.soft));
+    return out;
+  }
+
+  const Volume& m_volume;
+  const CtLevels& m_levels;
+  const Progress& m_progress;
+  CellBox m_cells;
+  ZeroedArray<std::uint8_t> m_mark, m_isSoft;
+};
+
+}  // namespace
+
+BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Progress& progress) {
+  return CtLumen(volume, levels, progress).find();
+}
+
+}  // namespace lumen::convert
