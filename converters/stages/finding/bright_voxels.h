@@ -50,7 +50,8 @@ void growIntoFaded(const Excess& excess, float contrast, std::vector<bool>& isLu
 /// Lumen of a volume, before anything is known of its vessels.
 struct BrightVoxels {
   std::vector<std::size_t> indices;  ///< ascending, x fastest
-  std::vector<std::size_t> bone;     ///< the same: as bright, and no lumen; of tomography alone
+  std::vector<std::size_t> bone;     ///< the same: as bright, and no lumen
+  bool isBoneKnown = false;          ///< `bone` was looked for, as in computed tomography
   double contrast = 0;               ///< excess of wide vessels over their background, voxel units
   double noise = 0;                  ///< standard deviation of the background, voxel units
 };

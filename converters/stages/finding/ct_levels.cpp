@@ -30,8 +30,6 @@ constexpr double kLeastPresent = 0.001;  // of the volume, of air or fat that is
 /// noise by chance, and blur of a wall nearby.
 constexpr float kCalmNoise = 2, kCalmShare = 0.05F;
 
-constexpr std::size_t kSmallest = 27;  // voxels with blood that show its level: a cube of three
-
 /// Counts of voxels by the mean and the deviation around them.
 class LevelCounts {
 public:
@@ -47,11 +45,9 @@ public:
     for (std::size_t i = 0; i < m_count.size(); ++i) m_count[i] += other.m_count[i];
   }
 
-  /// Voxels of a level with less than a deviation.
-  [[nodiscard]] std::size_t count(std::size_t level, float deviation = kMostDeviation) const {
+  [[nodiscard]] std::size_t count(std::size_t level) const {
     std::size_t sum = 0;
-    const auto end = std::min(kDeviationBins, static_cast<std::size_t>(deviation));
-    for (std::size_t d = 0; d < end; ++d) sum += m_count[level * kDeviationBins + d];
+    for (std::size_t d = 0; d < kDeviationBins; ++d) sum += m_count[level * kDeviationBins + d];
     return sum;
   }
   [[nodiscard]] std::size_t count(const Range& range) const {
@@ -111,27 +107,6 @@ bool isBody(const LevelCounts& counts, float offset, double voxels) {
          (counts.count(moved(kAir, offset)) > least || (offset == 0 && counts.count(kFat) > least));
 }
 
-/// The level above soft tissue that most calm voxels have, those with more contrast counting more.
-std::optional<float> bloodLevel(const LevelCounts& counts, const CtLevels& levels) {
-  const std::size_t first = LevelCounts::binOf(levels.soft + CtLevels::kLeastContrast);
-  std::vector<float> calm(LevelCounts::kLevelBins, 0.0F);
-  float all = 0;
-  for (std::size_t b = first; b < calm.size(); ++b) {
-    calm[b] = static_cast<float>(counts.count(b, levels.mostDeviation(LevelCounts::levelOf(b))));
-    all += calm[b];
-  }
-  if (all < static_cast<float>(kSmallest)) return {};
-  float most = 0, best = 0;
-  for (std::size_t b = first + 2; b + 2 < calm.size(); ++b) {
-    const float level = LevelCounts::levelOf(b);
-    const float around = calm[b - 2] + calm[b - 1] + calm[b] + calm[b + 1] + calm[b + 2];
-    if (around * (level - levels.soft) <= most) continue;
-    most = around * (level - levels.soft);
-    best = level;
-  }
-  return best;
-}
-
 }  // namespace
 
 float CtLevels::mostDeviation(float level) const {
@@ -148,7 +123,6 @@ std::optional<CtLevels> measureCtLevels(const Volume& volume, const Progress& pr
     CtLevels levels;
     levels.soft = counts.mode(moved(kSoft, offset));
     levels.noise = counts.quietDeviation(levels.soft);
-    levels.blood = bloodLevel(counts, levels);
     return levels;
   }
   return {};

@@ -10,8 +10,8 @@
 
 namespace lumen::convert {
 
-/// Levels of a volume of computed tomography, voxel units, which are Hounsfield units but for a
-/// constant.
+/// Levels of a volume of computed tomography without contrast, voxel units, which are Hounsfield
+/// units but for a constant.
 struct CtLevels {
   /// Blood with contrast is so much brighter than soft tissue, Hounsfield units; without it, blood
   /// is soft tissue.
@@ -19,12 +19,9 @@ struct CtLevels {
   /// Blood with contrast is hardly ever so much brighter.
   static constexpr float kMostContrast = 450;
 
-  float noise = 0;             ///< usual standard deviation around a voxel of soft tissue
-  float soft = 0;              ///< soft tissue and blood without contrast
-  std::optional<float> blood;  ///< blood with contrast; empty if there is none
+  float noise = 0;  ///< usual standard deviation around a voxel of soft tissue
+  float soft = 0;   ///< soft tissue, and blood without contrast
 
-  /// Halfway from soft tissue to blood; `blood` must be known.
-  [[nodiscard]] float half() const { return 0.5F * (soft + *blood); }
   /// The greatest deviation around a voxel that has a level as its neighbours have.
   [[nodiscard]] float mostDeviation(float level) const;
   /// Whether the voxels around a place have one level, as within a lumen, and unlike bone.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declared in bright_voxels.h.
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -20,10 +21,12 @@ namespace {
 /// Voxels from the last one whose neighbourhood is calm to the wall: half of a neighbourhood, and
 /// blur.
 constexpr int kRim = 2;
-constexpr int kSurroundings = 3;    // voxels around a ridge whose tissue is looked at
-constexpr double kLeastSoft = 0.5;  // share of these that is soft tissue of one level
-constexpr float kSoftRange = 50;    // Hounsfield units on either side of it
-constexpr float kAboveTissue = 4;   // standard deviations of the noise
+constexpr int kSurroundings = 4;   // voxels from a ridge to the tissue beside it
+constexpr float kSoftRange = 50;   // Hounsfield units on either side of it
+constexpr int kLeastReach = 10;    // voxels from end to end of a core
+constexpr float kAboveTissue = 4;  // standard deviations of the noise
+constexpr float kBloodStep = 20;   // Hounsfield units of a level of blood
+constexpr int kBloodLevels = 200;
 
 /// Finds lumen in a volume of computed tomography.
 class CtLumen {
@@ -34,11 +37,13 @@ public:
         m_progress(progress),
         m_cells(volume.geometry.cells()),
         m_mark(m_cells.count()),
-        m_isSoft(m_cells.count()) {}
+        m_isSoft(m_cells.count()),
+        m_half(levels.soft + CtLevels::kLeastContrast) {}
 
   BrightVoxels find() {
     markCalm();
     keepLargeCores();
+    measureBlood();
     growToWalls();
     const ZeroedArray<float> strength = ridgeStrength(m_volume, 1, m_progress);
     markRidges(strength, UsualRidges(m_cells, strength, m_mark, m_progress));
@@ -58,12 +63,22 @@ private:
         m_volume, m_levels.soft, m_progress, [&](std::size_t i, const Neighbourhood& around) {
           const bool isCalm = m_levels.isCalm(around);
           m_isSoft[i] = isCalm && std::abs(around.mean - m_levels.soft) < kSoftRange ? 1 : 0;
-          const bool isLumen = isCalm && m_levels.blood && around.mean > m_levels.half();
+          const bool isLumen = isCalm && around.mean > m_half;
           m_mark[i] = isLumen ? kLumen : m_isSoft[i] != 0 ? kBackground : kOtherTissue;
         });
   }
 
-  /// Fewer connected voxels than a cube of three are calm by chance.
+  /// Steps from end to end of connected voxels, along the axis on which there are most.
+  [[nodiscard]] int reach(const std::vector<std::size_t>& part) const {
+    Cell low = m_cells.cell(part[0]), high = low;
+    for (const std::size_t i : part) {
+      low = low.cwiseMin(m_cells.cell(i));
+      high = high.cwiseMax(m_cells.cell(i));
+    }
+    return (high - low).maxCoeff();
+  }
+
+  /// Fewer connected voxels than a cube of three are calm by chance; short ones lie in marrow.
   void keepLargeCores() {
     std::vector<bool> isSeen(m_mark.size(), false);
     std::vector<std::size_t> part;
@@ -79,20 +94,40 @@ private:
           isSeen[j] = true;
           part.push_back(j);
         });
-      if (part.size() >= kSpeck) continue;
+      if (part.size() >= kSpeck && reach(part) >= kLeastReach) continue;
       for (const std::size_t i : part) m_mark[i] = kOtherTissue;
     }
   }
 
+  /// The level of blood is the one above soft tissue that most voxels of cores have, those with
+  /// more contrast counting more. Cores of less than half of its contrast are organs.
+  void measureBlood() {
+    std::vector<double> weight(static_cast<std::size_t>(kBloodLevels), 0.0);
+    const auto levelOf = [&](std::size_t i) {
+      return static_cast<std::size_t>(std::clamp((value(i) - m_levels.soft) / kBloodStep, 0.0F,
+                                                 static_cast<float>(kBloodLevels - 1)));
+    };
+    for (std::size_t i = 0; i < m_mark.size(); ++i)
+      if (m_mark[i] == kLumen) weight[levelOf(i)] += static_cast<double>(levelOf(i));
+    std::vector<double> around = weight;
+    for (std::size_t b = 1; b + 1 < weight.size(); ++b)
+      around[b] = weight[b - 1] + weight[b] + weight[b + 1];
+    const auto most = std::max_element(around.begin(), around.end());
+    if (*most == 0) return;
+    const auto level = static_cast<float>(most - around.begin()) + 0.5F;
+    m_blood = m_levels.soft + level * kBloodStep;
+    m_half = std::max(m_half, 0.5F * (m_levels.soft + *m_blood));
+    for (std::size_t i = 0; i < m_mark.size(); ++i)
+      if (m_mark[i] == kLumen && !(value(i) > m_half)) m_mark[i] = kOtherTissue;
+  }
+
   /// Adds the voxels between calm lumen and its walls.
   void growToWalls() {
-    if (!m_levels.blood) return;
-    const float half = m_levels.half();
     std::vector<std::size_t> layer, next;
     const auto from = [&](std::size_t i) {
       m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
         const std::size_t j = m_cells.index(cell);
-        if (m_mark[j] == kLumen || !(value(j) > half)) return;
+        if (m_mark[j] == kLumen || !(value(j) > m_half)) return;
         m_mark[j] = kLumen;
         next.push_back(j);
       });
@@ -110,7 +145,7 @@ private:
     const float noise = m_levels.soft + kAboveTissue * m_levels.noise,
                 bright = m_levels.soft + CtLevels::kLeastContrast;
     float most = m_levels.soft + CtLevels::kMostContrast;
-    if (m_levels.blood) most = std::max(most, *m_levels.blood + kAboveTissue * m_levels.noise);
+    if (m_blood) most = std::max(most, *m_blood + kAboveTissue * m_levels.noise);
     tbb::parallel_for(0, m_cells.size[2], [&](int z) {
       m_progress.check();
       for (int y = 0; y < m_cells.size[1]; ++y)
@@ -128,13 +163,21 @@ private:
     });
   }
 
-  /// Whether most of what surrounds a voxel is soft tissue of one level.
+  /// Whether soft tissue of one level lies on both sides of a voxel, in most directions. An edge of
+  /// bone has it on one side.
   [[nodiscard]] bool isAmidSoft(const Cell& cell) const {
-    const Cell reach = Cell::Constant(kSurroundings);
-    const CellBox around = m_cells.meet(CellBox::between(cell - reach, cell + reach));
-    std::size_t soft = 0;
-    around.forEach([&](const Cell& other) { soft += m_isSoft[m_cells.index(other)]; });
-    return static_cast<double>(soft) > kLeastSoft * static_cast<double>(around.count());
+    const auto isSoft = [&](const Cell& other) {
+      return m_cells.contains(other) && m_isSoft[m_cells.index(other)] != 0;
+    };
+    const CellBox around = CellBox::between(-Cell::Ones(), Cell::Ones());
+    int both = 0, all = 0;
+    around.forEach([&](const Cell& direction) {
+      if (around.index(direction) <= around.count() / 2) return;  // once each
+      const Cell away = kSurroundings * direction;
+      ++all;
+      both += isSoft(cell + away) && isSoft(cell - away) ? 1 : 0;
+    });
+    return 2 * both > all;
   }
 
   /// Whether a voxel, or one that touches it, is brighter than blood.
@@ -148,15 +191,14 @@ private:
   BrightVoxels collect() {
     BrightVoxels out;
     out.noise = static_cast<double>(m_levels.noise);
-    const float bright =
-        m_levels.blood ? m_levels.half() : m_levels.soft + CtLevels::kLeastContrast;
+    out.isBoneKnown = true;
     for (std::size_t i = 0; i < m_mark.size(); ++i) {
       if (m_mark[i] == kLumen)
         out.indices.push_back(i);
-      else if (value(i) > bright)
+      else if (value(i) > m_half)
         out.bone.push_back(i);
     }
-    out.contrast = static_cast<double>(2 * (bright - m_levels.soft));
+    out.contrast = static_cast<double>(2 * (m_half - m_levels.soft));
     return out;
   }
 
@@ -165,6 +207,8 @@ private:
   const Progress& m_progress;
   CellBox m_cells;
   ZeroedArray<std::uint8_t> m_mark, m_isSoft;
+  float m_half;  ///< least level of lumen
+  std::optional<float> m_blood;
 };
 
 }  // namespace

@@ -214,7 +214,8 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
     const VoxelSet set(grid, std::move(found.lumen));
     CourseFinder finder(set, progress);
     finder.findPaths();
-    const std::vector<bool> isBone = finder.isBone(found.bone, brightness);
+    const std::vector<bool> isBone =
+        bright.isBoneKnown ? std::vector<bool>() : finder.isBone(found.bone, brightness);
     found.lumen.clear();
     for (std::uint32_t i = 0; i < set.size(); ++i)
       (!isBone.empty() && isBone[i] ? found.bone : found.lumen).push_back(set.index(i));
