@@ -24,11 +24,9 @@ constexpr std::array<float, 3> kOffsets = {0, -1000, -1024};
 
 constexpr Range kLevels{-1100, 4000};
 constexpr float kLevelWidth = 10, kMostDeviation = 256;
+constexpr float kLungs = 450;  // they may fill more of a volume than tissue does: above air
 constexpr double kLeastPresent = 0.001;  // of the volume, of air or fat that is there
-
-/// Multiples of the noise, and share of the contrast, that the deviation within a lumen may have:
-/// noise by chance, and blur of a wall nearby.
-constexpr float kCalmNoise = 2, kCalmShare = 0.05F;
+constexpr double kLeastBody = 0.1;       // the same, of soft tissue and fat: more than vessels fill
 
 /// Counts of voxels by the mean and the deviation around them.
 class LevelCounts {
@@ -101,18 +99,16 @@ Range moved(const Range& range, float offset) {
 /// Whether the counts are those of a body on Hounsfield's scale less an offset.
 bool isBody(const LevelCounts& counts, float offset, double voxels) {
   const Range body = moved(kBody, offset);
-  const float level = counts.mode({-500 - offset, kLevels.high});
-  const auto least = static_cast<std::size_t>(kLeastPresent * voxels);
-  return level >= body.low && level < body.high &&
-         (counts.count(moved(kAir, offset)) > least || (offset == 0 && counts.count(kFat) > least));
+  const float level = counts.mode({kAir.high - offset + kLungs, kLevels.high});
+  if (level < body.low || level > body.high) return false;
+  const auto share = [&](const Range& range) {
+    return static_cast<double>(counts.count(range)) / voxels;
+  };
+  if (share(body) < kLeastBody) return false;
+  return share(moved(kAir, offset)) > kLeastPresent || (offset == 0 && share(kFat) > kLeastPresent);
 }
 
 }  // namespace
-
-float CtLevels::mostDeviation(float level) const {
-  const float contrast = std::min(level - soft, kMostContrast);
-  return std::max(kCalmNoise * noise, kCalmShare * contrast);
-}
 
 std::optional<CtLevels> measureCtLevels(const Volume& volume, const Progress& progress) {
   if (std::holds_alternative<std::vector<std::uint8_t>>(volume.voxels)) return {};

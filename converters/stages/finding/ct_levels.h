@@ -16,17 +16,17 @@ struct CtLevels {
   /// Blood with contrast is so much brighter than soft tissue, Hounsfield units; without it, blood
   /// is soft tissue.
   static constexpr float kLeastContrast = 100;
+  /// Multiples of the noise that noise alone hardly ever makes of it.
+  static constexpr float kCalm = 2;
   /// Blood with contrast is hardly ever so much brighter.
   static constexpr float kMostContrast = 450;
 
   float noise = 0;  ///< usual standard deviation around a voxel of soft tissue
   float soft = 0;   ///< soft tissue, and blood without contrast
 
-  /// The greatest deviation around a voxel that has a level as its neighbours have.
-  [[nodiscard]] float mostDeviation(float level) const;
   /// Whether the voxels around a place have one level, as within a lumen, and unlike bone.
   [[nodiscard]] bool isCalm(const Neighbourhood& around) const {
-    return around.deviation < mostDeviation(around.mean);
+    return around.deviation < kCalm * noise;
   }
 };
 

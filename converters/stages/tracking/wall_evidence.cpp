@@ -99,7 +99,8 @@ private:
     }
   }
 
-  /// Looks for the edge in one direction; false if the wall lies outside of the volume.
+  /// Looks for the edge in one direction; false if the wall lies outside of the volume, or beside what is brighter than
+  /// the lumen: bone or metal, which say nothing about the vessel.
   bool measure(const TrackedNode& node, const Vector3d& outward, std::vector<float>& values,
                EdgePlace& place) const {
     const VolumeGeometry& geometry = m_context.volume.geometry();
@@ -115,6 +116,7 @@ private:
       for (float& value : values) value = -value;
     if (std::isnan(values[wall])) return false;
     const ProfileEdge edge = findEdge(values, wall);
+    if (edge.kind == EdgeKind::Rises) return false;
     if (edge.kind != EdgeKind::Falls) return true;
     place.contrast = std::abs(edge.contrast());
     place.isOff = std::abs(edge.at * step) > offFrom(node.radius);
