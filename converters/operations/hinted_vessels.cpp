@@ -110,8 +110,8 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
                                        const VesselOptions& options, const Context& context) {
   Progress& progress = context.progress;
   convert::PlacedSeeds placed = placedSeeds(volume, options, context);
-  std::size_t candidates = 0;
-  convert::TrackResult result = findAndTrackIfAny(volume, options.track, candidates, context);
+  std::string whyNone;
+  convert::TrackResult result = findAndTrackIfAny(volume, options.track, whyNone, context);
   if (result.result.tree.nodeCount() == 0) {
     result = convert::trackFromSeeds(volume, placed.seeds, options.track, progress);
     reportOnSeeds(volume, options, placed, result, context);

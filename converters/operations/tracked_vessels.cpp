@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
+#include "converters/base/text.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
@@ -72,33 +73,33 @@ void reportRefused(convert::TrackRemarks& remarks, Progress& progress) {
 /// must outlive it.
 convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
   if (found.bone.empty()) return {};
-  return [&found](const Eigen::Vector3d& point) { return found.isBone(point); };
+  return {[&found](const Eigen::Vector3d& point) { return found.isBone(point); },
+          found.isBoneKnown};
 }
 
 }  // namespace
 
 convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
                                   const convert::TrackOptions& options, const Context& context) {
-  const std::string none = formats::printable(name) + ": no vessels are found in it";
-  std::size_t candidates = 0;
-  convert::TrackResult result = findAndTrackIfAny(volume, options, candidates, context);
-  if (candidates == 0)
-    throw failed(none + ", as nothing long and thin stands out of its noise; " +
+  std::string whyNone;
+  convert::TrackResult result = findAndTrackIfAny(volume, options, whyNone, context);
+  if (result.result.tree.nodeCount() == 0)
+    throw failed(formats::printable(name) + ": no vessels are found in it, as " + whyNone + "; " +
                  context.field("seeds") + " states where vessels begin, and " +
                  context.field("dark") + " that they are darker than their background");
-  if (result.result.tree.nodeCount() == 0)
-    throw failed(none + ", as no cylinder fits along any of " + std::to_string(candidates) +
-                 " candidates; " + context.field("seeds") + " states where vessels begin");
   return result;
 }
 
 convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
-                                       const convert::TrackOptions& options,
-                                       std::size_t& candidates, const Context& context) {
+                                       const convert::TrackOptions& options, std::string& whyNone,
+                                       const Context& context) {
   Progress& progress = context.progress;
   const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
-  candidates = found.courses.size();
+  whyNone = found.isBoneKnown ? "it is computed tomography in which no blood has contrast"
+                              : "nothing long and thin stands out of its noise";
   if (found.courses.empty()) return {};
+  whyNone =
+      "no cylinder fits along any of " + counted(found.courses.size(), "candidate", "candidates");
   convert::TrackResult result = convert::trackAlongCourses(
       volume, found.courses, placesOfBone(found), options, progress,
       [&](std::span<const convert::WorldBall> vessels) {

@@ -32,10 +32,10 @@ convert::TrackResult findAndTrack(const convert::Volume& volume, const std::stri
                                   const convert::TrackOptions& options, const Context& context);
 
 /// Finds the vessels of `volume` without seeds, and tracks them; empty if none is found.
-/// `candidates`: number of paths that might be vessels.
+/// `whyNone`: the reason then, to follow "no vessels are found, as ".
 convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
-                                       const convert::TrackOptions& options,
-                                       std::size_t& candidates, const Context& context);
+                                       const convert::TrackOptions& options, std::string& whyNone,
+                                       const Context& context);
 
 /// Adds to a case that was tracked in `volume` the vessels that it lacks, as findAndTrack() finds
 /// them; what it has stays as it is. Returns the result with its remarks on the new vessels.

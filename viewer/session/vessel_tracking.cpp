@@ -128,14 +128,11 @@ std::shared_ptr<const formats::Case> findProposals(const Document& document, Tra
                                                         engine::operationContext(progress));
     return proposalsFor(document, proposalsBehind(std::move(added.result), added.firstNewBranch));
   }
-  std::size_t candidates = 0;
-  convert::TrackResult found = operations::findAndTrackIfAny(*document.volume, options, candidates,
+  std::string whyNone;
+  convert::TrackResult found = operations::findAndTrackIfAny(*document.volume, options, whyNone,
                                                              engine::operationContext(progress));
   if (found.result.tree.nodeCount() == 0)
-    throw failed("no vessels are found in " + name +
-                 (candidates == 0 ? ", as nothing long and thin stands out of its noise"
-                                  : ", as no cylinder fits along any of " +
-                                        counted(candidates, "candidate", "candidates")) +
+    throw failed("no vessels are found in " + name + ", as " + whyNone +
                  "; a seed states where a vessel begins");
   return proposalsFor(document, proposalsBehind(std::move(found.result), 0));
 }

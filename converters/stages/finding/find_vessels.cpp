@@ -210,12 +210,13 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   found.geometry = volume.geometry;
   found.lumen = std::move(bright.indices);
   found.bone = std::move(bright.bone);
+  found.isBoneKnown = bright.isBoneKnown;
   for (bool isMore = true; isMore;) {  // each pass takes bone away
     const VoxelSet set(grid, std::move(found.lumen));
     CourseFinder finder(set, progress);
     finder.findPaths();
     const std::vector<bool> isBone =
-        bright.isBoneKnown ? std::vector<bool>() : finder.isBone(found.bone, brightness);
+        found.isBoneKnown ? std::vector<bool>() : finder.isBone(found.bone, brightness);
     found.lumen.clear();
     for (std::uint32_t i = 0; i < set.size(); ++i)
       (!isBone.empty() && isBone[i] ? found.bone : found.lumen).push_back(set.index(i));

@@ -20,6 +20,7 @@ struct FoundVessels {
   VolumeGeometry geometry;
   std::vector<std::size_t> lumen;  ///< indices of voxels, ascending
   std::vector<std::size_t> bone;   ///< the same, of bright tissue that is no vessel
+  bool isBoneKnown = false;        ///< levels of tissue show it, as in computed tomography
   std::vector<SeedBranch> courses;
 
   /// Whether the voxel around a point, mm, LPS, is one of these.

@@ -254,7 +254,8 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   TrackOptions used = tracking.options();
   PlaceTest inGrid;
   if (isNoVessel)
-    inGrid = [&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); };
+    inGrid = {[&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); },
+              isNoVessel.isByLevel};
   const WallShape shape =
       trackTree(tracking, {points, inGrid, tracking.wallShape()}, tree, progress);
   used.pointSpread = shape.pointSpread;

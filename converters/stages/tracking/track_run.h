@@ -23,7 +23,15 @@
 namespace lumen::convert {
 
 /// Whether a place, mm, LPS, is known to be no vessel. An empty one knows of none.
-using PlaceTest = std::function<bool(const Eigen::Vector3d&)>;
+struct PlaceTest {
+  std::function<bool(const Eigen::Vector3d&)> test;
+  /// Levels of tissue have shown it, so that courses hold none of it, and an edge beside what is
+  /// brighter says nothing.
+  bool isByLevel = false;
+
+  explicit operator bool() const { return static_cast<bool>(test); }
+  bool operator()(const Eigen::Vector3d& place) const { return test(place); }
+};
 
 /// The evidence that a vessel along a course needs.
 struct CourseRules {

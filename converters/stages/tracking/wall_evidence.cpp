@@ -116,7 +116,7 @@ private:
       for (float& value : values) value = -value;
     if (std::isnan(values[wall])) return false;
     const ProfileEdge edge = findEdge(values, wall);
-    if (edge.kind == EdgeKind::Rises) return false;
+    if (m_context.isNoVessel.isByLevel && edge.kind == EdgeKind::Rises) return false;
     if (edge.kind != EdgeKind::Falls) return true;
     place.contrast = std::abs(edge.contrast());
     place.isOff = std::abs(edge.at * step) > offFrom(node.radius);

@@ -82,10 +82,10 @@ TEST(WholeTreeInBone, HasHardlyAnyOfIt) {
   for (const std::string name : {"bifurcation", "kissing"}) {
     const Phantom made = phantom(name, "bone");
     const FoundVessels found = findVessels(made.volume, false, silent);
-    const formats::Case tree = trackAlongCourses(
-                                   made.volume, found.courses,
-                                   [&](const Vector3d& p) { return found.isBone(p); }, {}, silent)
-                                   .result;
+    const formats::Case tree =
+        trackAlongCourses(made.volume, found.courses,
+                          {[&](const Vector3d& p) { return found.isBone(p); }}, {}, silent)
+            .result;
     const Comparison comparison = compareCases(tree, made.truth, silent);
     EXPECT_LT(comparison.score.falseLength, 20) << name;
     EXPECT_LT(comparison.score.missed, 5) << name;
@@ -279,9 +279,29 @@ TEST(TrackCourses, NoNodeIsPutWhereNoVesselIs) {
     return reach;
   };
   EXPECT_GT(trackedReach({}), 11);
-  const double stopped = trackedReach([](const Vector3d& p) { return p.z() > 7; });
+  const double stopped = trackedReach({[](const Vector3d& p) { return p.z() > 7; }});
   EXPECT_GT(stopped, 5);
   EXPECT_LE(stopped, 7);
+}
+
+TEST(TrackCourses, BoneThatIsKnownByItsLevelCutsNoVesselBesideIt) {
+  Volume volume = drawVolume(64, 0.2, [](const Vector3d& p) {
+    return capsule(p, {6, 6, -9}, {6, 6, 22}, 1.5);
+  });
+  auto& voxels = std::get<std::vector<std::int16_t>>(volume.voxels);
+  const auto isBone = [](const Vector3d& p) { return p.x() > 7.2 && p.z() > 3 && p.z() < 9.5; };
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    if (isBone(volume.geometry.position(volume.geometry.cell(i)))) voxels[i] = 2500;
+  SeedBranch course;
+  course.label = "course";
+  for (int i = 0; i <= 40; ++i) course.points.push_back({{6, 6, 0.8 + i * 0.275}, 1.5});
+  Progress silent;
+  const auto branches = [&](bool isByLevel) {
+    return trackAlongCourses(volume, {course}, {isBone, isByLevel}, {}, silent)
+        .result.tree.branches.size();
+  };
+  EXPECT_EQ(branches(true), 1U);
+  EXPECT_NE(branches(false), 1U) << "edges beside bone are judged where nothing else shows it";
 }
 
 TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
