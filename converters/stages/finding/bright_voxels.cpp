@@ -146,12 +146,22 @@ void markFaded(const Volume& volume, const Background& background, float sign, f
     if (isLumen[i]) mark[i] = kLumen;
 }
 
+/// Takes what is no vessel off the lumen, and adds it to other bright tissue.
+void takeAway(const Prior& prior, ZeroedArray<std::uint8_t>& mark, std::vector<std::size_t>& bone) {
+  for (std::size_t i = 0; i < prior.systems.size(); ++i) {
+    if (!prior.isNoVessel(i)) continue;
+    if (mark[i] == kLumen) bone.push_back(i);
+    mark[i] = kOtherTissue;
+  }
+}
+
 }  // namespace
 
-BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress) {
+BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Prior& prior,
+                              const Progress& progress) {
   if (!dark)
     if (const auto levels = measureCtLevels(volume, progress))
-      return findCtLumen(volume, *levels, progress);
+      return findCtLumen(volume, *levels, prior, progress);
   const float sign = dark ? -1.0F : 1.0F;
   const Background background(volume, sign, progress);
   const Histogram excess = countExcess(volume, background, sign, progress);
@@ -168,17 +178,18 @@ BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& p
     if (value > half) mark[i] = kLumen;
   });
   markFaded(volume, background, sign, contrast, mark, progress);
+  takeAway(prior, mark, out.bone);
   const ZeroedArray<float> strength = ridgeStrength(volume, sign, progress);
   const UsualRidges usual(cells, strength, mark, progress);
   const float faintRidge = kFaintest * kRidgeShare * contrast;
   forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
-    if (mark[i] == kLumen || !(strength[i] > faintRidge)) return;
+    if (mark[i] != kBackground || !(strength[i] > faintRidge)) return;
     const Cell cell = cells.cell(i);
     const float noise =
         std::max(static_cast<float>(kAboveNoise) * background.noiseAt(cell), kFaintest * contrast);
     if (!(value > noise) || !(strength[i] > kWeakRidge * usual.at(cell))) return;
     const bool isStrong = strength[i] > std::max(kStrongRidge * usual.at(cell), 2 * faintRidge);
-    mark[i] = isStrong ? kLumen : kWeak;
+    mark[i] = isStrong || prior.isLumen(i) ? kLumen : kWeak;
   });
   growIntoWeak(cells, mark, progress);
   for (std::size_t i = 0; i < mark.size(); ++i)

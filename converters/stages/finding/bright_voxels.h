@@ -9,6 +9,7 @@
 #include "converters/base/progress.h"
 #include "converters/base/zeroed_array.h"
 #include "converters/stages/finding/ct_levels.h"
+#include "converters/stages/finding/prior.h"
 #include "converters/voxels/cell_box.h"
 #include "converters/voxels/volume.h"
 
@@ -61,10 +62,13 @@ struct BrightVoxels {
 /// the ridge that they are on (docs/method.md, section 1.13). Empty if nothing stands out of the
 /// noise. In computed tomography (ct_levels.h) wide vessels are those whose level is even, which
 /// bone's is not, and thin ones are connected with them or lie amid soft tissue.
-/// `dark`: vessels are darker than their background. Throws Error(Cancelled).
-BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress);
+/// `dark`: vessels are darker than their background. `prior`: what is no vessel is no lumen; lumen needs no
+/// more than to stand out of the noise, and nothing beside it. Throws Error(Cancelled).
+BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Prior& prior,
+                              const Progress& progress);
 
 /// The same in computed tomography.
-BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Progress& progress);
+BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Prior& prior,
+                         const Progress& progress);
 
 }  // namespace lumen::convert

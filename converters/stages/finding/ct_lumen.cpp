@@ -31,9 +31,11 @@ constexpr int kBloodLevels = 200;
 /// Finds lumen in a volume of computed tomography.
 class CtLumen {
 public:
-  CtLumen(const Volume& volume, const CtLevels& levels, const Progress& progress)
+  CtLumen(const Volume& volume, const CtLevels& levels, const Prior& prior,
+          const Progress& progress)
       : m_volume(volume),
         m_levels(levels),
+        m_prior(prior),
         m_progress(progress),
         m_cells(volume.geometry.cells()),
         m_mark(m_cells.count()),
@@ -45,6 +47,7 @@ public:
     keepLargeCores();
     measureBlood();
     growToWalls();
+    addKnown();
     const ZeroedArray<float> strength = ridgeStrength(m_volume, 1, m_progress);
     markRidges(strength, UsualRidges(m_cells, strength, m_mark, m_progress));
     growIntoWeak(m_cells, m_mark, m_progress);
@@ -63,7 +66,7 @@ private:
         m_volume, m_levels.soft, m_progress, [&](std::size_t i, const Neighbourhood& around) {
           const bool isCalm = m_levels.isCalm(around);
           m_isSoft[i] = isCalm && std::abs(around.mean - m_levels.soft) < kSoftRange ? 1 : 0;
-          const bool isLumen = isCalm && around.mean > m_half;
+          const bool isLumen = isCalm && around.mean > m_half && !m_prior.isNoVessel(i);
           m_mark[i] = isLumen ? kLumen : m_isSoft[i] != 0 ? kBackground : kOtherTissue;
         });
   }
@@ -127,7 +130,7 @@ private:
     const auto from = [&](std::size_t i) {
       m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
         const std::size_t j = m_cells.index(cell);
-        if (m_mark[j] == kLumen || !(value(j) > m_half)) return;
+        if (m_mark[j] == kLumen || m_prior.isNoVessel(j) || !(value(j) > m_half)) return;
         m_mark[j] = kLumen;
         next.push_back(j);
       });
@@ -138,6 +141,13 @@ private:
       m_progress.check();
       for (const std::size_t i : layer) from(i);
     }
+  }
+
+  /// Adds the voxels of known vessels that have contrast, even or not.
+  void addKnown() {
+    const float bright = m_levels.soft + CtLevels::kLeastContrast;
+    for (std::size_t i = 0; i < m_prior.systems.size(); ++i)
+      if (m_prior.isLumen(i) && value(i) > bright) m_mark[i] = kLumen;
   }
 
   /// Marks ridges: strong ones amid soft tissue are lumen, others may lead on from it.
@@ -152,10 +162,10 @@ private:
         for (int x = 0; x < m_cells.size[0]; ++x) {
           const Cell cell(x, y, z);
           const std::size_t i = m_cells.index(cell);
-          if (m_mark[i] == kLumen || !(strength[i] > kWeakRidge * usual.at(cell))) continue;
-          const float at = value(i);
-          if (!(at > noise)) continue;
-          if (at > bright && strength[i] > kStrongRidge * usual.at(cell) && isAmidSoft(cell))
+          if (m_mark[i] == kLumen || m_prior.isNoVessel(i)) continue;
+          if (!(strength[i] > kWeakRidge * usual.at(cell)) || !(value(i) > noise)) continue;
+          const bool isStrong = value(i) > bright && strength[i] > kStrongRidge * usual.at(cell);
+          if (m_prior.isLumen(i) || (isStrong && isAmidSoft(cell)))
             m_mark[i] = kLumen;
           else if (!isBeside(cell, most))
             m_mark[i] = kWeak;
@@ -204,6 +214,7 @@ private:
 
   const Volume& m_volume;
   const CtLevels& m_levels;
+  const Prior& m_prior;
   const Progress& m_progress;
   CellBox m_cells;
   ZeroedArray<std::uint8_t> m_mark, m_isSoft;
@@ -213,8 +224,9 @@ private:
 
 }  // namespace
 
-BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Progress& progress) {
-  return CtLumen(volume, levels, progress).find();
+BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Prior& prior,
+                         const Progress& progress) {
+  return CtLumen(volume, levels, prior, progress).find();
 }
 
 }  // namespace lumen::convert

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,8 +35,10 @@ constexpr double kSacStep = 0.5;      // radii from one point of an aneurysm to 
 /// From voxels of the lumen to courses.
 class CourseFinder {
 public:
-  CourseFinder(const VoxelSet& set, Progress& progress)
-      : m_set(set),
+  /// `named`: number of courses that have a name already.
+  CourseFinder(const VoxelSet& set, Progress& progress, std::size_t named = 0)
+      : m_named(named),
+        m_set(set),
         m_depths(depths(progress)),
         m_paths(set, m_depths, m_isOpen, progress, kLeastOfParent),
         m_progress(progress) {}
@@ -107,7 +110,7 @@ private:
 
   [[nodiscard]] SeedBranch makeCourse(const VesselPath& path, std::size_t first) const {
     SeedBranch course;
-    course.label = "vessel-" + std::to_string(m_out.size() + 1);
+    course.label = "vessel-" + std::to_string(m_named + m_out.size() + 1);
     if (path.parent != VesselPath::kNone) course.parent = m_out[first + path.parent].label;
     for (const std::uint32_t i : voxelsOf(path))
       course.points.push_back({m_set.position(i), static_cast<double>(m_depths[i])});
@@ -153,6 +156,7 @@ private:
     course.points = std::move(kept);
   }
 
+  std::size_t m_named;
   const VoxelSet& m_set;
   std::vector<float> m_depths;
   VesselPaths::IsOpen m_isOpen = [](const Vector3d&, const Vector3d&) { return true; };
@@ -169,11 +173,51 @@ void toWorld(const VolumeGeometry& grid, const VolumeGeometry& world,
     for (SeedPoint& point : course.points) point.position = inFrame(grid, world, point.position);
 }
 
-/// The voxels whose centres lie in no ball.
-std::vector<std::size_t> outside(const VolumeGeometry& grid, const std::vector<std::size_t>& voxels,
-                                 std::span<const WorldBall> balls, const Progress& progress) {
-  std::vector<std::uint8_t> isIn(voxels.size(), 0);  // bytes, as balls overlap
-  const VoxelSet set(grid, voxels);
+/// The system of each voxel of a set, as a prior has them; empty if these are fewer than two.
+std::vector<std::uint8_t> systemsOf(const VoxelSet& set, const Prior& prior) {
+  std::vector<std::uint8_t> systems(set.size(), Prior::kNothing);
+  std::vector<std::uint32_t> reached;
+  std::uint8_t least = Prior::kNoVessel, most = Prior::kNothing;
+  for (std::uint32_t i = 0; i < set.size(); ++i) {
+    if (!prior.isLumen(set.index(i))) continue;
+    systems[i] = prior.systems[set.index(i)];
+    least = std::min(least, systems[i]);
+    most = std::max(most, systems[i]);
+    reached.push_back(i);
+  }
+  if (least >= most) return {};
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    set.eachBeside(reached[k], [&](std::uint32_t j, const Vector3d&) {
+      if (systems[j] != Prior::kNothing) return;
+      systems[j] = systems[reached[k]];
+      reached.push_back(j);
+    });
+  return systems;
+}
+
+/// The courses through voxels, those of each system alone.
+std::vector<SeedBranch> coursesOf(const VolumeGeometry& grid,
+                                  const std::vector<std::size_t>& voxels,
+                                  const std::vector<std::uint8_t>& systems, Progress& progress) {
+  std::vector<SeedBranch> all;
+  for (const std::uint8_t system : std::set<std::uint8_t>(systems.begin(), systems.end())) {
+    std::vector<std::size_t> own;
+    for (std::size_t i = 0; i < voxels.size(); ++i)
+      if (systems[i] == system) own.push_back(voxels[i]);
+    const VoxelSet set(grid, std::move(own));
+    CourseFinder finder(set, progress, all.size());
+    finder.findPaths();
+    for (SeedBranch& course : finder.courses()) all.push_back(std::move(course));
+  }
+  return all;
+}
+
+/// The voxels of lumen whose centres lie in no ball, and their systems.
+std::vector<std::size_t> outside(const VolumeGeometry& grid, const FoundVessels& found,
+                                 std::span<const WorldBall> balls, const Progress& progress,
+                                 std::vector<std::uint8_t>& systems) {
+  std::vector<std::uint8_t> isIn(found.lumen.size(), 0);  // bytes, as balls overlap
+  const VoxelSet set(grid, found.lumen);
   tbb::parallel_for(std::size_t{0}, balls.size(), [&](std::size_t b) {
     progress.check();
     set.eachIn(balls[b].centre, balls[b].radius, [&](std::uint32_t i) {
@@ -181,8 +225,11 @@ std::vector<std::size_t> outside(const VolumeGeometry& grid, const std::vector<s
     });
   });
   std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < voxels.size(); ++i)
-    if (isIn[i] == 0) out.push_back(voxels[i]);
+  for (std::size_t i = 0; i < found.lumen.size(); ++i) {
+    if (isIn[i] != 0) continue;
+    out.push_back(found.lumen[i]);
+    systems.push_back(found.systems.empty() ? Prior::kNothing : found.systems[i]);
+  }
   return out;
 }
 
@@ -195,9 +242,9 @@ bool FoundVessels::isIn(const std::vector<std::size_t>& voxels, const Vector3d& 
          std::binary_search(voxels.begin(), voxels.end(), geometry.cells().index(cell));
 }
 
-FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
+FoundVessels findVessels(const Volume& volume, bool dark, const Prior& prior, Progress& progress) {
   progress.begin("find", 0);
-  BrightVoxels bright = findBrightVoxels(volume, dark, progress);
+  BrightVoxels bright = findBrightVoxels(volume, dark, prior, progress);
   progress.detail("lumen: " + std::to_string(bright.indices.size()) + " voxels, contrast " +
                   fixedText(bright.contrast, 6) + ", noise " + fixedText(bright.noise, 6));
   const auto brightness = [&](std::size_t i) {
@@ -222,7 +269,10 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
       (!isBone.empty() && isBone[i] ? found.bone : found.lumen).push_back(set.index(i));
     std::sort(found.bone.begin(), found.bone.end());
     isMore = !isBone.empty();
-    if (!isMore) found.courses = finder.courses();
+    if (isMore) continue;
+    found.systems = systemsOf(set, prior);
+    found.courses = found.systems.empty() ? finder.courses()
+                                          : coursesOf(grid, found.lumen, found.systems, progress);
   }
   toWorld(grid, volume.geometry, found.courses);
   if (!found.bone.empty())
@@ -239,10 +289,9 @@ std::vector<SeedBranch> coursesInRemainingLumen(const FoundVessels& found,
   std::vector<WorldBall> balls(vessels.begin(), vessels.end());
   // the rim of a vessel: half a voxel for its wall, half a voxel for its section
   for (WorldBall& ball : balls) ball.radius += grid.voxelSize();
-  const VoxelSet set(grid, outside(grid, found.lumen, balls, progress));
-  CourseFinder finder(set, progress);
-  finder.findPaths();
-  std::vector<SeedBranch> courses = finder.courses();
+  std::vector<std::uint8_t> systems;
+  const std::vector<std::size_t> rest = outside(grid, found, balls, progress, systems);
+  std::vector<SeedBranch> courses = coursesOf(grid, rest, systems, progress);
   toWorld(grid, found.geometry, courses);
   return courses;
 }

@@ -10,6 +10,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/stages/finding/prior.h"
 #include "converters/voxels/cube_search.h"
 #include "converters/voxels/volume.h"
 
@@ -19,8 +20,10 @@ namespace lumen::convert {
 struct FoundVessels {
   VolumeGeometry geometry;
   std::vector<std::size_t> lumen;  ///< indices of voxels, ascending
-  std::vector<std::size_t> bone;   ///< the same, of bright tissue that is no vessel
-  bool isBoneKnown = false;        ///< levels of tissue show it, as in computed tomography
+  /// The system of vessels of each of these, as a prior has them; empty if there is one.
+  std::vector<std::uint8_t> systems;
+  std::vector<std::size_t> bone;  ///< the same, of bright tissue that is no vessel
+  bool isBoneKnown = false;       ///< levels of tissue show it, as in computed tomography
   std::vector<SeedBranch> courses;
 
   /// Whether the voxel around a point, mm, LPS, is one of these.
@@ -36,8 +39,9 @@ private:
 /// with their radii lie along it, from its parent's axis to its tip. Vessels that are connected are
 /// one tree, from the tip of its widest vessel. An aneurysm's points are inside of it. Radii are as
 /// coarse as the voxels; the tracker measures them. `dark`: vessels are darker than their
-/// background. Throws Error(Cancelled).
-FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress);
+/// background. No course leads from one system of `prior` to another; lumen of which it says
+/// nothing belongs to the system from which the fewest steps lead there. Throws Error(Cancelled).
+FoundVessels findVessels(const Volume& volume, bool dark, const Prior& prior, Progress& progress);
 
 /// The courses through the lumen outside of `vessels`, in the form of findVessels(), which may
 /// follow only one of two vessels that touch. `vessels`: balls along the vessels in the frame of

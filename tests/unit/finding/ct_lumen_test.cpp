@@ -81,7 +81,7 @@ Volume draw(const Scene& scene) {
 
 FoundVessels found(const Scene& scene) {
   Progress silent;
-  return findVessels(draw(scene), false, silent);
+  return findVessels(draw(scene), false, {}, silent);
 }
 
 std::optional<CtLevels> levels(const Volume& volume) {

@@ -26,7 +26,7 @@ double fork(const Vector3d& p) {
 
 std::vector<SeedBranch> find(const Volume& volume, bool dark = false) {
   Progress silent;
-  return findVessels(volume, dark, silent).courses;
+  return findVessels(volume, dark, {}, silent).courses;
 }
 
 double distanceFrom(const SeedBranch& course, const Vector3d& place) {
@@ -158,7 +158,7 @@ FoundVessels findBeside(const std::function<double(const Vector3d&)>& bone) {
     return std::min(capsule(p, {15, 40, 4}, {15, 40, 76}, 2.5), bone(p));
   });
   Progress silent;
-  return findVessels(volume, false, silent);
+  return findVessels(volume, false, {}, silent);
 }
 
 TEST(FindVessels, APlateIsBone) {
@@ -210,7 +210,7 @@ TEST(FindVessels, ATangleOfVesselsIsNoBone) {
     return least;
   });
   Progress silent;
-  EXPECT_TRUE(findVessels(volume, false, silent).bone.empty());
+  EXPECT_TRUE(findVessels(volume, false, {}, silent).bone.empty());
 }
 
 TEST(FindVessels, NoiseHoldsNone) {

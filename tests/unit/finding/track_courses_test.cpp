@@ -30,7 +30,7 @@ Phantom phantom(const std::string& name, const std::string& clutter = "",
 }
 
 formats::Case treeOf(const Volume& volume, Progress& progress) {
-  return trackAlongCourses(volume, findVessels(volume, false, progress).courses, {}, {}, progress)
+  return trackAlongCourses(volume, findVessels(volume, false, {}, progress).courses, {}, {}, progress)
       .result;
 }
 
@@ -81,7 +81,7 @@ TEST(WholeTreeInBone, HasHardlyAnyOfIt) {
   Progress silent;
   for (const std::string name : {"bifurcation", "kissing"}) {
     const Phantom made = phantom(name, "bone");
-    const FoundVessels found = findVessels(made.volume, false, silent);
+    const FoundVessels found = findVessels(made.volume, false, {}, silent);
     const formats::Case tree =
         trackAlongCourses(made.volume, found.courses,
                           {[&](const Vector3d& p) { return found.isBone(p); }}, {}, silent)
@@ -115,7 +115,7 @@ int missedWhereTheyTouch(const formats::CenterlineTree& tree) {
 TEST(TrackCourses, TheLumenThatKnownVesselsLeaveIsTrackedToo) {
   const Volume volume = drawVolume(96, 0.2, kiss);
   Progress silent;
-  const FoundVessels found = findVessels(volume, false, silent);
+  const FoundVessels found = findVessels(volume, false, {}, silent);
   SeedBranch host;
   host.label = "host";
   for (int i = 0; i <= 60; ++i) host.points.push_back({{7, 8, 0.8 + i * 0.29}, 1.6});
@@ -133,7 +133,7 @@ TEST(TrackCourses, TheLumenThatKnownVesselsLeaveIsTrackedToo) {
 
 /// A tree with its vessels beside vessels, its crossings and its inlets.
 formats::Case wholeTreeOf(const Volume& volume, Progress& progress) {
-  const FoundVessels found = findVessels(volume, false, progress);
+  const FoundVessels found = findVessels(volume, false, {}, progress);
   formats::Case tree = trackAlongCourses(volume, found.courses, {}, {}, progress,
                                          [&](std::span<const WorldBall> vessels) {
                                            return coursesInRemainingLumen(found, vessels, progress);
@@ -240,7 +240,7 @@ TEST(TrackCourses, ThePlaceOfAVolumeInSpaceDecidesNothing) {
 TEST(TrackCourses, AnotherRandomSeedMovesNoEnd) {
   Progress silent;
   const Phantom made = phantom("thick-slices");
-  const std::vector<SeedBranch> courses = findVessels(made.volume, false, silent).courses;
+  const std::vector<SeedBranch> courses = findVessels(made.volume, false, {}, silent).courses;
   const auto tracked = [&](std::uint64_t seed) {
     TrackOptions options;
     options.seed = seed;
@@ -310,7 +310,7 @@ TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
   const TrackResult clicked = trackFromSeeds(made.volume, {made.seeds[0]}, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
   const AddedTracks added = addTracksAlongCourses(
-      tracking, clicked.result, findVessels(made.volume, false, silent).courses, {}, silent);
+      tracking, clicked.result, findVessels(made.volume, false, {}, silent).courses, {}, silent);
   const auto &before = clicked.result.tree, &after = added.result.tree;
   ASSERT_GT(after.branches.size(), before.branches.size());
   EXPECT_EQ(after.branches[0].label, made.seeds[0].label);
@@ -326,7 +326,7 @@ TEST(TrackCoursesIntoCase, AddsNothingToAWholeTree) {
   const TrackResult clicked = trackFromSeeds(made.volume, made.seeds, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
   const AddedTracks added = addTracksAlongCourses(
-      tracking, clicked.result, findVessels(made.volume, false, silent).courses, {}, silent);
+      tracking, clicked.result, findVessels(made.volume, false, {}, silent).courses, {}, silent);
   EXPECT_EQ(added.result, clicked.result);
 }
 
