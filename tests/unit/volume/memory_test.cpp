@@ -4,7 +4,7 @@
 
 #include "converters/base/files.h"
 #include "converters/io/content/file_content.h"
-#include "converters/io/volume/label_table.h"
+#include "converters/io/labels/label_table.h"
 #include "tests/unit/volume/fixtures.h"
 
 namespace lumen::convert {

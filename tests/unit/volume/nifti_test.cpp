@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/io/volume/label_table.h"
+#include "converters/io/labels/label_table.h"
 #include "fixtures.h"
 
 namespace lumen::convert {
