@@ -243,10 +243,11 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
 
 void addLabelTableRows(OptionTable& table, MaskArguments& mask) {
   table
-      .file("label-table", mask.labelTable,
-            "Names of the labels: a file of nnU-Net, BIDS, ITK-SNAP, FreeSurfer or 3D Slicer, a JSON "
-            "object, comma-separated values, or a table that comes with lumen, such as "
-            "totalsegmentator or topcow [those in the header of the map, or in a file beside it]")
+      .file(
+          "label-table", mask.labelTable,
+          "Names of the labels: a file of nnU-Net, BIDS, ITK-SNAP, FreeSurfer or 3D Slicer, a JSON "
+          "object, comma-separated values, or a table that comes with lumen, such as "
+          "totalsegmentator or topcow [those in the header of the map, or in a file beside it]")
       .without("labels");
   table
       .add("role", &mask.roles, "LABEL=ROLE",
@@ -261,7 +262,8 @@ void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
   table
       .file(
           "label-map", mask.labelMaps,
-          "Volume of labels by which the branches that are found get their names, or a folder of one "
+          "Volume of labels by which the branches that are found get their names, or a folder of "
+          "one "
           "for each structure; its grid may be another. May be given several times: the first that "
           "has a label counts")
       .many()

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "converters/io/centerline/centerline_file.h"
-#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/labels/label_meaning.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 255;  // labels of a mask are bytes
-constexpr double kSameGrid = 1e-3;       // voxels: corners of equal grids are at most this far apart
+constexpr double kSameGrid = 1e-3;  // voxels: corners of equal grids are at most this far apart
 
 const VolumeFormat* formatByEnding(const std::string& name, std::string& stem) {
   static const std::array<std::pair<std::string_view, const VolumeFormat*>, 6> endings = {
@@ -118,8 +118,7 @@ public:
   void put(std::size_t structure, const Volume& volume, const Progress& progress) {
     const std::vector<std::uint8_t> mask = maskOf(volume, m_structures[structure].file);
     const auto count = std::count(mask.begin(), mask.end(), 1);
-    m_structures[structure].volume =
-        static_cast<double>(count) * volume.geometry.spacing.prod();
+    m_structures[structure].volume = static_cast<double>(count) * volume.geometry.spacing.prod();
     if (isSameGrid(m_geometry, volume.geometry)) {
       for (std::size_t i = 0; i < mask.size(); ++i)
         if (mask[i] != 0) take(i, structure);
@@ -212,7 +211,16 @@ std::size_t readHeaders(std::vector<Structure>& structures, const ReadVolumeOpti
 }  // namespace
 
 bool isLabelFolder(const InputFile& folder) {
-  return !folder.isInMemory() && folder.isFolder() && !structuresIn(folder.path()).empty();
+  if (folder.isInMemory() || !folder.isFolder() || structuresIn(folder.path()).empty())
+    return false;
+  std::error_code error;
+  const fs::directory_iterator files(folder.path(), error);
+  return std::none_of(begin(files), end(files), [](const fs::directory_entry& entry) {
+    const std::string ending = lowerCase(entry.path().extension().string());
+    std::error_code ignored;
+    return entry.is_regular_file(ignored) &&
+           (ending.empty() || ending == ".dcm" || ending == ".ima");
+  });
 }
 
 FolderMap readLabelFolder(const InputFile& folder, const ReadVolumeOptions& options,

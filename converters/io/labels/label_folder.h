@@ -12,7 +12,8 @@
 
 namespace lumen::convert {
 
-/// True for a folder on this disk that has a file of NIfTI, NRRD or MetaImage in it.
+/// True for a folder on this disk that has a file of NIfTI, NRRD or MetaImage in it, and none that could be of DICOM:
+/// .dcm, .ima, or a name without an ending.
 bool isLabelFolder(const InputFile& folder);
 
 struct FolderMap {

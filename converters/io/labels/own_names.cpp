@@ -61,9 +61,8 @@ LabelTable namesOfSegments(HeaderLines& lines, const InputFile& file) {
   LabelTable table;
   for (const auto& [number, segment] : segmentsOf(lines)) {
     if (segment.value.empty() || segment.layer != "0") continue;
-    addLabelName(
-        formats::printable(file.path().string()) + ": Segment" + number + ": ", segment.value,
-        segment.name, table.names);
+    addLabelName(formats::printable(file.path().string()) + ": Segment" + number + ": ",
+                 segment.value, segment.name, table.names);
     const LabelRole role = roleOfName(typeOf(terminologyIn(segment.tags)));
     const auto value = parseInteger(segment.value);
     if (value && *value != 0 && role != LabelRole::Unknown) table.roles[*value] = role;

@@ -116,7 +116,7 @@ TEST_F(VolumeInMemory, ThatIsNoVolumeIsRefusedByItsContent) {
 
 TEST(SegmentNames, InMemoryAreThoseOfTheHeader) {
   const std::string header = "NRRD0004\nSegment0_LabelValue:=7\nSegment0_Name:=aorta\n\nx";
-  EXPECT_EQ(segmentNames({"a.seg.nrrd", header}), (LabelNames{{7, "aorta"}}));
+  EXPECT_EQ(ownNames({"a.seg.nrrd", header}).names, (LabelNames{{7, "aorta"}}));
 }
 
 }  // namespace
