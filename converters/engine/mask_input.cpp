@@ -50,15 +50,17 @@ convert::LabelNames namedLabels(const std::string& labels) {
 
 /// The first table beside a map that can be read.
 convert::LabelTable besideTable(const InputFile& map, Progress& progress) {
-  for (const InputFile& file : convert::tablesBeside(map)) try {
+  for (const InputFile& file : convert::tablesBeside(map)) {
+    try {
       convert::LabelTable table = convert::readLabelTable(file);
       progress.detail(map.name() + ": names of its labels come from " + file.name());
       return table;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::InvalidInput) throw;
-      progress.warn(std::string(error.what()) + "; this file beside " + map.name() +
-                    " is passed over");
+      progress.detail(std::string(error.what()) + "; this file beside " + map.name() +
+                      " is passed over");
     }
+  }
   return {};
 }
 
@@ -124,8 +126,8 @@ void stateRoles(const std::vector<std::string>& statements,
     bool isFound = false;
     std::vector<std::string> names;
     for (operations::LabelPart& map : maps) {
-      isFound |= convert::stateRole(statement, "the option", map.meanings);
-      for (const convert::LabelMeaning& meaning : map.meanings) names.push_back(meaning.name);
+      isFound = convert::stateRole(statement, "the option", map.meanings) || isFound;
+      for (const auto& [value, name] : convert::namesOf(map.meanings)) names.push_back(name);
     }
     if (!isFound)
       throw Error(ErrorKind::Usage, "--role: no label map has the label " +

@@ -32,7 +32,7 @@ struct MaskArguments {
   [[nodiscard]] std::set<std::int64_t> chosen() const;
   /// The table of --labels, or else of --label-table, or else the names that `file`, the volume of
   /// labels, states itself, or else those of a table beside it; without names otherwise. Details state a
-  /// table that was found beside it, warnings one that cannot be read. Throws Error(Usage) and
+  /// table that was found beside it, and one that cannot be read. Throws Error(Usage) and
   /// Error(InvalidInput).
   [[nodiscard]] convert::LabelTable table(const InputFile& file, Progress& progress) const;
 };

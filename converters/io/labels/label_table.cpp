@@ -12,6 +12,7 @@
 #include "converters/base/files.h"
 #include "converters/base/json_place.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/labels/known_tables.h"
