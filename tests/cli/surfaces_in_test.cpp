@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surfaces, labels and scenes of other programs become cases.
+#include <filesystem>
 #include <sstream>
 
 #include <nlohmann/json.hpp>

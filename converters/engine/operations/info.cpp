@@ -50,8 +50,8 @@ public:
     addVolumeRows(table, m_volume);
     table.group("Labels");
     addLabelTableRows(table, m_labels);
-    for (const char* name : {"label-table", "role"})
-      table.find(name)->forInputs(kVolumes).onlyWith("voxels");
+    for (const char* const option : {"label-table", "role"})
+      table.find(option)->forInputs(kVolumes).onlyWith("voxels");
     table.group("");
     for (OptionRow& row : table.rows())
       if (!row.isArgument && row.name != "chunks") row.notBeside("chunks");

@@ -247,7 +247,8 @@ FolderMap readLabelFolder(const InputFile& folder, const ReadVolumeOptions& opti
     addLabelName(name + ": ", std::to_string(s + 1), structures[s].name, map.table.names);
   }
   map.remarks = canvas.remarks(name);
-  map.table.from = folder.path().has_filename() ? folder.path().filename().string() : folder.name();
+  const fs::path& path = folder.path();
+  map.table.from = (path.has_filename() ? path : path.parent_path()).filename().string();
   std::vector<std::uint8_t> labels = std::move(canvas).labels();
   if (std::all_of(labels.begin(), labels.end(), [](std::uint8_t label) { return label == 0; }))
     throw invalidInput(name + ": none of its structures has a voxel");

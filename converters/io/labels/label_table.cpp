@@ -137,7 +137,8 @@ LabelTable tableOf(const KnownTable& known) {
 }
 
 bool isTabbed(const std::string& text) {
-  return text.substr(0, text.find('\n')).find('\t') != text.npos;
+  const std::string first = text.substr(0, text.find('\n'));
+  return first.find('\t') != first.npos && first.find(',') == first.npos;
 }
 
 }  // namespace

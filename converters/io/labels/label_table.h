@@ -8,7 +8,7 @@
 // | the header `# Color table` | colour table of 3D Slicer (.ctbl, .txt): label, name, four numbers of a colour; an underscore in a name is a space |
 // | rows of the same six words | colour table of FreeSurfer |
 // | rows of seven numbers and a text | label descriptions of ITK-SNAP |
-// | a tab in the first row | tab-separated values, as BIDS has them (dseg.tsv) |
+// | a tab in the first row, and no comma | tab-separated values, as BIDS has them (dseg.tsv) |
 // | other | comma-separated values: label, name; or a header with a column `value`, `labelvalue`, `label`, `index` or `id`, one `name`, and perhaps one `role` |
 //
 // Maps name their labels themselves:

@@ -93,7 +93,7 @@ LabelNames namesOfWorkbench(std::string_view xml) {
     std::string name(label.substr(std::min(label.find('>'), label.size())));
     name.erase(0, 1);
     std::size_t data = 0;
-    if (name.starts_with("<![CDATA[")) name = between(name, "<![CDATA[", "]]>", data);
+    if (name.starts_with("<![CDATA[")) name = std::string(between(name, "<![CDATA[", "]]>", data));
     try {
       if (!value.empty()) addLabelName("", value, name, names);
     } catch (const Error&) {
