@@ -271,10 +271,11 @@ TEST_F(OptionScopeTest, AnOptionThatIsTakenChangesEveryOutputThatItIsFor) {
 TEST_F(OptionScopeTest, AnOptionWithoutItsCompanionIsRefused) {
   for (const auto& [option, companion] : kCompanions) {
     if (option == "cohesion-scale") continue;  // it needs one for centerlines alone
-    const std::string input = option.starts_with("center") ? "plain.stl"
-                              : companion.first == "seeds" || companion.first == "root"
-                                  ? "tube.nrrd"
-                                  : "case.lumen";
+    const std::string input =
+        option.starts_with("center") ? "plain.stl"
+        : companion.first == "seeds" || companion.first == "root" || companion.first == "label-map"
+            ? "tube.nrrd"
+            : "case.lumen";
     const Effect effect =
         effectOf(operationOf("convert", {input, "out/o.glb"}, {{option, sampleOf(option)}}));
     EXPECT_NE(effect.error.find("--" + option + " does nothing without --"), std::string::npos)
