@@ -31,8 +31,8 @@ struct MaskArguments {
   /// The labels that are vessels; empty: all. Throws Error(Usage) for a text that cannot be read.
   [[nodiscard]] std::set<std::int64_t> chosen() const;
   /// The table of --labels, or else of --label-table, or else the names that `file`, the volume of
-  /// labels, states itself, or else those of a table beside it; without names otherwise. Details state a
-  /// table that was found beside it, and one that cannot be read. Throws Error(Usage) and
+  /// labels, states itself, or else those of a table beside it; without names otherwise. Details
+  /// state a table that was found beside it, and one that cannot be read. Throws Error(Usage) and
   /// Error(InvalidInput).
   [[nodiscard]] convert::LabelTable table(const InputFile& file, Progress& progress) const;
 };
@@ -50,8 +50,8 @@ void stateRoles(const std::vector<std::string>& statements,
 /// A folder of structures as one map (io/labels/label_folder.h). Its remarks become warnings.
 convert::FolderMap loadLabelFolder(const InputFile& folder, Progress& progress);
 
-/// The maps of --label-map, files or folders of structures. Throws as stateRoles(), and Error(InvalidInput)
-/// for a file that is missing, or no volume.
+/// The maps of --label-map, files or folders of structures. Throws as stateRoles(), and
+/// Error(InvalidInput) for a file that is missing, or no volume.
 std::vector<operations::LabelPart> loadLabelMaps(const MaskArguments& arguments,
                                                  Progress& progress);
 

@@ -25,7 +25,8 @@ void useNames(const convert::LabelNames& names, convert::LabelMask& mask) {
       mask.names[i] = found->second;
 }
 
-/// Takes the labels that are stated to be no vessels, or regions, off a mask. True if others are left.
+/// Takes the labels that are stated to be no vessels, or regions, off a mask. True if others are
+/// left.
 bool leaveOutOthers(const std::vector<convert::LabelMeaning>& meanings, convert::LabelMask& mask) {
   std::vector<bool> isLeftOut(mask.values.size() + 1, false);
   for (const convert::LabelMeaning& meaning : meanings) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of labels that come with the program: a file each below tables/. Its first line is its title, lines that
-// begin with # state its source, all others are VALUE,NAME or VALUE,NAME,ROLE. Without a role the words of the name
-// show it.
+// Tables of labels that come with the program: a file each below tables/. Its first line is its
+// title, lines that begin with # state its source, all others are VALUE,NAME or VALUE,NAME,ROLE.
+// Without a role the words of the name show it.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ struct KnownName {
   std::string table;  ///< the title of the first table that has the name
 };
 
-/// The label of this name, whatever its number, in any of the tables; null if none has it. Names are
-/// compared as plainName() has them.
+/// The label of this name, whatever its number, in any of the tables; null if none has it. Names
+/// are compared as plainName() has them.
 const KnownName* findKnownName(std::string_view name);
 
 }  // namespace lumen::convert

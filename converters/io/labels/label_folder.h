@@ -12,8 +12,8 @@
 
 namespace lumen::convert {
 
-/// True for a folder on this disk that has a file of NIfTI, NRRD or MetaImage in it, and none that could be of DICOM:
-/// .dcm, .ima, or a name without an ending.
+/// True for a folder on this disk that has a file of NIfTI, NRRD or MetaImage in it, and none that
+/// could be of DICOM: .dcm, .ima, or a name without an ending.
 bool isLabelFolder(const InputFile& folder);
 
 struct FolderMap {
@@ -24,16 +24,17 @@ struct FolderMap {
   std::vector<std::string> remarks;
 };
 
-/// The map of a folder. Labels are 1, 2, ... in the order of the names of the files, also of those without a voxel.
+/// The map of a folder. Labels are 1, 2, ... in the order of the names of the files, also of those
+/// without a voxel.
 ///
-/// - The grid is the finest of all files, of equal ones the first. Files with another grid are placed by position: a
-///   voxel of the map is of the structure whose nearest voxel is.
-/// - A voxel of several structures is of one that is a vessel or another lumen, by the role of its name, rather than
-///   of one that is not, and never of a region if it is of another; of equals it is of the one with the smaller
-///   volume, and then of the first.
+/// - The grid is the finest of all files, of equal ones the first. Files with another grid are
+///   placed by position: a voxel of the map is of the structure whose nearest voxel is.
+/// - A voxel of several structures is of one that is a vessel or another lumen, by the role of its
+///   name, rather than of one that is not, and never of a region if it is of another; of equals it
+///   is of the one with the smaller volume, and then of the first.
 ///
-/// Throws Error(InvalidInput), naming the file, for a file with more than one value beside 0, for more than 255 files,
-/// and if no structure has a voxel; as readVolume() otherwise.
+/// Throws Error(InvalidInput), naming the file, for a file with more than one value beside 0, for
+/// more than 255 files, and if no structure has a voxel; as readVolume() otherwise.
 FolderMap readLabelFolder(const InputFile& folder, const ReadVolumeOptions& options,
                           const Progress& progress);
 

@@ -50,7 +50,8 @@ bool isColourRow(const std::vector<std::string>& words) {
   return words.size() == 6 && areNumbers(words, 0, 1) && areNumbers(words, 2, 6);
 }
 
-/// The text behind a label, three numbers of a colour, its opacity and two switches; nothing for another row.
+/// The text behind a label, three numbers of a colour, its opacity and two switches; nothing for
+/// another row.
 std::optional<std::string> nameOfSnap(const std::string& row) {
   const std::size_t open = row.find('"');
   if (open == row.npos || open + 1 >= row.size() || row.back() != '"') return {};

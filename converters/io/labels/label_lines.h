@@ -13,12 +13,13 @@ namespace lumen::convert {
 /// "FILE: line N: ".
 std::string linePlace(const std::string& file, std::size_t line);
 
-/// Adds one name; `place` begins messages. Throws Error(InvalidInput) for a label or a name that is none, and for a
-/// label that has a name.
+/// Adds one name; `place` begins messages. Throws Error(InvalidInput) for a label or a name that is
+/// none, and for a label that has a name.
 void addLabelName(const std::string& place, const std::string& value, const std::string& name,
                   LabelNames& names);
 
-/// True for the rows of label, name and colour of 3D Slicer or FreeSurfer, or label descriptions of ITK-SNAP.
+/// True for the rows of label, name and colour of 3D Slicer or FreeSurfer, or label descriptions of
+/// ITK-SNAP.
 bool isColourTable(const std::string& text);
 /// Their names. Throws as readLabelTable().
 LabelNames namesOfColourTable(const std::string& text, const std::string& file);

@@ -21,9 +21,9 @@ struct LabelMeaning {
   bool isStated = false;  ///< the role is that of a table or an option, not a guess from the name
 };
 
-/// The meanings of the labels that a table names, by their values. The role of a label is the one that the table
-/// states, or else that of the label of this name in a table that comes with the program (known_tables.h), or else
-/// the one that the words of its name show.
+/// The meanings of the labels that a table names, by their values. The role of a label is the one
+/// that the table states, or else that of the label of this name in a table that comes with the
+/// program (known_tables.h), or else the one that the words of its name show.
 std::vector<LabelMeaning> meaningsOf(const LabelTable& table);
 
 /// The names that are known.
@@ -35,7 +35,8 @@ struct RoleStatement {
   LabelRole role = LabelRole::Unknown;
 };
 
-/// Gives the labels of this name or number the role; `from` is its source for people. False if there is none.
+/// Gives the labels of this name or number the role; `from` is its source for people. False if
+/// there is none.
 bool stateRole(const RoleStatement& statement, const std::string& from,
                std::vector<LabelMeaning>& meanings);
 

@@ -29,8 +29,8 @@ enum class LabelRole : std::uint8_t {
   Region  ///< the place where vessels are looked for
 };
 
-/// "unknown", "vessel", "artery", "vein", "chamber", "aneurysm", "true-lumen", "false-lumen", "bone",
-/// "metal", "calcium", "organ", "region", in the order of the roles.
+/// "unknown", "vessel", "artery", "vein", "chamber", "aneurysm", "true-lumen", "false-lumen",
+/// "bone", "metal", "calcium", "organ", "region", in the order of the roles.
 const std::vector<std::string>& roleWords();
 const std::string& roleWord(LabelRole role);
 /// The role of such a word, or nothing.

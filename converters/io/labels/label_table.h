@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of the names of labels, as other programs write them. The content decides, not the ending of the name:
+// Tables of the names of labels, as other programs write them. The content decides, not the ending
+// of the name:
 //
 // | content | table |
 // |---|---|
@@ -18,9 +19,10 @@
 // | NRRD | segments of 3D Slicer (.seg.nrrd): `Segment0_LabelValue:=1`, `Segment0_Name:=BA`; the type of its terminology shows the role |
 // | NIfTI | the extension of Connectome Workbench, as TotalSegmentator writes it: `<Label Key="1" ...><![CDATA[aorta]]></Label>` |
 //
-// Formats: Slicer documentation, developer guide, modules Colors and Segmentations; ITK-SNAP 4, label description files;
-// FreeSurferColorLUT.txt; BIDS 1.9, derivatives, imaging, segmentations; nnU-Net v2, dataset format. The label 0 is what
-// is around the vessels: tables may name it, and its name is passed over.
+// Formats: Slicer documentation, developer guide, modules Colors and Segmentations; ITK-SNAP 4,
+// label description files; FreeSurferColorLUT.txt; BIDS 1.9, derivatives, imaging, segmentations;
+// nnU-Net v2, dataset format. The label 0 is what is around the vessels: tables may name it, and
+// its name is passed over.
 #pragma once
 
 #include <cstdint>
@@ -47,17 +49,19 @@ struct LabelTable {
 const std::vector<std::string>& builtInLabelTables();
 
 /// The table in a file, or the one that is built in under this name. Throws Error(InvalidInput),
-/// naming the file and the line or the place, for a file that is missing or is no such table, a label
-/// that is no whole number or occurs twice, a name that a branch cannot have, and a role that is none.
+/// naming the file and the line or the place, for a file that is missing or is no such table, a
+/// label that is no whole number or occurs twice, a name that a branch cannot have, and a role that
+/// is none.
 LabelTable readLabelTable(const InputFile& file);
 
 /// The names that the header of `file` itself states; without names if it states none. Segments of
-/// other layers than the first are passed over. Throws Error(InvalidInput) as readLabelTable() does.
+/// other layers than the first are passed over. Throws Error(InvalidInput) as readLabelTable()
+/// does.
 LabelTable ownNames(const InputFile& file);
 
 /// The tables that lie beside a map on this disk: NAME.tsv beside NAME.nii.gz whose name ends in
-/// `dseg`, `dseg.tsv`, and `dataset.json`, also beside the folder labelsTr or labelsTs of the map. Only
-/// names are looked at.
+/// `dseg`, `dseg.tsv`, and `dataset.json`, also beside the folder labelsTr or labelsTs of the map.
+/// Only names are looked at.
 std::vector<InputFile> tablesBeside(const InputFile& map);
 
 }  // namespace lumen::convert

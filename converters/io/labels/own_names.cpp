@@ -22,7 +22,8 @@ struct Segment {
   std::string value, name, layer = "0", tags;
 };
 
-/// "CATEGORY~TYPE~MODIFIER~..." of the Terminology tag, each "SCHEME^CODE^MEANING": the meaning of the type.
+/// "CATEGORY~TYPE~MODIFIER~..." of the Terminology tag, each "SCHEME^CODE^MEANING": the meaning of
+/// the type.
 std::string typeOf(const std::string& terminology) {
   const std::vector<std::string> parts = splitWords(terminology, "~");
   if (parts.size() < 3) return {};
@@ -71,8 +72,8 @@ LabelTable namesOfSegments(HeaderLines& lines, const InputFile& file) {
   return table;
 }
 
-/// The text between two marks from `at` on, and moves `at` behind it; empty, and `at` at the end, if
-/// there is none.
+/// The text between two marks from `at` on, and moves `at` behind it; empty, and `at` at the end,
+/// if there is none.
 std::string_view between(std::string_view text, std::string_view open, std::string_view close,
                          std::size_t& at) {
   const std::size_t from = text.find(open, at);
@@ -82,8 +83,8 @@ std::string_view between(std::string_view text, std::string_view open, std::stri
                          : text.substr(from + open.size(), to - from - open.size());
 }
 
-/// The names of a table of Connectome Workbench. The map is readable without it: labels and names that
-/// cannot be used are passed over.
+/// The names of a table of Connectome Workbench. The map is readable without it: labels and names
+/// that cannot be used are passed over.
 LabelNames namesOfWorkbench(std::string_view xml) {
   LabelNames names;
   for (std::size_t at = xml.find("<LabelTable"); at < xml.size();) {

@@ -54,8 +54,8 @@ void checkNiftiStart(std::span<const std::byte, kNiftiHeaderSize> bytes,
 NiftiHeader parseNiftiHeader(std::span<const std::byte, kNiftiHeaderSize> bytes,
                              const std::filesystem::path& path);
 
-/// The bytes between header and voxels of a file, in which extensions lie, at most a megabyte; empty for
-/// a file that is no NIfTI-1 or has none.
+/// The bytes between header and voxels of a file, in which extensions lie, at most a megabyte;
+/// empty for a file that is no NIfTI-1 or has none.
 std::string niftiExtensions(const InputFile& file);
 
 }  // namespace lumen::convert

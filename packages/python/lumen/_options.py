@@ -89,7 +89,8 @@ def in_python(message: str) -> str:
 
 
 # Options whose values may be in memory, by the types of the stubs.
-_IN_MEMORY = {"seeds": "Seeds", "volume": "VolumeLike", "image": "VolumeLike", "label-map": "VolumeLike | Sequence[VolumeLike]", "role": "str | Mapping[int | str, str]",
+_IN_MEMORY = {"seeds": "Seeds", "volume": "VolumeLike", "image": "VolumeLike",
+              "label-map": "VolumeLike | Sequence[VolumeLike]", "role": "str | Sequence[str] | Mapping[int | str, str]",
               "label-table": "PathLike | Mapping[int, str]", "labels": "str | Mapping[int, str]",
               "against": "Case | PathLike"}
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Roles of labels: of every name in the tables that come with the program, and of other names by their words.
+// Roles of labels: of every name in the tables that come with the program, and of other names by
+// their words.
 #include <algorithm>
 #include <map>
 #include <set>
