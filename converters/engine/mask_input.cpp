@@ -68,10 +68,8 @@ operations::LabelPart loadLabelMap(const InputFile& map, const MaskArguments& ar
                                    Progress& progress) {
   requireInput(map, "label map");
   if (convert::isLabelFolder(map)) {
-    convert::FolderMap read = loadLabelFolder(map, progress);
-    const bool isNamed = arguments.labelTable.empty();
-    return labelPart(std::move(read.voxels), map.name(),
-                     isNamed ? read.table : arguments.table(map, progress));
+    convert::FolderMap read = loadLabelFolder(map, {}, progress);
+    return labelPart(std::move(read.voxels), map.name(), read.table);
   }
   const FileFormat& format = inputFormat(map, "");
   if (format.kind != FormatKind::Volume)
@@ -136,19 +134,28 @@ void stateRoles(const std::vector<std::string>& statements,
   }
 }
 
-convert::FolderMap loadLabelFolder(const InputFile& folder, Progress& progress) {
+convert::FolderMap loadLabelFolder(const InputFile& folder,
+                                   const convert::ReadVolumeOptions& options, Progress& progress) {
   progress.begin("reading", 0);
-  convert::FolderMap read = convert::readLabelFolder(folder, {}, progress);
+  convert::FolderMap read = convert::readLabelFolder(folder, options, progress);
   progress.end();
   for (const std::string& remark : read.remarks) progress.warn(remark);
   return read;
 }
 
+void refuseTableOfFolder() {
+  throw Error(ErrorKind::Usage,
+              "--label-table does nothing for a folder, whose files name its labels");
+}
+
 std::vector<operations::LabelPart> loadLabelMaps(const MaskArguments& arguments,
                                                  Progress& progress) {
   std::vector<operations::LabelPart> maps;
-  for (const InputFile& map : arguments.labelMaps)
-    maps.push_back(loadLabelMap(map, arguments, progress));
+  const std::vector<InputFile>& files = arguments.labelMaps;
+  if (!arguments.labelTable.empty() && !files.empty() &&
+      std::all_of(files.begin(), files.end(), convert::isLabelFolder))
+    refuseTableOfFolder();
+  for (const InputFile& map : files) maps.push_back(loadLabelMap(map, arguments, progress));
   stateRoles(arguments.roles, maps);
   return maps;
 }

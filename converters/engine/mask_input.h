@@ -48,10 +48,14 @@ void stateRoles(const std::vector<std::string>& statements,
                 std::vector<operations::LabelPart>& maps);
 
 /// A folder of structures as one map (io/labels/label_folder.h). Its remarks become warnings.
-convert::FolderMap loadLabelFolder(const InputFile& folder, Progress& progress);
+convert::FolderMap loadLabelFolder(const InputFile& folder,
+                                   const convert::ReadVolumeOptions& options, Progress& progress);
+/// Throws Error(Usage): --label-table names labels of files alone.
+[[noreturn]] void refuseTableOfFolder();
 
-/// The maps of --label-map, files or folders of structures. Throws as stateRoles(), and
-/// Error(InvalidInput) for a file that is missing, or no volume.
+/// The maps of --label-map, files or folders of structures. Throws as stateRoles(),
+/// Error(InvalidInput) for a file that is missing, or no volume, and Error(Usage) for a table
+/// beside folders alone.
 std::vector<operations::LabelPart> loadLabelMaps(const MaskArguments& arguments,
                                                  Progress& progress);
 

@@ -209,6 +209,15 @@ TEST_F(LabelsInTest, AnswersStateTheRolesOfLabelsAndTheirSources) {
   std::filesystem::create_directory(path("maps"));
   write("maps/rib_left_1.nrrd", read("labels.nrrd"));
   EXPECT_EQ(labelOf({"info", "maps"}), "rib_left_1: bone (maps, TotalSegmentator total)");
+  const Json cut = Json::parse(lumen({"info", "maps", "--crop", "8,55,8,55,8,55", "--json"}).out);
+  EXPECT_EQ(cut["size"], Json::array({48, 48, 48}));
+  for (const std::vector<std::string>& line :
+       {std::vector<std::string>{"info", "maps", "--voxels", "--label-table", "topcow"},
+        {"track", "tube.nrrd", "no.lumen", "--label-map", "maps", "--label-table", "topcow"}}) {
+    const Outcome refused = lumen(line);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(contains(refused.err, "--label-table does nothing for a folder")) << refused.err;
+  }
   const std::vector<std::string> both = {"track", "tube.nrrd",   "named.lumen", "--label-map",
                                          "maps",  "--label-map", "labels.nrrd"};
   EXPECT_EQ(labelOf(both), "rib_left_1: bone (maps, TotalSegmentator total)");

@@ -16,7 +16,6 @@ lumen_test(voxels_test FOLDER voxels
 lumen_test(labels_test FOLDER labels
   LABELS memory
   LIBS lumen_labels)
-target_include_directories(labels_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume)
 lumen_test(seeds_test FOLDER seeds
   LABELS memory
   LIBS lumen_seeds)

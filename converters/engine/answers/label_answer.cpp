@@ -26,12 +26,14 @@ std::vector<LabelledMap> describeMaps(const std::vector<operations::LabelPart>& 
 
 Json labelsJson(const CountedLabels& labels) {
   Json list = Json::array();
-  for (const auto& [meaning, voxels] : labels)
+  for (const auto& [meaning, voxels] : labels) {
+    const std::string from = convert::sourcesOf(meaning);
     list.push_back({{"value", meaning.value},
                     {"name", meaning.name.empty() ? Json(nullptr) : Json(meaning.name)},
                     {"role", convert::roleWord(meaning.role)},
-                    {"from", meaning.from.empty() ? Json(nullptr) : Json(meaning.from)},
+                    {"from", from.empty() ? Json(nullptr) : Json(from)},
                     {"voxels", voxels}});
+  }
   return list;
 }
 
@@ -44,12 +46,13 @@ Json mapsJson(const std::vector<LabelledMap>& maps) {
 
 std::string labelLines(const CountedLabels& labels) {
   Lines lines(kNarrowColumn);
-  for (const auto& [meaning, voxels] : labels)
+  for (const auto& [meaning, voxels] : labels) {
+    const std::string from = formats::printable(convert::sourcesOf(meaning));
     lines.add("label " + std::to_string(meaning.value),
               (meaning.name.empty() ? "without a name" : formats::printable(meaning.name)) + ": " +
-                  convert::roleWord(meaning.role) +
-                  (meaning.from.empty() ? "" : " (" + formats::printable(meaning.from) + ")") +
-                  ", " + counted(voxels, "voxel", "voxels"));
+                  convert::roleWord(meaning.role) + (from.empty() ? "" : " (" + from + ")") + ", " +
+                  counted(voxels, "voxel", "voxels"));
+  }
   return lines.text();
 }
 

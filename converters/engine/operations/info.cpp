@@ -107,11 +107,10 @@ private:
   }
 
   [[nodiscard]] VolumeInfo describeFolder(Progress& progress) const {
-    convert::FolderMap map = loadLabelFolder(m_input, progress);
+    if (!m_labels.labelTable.empty()) refuseTableOfFolder();
+    convert::FolderMap map = loadLabelFolder(m_input, m_volume.options(), progress);
     VolumeInfo info = describeVolume(map.header, map.voxels, progress);
-    const bool isNamed = m_labels.labelTable.empty();
-    info.values->labels = describeLabelled(std::move(map.voxels),
-                                           isNamed ? map.table : m_labels.table(m_input, progress));
+    info.values->labels = describeLabelled(std::move(map.voxels), map.table);
     return info;
   }
 

@@ -14,6 +14,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/io/content/file_content.h"
 #include "converters/io/labels/known_tables.h"
 #include "converters/io/labels/label_lines.h"
 #include "converters/io/volume/read_volume.h"
@@ -69,8 +70,10 @@ std::vector<Structure> structuresIn(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     Structure one;
     one.file = entry.path();
-    one.format = formatByEnding(one.file.filename().string(), one.name);
-    if (one.format != nullptr && entry.is_regular_file(error)) found.push_back(std::move(one));
+    const std::string name = one.file.filename().string();
+    one.format = formatByEnding(name, one.name);
+    if (one.format != nullptr && !name.starts_with('.') && entry.is_regular_file(error))
+      found.push_back(std::move(one));
   }
   std::sort(found.begin(), found.end(),
             [](const Structure& a, const Structure& b) { return a.file < b.file; });
@@ -214,12 +217,13 @@ bool isLabelFolder(const InputFile& folder) {
   if (folder.isInMemory() || !folder.isFolder() || structuresIn(folder.path()).empty())
     return false;
   std::error_code error;
-  const fs::directory_iterator files(folder.path(), error);
+  const fs::recursive_directory_iterator files(folder.path(), error);
   return std::none_of(begin(files), end(files), [](const fs::directory_entry& entry) {
-    const std::string ending = lowerCase(entry.path().extension().string());
-    std::error_code ignored;
-    return entry.is_regular_file(ignored) &&
-           (ending.empty() || ending == ".dcm" || ending == ".ima");
+    std::string stem;
+    const fs::path& file = entry.path();
+    if (formatByEnding(file.filename().string(), stem) != nullptr) return false;
+    const std::string ending = lowerCase(file.extension().string());
+    return ending == ".dcm" || ending == ".ima" || detectContent(file).kind == ContentKind::Volume;
   });
 }
 
@@ -247,6 +251,8 @@ FolderMap readLabelFolder(const InputFile& folder, const ReadVolumeOptions& opti
     addLabelName(name + ": ", std::to_string(s + 1), structures[s].name, map.table.names);
   }
   map.remarks = canvas.remarks(name);
+  for (const std::string& assumption : map.header.assumptions)
+    map.remarks.push_back(name + ": " + assumption);
   const fs::path& path = folder.path();
   map.table.from = (path.has_filename() ? path : path.parent_path()).filename().string();
   std::vector<std::uint8_t> labels = std::move(canvas).labels();

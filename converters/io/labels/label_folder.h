@@ -12,15 +12,16 @@
 
 namespace lumen::convert {
 
-/// True for a folder on this disk that has a file of NIfTI, NRRD or MetaImage in it, and none that
-/// could be of DICOM: .dcm, .ima, or a name without an ending.
+/// True for a folder on this disk that has a file of NIfTI, NRRD or MetaImage in it, and none of
+/// DICOM in it or below. Files whose names begin with a dot do not count.
 bool isLabelFolder(const InputFile& folder);
 
 struct FolderMap {
   VolumeHeader header;  ///< of the whole: the geometry, and the sizes of all files together
   Volume voxels;
   LabelTable table;  ///< names are those of the files without their endings
-  /// A sentence if structures overlap, and one for each that has voxels outside of the map.
+  /// A sentence if structures overlap, one for each that has voxels outside of the map, and the
+  /// assumptions of the header.
   std::vector<std::string> remarks;
 };
 

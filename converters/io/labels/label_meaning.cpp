@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kMostLabel = 1 << 24;  // the largest label that a volume of floats holds
 
-/// "dseg.tsv, its name"; one source alone where both are the same.
-std::string sources(const std::string& name, const std::string& role) {
-  if (role.empty() || role == name) return name;
-  return name.empty() ? role : name + ", " + role;
-}
-
 template <class T>
 bool isLabel(T voxel) {
   if constexpr (std::is_floating_point_v<T>)
@@ -28,20 +22,25 @@ bool isLabel(T voxel) {
 
 }  // namespace
 
+std::string sourcesOf(const LabelMeaning& meaning) {
+  if (meaning.roleFrom.empty() || meaning.roleFrom == meaning.nameFrom) return meaning.nameFrom;
+  return meaning.nameFrom.empty() ? meaning.roleFrom : meaning.nameFrom + ", " + meaning.roleFrom;
+}
+
 std::vector<LabelMeaning> meaningsOf(const LabelTable& table) {
   std::vector<LabelMeaning> meanings;
   for (const auto& [value, name] : table.names) {
-    LabelMeaning meaning{value, name, LabelRole::Unknown, table.from};
+    LabelMeaning meaning{value, name, LabelRole::Unknown, table.from, {}};
     if (const auto stated = table.roles.find(value); stated != table.roles.end()) {
       meaning.role = stated->second;
-      meaning.from = sources(table.from, table.rolesFrom);
+      meaning.roleFrom = table.rolesFrom;
       meaning.isStated = true;
     } else if (const KnownName* known = findKnownName(name)) {
       meaning.role = known->role;
-      meaning.from = sources(table.from, known->table);
+      meaning.roleFrom = known->table;
       meaning.isStated = true;
     } else if (meaning.role = roleOfName(name); meaning.role != LabelRole::Unknown) {
-      meaning.from = sources(table.from, "its name");
+      meaning.roleFrom = "its name";
     }
     meanings.push_back(std::move(meaning));
   }
@@ -62,8 +61,7 @@ bool stateRole(const RoleStatement& statement, const std::string& from,
     const bool isNamed =
         !meaning.name.empty() && plainName(meaning.name) == plainName(statement.label);
     if (!isNamed && std::to_string(meaning.value) != statement.label) continue;
-    const std::size_t end = meaning.from.rfind(", ");
-    meaning.from = sources(meaning.from.substr(0, end), from);
+    meaning.roleFrom = from;
     meaning.role = statement.role;
     meaning.isStated = isFound = true;
   }
@@ -95,7 +93,7 @@ void addUnnamed(const std::map<std::int64_t, std::size_t>& counts,
   for (const auto& [value, count] : counts) {
     const auto at = std::lower_bound(meanings.begin(), meanings.end(), value, byValue);
     if (at == meanings.end() || at->value != value)
-      meanings.insert(at, LabelMeaning{value, {}, LabelRole::Unknown, {}});
+      meanings.insert(at, LabelMeaning{value, {}, LabelRole::Unknown, {}, {}});
   }
 }
 

@@ -17,9 +17,13 @@ struct LabelMeaning {
   std::int64_t value = 0;
   std::string name;  ///< empty: no table names it
   LabelRole role = LabelRole::Unknown;
-  std::string from;  ///< for people: the sources of name and role, "dseg.tsv, its name"; or empty
+  std::string nameFrom;   ///< for people: the source of the name, "dseg.tsv"; or empty
+  std::string roleFrom;   ///< the same of the role: "its name"
   bool isStated = false;  ///< the role is that of a table or an option, not a guess from the name
 };
+
+/// "dseg.tsv, its name"; one source alone where both are the same; empty without any.
+std::string sourcesOf(const LabelMeaning& meaning);
 
 /// The meanings of the labels that a table names, by their values. The role of a label is the one
 /// that the table states, or else that of the label of this name in a table that comes with the

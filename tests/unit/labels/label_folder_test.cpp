@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/io/labels/label_meaning.h"
-#include "fixtures.h"
+#include "tests/unit/volume/fixtures.h"
 
 namespace lumen::convert {
 namespace {
@@ -92,9 +92,14 @@ TEST_F(LabelFolderTest, AVolumeOfSeveralLabelsIsNoStructure) {
 
 TEST_F(LabelFolderTest, AFolderThatMayBeOfDicomIsNone) {
   put("aorta.nii.gz", cube(8, 1, 2));
-  write("IM0001", "x");
-  EXPECT_FALSE(isLabelFolder(path("")));
+  write("._aorta.nii.gz", "x");
+  write("README", "x");
+  EXPECT_TRUE(isLabelFolder(path("")));
+  EXPECT_EQ(read().table.names.size(), 1U);
   EXPECT_FALSE(isLabelFolder(path("aorta.nii.gz")));
+  fs::create_directory(path("dicom"));
+  write("dicom/1.2.840.5", std::string(128, '\0') + "DICM");
+  EXPECT_FALSE(isLabelFolder(path("")));
 }
 
 // Real maps of TotalSegmentator.

@@ -160,7 +160,7 @@ TEST(LabelMeanings, StateTheirSources) {
                    {}};
   std::vector<LabelMeaning> meanings = meaningsOf(table);
   const auto shown = [&](std::size_t i) {
-    return roleWord(meanings[i].role) + " from " + meanings[i].from +
+    return roleWord(meanings[i].role) + " from " + sourcesOf(meanings[i]) +
            (meanings[i].isStated ? "" : "?");
   };
   ASSERT_EQ(meanings.size(), 4U);
@@ -179,7 +179,7 @@ TEST(LabelMeanings, NamesWinOverNumbers) {
   // 7 is the aorta of the first version, and the pancreas of the second
   const std::vector<LabelMeaning> meanings = meaningsOf({{{7, "aorta"}}, {}, "map", {}});
   EXPECT_EQ(meanings.front().role, LabelRole::Artery);
-  EXPECT_EQ(meanings.front().from, "map, TotalSegmentator total");
+  EXPECT_EQ(sourcesOf(meanings.front()), "map, TotalSegmentator total");
 }
 
 TEST(LabelMeanings, LabelsWithoutANameAreAddedAndCounted) {

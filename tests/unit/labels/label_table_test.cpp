@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "fixtures.h"
+#include "tests/unit/volume/fixtures.h"
 
 namespace lumen::convert {
 namespace {
