@@ -208,7 +208,7 @@ TEST_F(LabelsInTest, AnswersStateTheRolesOfLabelsAndTheirSources) {
   // a folder is one map, and the first map names
   std::filesystem::create_directory(path("maps"));
   write("maps/rib_left_1.nrrd", read("labels.nrrd"));
-  EXPECT_EQ(labelOf({"info", "maps"}), "rib_left_1: bone (maps, TotalSegmentator total)");
+  EXPECT_EQ(labelOf({"info", "maps"}), "rib_left_1: bone (its file, TotalSegmentator total)");
   const Json cut = Json::parse(lumen({"info", "maps", "--crop", "8,55,8,55,8,55", "--json"}).out);
   EXPECT_EQ(cut["size"], Json::array({48, 48, 48}));
   for (const std::vector<std::string>& line :
@@ -220,11 +220,11 @@ TEST_F(LabelsInTest, AnswersStateTheRolesOfLabelsAndTheirSources) {
   }
   const std::vector<std::string> both = {"track", "tube.nrrd",   "named.lumen", "--label-map",
                                          "maps",  "--label-map", "labels.nrrd"};
-  EXPECT_EQ(labelOf(both), "rib_left_1: bone (maps, TotalSegmentator total)");
+  EXPECT_EQ(labelOf(both), "rib_left_1: bone (its file, TotalSegmentator total)");
   EXPECT_EQ(branch(), "basilar artery");
   std::vector<std::string> stated = both;
   stated.insert(stated.end(), {"--role", "rib_left_1=vein"});
-  EXPECT_EQ(labelOf(stated), "rib_left_1: vein (maps, the option)");
+  EXPECT_EQ(labelOf(stated), "rib_left_1: vein (its file, the option)");
   EXPECT_EQ(branch(), "rib_left_1");
 }
 

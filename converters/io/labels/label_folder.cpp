@@ -253,8 +253,7 @@ FolderMap readLabelFolder(const InputFile& folder, const ReadVolumeOptions& opti
   map.remarks = canvas.remarks(name);
   for (const std::string& assumption : map.header.assumptions)
     map.remarks.push_back(name + ": " + assumption);
-  const fs::path& path = folder.path();
-  map.table.from = (path.has_filename() ? path : path.parent_path()).filename().string();
+  map.table.from = "its file";
   std::vector<std::uint8_t> labels = std::move(canvas).labels();
   if (std::all_of(labels.begin(), labels.end(), [](std::uint8_t label) { return label == 0; }))
     throw invalidInput(name + ": none of its structures has a voxel");

@@ -41,7 +41,7 @@ using LabelNames = std::map<std::int64_t, std::string>;
 struct LabelTable {
   LabelNames names;
   std::map<std::int64_t, LabelRole> roles;  ///< as far as the table states them
-  std::string from;       ///< for people: the name of its file, or the title of a built-in table
+  std::string from;       ///< for people: "dseg.tsv", "its header", the title of a built-in table
   std::string rolesFrom;  ///< the part of it that states the roles; empty: the same
 };
 

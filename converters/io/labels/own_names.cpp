@@ -115,7 +115,7 @@ LabelTable ownNames(const InputFile& file) {
   } else {
     table.names = namesOfWorkbench(niftiExtensions(file));
   }
-  table.from = "header of " + file.path().filename().string();
+  table.from = "its header";
   return table;
 }
 

@@ -184,7 +184,7 @@ TEST_F(LabelTableTest, ANiftiNamesItsLabelsInAnExtension) {
   extension[5] = static_cast<char>((8 + xml.size()) >> 8U);
   const fs::path file = write("named.nii", head + extension + xml + "abcdefgh");
   EXPECT_EQ(ownNames(file).names, kTwo);
-  EXPECT_EQ(ownNames(file).from, "header of named.nii");
+  EXPECT_EQ(ownNames(file).from, "its header");
   EXPECT_TRUE(ownNames(write("bare.nii", MadeNiftiHeader().text() + "abcdefgh")).names.empty());
 }
 
