@@ -10,7 +10,7 @@
 #include "converters/base/error.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/scope.h"
-#include "converters/io/volume/label_table.h"
+#include "converters/io/labels/label_table.h"
 
 namespace lumen::engine::api {
 namespace {
@@ -102,7 +102,10 @@ Options::Options(const lumen_engine_options* given) {
 void Options::give(const char* option, const InputFile& file) {
   OptionRow& row = *m_held.table.find(option);
   row.set({file.name()});
-  *std::get<InputFile*>(row.target) = file;
+  if (const auto several = std::get_if<std::vector<InputFile>*>(&row.target))
+    **several = {file};
+  else
+    *std::get<InputFile*>(row.target) = file;
 }
 
 operations::Context Options::context(Progress& progress) const {

@@ -123,7 +123,7 @@ void load(const lumen_engine_inputs& inputs, Options options, lumen_engine_sourc
   if (!values.track.seeds.empty()) to.seeds = loadSeeds(values.track);
   if (const InputFile& file = values.corrected; !file.empty())
     to.corrected = operations::CorrectedCase{readCase(file), file.name()};
-  if (!values.source.mask.labelMap.empty()) formatOf(values.source.mask.labelMap);
+  for (const InputFile& map : values.source.mask.labelMaps) formatOf(map);
   operations::Source& source = to.source.emplace();
   if (inputs.volume) {
     source = sourceOf(*inputs.volume, options, !to.seeds.empty(), progress);

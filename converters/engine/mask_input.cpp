@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/tracking_input.h"
@@ -47,6 +48,37 @@ convert::LabelNames namedLabels(const std::string& labels) {
   return names;
 }
 
+/// The first table beside a map that can be read.
+convert::LabelTable besideTable(const InputFile& map, Progress& progress) {
+  for (const InputFile& file : convert::tablesBeside(map)) {
+    try {
+      convert::LabelTable table = convert::readLabelTable(file);
+      progress.detail(map.name() + ": names of its labels come from " + file.name());
+      return table;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::InvalidInput) throw;
+      progress.detail(std::string(error.what()) + "; this file beside " + map.name() +
+                      " is passed over");
+    }
+  }
+  return {};
+}
+
+operations::LabelPart loadLabelMap(const InputFile& map, const MaskArguments& arguments,
+                                   Progress& progress) {
+  requireInput(map, "label map");
+  if (convert::isLabelFolder(map)) {
+    convert::FolderMap read = loadLabelFolder(map, {}, progress);
+    return labelPart(std::move(read.voxels), map.name(), read.table);
+  }
+  const FileFormat& format = inputFormat(map, "");
+  if (format.kind != FormatKind::Volume)
+    throw invalidInput(formats::printable(map.name()) +
+                       ": is no volume; expected a volume of labels");
+  const convert::LabelTable table = arguments.table(map, progress);
+  return labelPart(readVolumeFile(map, format, {}, progress), map.name(), table);
+}
+
 }  // namespace
 
 std::set<std::int64_t> MaskArguments::chosen() const {
@@ -56,27 +88,76 @@ std::set<std::int64_t> MaskArguments::chosen() const {
   return values;
 }
 
-convert::LabelNames MaskArguments::names(const InputFile& file) const {
-  if (!labels.empty()) return namedLabels(labels);
-  if (labelTable.empty()) return convert::segmentNames(file);
-  const std::vector<std::string>& known = convert::builtInLabelTables();
-  if (std::find(known.begin(), known.end(), labelTable.name()) == known.end())
-    requireInput(labelTable, "table of labels");
-  return convert::readLabelTable(labelTable);
+convert::LabelTable MaskArguments::table(const InputFile& file, Progress& progress) const {
+  if (!labels.empty()) return {namedLabels(labels), {}, "the option", {}};
+  if (!labelTable.empty()) {
+    const std::vector<std::string>& known = convert::builtInLabelTables();
+    if (std::find(known.begin(), known.end(), labelTable.name()) == known.end())
+      requireInput(labelTable, "table of labels");
+    return convert::readLabelTable(labelTable);
+  }
+  convert::LabelTable own = convert::ownNames(file);
+  return own.names.empty() ? besideTable(file, progress) : own;
 }
 
-std::optional<operations::LabelPart> loadRegions(const MaskArguments& arguments,
+std::string roleFault(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals != text.npos && equals > 0 && convert::roleOfWord(text.substr(equals + 1))) return {};
+  return "found " + (text.empty() ? "nothing" : text) +
+         ", expected a label by its name or number, = and its role: " +
+         alternatives(convert::roleWords());
+}
+
+operations::LabelPart labelPart(convert::Volume voxels, const std::string& name,
+                                const convert::LabelTable& table) {
+  std::vector<convert::LabelMeaning> meanings = convert::meaningsOf(table);
+  convert::addUnnamed(convert::countLabels(voxels), meanings);
+  return {std::move(voxels), name, std::move(meanings)};
+}
+
+void stateRoles(const std::vector<std::string>& statements,
+                std::vector<operations::LabelPart>& maps) {
+  for (const std::string& text : statements) {
+    const std::size_t equals = text.rfind('=');
+    const convert::RoleStatement statement{text.substr(0, equals),
+                                           *convert::roleOfWord(text.substr(equals + 1))};
+    bool isFound = false;
+    std::vector<std::string> names;
+    for (operations::LabelPart& map : maps) {
+      isFound = convert::stateRole(statement, "the option", map.meanings) || isFound;
+      for (const auto& [value, name] : convert::namesOf(map.meanings)) names.push_back(name);
+    }
+    if (!isFound)
+      throw Error(ErrorKind::Usage, "--role: no label map has the label " +
+                                        formats::printable(statement.label) +
+                                        didYouMean(statement.label, names));
+  }
+}
+
+convert::FolderMap loadLabelFolder(const InputFile& folder,
+                                   const convert::ReadVolumeOptions& options, Progress& progress) {
+  progress.begin("reading", 0);
+  convert::FolderMap read = convert::readLabelFolder(folder, options, progress);
+  progress.end();
+  for (const std::string& remark : read.remarks) progress.warn(remark);
+  return read;
+}
+
+void refuseTableOfFolder() {
+  throw Error(ErrorKind::Usage,
+              "--label-table does nothing for a folder, whose files name its labels");
+}
+
+std::vector<operations::LabelPart> loadLabelMaps(const MaskArguments& arguments,
                                                  Progress& progress) {
-  const InputFile& map = arguments.labelMap;
-  if (map.empty()) return {};
-  requireInput(map, "label map");
-  const FileFormat& format = inputFormat(map, "");
-  if (format.kind != FormatKind::Volume)
-    throw invalidInput(formats::printable(map.name()) +
-                       ": is no volume; expected a volume of labels");
-  convert::LabelNames names = arguments.names(map);
-  return operations::LabelPart{readVolumeFile(map, format, {}, progress), map.name(),
-                               std::move(names)};
+  std::vector<operations::LabelPart> maps;
+  const std::vector<InputFile>& files = arguments.labelMaps;
+  if (!arguments.labelTable.empty() && !files.empty() &&
+      std::all_of(files.begin(), files.end(), convert::isLabelFolder))
+    refuseTableOfFolder();
+  for (const InputFile& map : files) maps.push_back(loadLabelMap(map, arguments, progress));
+  stateRoles(arguments.roles, maps);
+  return maps;
 }
 
 }  // namespace lumen::engine

@@ -7,9 +7,11 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/io/volume/label_table.h"
+#include "converters/io/labels/label_folder.h"
+#include "converters/io/labels/label_meaning.h"
 #include "converters/operations/source.h"
 
 namespace lumen::engine {
@@ -20,21 +22,41 @@ struct MaskArguments {
   std::optional<std::int64_t> label;  ///< this one alone is
   std::string labels;                 ///< or "N=NAME,N=NAME"
   InputFile labelTable;               ///< a file of names, or the name of a table; may be empty
-  InputFile labelMap;                 ///< a volume of labels beside the input; may be empty
+  std::vector<InputFile> labelMaps;   ///< volumes of labels beside the input, or folders of them
+  std::vector<std::string> roles;     ///< "NAME-OR-NUMBER=ROLE"
   /// The volume holds labels.
   [[nodiscard]] bool isGiven() const {
-    return isMask || label || !labels.empty() || (!labelTable.empty() && labelMap.empty());
+    return isMask || label || !labels.empty() || (!labelTable.empty() && labelMaps.empty());
   }
   /// The labels that are vessels; empty: all. Throws Error(Usage) for a text that cannot be read.
   [[nodiscard]] std::set<std::int64_t> chosen() const;
-  /// The names of --labels, or else of --label-table, or else those that `file`, the volume of
-  /// labels, states itself; empty without all. Throws Error(Usage) and Error(InvalidInput).
-  [[nodiscard]] convert::LabelNames names(const InputFile& file) const;
+  /// The table of --labels, or else of --label-table, or else the names that `file`, the volume of
+  /// labels, states itself, or else those of a table beside it; without names otherwise. Details
+  /// state a table that was found beside it, and one that cannot be read. Throws Error(Usage) and
+  /// Error(InvalidInput).
+  [[nodiscard]] convert::LabelTable table(const InputFile& file, Progress& progress) const;
 };
 
-/// The volume of --label-map with the names of its labels; empty without one. Throws
-/// Error(InvalidInput) for a file that is missing, or no volume.
-std::optional<operations::LabelPart> loadRegions(const MaskArguments& arguments,
+/// Why a text is no NAME-OR-NUMBER=ROLE; empty if it is one.
+std::string roleFault(const std::string& text);
+
+/// A map with the meanings of its labels, those included that no table names.
+operations::LabelPart labelPart(convert::Volume voxels, const std::string& name,
+                                const convert::LabelTable& table);
+/// Gives labels the roles of --role. Throws Error(Usage) for a label that none of the maps has.
+void stateRoles(const std::vector<std::string>& statements,
+                std::vector<operations::LabelPart>& maps);
+
+/// A folder of structures as one map (io/labels/label_folder.h). Its remarks become warnings.
+convert::FolderMap loadLabelFolder(const InputFile& folder,
+                                   const convert::ReadVolumeOptions& options, Progress& progress);
+/// Throws Error(Usage): --label-table names labels of files alone.
+[[noreturn]] void refuseTableOfFolder();
+
+/// The maps of --label-map, files or folders of structures. Throws as stateRoles(),
+/// Error(InvalidInput) for a file that is missing, or no volume, and Error(Usage) for a table
+/// beside folders alone.
+std::vector<operations::LabelPart> loadLabelMaps(const MaskArguments& arguments,
                                                  Progress& progress);
 
 }  // namespace lumen::engine

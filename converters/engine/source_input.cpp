@@ -35,12 +35,13 @@ operations::Source volumeSource(convert::Volume volume, const InputFile& file,
   if (isGuess)
     progress.detail(source.name + ": its voxels are labels, and all but 0 are taken for vessels");
   if (isGuess || mask.isGiven()) {
-    source.labels = operations::LabelPart{std::move(volume), source.name, mask.names(file)};
+    source.labels = operations::LabelPart{std::move(volume), source.name,
+                                          convert::meaningsOf(mask.table(file, progress))};
   } else {
     if (isSeeded) warnOfVoxels(volume, source.name, progress);
     source.grey = std::move(volume);
   }
-  source.regions = loadRegions(mask, progress);
+  source.maps = loadLabelMaps(mask, progress);
   return source;
 }
 

@@ -10,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/options/option_name.h"
+#include "converters/base/text.h"
 #include "converters/engine/scope.h"
 #include "converters/stages/editing/posed_case.h"
 #include "formats/container/printable.h"
@@ -240,21 +241,36 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
   table.group("");
 }
 
-void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
-  table
-      .file(
-          "label-map", mask.labelMap,
-          "Volume of labels by which the branches that are found get their names; its grid may be "
-          "another")
-      .forInputs(kVolumes)
-      .without(kOption.seeds.name)
-      .without("labels");
+void addLabelTableRows(OptionTable& table, MaskArguments& mask) {
   table
       .file(
           "label-table", mask.labelTable,
-          "Names of the labels: a JSON object, comma-separated values, a colour table of 3D Slicer "
-          "(.ctbl), or topcow [those in the header of a .seg.nrrd]")
+          "Names of the labels: a file of nnU-Net, BIDS, ITK-SNAP, FreeSurfer or 3D Slicer, a JSON "
+          "object, comma-separated values, or a table that comes with lumen, such as "
+          "totalsegmentator or topcow [those in the header of the map, or in a file beside it]")
       .without("labels");
+  table
+      .add("role", &mask.roles, "LABEL=ROLE",
+           "Role of a label, by its name or number: " + alternatives(convert::roleWords()) +
+               " [as its table or its name shows]. May be given several times")
+      .checkedBy(roleFault)
+      .many()
+      .forInputs(kVolumes);
+}
+
+void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
+  table
+      .file("label-map", mask.labelMaps,
+            "Volume of labels by which the branches that are found get their names, or a folder of "
+            "one for each structure; its grid may be another. May be given several times: the "
+            "first that "
+            "has a label counts")
+      .many()
+      .forInputs(kVolumes)
+      .without(kOption.seeds.name)
+      .without("labels");
+  addLabelTableRows(table, mask);
+  table.find("role")->onlyWith("label-map");
 }
 
 void addMaskRows(OptionTable& table, MaskArguments& mask) {

@@ -58,7 +58,9 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume);
 void addVolumeRows(OptionTable& table, VolumeArguments& volume, const std::string& file);
 void addTrackRows(OptionTable& table, TrackArguments& track);
 void addMeshRows(OptionTable& table, MeshArguments& mesh);
-/// --label-map and --label-table.
+/// --label-table and --role.
+void addLabelTableRows(OptionTable& table, MaskArguments& mask);
+/// --label-map, --label-table and --role.
 void addLabelMapRows(OptionTable& table, MaskArguments& mask);
 void addMaskRows(OptionTable& table, MaskArguments& mask);
 void addFitRows(OptionTable& table, convert::FitOptions& fit);

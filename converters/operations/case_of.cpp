@@ -37,9 +37,8 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const ModelOptions
 MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Context& context) {
   MadeCase made;
   convert::TrackResult tracked = trackVessels(*source.grey, source.name, options.vessels, context);
-  if (source.regions)
-    nameByRegions(*source.regions, source.grey->geometry, source.name, tracked.result, tracked.ends,
-                  context);
+  nameByMaps(source.maps, source.grey->geometry, source.name, tracked.result, tracked.ends,
+             context);
   made.repetition = repeatTracks(*source.grey, source.name, options.vessels, options.repeats,
                                  tracked.result, context);
   if (options.corrected) {
@@ -56,9 +55,8 @@ MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Cont
 MadeCase caseOfLabels(const Source& source, const CaseOptions& options, const Context& context) {
   MadeCase made;
   made.value = labelledVessels(*source.labels, options.chosenLabels, context);
-  if (source.regions)
-    nameByRegions(*source.regions, source.labels->voxels.geometry, source.name, made.value,
-                  made.remarks.ends, context);
+  nameByMaps(source.maps, source.labels->voxels.geometry, source.name, made.value,
+             made.remarks.ends, context);
   applyRoots(made.value, source.name, options.vessels, context);
   return made;
 }

@@ -25,6 +25,23 @@ void useNames(const convert::LabelNames& names, convert::LabelMask& mask) {
       mask.names[i] = found->second;
 }
 
+/// Takes the labels that are stated to be no vessels, or regions, off a mask. True if others are
+/// left.
+bool leaveOutOthers(const std::vector<convert::LabelMeaning>& meanings, convert::LabelMask& mask) {
+  std::vector<bool> isLeftOut(mask.values.size() + 1, false);
+  for (const convert::LabelMeaning& meaning : meanings) {
+    if (!meaning.isStated) continue;
+    if (!convert::isNotVessel(meaning.role) && meaning.role != convert::LabelRole::Region) continue;
+    const auto at = std::lower_bound(mask.values.begin(), mask.values.end(), meaning.value);
+    if (at != mask.values.end() && *at == meaning.value)
+      isLeftOut[static_cast<std::size_t>(at - mask.values.begin()) + 1] = true;
+  }
+  for (std::uint8_t& label : mask.label)
+    if (isLeftOut[label]) label = 0;
+  return std::count(isLeftOut.begin(), isLeftOut.end(), true) <
+         static_cast<std::ptrdiff_t>(mask.values.size());
+}
+
 /// The middle of a volume, mm, LPS, and the lengths of its edges.
 std::string extentText(const convert::VolumeGeometry& geometry) {
   const Eigen::Vector3d size = geometry.cells().size.cast<double>();
@@ -55,7 +72,8 @@ formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64
   convert::LabelNames wanted;
   for (const std::int64_t label : chosen) wanted[label] = "label-" + std::to_string(label);
   convert::LabelMask mask = convert::makeLabelMask(labels.voxels, wanted, name);
-  useNames(labels.names, mask);
+  const convert::LabelNames names = convert::namesOf(labels.meanings);
+  useNames(names, mask);
   if (mask.isGrey)
     progress.warn(name +
                   ": its voxels differ from their neighbours as grey values do, and are taken as "
@@ -75,34 +93,47 @@ formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64
   // no wall is known better than to a voxel of the labels
   std::optional<double>& voxel = made.result.metadata.voxelSize;
   voxel = std::max(voxel.value_or(0), mask.geometry.voxelSize());
-  if (mask.names.size() > 1 || !labels.names.empty()) convert::nameBranches(mask, made.result);
+  if (mask.names.size() > 1 || !names.empty()) convert::nameBranches(mask, made.result);
   return std::move(made.result);
 }
 
-void nameByRegions(const LabelPart& regions, const convert::VolumeGeometry& geometry,
-                   const std::string& named, formats::Case& target,
-                   std::vector<convert::TrackEnd>& ends, const Context& context) {
-  const std::string name = formats::printable(regions.name);
-  if (!convert::holdsLabels(regions.voxels))
+namespace {
+
+void nameByMap(const LabelPart& map, const convert::VolumeGeometry& geometry,
+               const std::string& named, formats::Case& target, const Context& context) {
+  const std::string name = formats::printable(map.name);
+  if (!convert::holdsLabels(map.voxels))
     throw invalidInput(name +
                        ": its voxels are no labels; expected whole numbers that are equal to "
                        "their neighbours but at borders, and 0 around vessels");
-  convert::LabelMask mask = convert::makeLabelMask(regions.voxels, {}, name);
+  convert::LabelMask mask = convert::makeLabelMask(map.voxels, {}, name);
   if (convert::labelledWithin(mask, geometry) == 0)
     throw invalidInput(name + ": none of its labels lies within " + formats::printable(named) +
                        "; the labels' volume is around " + extentText(mask.geometry) +
                        ", expected labels of the volume around " + extentText(geometry));
-  useNames(regions.names, mask);
+  useNames(convert::namesOf(map.meanings), mask);
+  if (!leaveOutOthers(map.meanings, mask)) return;
   const convert::Naming done = convert::nameBranches(mask, target);
   if (done.named == 0) context.progress.warn(name + ": no branch lies on its labels; names stay");
   context.progress.detail(name + ": names " + std::to_string(done.named) + " branches, " +
                           std::to_string(done.bare) + " lie on no label, " +
                           std::to_string(done.divided) + " were divided between labels");
-  renameByNodes(target.tree, ends);
-  target.metadata.steps.push_back(
-      {"label-map",
-       "lumen " LUMEN_VERSION,
-       {{"label-map-sha256", convert::describeSource(regions.voxels).sha256}}});
+}
+
+}  // namespace
+
+void nameByMaps(const std::vector<LabelPart>& maps, const convert::VolumeGeometry& geometry,
+                const std::string& named, formats::Case& target,
+                std::vector<convert::TrackEnd>& ends, const Context& context) {
+  // names of the first map are the last ones that branches get
+  for (auto map = maps.rbegin(); map != maps.rend(); ++map)
+    nameByMap(*map, geometry, named, target, context);
+  if (!maps.empty()) renameByNodes(target.tree, ends);
+  for (const LabelPart& map : maps)
+    target.metadata.steps.push_back(
+        {"label-map",
+         "lumen " LUMEN_VERSION,
+         {{"label-map-sha256", convert::describeSource(map.voxels).sha256}}});
 }
 
 }  // namespace lumen::operations

@@ -21,12 +21,14 @@ namespace lumen::operations {
 formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64_t>& chosen,
                               const Context& context);
 
-/// Names the branches of a case by the regions in which they lie, and gives the remarks on `ends` the
-/// names that their branches have then. `geometry` is that of the volume that the case was made of,
-/// which messages call `named`. Warns if no branch lies in a region. Throws Error(InvalidInput) for
-/// regions that are no labels, or lie elsewhere.
-void nameByRegions(const LabelPart& regions, const convert::VolumeGeometry& geometry,
-                   const std::string& named, formats::Case& target,
-                   std::vector<convert::TrackEnd>& ends, const Context& context);
+/// Names the branches of a case by the labels on which they lie, and gives the remarks on `ends`
+/// the names that their branches have then. Where several maps have a label, that of the first
+/// counts. A label that a table or a person states to be no vessel, or a region, names none.
+/// `geometry` is that of the volume that the case was made of, which messages call `named`. Warns
+/// of a map on which no branch lies. Throws Error(InvalidInput) for voxels that are no labels, or
+/// lie elsewhere.
+void nameByMaps(const std::vector<LabelPart>& maps, const convert::VolumeGeometry& geometry,
+                const std::string& named, formats::Case& target,
+                std::vector<convert::TrackEnd>& ends, const Context& context);
 
 }  // namespace lumen::operations

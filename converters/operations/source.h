@@ -5,20 +5,22 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "converters/io/centerline/centerline_file.h"
+#include "converters/io/labels/label_meaning.h"
 #include "converters/io/mesh/read_mesh.h"
-#include "converters/io/volume/label_table.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::operations {
 
-/// A volume of labels: whole numbers, 0 around vessels.
+/// A volume of labels: whole numbers, 0 around what they mark.
 struct LabelPart {
   convert::Volume voxels;
-  std::string name;           ///< for messages
-  convert::LabelNames names;  ///< names of its labels, as far as they are known
+  std::string name;  ///< for messages
+  /// Meanings of its labels, as far as they are known, by ascending values.
+  std::vector<convert::LabelMeaning> meanings;
 };
 
 /// The surface of vessels as triangles, in the unit of its file; axes are LPS.
@@ -39,7 +41,7 @@ struct CenterlinePart {
 /// |---|---|
 /// | `grey` | the vessels that are found or seeded in the voxels |
 /// | `labels` | the vessels that the labels mark |
-/// | `grey` or `labels`, and `regions` | the same, whose branches have the names of the regions |
+/// | `grey` or `labels`, and `maps` | the same, whose branches have the names of the maps' labels |
 /// | `mesh` | the vessels whose wall it is |
 /// | `mesh`, `centerline` | the same, along this centerline; a unit of 0 is that of the mesh |
 /// | `centerline` | its vessels; points are in mm and LPS |
@@ -48,7 +50,8 @@ struct Source {
   std::string name;                     ///< for messages, as a person knows it: "head.nrrd"
   std::optional<convert::Volume> grey;  ///< intensities of an angiogram
   std::optional<LabelPart> labels;      ///< labels that are vessels
-  std::optional<LabelPart> regions;     ///< labels that name vessels; its grid may be another
+  /// Maps that state what lies where, each on a grid of its own; where two speak, the first counts.
+  std::vector<LabelPart> maps;
   std::optional<MeshPart> mesh;
   std::optional<CenterlinePart> centerline;
   std::optional<formats::Case> value;

@@ -23,7 +23,7 @@ track tube.nrrd out/t.lumen.json --seeds seeds.json --seeds-only true
 track tube.nrrd out/t.lumen.json
   --label-map halves.nii
 track tube.nrrd out/t.lumen.json --label-map halves.nii
-  --label-table table.csv
+  --label-table table.csv --role 1=bone
 track two.nrrd out/t.lumen.json
   --seeds two.json
 track apart.nrrd out/t.lumen.json --seeds one.json
@@ -50,6 +50,8 @@ seeds volume out/s.json
   --from nrrd
 info tube.nrrd
   --crop 2,29,2,29,2,29 --spacing 0.21 --unit cm --voxels true
+info halves.nii --voxels true
+  --label-table table.csv --role 1=bone
 info times.nii
   --volume-index 1
 info header/tube.nhdr

@@ -231,9 +231,10 @@ TEST_F(TubeTest, InfoDoesNotReadVoxelsUnlessAsked) {
 
 TEST_F(TubeTest, InfoOfAVolumeGivesItsGeometryAndDigest) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json", "--voxels"}).out);
-  EXPECT_EQ(keys(info),
-            (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256", "pixel_type", "min",
-                   "max", "placed_by", "stored_type", "encoding", "voxel_bytes", "stored_bytes"}));
+  EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256",
+                               "pixel_type", "min", "max", "labels", "placed_by", "stored_type",
+                               "encoding", "voxel_bytes", "stored_bytes"}));
+  EXPECT_EQ(info["labels"], Json::array());
   EXPECT_EQ(info["size"], Json::array({64, 64, 64}));
   EXPECT_EQ(info["pixel_type"], "int16");
   EXPECT_EQ(info["sha256"].get<std::string>().size(), 64U);

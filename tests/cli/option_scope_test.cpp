@@ -30,6 +30,7 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = [
        {"seeds-frame", "seeds-unit", "seeds-only", "axes", "min-trials", "max-trials",
         "random-seed", "step", "look-ahead", "branch-offset", "max-nodes"})
     companions[name] = {"seeds", "seeds.json"};
+  companions["role"] = {"label-map", "halves.nii"};
   for (const char* const name : {"centerline-frame", "centerline-unit"})
     companions[name] = {"centerline", "truth.swc"};
   return companions;
@@ -53,6 +54,8 @@ labels apart-labels.nrrd
 label-map tube.nrrd
 label-map labels.nrrd --mask true
 label-table halves.nii --mask true
+role tube.nrrd
+role labels.nrrd --mask true
 volume-index times.nii
 series series
 allow-detached header/tube.nhdr
@@ -145,7 +148,7 @@ protected:
                                const std::string& output) {
     if (!row.recordKey.empty() && !kShowsItsStage.contains(row.name))
       return output != kOutputs.front();
-    if (row.name == "label-table" && output.ends_with(".stl")) return true;
+    if ((row.name == "label-table" || row.name == "role") && output.ends_with(".stl")) return true;
     const ContentMask written = detectContent(output);
     if (row.outputs == kAnyContent && row.name != "label-table" &&
         (written & (engine::kBinaryCase | engine::kGltf | engine::kOtherMesh)) != 0)
@@ -268,10 +271,11 @@ TEST_F(OptionScopeTest, AnOptionThatIsTakenChangesEveryOutputThatItIsFor) {
 TEST_F(OptionScopeTest, AnOptionWithoutItsCompanionIsRefused) {
   for (const auto& [option, companion] : kCompanions) {
     if (option == "cohesion-scale") continue;  // it needs one for centerlines alone
-    const std::string input = option.starts_with("center") ? "plain.stl"
-                              : companion.first == "seeds" || companion.first == "root"
-                                  ? "tube.nrrd"
-                                  : "case.lumen";
+    const std::string input =
+        option.starts_with("center") ? "plain.stl"
+        : companion.first == "seeds" || companion.first == "root" || companion.first == "label-map"
+            ? "tube.nrrd"
+            : "case.lumen";
     const Effect effect =
         effectOf(operationOf("convert", {input, "out/o.glb"}, {{option, sampleOf(option)}}));
     EXPECT_NE(effect.error.find("--" + option + " does nothing without --"), std::string::npos)

@@ -12,6 +12,14 @@ namespace {
 /// Runs, and below each a sentence of its error.
 constexpr const char* kRefusals = R"(track tube.nrrd out/t.lumen --label-table table.csv
   --label-table does nothing without --label-map
+track tube.nrrd out/t.lumen --role 1=bone
+  --role does nothing without --label-map
+track tube.nrrd out/t.lumen --label-map labels.nrrd --role 7=bone
+  --role: no label map has the label 7
+track tube.nrrd out/t.lumen --label-map labels.nrrd --role 1=bones
+  --role: found 1=bones, expected a label by its name or number, = and its role: unknown, vessel
+info labels.nrrd --role 1=bone
+  --role does nothing without --voxels
 track tube.nrrd out/t.lumen --only-connected true
   --only-connected does nothing without --seeds or --root
 seeds tube.nrrd out/s.json --step 0.4

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surfaces, labels and scenes of other programs become cases.
+#include <filesystem>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -178,6 +179,53 @@ TEST_F(LabelsInTest, ALabelMapNamesWhatIsFoundBesideIt) {
             "BA of label-map");
   EXPECT_EQ(nameBy({"convert", "labels.nrrd", "named.lumen", "--label-table", "table.csv"}),
             "ica of fit");
+}
+
+TEST_F(LabelsInTest, AnswersStateTheRolesOfLabelsAndTheirSources) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
+  ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);
+  write("dataset.json", R"({"labels": {"background": 0, "basilar artery": 1}})");
+  const auto labelOf = [&](std::vector<std::string> line) {
+    line.emplace_back("--json");
+    const Outcome done = lumen(std::move(line));
+    EXPECT_EQ(done.code, 0) << done.err;
+    const Json answer = Json::parse(done.out);
+    const Json& label =
+        answer.contains("labels") ? answer["labels"][0] : answer["label_maps"][0]["labels"][0];
+    EXPECT_EQ(label["value"], 1);
+    EXPECT_GT(label["voxels"].get<int>(), 100);
+    return label["name"].get<std::string>() + ": " + label["role"].get<std::string>() + " (" +
+           label["from"].get<std::string>() + ")";
+  };
+  const auto branch = [&] {
+    return formats::readCaseFile(path("named.lumen"))->tree.branches[0].label;
+  };
+  EXPECT_EQ(labelOf({"track", "tube.nrrd", "named.lumen", "--label-map", "labels.nrrd"}),
+            "basilar artery: artery (dataset.json, its name)");
+  EXPECT_EQ(branch(), "basilar artery");
+  EXPECT_EQ(labelOf({"info", "labels.nrrd", "--voxels", "--label-table", "topcow"}),
+            "BA: artery (TopCoW)");
+  // a folder is one map, and the first map names
+  std::filesystem::create_directory(path("maps"));
+  write("maps/rib_left_1.nrrd", read("labels.nrrd"));
+  EXPECT_EQ(labelOf({"info", "maps"}), "rib_left_1: bone (its file, TotalSegmentator total)");
+  const Json cut = Json::parse(lumen({"info", "maps", "--crop", "8,55,8,55,8,55", "--json"}).out);
+  EXPECT_EQ(cut["size"], Json::array({48, 48, 48}));
+  for (const std::vector<std::string>& line :
+       {std::vector<std::string>{"info", "maps", "--voxels", "--label-table", "topcow"},
+        {"track", "tube.nrrd", "no.lumen", "--label-map", "maps", "--label-table", "topcow"}}) {
+    const Outcome refused = lumen(line);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(contains(refused.err, "--label-table does nothing for a folder")) << refused.err;
+  }
+  const std::vector<std::string> both = {"track", "tube.nrrd",   "named.lumen", "--label-map",
+                                         "maps",  "--label-map", "labels.nrrd"};
+  EXPECT_EQ(labelOf(both), "rib_left_1: bone (its file, TotalSegmentator total)");
+  EXPECT_EQ(branch(), "basilar artery");
+  std::vector<std::string> stated = both;
+  stated.insert(stated.end(), {"--role", "rib_left_1=vein"});
+  EXPECT_EQ(labelOf(stated), "rib_left_1: vein (its file, the option)");
+  EXPECT_EQ(branch(), "rib_left_1");
 }
 
 TEST_F(LabelsInTest, LabelMapsThatCannotBeAreMistakes) {

@@ -13,6 +13,9 @@ target_include_directories(field_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/b
 lumen_test(voxels_test FOLDER voxels
   LABELS memory
   LIBS lumen_voxels)
+lumen_test(labels_test FOLDER labels
+  LABELS memory
+  LIBS lumen_labels)
 lumen_test(seeds_test FOLDER seeds
   LABELS memory
   LIBS lumen_seeds)

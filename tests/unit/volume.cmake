@@ -1,7 +1,7 @@
 find_package(ZLIB REQUIRED)
 lumen_test(volume_test
   LABELS memory threads
-  LIBS lumen_volume
+  LIBS lumen_volume lumen_labels
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/bspline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_nifti_test.cpp

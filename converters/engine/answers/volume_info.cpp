@@ -65,6 +65,7 @@ Json volumeInfoJson(const VolumeInfo& info) {
     json["pixel_type"] = info.values->pixelType;
     json["min"] = jsonNumber(info.values->min);
     json["max"] = jsonNumber(info.values->max);
+    json["labels"] = labelsJson(info.values->labels);
   }
   json["placed_by"] = header.placedBy.empty() ? Json(nullptr) : Json(header.placedBy);
   json["stored_type"] = header.storedType;
@@ -91,7 +92,7 @@ std::string volumeInfoText(const VolumeInfo& info) {
   if (!info.values) return lines.add("values", "not read; --voxels reads them").text();
   lines.add("pixel type", info.values->pixelType);
   lines.add("values", shownNumber(info.values->min) + " to " + shownNumber(info.values->max));
-  return lines.add("sha256", info.values->sha256).text();
+  return lines.add("sha256", info.values->sha256).text() + labelLines(info.values->labels);
 }
 
 }  // namespace lumen::engine

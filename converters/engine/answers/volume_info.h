@@ -7,6 +7,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/label_answer.h"
 #include "converters/io/volume/read_volume_options.h"
 #include "converters/voxels/volume.h"
 
@@ -18,6 +19,7 @@ struct VolumeInfo {
     std::string pixelType;  ///< in memory: uint8, int16, uint16 or float32
     double min = 0, max = 0;
     std::string sha256;
+    CountedLabels labels{};  ///< empty for grey values
   };
   std::optional<Values> values;  ///< empty: the voxels were not read
 };
@@ -26,7 +28,7 @@ VolumeInfo describeVolume(const convert::VolumeHeader& header, const convert::Vo
                           Progress& progress);
 
 /// size, spacing_mm, origin_mm, direction (row-major), stored_type, encoding, voxel_bytes,
-/// stored_bytes; if the voxels were read, sha256, pixel_type, min and max.
+/// stored_bytes; if the voxels were read, sha256, pixel_type, min, max and labels.
 Json volumeInfoJson(const VolumeInfo& info);
 std::string volumeInfoText(const VolumeInfo& info);
 

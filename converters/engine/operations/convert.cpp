@@ -4,10 +4,12 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "converters/base/error.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
+#include "converters/engine/answers/label_answer.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/answers/track_answer.h"
 #include "converters/engine/convert_options.h"
@@ -86,12 +88,13 @@ public:
         isCase ? loadCase(from, to, contents, context) : loadNew(from, options, contents, context);
     if (!isCase || contents.input == kUnfittedCase)
       options.models = m_options.modelOptions(source, *context.table, context.progress);
+    const std::vector<LabelledMap> maps = describeMaps(source.maps);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
     context.progress.check();
     const std::optional<convert::Reach> reach = convert::measureReach(made.value, context.progress);
     convert::warnOfClosed(reach, context.progress);
-    return report(made, reach,
+    return report(made, reach, maps,
                   to.writeCase(made.value, m_output, m_options.output, context.progress));
   }
 
@@ -154,6 +157,7 @@ private:
 
   [[nodiscard]] Answer report(const operations::MadeCase& made,
                               const std::optional<convert::Reach>& reach,
+                              const std::vector<LabelledMap>& maps,
                               const std::optional<convert::SurfaceReport>& surface) const {
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(reach);
@@ -161,11 +165,12 @@ private:
     json["mesh"] = meshFrameJson(made.meshFrame);
     json["repeats"] = repetitionJson(made.repetition, made.value);
     json["corrections"] = replayedJson(made.replayed);
+    json["label_maps"] = mapsJson(maps);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
                 meshFrameLine(made.meshFrame) + convert::reachLine(reach) +
                 surfaceLines(surface, made.value) + repetitionLines(made.repetition) +
-                endLines(made.remarks)};
+                mapLines(maps) + endLines(made.remarks)};
   }
 
   InputFile m_input;

@@ -2,6 +2,7 @@
 // lumen info: the facts of a case, a volume, a mesh or a centerline.
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
@@ -10,10 +11,12 @@
 #include "converters/engine/answers/volume_info.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_info.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
+#include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -45,6 +48,11 @@ public:
             "and overlaps, and its warnings. It takes as long as the mesh: seconds for most cases")
         .forInputs(kFittedCase);
     addVolumeRows(table, m_volume);
+    table.group("Labels");
+    addLabelTableRows(table, m_labels);
+    for (const char* const option : {"label-table", "role"})
+      table.find(option)->forInputs(kVolumes).onlyWith("voxels");
+    table.group("");
     for (OptionRow& row : table.rows())
       if (!row.isArgument && row.name != "chunks") row.notBeside("chunks");
   }
@@ -56,6 +64,12 @@ public:
                      context.progress);
       const FileInfo info = describeChunks(readCaseBytes(m_input), m_input.name());
       return {chunkInfoJson(info), chunkInfoText(info), 0, true};
+    }
+    if (m_from.empty() && convert::isLabelFolder(m_input)) {
+      requireInScope(*context.table, {kFileLabels, kAnyContent, m_input.name(), {}},
+                     context.progress);
+      const VolumeInfo info = describeFolder(context.progress);
+      return {volumeInfoJson(info), volumeInfoText(info), 0, true};
     }
     const FileFormat& from = inputFormat(m_input, m_from);
     requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input.name(), {}},
@@ -84,9 +98,28 @@ private:
 
   [[nodiscard]] VolumeInfo describe(const FileFormat& from, Progress& progress) const {
     if (!m_voxels) return {loadVolumeHeader(m_input, from, m_volume, progress), {}};
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    return describeVolume(from.readVolumeHeader(m_input, m_volume.options(), progress), volume,
-                          progress);
+    convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    VolumeInfo info = describeVolume(from.readVolumeHeader(m_input, m_volume.options(), progress),
+                                     volume, progress);
+    if (convert::holdsLabels(volume))
+      info.values->labels = describeLabelled(std::move(volume), m_labels.table(m_input, progress));
+    return info;
+  }
+
+  [[nodiscard]] VolumeInfo describeFolder(Progress& progress) const {
+    if (!m_labels.labelTable.empty()) refuseTableOfFolder();
+    convert::FolderMap map = loadLabelFolder(m_input, m_volume.options(), progress);
+    VolumeInfo info = describeVolume(map.header, map.voxels, progress);
+    info.values->labels = describeLabelled(std::move(map.voxels), map.table);
+    return info;
+  }
+
+  [[nodiscard]] CountedLabels describeLabelled(convert::Volume volume,
+                                               const convert::LabelTable& table) const {
+    std::vector<operations::LabelPart> maps;
+    maps.push_back(labelPart(std::move(volume), m_input.name(), table));
+    stateRoles(m_labels.roles, maps);
+    return describeLabels(maps.front());
   }
 
   [[nodiscard]] Answer describeWithSurface(const formats::Case& value,
@@ -113,6 +146,7 @@ private:
   bool m_voxels = false;
   bool m_surface = false;
   VolumeArguments m_volume;
+  MaskArguments m_labels;
 };
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen track: a volume and seeds to a tree with wall points.
 #include <utility>
+#include <vector>
 
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
+#include "converters/engine/answers/label_answer.h"
 #include "converters/engine/answers/track_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/mask_input.h"
@@ -59,16 +61,18 @@ public:
     operations::Source source;
     source.name = m_input.name();
     source.grey = loadVolume(m_input, from, m_volume, context.progress);
-    source.regions = loadRegions(m_labels, context.progress);
+    source.maps = loadLabelMaps(m_labels, context.progress);
+    const std::vector<LabelledMap> maps = describeMaps(source.maps);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
     to.writeCase(made.value, m_output, {}, context.progress);
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(std::nullopt);
     json["repeats"] = repetitionJson(made.repetition, made.value);
+    json["label_maps"] = mapsJson(maps);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + convert::reachLine(std::nullopt) +
-                repetitionLines(made.repetition) + endLines(made.remarks)};
+                repetitionLines(made.repetition) + mapLines(maps) + endLines(made.remarks)};
   }
 
 private:

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "converters/base/input_file.h"
 #include "converters/io/volume/stored_voxels.h"
 
 namespace lumen::convert {
@@ -52,5 +53,9 @@ void checkNiftiStart(std::span<const std::byte, kNiftiHeaderSize> bytes,
 /// for a header whose voxels are in another file, and for types that are not read.
 NiftiHeader parseNiftiHeader(std::span<const std::byte, kNiftiHeaderSize> bytes,
                              const std::filesystem::path& path);
+
+/// The bytes between header and voxels of a file, in which extensions lie, at most a megabyte;
+/// empty for a file that is no NIfTI-1 or has none.
+std::string niftiExtensions(const InputFile& file);
 
 }  // namespace lumen::convert

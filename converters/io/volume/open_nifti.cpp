@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <istream>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,6 +110,23 @@ OpenVolume openNifti(const InputFile& file, const ReadVolumeOptions& options,
 }
 
 }  // namespace
+
+std::string niftiExtensions(const InputFile& file) {
+  constexpr std::size_t kMost = 1 << 20;
+  try {
+    StoredVoxels whole;
+    whole.packing = isGzip(file) ? Packing::Deflate : Packing::Raw;
+    const auto bytes = openPacked(whole, file, 0, Progress());
+    std::array<std::byte, kNiftiHeaderSize> head{};
+    if (bytes->read(head.data(), head.size()) < head.size()) return {};
+    const NiftiHeader header = parseNiftiHeader(head, file.path());
+    std::string text(std::min(header.voxelOffset - kNiftiHeaderSize, kMost), '\0');
+    text.resize(bytes->read(std::as_writable_bytes(std::span(text)).data(), text.size()));
+    return text;
+  } catch (const Error&) {
+    return {};  // the reader of voxels states the fault
+  }
+}
 
 constinit const VolumeFormat VolumeFormat::Nifti{openNifti, encodeAsNifti};
 

@@ -102,7 +102,7 @@ Volume readVolume(const InputFile& file, const VolumeFormat& format,
   volume.voxels = opened.readVoxels(progress, volume.assumptions);
   progress.check();
   if (options.crop) crop(volume, *options.crop, file.path());
-  checkVoxels(volume.voxels, file.path());
+  checkVoxels(volume.voxels, file.path(), options.allowsConstant);
   progress.check();
   return volume;
 }

@@ -33,6 +33,7 @@ struct ReadVolumeOptions {
   /// DICOM: files that cannot be read are left out, and an assumption names each, instead of a
   /// refusal of the series.
   bool skipFaulty = false;
+  bool allowsConstant = false;  ///< voxels may all be equal, as those of a mask of nothing are
   /// Names, in messages and assumptions, the fields by which a caller states these: "series",
   /// "volume-index", "spacing", "unit", "allow-detached".
   FieldWord word{};

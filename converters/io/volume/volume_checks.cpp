@@ -22,9 +22,9 @@ constexpr double kMaxVoxels = 1e11;
 // Deflate expands at most 1032 times (zlib's technical notes).
 constexpr double kMaxExpansion = 1032;
 
-/// Refuses values that are not finite, and constant volumes.
+/// Refuses values that are not finite, and constant volumes unless they are allowed.
 template <class T>
-void checkValues(const std::vector<T>& voxels, const fs::path& path) {
+void checkValues(const std::vector<T>& voxels, const fs::path& path, bool allowsConstant) {
   if constexpr (std::is_floating_point_v<T>) {
     const auto bad =
         std::count_if(voxels.begin(), voxels.end(), [](T v) { return !std::isfinite(v); });
@@ -32,6 +32,7 @@ void checkValues(const std::vector<T>& voxels, const fs::path& path) {
       throw invalidInput(path.string() + ": " + std::to_string(bad) +
                          " of its voxels are not finite; expected numbers within a float's range");
   }
+  if (allowsConstant) return;
   const bool constant = std::all_of(voxels.begin(), voxels.end(),
                                     [&](T v) { return !(v < voxels[0]) && !(v > voxels[0]); });
   if (constant)
@@ -120,8 +121,8 @@ std::string longNumber(double value) {
   return shownNumber(value, kHeaderDigits);
 }
 
-void checkVoxels(const Voxels& voxels, const fs::path& path) {
-  std::visit([&](const auto& values) { checkValues(values, path); }, voxels);
+void checkVoxels(const Voxels& voxels, const fs::path& path, bool allowsConstant) {
+  std::visit([&](const auto& values) { checkValues(values, path, allowsConstant); }, voxels);
 }
 
 }  // namespace lumen::convert

@@ -9,7 +9,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/geometry/mesh_measures.h"
-#include "converters/io/volume/label_table.h"
+#include "converters/io/labels/label_table.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 

@@ -50,8 +50,10 @@ def convert(source, to=None, **options) -> Any:
     to : path, optional
         File to write: .lumen, a mesh (.glb, .vtp, .stl, .ply, .obj) or a centerline (.swc, .vtp).
         The name states the format, so no ``to=`` option of the program is needed.
-    label_map : path, Volume, image or array, optional
+    label_map : path, Volume, image or array, or a list of them, optional
         Labels by which the branches that are found get their names.
+    role : dict, optional
+        What labels are, such as ``{"aorta": "artery", 5: "bone"}``.
     label_table : path, name or dict, optional
         Names of the labels, such as ``{1: "BA"}``.
     labels : str, dict, array, Volume or image, optional

@@ -154,6 +154,10 @@ class Values:
             return self._give("seeds.json", json.dumps(seeds_document(value)))
         if row["name"] == "label-table":
             return self._give("labels.json", json.dumps({str(_label(row, one)): name for one, name in value.items()}))
+        if row["name"] == "role" and isinstance(value, Mapping):
+            return [f"{label}={role}" for label, role in value.items()]
+        if row["name"] == "label-map" and isinstance(value, (list, tuple)):
+            return [self.option(row, one) for one in value]
         if row["name"] == "labels" and isinstance(value, Mapping):
             return ",".join(f"{_label(row, one)}={name}" for one, name in value.items())
         return self.name_of(value, row["name"].replace("-", "_")) if row["placeholder"] == "FILE" else value

@@ -32,7 +32,7 @@ Tracking(inlier_rte=0.6)
 class Image:
     affine: object
     dataobj: object
-reveal_type(lumen.convert(Image(), label_map=np.zeros((2, 3, 4)), label_table={1: "BA"}))
+reveal_type(lumen.convert(Image(), label_map=[np.zeros((2, 3, 4)), "a.nii"], label_table={1: "BA"}, role={"BA": "artery"}))
 reveal_type(lumen.fit("a.lumen").surface())
 """
 

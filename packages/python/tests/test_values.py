@@ -139,6 +139,22 @@ class VolumesTest(unittest.TestCase):
         self.assertEqual({branch.label for branch in case.branches}, {"trunk", "twig"})
         self.assertLess(case.compare(phantom.truth)["assd_mm"], 0.1)
 
+    def test_several_label_maps_name_in_order_and_roles_are_a_mapping(self):
+        volume = sample().phantom.volume
+        with tempfile.TemporaryDirectory() as folder:
+            mask = os.path.join(folder, "mask.nrrd")
+            sample().case.check(volume, mask=mask)
+            first = lumen.Volume.read(mask)
+            first.array[first.array > 1] = 0
+
+            def names(**options):
+                case = lumen.convert(volume, label_map=[first, mask], label_table={1: "trunk", 2: "twig"}, **options)
+                return {branch.label for branch in case.branches}
+            self.assertEqual(names(), {"trunk", "twig"})
+            self.assertNotIn("trunk", names(role={"trunk": "bone"}))
+            with self.assertRaisesRegex(lumen.Error, "no label map has the label 7"):
+                names(role={7: "bone"})
+
     def test_the_content_of_a_file_is_the_volume(self):
         volume = sample().phantom.volume
         with tempfile.TemporaryDirectory() as folder:

@@ -37,6 +37,13 @@ convert::Volume labelsOf(const convert::Volume& volume) {
   return {volume.geometry, std::move(voxels)};
 }
 
+convert::LabelMeaning meaning(std::int64_t value, const std::string& name) {
+  convert::LabelMeaning named;
+  named.value = value;
+  named.name = name;
+  return named;
+}
+
 /// A straight vessel of 1 mm along z with a point every mm.
 convert::CenterlineFile straightLine() {
   convert::CenterlineFile file;
@@ -107,24 +114,39 @@ TEST_F(CaseOfTest, ARootThatLiesInNoVesselIsReportedByItsField) {
 
 TEST_F(CaseOfTest, LabelsAreVesselsWithTheirNames) {
   Source source;
-  source.labels = LabelPart{labelsOf(phantom("tube").volume), "mask", {{1, "trunk"}}};
+  source.labels = LabelPart{labelsOf(phantom("tube").volume), "mask", {meaning(1, "trunk")}};
   const MadeCase made = caseOf(std::move(source), {}, m_context);
   ASSERT_EQ(made.value.tree.branches.size(), 1U);
   EXPECT_EQ(made.value.tree.branches.front().label, "trunk");
 }
 
-TEST_F(CaseOfTest, RegionsNameTheVesselsOfGreyVoxels) {
+TEST_F(CaseOfTest, MapsNameTheVesselsOfGreyVoxels) {
   const convert::Phantom tube = phantom("tube");
   Source source = grey(tube);
-  source.regions = LabelPart{labelsOf(tube.volume), "map", {{1, "trunk"}}};
+  source.maps.push_back({labelsOf(tube.volume), "map", {meaning(1, "trunk")}});
   const MadeCase made = caseOf(std::move(source), {}, m_context);
   EXPECT_EQ(made.value.tree.branches.front().label, "trunk");
 }
 
-TEST_F(CaseOfTest, RegionsThatAreNoLabelsAreRefusedByName) {
+TEST_F(CaseOfTest, TheFirstMapNamesAndALabelStatedToBeNoVesselDoesNot) {
+  const convert::Phantom tube = phantom("tube");
+  convert::LabelMeaning bone = meaning(1, "rib");
+  const auto nameWith = [&](bool isStated) {
+    bone.role = convert::LabelRole::Bone;
+    bone.isStated = isStated;
+    Source source = grey(tube);
+    source.maps.push_back({labelsOf(tube.volume), "first", {bone}});
+    source.maps.push_back({labelsOf(tube.volume), "second", {meaning(1, "trunk")}});
+    return caseOf(std::move(source), {}, m_context).value.tree.branches.front().label;
+  };
+  EXPECT_EQ(nameWith(false), "rib");
+  EXPECT_EQ(nameWith(true), "trunk");
+}
+
+TEST_F(CaseOfTest, MapsThatAreNoLabelsAreRefusedByName) {
   const convert::Phantom tube = phantom("tube");
   Source source = grey(tube);
-  source.regions = LabelPart{tube.volume, "map", {}};
+  source.maps.push_back({tube.volume, "map", {}});
   EXPECT_TRUE(fault(std::move(source), {}, m_context).starts_with("map: its voxels are no labels"));
 }
 

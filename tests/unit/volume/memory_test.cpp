@@ -4,7 +4,7 @@
 
 #include "converters/base/files.h"
 #include "converters/io/content/file_content.h"
-#include "converters/io/volume/label_table.h"
+#include "converters/io/labels/label_table.h"
 #include "tests/unit/volume/fixtures.h"
 
 namespace lumen::convert {
@@ -116,7 +116,7 @@ TEST_F(VolumeInMemory, ThatIsNoVolumeIsRefusedByItsContent) {
 
 TEST(SegmentNames, InMemoryAreThoseOfTheHeader) {
   const std::string header = "NRRD0004\nSegment0_LabelValue:=7\nSegment0_Name:=aorta\n\nx";
-  EXPECT_EQ(segmentNames({"a.seg.nrrd", header}), (LabelNames{{7, "aorta"}}));
+  EXPECT_EQ(ownNames({"a.seg.nrrd", header}).names, (LabelNames{{7, "aorta"}}));
 }
 
 }  // namespace

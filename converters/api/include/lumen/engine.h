@@ -199,7 +199,7 @@ typedef struct lumen_engine_inputs {
                                     or .fcsv */
   lumen_engine_file corrected;   /* of grey voxels: a case whose corrections are made again */
   lumen_engine_file label_map;   /* of a volume: one of labels that name its vessels */
-  lumen_engine_file label_table; /* of labels: their names, .json, .csv or .ctbl */
+  lumen_engine_file label_table; /* of labels: their names; the content decides how it is read */
   lumen_engine_file centerline;  /* of a surface: .swc, .tre, .vtp or .mrk.json */
 } lumen_engine_inputs;
 
