@@ -7,6 +7,7 @@
 
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/operations/hinted_vessels.h"
+#include "converters/operations/label_prior.h"
 #include "converters/stages/fitting/fit.h"
 #include "formats/container/printable.h"
 
@@ -36,11 +37,13 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const ModelOptions
 
 MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Context& context) {
   MadeCase made;
-  convert::TrackResult tracked = trackVessels(*source.grey, source.name, options.vessels, context);
+  VesselOptions vessels = options.vessels;
+  vessels.prior = priorOf(source.maps, source.grey->geometry, context.progress);
+  convert::TrackResult tracked = trackVessels(*source.grey, source.name, vessels, context);
   nameByMaps(source.maps, source.grey->geometry, source.name, tracked.result, tracked.ends,
              context);
-  made.repetition = repeatTracks(*source.grey, source.name, options.vessels, options.repeats,
-                                 tracked.result, context);
+  made.repetition =
+      repeatTracks(*source.grey, source.name, vessels, options.repeats, tracked.result, context);
   if (options.corrected) {
     made.replayed = convert::replayEdits(options.corrected->value, tracked.result);
     for (const convert::LeftEdit& left : made.replayed->left)

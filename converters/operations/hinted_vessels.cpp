@@ -111,7 +111,8 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   Progress& progress = context.progress;
   convert::PlacedSeeds placed = placedSeeds(volume, options, context);
   std::string whyNone;
-  convert::TrackResult result = findAndTrackIfAny(volume, options.track, whyNone, context);
+  convert::TrackResult result =
+      findAndTrackIfAny(volume, options.track, options.prior, whyNone, context);
   if (result.result.tree.nodeCount() == 0) {
     result = convert::trackFromSeeds(volume, placed.seeds, options.track, progress);
     reportOnSeeds(volume, options, placed, result, context);
@@ -141,8 +142,9 @@ convert::TrackResult trackVessels(const convert::Volume& volume, const std::stri
                                   const VesselOptions& options, const Context& context) {
   const bool isSeeded = !options.seeds.empty();
   if (isSeeded && !options.isSeedsOnly) return findAndApplyHints(volume, name, options, context);
-  convert::TrackResult result = isSeeded ? placeAndTrack(volume, options, context)
-                                         : findAndTrack(volume, name, options.track, context);
+  convert::TrackResult result =
+      isSeeded ? placeAndTrack(volume, options, context)
+               : findAndTrack(volume, name, options.track, options.prior, context);
   apply(result.result, name, labelsOf(options.seeds), options, context);
   renameEnds(result.result, result.ends);
   return result;

@@ -80,9 +80,10 @@ convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
 }  // namespace
 
 convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
-                                  const convert::TrackOptions& options, const Context& context) {
+                                  const convert::TrackOptions& options, const convert::Prior& prior,
+                                  const Context& context) {
   std::string whyNone;
-  convert::TrackResult result = findAndTrackIfAny(volume, options, whyNone, context);
+  convert::TrackResult result = findAndTrackIfAny(volume, options, prior, whyNone, context);
   if (result.result.tree.nodeCount() == 0)
     throw failed(formats::printable(name) + ": no vessels are found in it, as " + whyNone + "; " +
                  context.field("seeds") + " states where vessels begin, and " +
@@ -91,10 +92,11 @@ convert::TrackResult findAndTrack(const convert::Volume& volume, const std::stri
 }
 
 convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
-                                       const convert::TrackOptions& options, std::string& whyNone,
+                                       const convert::TrackOptions& options,
+                                       const convert::Prior& prior, std::string& whyNone,
                                        const Context& context) {
   Progress& progress = context.progress;
-  const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
+  const convert::FoundVessels found = convert::findVessels(volume, options.dark, prior, progress);
   whyNone = found.isBoneKnown ? "it is computed tomography in which no blood has contrast"
                               : "nothing long and thin stands out of its noise";
   if (found.courses.empty()) return {};
@@ -125,7 +127,7 @@ convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
                                 const Context& context) {
   Progress& progress = context.progress;
   const convert::FoundVessels found =
-      convert::findVessels(volume, tracking.options().dark, progress);
+      convert::findVessels(volume, tracking.options().dark, {}, progress);
   convert::AddedTracks added =
       convert::addTracksAlongCourses(tracking, known, found.courses, placesOfBone(found), progress);
   reportRefused(added, progress);

@@ -11,6 +11,7 @@
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/operations/context.h"
+#include "converters/stages/finding/prior.h"
 #include "converters/stages/tracking/track_case.h"
 
 namespace lumen::operations {
@@ -23,18 +24,21 @@ struct VesselOptions {
   bool isSeedsOnly = false;  ///< seeds start all tracks; else they are hints on what is found
   std::vector<Eigen::Vector3d> roots;  ///< places at ends where blood comes in, mm, LPS
   bool isOnlyConnected = false;        ///< without trees in which no seed and no root lies
+  convert::Prior prior{};              ///< knowledge about the voxels, as label maps state it
 };
 
 /// Finds the vessels of `volume`, called `name`, without seeds, and tracks them. Vessels of which
 /// the volume shows no wall are left out, and are details for the listener. Throws Error(Failed) if
 /// none is left.
 convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
-                                  const convert::TrackOptions& options, const Context& context);
+                                  const convert::TrackOptions& options, const convert::Prior& prior,
+                                  const Context& context);
 
 /// Finds the vessels of `volume` without seeds, and tracks them; empty if none is found.
 /// `whyNone`: the reason then, to follow "no vessels are found, as ".
 convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
-                                       const convert::TrackOptions& options, std::string& whyNone,
+                                       const convert::TrackOptions& options,
+                                       const convert::Prior& prior, std::string& whyNone,
                                        const Context& context);
 
 /// Adds to a case that was tracked in `volume` the vessels that it lacks, as findAndTrack() finds
