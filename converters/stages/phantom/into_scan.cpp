@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/phantom/into_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/base/number_text.h"
+#include "converters/base/sha256.h"
+#include "converters/io/centerline/centerline_readers.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/stages/phantom/phantom_scene.h"
+#include "converters/stages/phantom/placing.h"
+#include "converters/stages/phantom/render.h"
+#include "converters/voxels/grid_geometry.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kBoxVariance = 1.0 / 12;  // of a voxel, in squares of its edge
+constexpr double kLeastShare = 0.00135;    // that of a flat wall three spreads away
+constexpr double kReachSpreads = 5;        // around vessels, beyond the last tap of the blur
+constexpr double kWidestBlur = 5;          // voxels
+// Streams of their own: clicks and noise do not change with each other.
+constexpr std::uint64_t kNoise = 0x6e6f697365ULL;
+
+using Weights = std::vector<float>;
+
+// The standard deviation, in voxels, of the Gaussian whose taps have a measure, which rises with it.
+double sigmaOf(double wanted, const std::function<double(const Weights&)>& measure) {
+  double low = 0, high = kWidestBlur;
+  if (!(wanted > 0)) return 0;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (measure(gaussianWeights(middle)) < wanted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double varianceOf(const Weights& weights) {
+  double sum = 0;
+  const double middle = 0.5 * static_cast<double>(weights.size() - 1);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double at = static_cast<double>(i) - middle;
+    sum += static_cast<double>(weights[i]) * at * at;
+  }
+  return sum;
+}
+
+// The sum of products of taps that are `apart` from each other.
+double powerOf(const Weights& weights, std::size_t apart) {
+  double sum = 0;
+  for (std::size_t i = 0; i + apart < weights.size(); ++i)
+    sum += static_cast<double>(weights[i]) * static_cast<double>(weights[i + apart]);
+  return sum;
+}
+
+// Noise of standard deviation 1 in which neighbours are alike by `grain`.
+Image grainyNoise(const Cell& size, const Vector3d& grain, std::uint64_t seed, Progress& progress) {
+  Image noise{size, std::vector<float>(CellBox{Cell::Zero(), size}.count())};
+  for (int z = 0; z < size[2]; ++z)
+    for (int y = 0; y < size[1]; ++y) {
+      Random random(seed ^ kNoise, noise.index(y, z));
+      float* row = noise.row(y, z);
+      for (int x = 0; x < size[0]; ++x) row[x] = static_cast<float>(countedNormal(random));
+    }
+  Vector3d sigma;
+  double power = 1;
+  for (int a = 0; a < 3; ++a) {
+    sigma[a] = sigmaOf(grain[a], [](const Weights& w) { return powerOf(w, 1) / powerOf(w, 0); });
+    power *= powerOf(gaussianWeights(sigma[a]), 0);
+  }
+  blur(noise, sigma, progress);
+  for (float& value : noise.value) value *= static_cast<float>(1 / std::sqrt(power));
+  return noise;
+}
+
+std::string systemLabel(const char* system, std::size_t index) {
+  return std::string(system).append(paddedNumber(index, 3));
+}
+
+// Appends the vessels of a tree to `builder`, which lie in the body; returns the millimetres that do
+// not.
+double addTree(const CenterlineFile& file, double voxel, const char* system,
+               const VolumeGeometry& geometry, const std::vector<std::uint8_t>& air,
+               TreeBuilder& builder) {
+  const std::vector<SmoothVessel> vessels = smoothVessels(file, 0.1 * voxel);
+  const BodyVessels body = cutToBody(vessels, geometry, air);
+  std::vector<std::vector<std::uint32_t>> branches(vessels.size());
+  std::size_t index = 0;
+  for (const BodyVessels::Stretch& stretch : body.stretches) {
+    const std::int32_t parent = vessels[static_cast<std::size_t>(stretch.vessel)].parent;
+    std::int32_t from = formats::kNoParent;
+    double nearest = voxel;
+    if (stretch.isFirst && parent != formats::kNoParent)
+      for (const std::uint32_t candidate : branches[static_cast<std::size_t>(parent)]) {
+        const formats::Branch& branch = builder.tree().branches[candidate];
+        for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n) {
+          const double away =
+              (toEigen(builder.tree().centre[n]) - stretch.path.front().position).norm();
+          if (away >= nearest) continue;
+          nearest = away;
+          from = static_cast<std::int32_t>(candidate);
+        }
+      }
+    branches[static_cast<std::size_t>(stretch.vessel)].push_back(
+        builder.add(systemLabel(system, index++), from, stretch.path));
+  }
+  return body.lost;
+}
+
+// The design in the frame of the scan's grid, where the axes are those of LPS.
+Design inGrid(const Design& design, const VolumeGeometry& world, const VolumeGeometry& grid) {
+  Design moved = design;
+  for (formats::Vec3f& c : moved.tree.centre) c = toVec3f(inFrame(world, grid, toEigen(c)));
+  return moved;
+}
+
+// The grid of the cells around the vessels that they may change, and its first cell.
+CellBox cellsAround(const formats::CenterlineTree& tree, const VolumeGeometry& grid,
+                    const Vector3d& spread) {
+  const Box3d box = boxOf(tree);
+  const Vector3d reach = kReachSpreads * spread + 2 * grid.spacing;
+  return grid.cellsAround((box.low - reach).cwiseQuotient(grid.spacing),
+                          (box.high + reach).cwiseQuotient(grid.spacing));
+}
+
+struct Drawn {
+  CellBox cells;
+  Image share, contrast, noise;
+};
+
+Drawn drawVessels(const Design& design, const VolumeGeometry& scan, const ScanLook& look,
+                  std::uint64_t seed, Progress& progress) {
+  VolumeGeometry grid = gridGeometry(scan);
+  Design full = inGrid(design, scan, grid);
+  Drawn drawn;
+  drawn.cells = cellsAround(full.tree, grid, look.spread);
+  grid.origin = grid.position(drawn.cells.low);
+  for (int a = 0; a < 3; ++a) grid.size[static_cast<std::size_t>(a)] = drawn.cells.size[a];
+  const int steps = 5 * grid.size[2] + 3 * grid.size[1];  // two drawings, three blurs
+  progress.begin("phantom", static_cast<std::size_t>(steps));
+  drawn.contrast = drawOccupancy(full, grid, progress);
+  std::fill(full.contrast.begin(), full.contrast.end(), 1.0F);
+  drawn.share = drawOccupancy(full, grid, progress);
+  Vector3d sigma;
+  for (int a = 0; a < 3; ++a) {
+    const double voxels = look.spread[a] / grid.spacing[a];
+    sigma[a] = sigmaOf(voxels * voxels - kBoxVariance, varianceOf);
+  }
+  blur(drawn.contrast, sigma, progress);
+  blur(drawn.share, sigma, progress);
+  drawn.noise = grainyNoise(drawn.cells.size, look.grain, seed, progress);
+  progress.end();
+  return drawn;
+}
+
+template <class T>
+T asVoxel(double value) {
+  if constexpr (std::is_floating_point_v<T>) return static_cast<T>(value);
+  return static_cast<T>(std::clamp(std::nearbyint(value),
+                                   static_cast<double>(std::numeric_limits<T>::lowest()),
+                                   static_cast<double>(std::numeric_limits<T>::max())));
+}
+
+// Puts vessels into the scan; `contrast`: that of a share of 1.
+void blend(const Drawn& drawn, const ScanLook& look, double contrast, Volume& scan) {
+  std::visit(
+      [&](auto& voxels) {
+        using T = typename std::decay_t<decltype(voxels)>::value_type;
+        for (std::size_t i = 0; i < drawn.cells.count(); ++i) {
+          const double a = std::clamp(static_cast<double>(drawn.share.value[i]), 0.0, 1.0);
+          if (a < kLeastShare) continue;
+          T& voxel = voxels[scan.geometry.index(drawn.cells.cell(i))];
+          const auto old = static_cast<double>(voxel);
+          voxel = asVoxel<T>(old + a * (look.tissue - old) +
+                             contrast * static_cast<double>(drawn.contrast.value[i]) +
+                             look.noise * std::sqrt(a * (2 - a)) *
+                                 static_cast<double>(drawn.noise.value[i]));
+        }
+      },
+      scan.voxels);
+}
+
+formats::Step describe(const PhantomOptions& options, const IntoOptions& into,
+                       const IntoResult& result, const std::string& scan) {
+  formats::Step step;
+  step.name = "phantom";
+  step.tool = "lumen " LUMEN_VERSION;
+  step.parameters = {{"random-seed", static_cast<std::int64_t>(options.seed)},
+                     {"tree-sha256", digestOfFile(options.tree).sha256},
+                     {"into-sha256", scan},
+                     {"contrast", into.contrast},
+                     {"move", joinedNumbers(result.move, ",")},
+                     {"turn", joinedNumbers(into.turn, ",")},
+                     {"tissue", result.look.tissue},
+                     {"noise", result.look.noise},
+                     {"point-spread", joinedNumbers(result.look.spread, ",", 4)}};
+  if (options.fade != 0) step.parameters["fade"] = options.fade;
+  if (!into.veins.empty()) {
+    step.parameters["veins-sha256"] = digestOfFile(into.veins).sha256;
+    step.parameters["vein-contrast"] = into.veinContrast;
+  }
+  return step;
+}
+
+// Both trees, placed and cut, with the contrast of each node as a share of the greater one.
+Design designIn(const PhantomOptions& options, const IntoOptions& into, const Volume& scan,
+                IntoResult& result, const Progress& progress) {
+  const double voxel = scan.geometry.spacing.minCoeff();
+  const bool hasVeins = !into.veins.empty();
+  std::vector<CenterlineFile> files = {readSwc(options.tree)};
+  if (hasVeins) files.push_back(readSwc(into.veins));
+  const std::filesystem::path* names[] = {&options.tree, &into.veins};
+  for (std::size_t f = 0; f < files.size(); ++f)
+    checkEffort(files[f], voxel, formats::printable(names[f]->string()), "larger voxels");
+  const Placement placement = placeTrees(files, into.turn, into.move, scan, result.look, progress);
+  result.move = placement.move;
+  const std::vector<std::uint8_t> air = outerAir(scan, result.look.border);
+  const double most = hasVeins ? std::max(into.contrast, into.veinContrast) : into.contrast;
+  TreeBuilder builder(Frame{voxel, 0});
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    placement.apply(files[f]);
+    const std::size_t first = builder.tree().nodeCount();
+    const char* const system = !hasVeins ? "b" : f == 0 ? "artery-" : "vein-";
+    result.lost += addTree(files[f], voxel, system, scan.geometry, air, builder);
+    const double contrast = f == 0 ? into.contrast : into.veinContrast;
+    for (std::size_t n = first; n < builder.tree().nodeCount(); ++n)
+      builder.design().contrast[n] = static_cast<float>(contrast / most);
+  }
+  if (builder.tree().nodeCount() == 0)
+    throw invalidInput("no vessel of the trees lies in the body; " + options.word("move") +
+                       " displaces them by " + joinedNumbers(placement.move, ",") + " mm");
+  fadeContrast(builder.design(), options.fade);
+  return builder.design();
+}
+
+}  // namespace
+
+void IntoOptions::addRows(OptionTable& table) {
+  constexpr NumberRange kContrasts{1, 1e5};
+  table
+      .add("contrast", &contrast, "LEVEL",
+           "Level of arteries over soft tissue, in the units of the volume, such as HU")
+      .in(kContrasts)
+      .onlyWith("into");
+  table.add("vein-contrast", &veinContrast, "LEVEL", "Level of veins over soft tissue")
+      .in(kContrasts)
+      .onlyWith("veins");
+}
+
+IntoResult drawIntoScan(const PhantomOptions& options, const IntoOptions& into, Volume scan,
+                        Progress& progress) {
+  IntoResult result;
+  const std::string source = describeSource(scan).sha256;
+  result.look = measureScan(scan, progress);
+  Design design = designIn(options, into, scan, result, progress);
+  const double most =
+      into.veins.empty() ? into.contrast : std::max(into.contrast, into.veinContrast);
+  blend(drawVessels(design, scan.geometry, result.look, options.seed, progress), result.look, most,
+        scan);
+  result.phantom.seeds = clickTree(design.tree, options, scan.geometry.spacing.minCoeff());
+  result.phantom.truth.tree = std::move(design.tree);
+  result.phantom.truth.metadata.steps.push_back(describe(options, into, result, source));
+  result.phantom.truth.metadata.voxelSize = scan.geometry.voxelSize();
+  result.phantom.truth.metadata.source = describeSource(scan);
+  result.phantom.volume = std::move(scan);
+  return result;
+}
+
+}  // namespace lumen::convert
