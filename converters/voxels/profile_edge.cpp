@@ -116,7 +116,7 @@ ProfileEdge findEdge(std::span<const float> values, std::size_t wall) {
   return edge;
 }
 
-SteepestFall steepestFall(std::span<const double> fall, std::size_t near) {
+FallWidth fallWidth(std::span<const double> fall, std::size_t near) {
   const std::size_t n = fall.size(), middle = n / 2;
   const auto first = fall.begin() + static_cast<std::ptrdiff_t>(middle - near);
   const auto at = static_cast<std::size_t>(

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -26,42 +25,33 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kBoxVariance = 1.0 / 12;  // of a voxel, in squares of its edge
-constexpr double kLeastShare = 0.00135;    // that of a flat wall three spreads away
-constexpr double kReachSpreads = 5;        // around vessels, beyond the last tap of the blur
-constexpr double kWidestBlur = 5;          // voxels
+constexpr double kLeastShare = 0.00135;  // that of a flat wall three spreads away
+constexpr double kReachSpreads = 5;      // around vessels, beyond the last tap of the blur
+constexpr double kWidestGrain = 5;       // voxels
+// Vessels are drawn in halves of the voxels' edges. With whole ones the blur of a wall would hang on
+// where it lies between voxels: a sixth of a squared edge, as much as half of a sharp scan's blur.
+constexpr int kFiner = 2;
 // Streams of their own: clicks and noise do not change with each other.
 constexpr std::uint64_t kNoise = 0x6e6f697365ULL;
 
-using Weights = std::vector<float>;
-
-// The standard deviation, in voxels, of the Gaussian whose taps have a measure, which rises with it.
-double sigmaOf(double wanted, const std::function<double(const Weights&)>& measure) {
-  double low = 0, high = kWidestBlur;
-  if (!(wanted > 0)) return 0;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (measure(gaussianWeights(middle)) < wanted ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-double varianceOf(const Weights& weights) {
-  double sum = 0;
-  const double middle = 0.5 * static_cast<double>(weights.size() - 1);
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double at = static_cast<double>(i) - middle;
-    sum += static_cast<double>(weights[i]) * at * at;
-  }
-  return sum;
-}
-
 // The sum of products of taps that are `apart` from each other.
-double powerOf(const Weights& weights, std::size_t apart) {
+double powerOf(const std::vector<float>& weights, std::size_t apart) {
   double sum = 0;
   for (std::size_t i = 0; i + apart < weights.size(); ++i)
     sum += static_cast<double>(weights[i]) * static_cast<double>(weights[i + apart]);
   return sum;
+}
+
+// The standard deviation, in voxels, of the Gaussian that makes the neighbours of white noise alike
+// by `grain`.
+double sigmaOfGrain(double grain) {
+  double low = 0, high = kWidestGrain;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    const std::vector<float> weights = gaussianWeights(middle);
+    (powerOf(weights, 1) < grain * powerOf(weights, 0) ? low : high) = middle;
+  }
+  return low;
 }
 
 // Noise of standard deviation 1 in which neighbours are alike by `grain`.
@@ -76,7 +66,7 @@ Image grainyNoise(const Cell& size, const Vector3d& grain, std::uint64_t seed, P
   Vector3d sigma;
   double power = 1;
   for (int a = 0; a < 3; ++a) {
-    sigma[a] = sigmaOf(grain[a], [](const Weights& w) { return powerOf(w, 1) / powerOf(w, 0); });
+    sigma[a] = sigmaOfGrain(grain[a]);
     power *= powerOf(gaussianWeights(sigma[a]), 0);
   }
   blur(noise, sigma, progress);
@@ -134,6 +124,24 @@ CellBox cellsAround(const formats::CenterlineTree& tree, const VolumeGeometry& g
                           (box.high + reach).cwiseQuotient(grid.spacing));
 }
 
+// The share of each voxel of `grid` that the design fills, times its contrast, as a point spread of
+// standard deviations `spread` shows it.
+Image drawBlurred(const Design& design, VolumeGeometry grid, const Vector3d& spread,
+                  Progress& progress) {
+  Image image{grid.cells().size, std::vector<float>(grid.voxelCount())};
+  grid.spacing /= kFiner;
+  for (int& n : grid.size) n = kFiner * (n - 1) + 1;
+  Image fine = drawOccupancy(design, grid, progress);
+  // the drawing holds the box of its voxels
+  const Eigen::Array3d variance = spread.cwiseQuotient(grid.spacing).array().square() - 1.0 / 12;
+  blur(fine, variance.max(0).sqrt(), progress);
+  for (int z = 0; z < image.size[2]; ++z)
+    for (int y = 0; y < image.size[1]; ++y)
+      for (int x = 0; x < image.size[0]; ++x)
+        image.row(y, z)[x] = fine.row(kFiner * y, kFiner * z)[kFiner * x];
+  return image;
+}
+
 struct Drawn {
   CellBox cells;
   Image share, contrast, noise;
@@ -147,18 +155,12 @@ Drawn drawVessels(const Design& design, const VolumeGeometry& scan, const ScanLo
   drawn.cells = cellsAround(full.tree, grid, look.spread);
   grid.origin = grid.position(drawn.cells.low);
   for (int a = 0; a < 3; ++a) grid.size[static_cast<std::size_t>(a)] = drawn.cells.size[a];
-  const int steps = 5 * grid.size[2] + 3 * grid.size[1];  // two drawings, three blurs
-  progress.begin("phantom", static_cast<std::size_t>(steps));
-  drawn.contrast = drawOccupancy(full, grid, progress);
+  // two drawings, each with a blur, and the blur of the noise
+  progress.begin("phantom", static_cast<std::size_t>((4 * kFiner + 1) * grid.size[2] +
+                                                     (2 * kFiner + 1) * grid.size[1]));
+  drawn.contrast = drawBlurred(full, grid, look.spread, progress);
   std::fill(full.contrast.begin(), full.contrast.end(), 1.0F);
-  drawn.share = drawOccupancy(full, grid, progress);
-  Vector3d sigma;
-  for (int a = 0; a < 3; ++a) {
-    const double voxels = look.spread[a] / grid.spacing[a];
-    sigma[a] = sigmaOf(voxels * voxels - kBoxVariance, varianceOf);
-  }
-  blur(drawn.contrast, sigma, progress);
-  blur(drawn.share, sigma, progress);
+  drawn.share = drawBlurred(full, grid, look.spread, progress);
   drawn.noise = grainyNoise(drawn.cells.size, look.grain, seed, progress);
   progress.end();
   return drawn;
@@ -222,7 +224,7 @@ Design designIn(const PhantomOptions& options, const IntoOptions& into, const Vo
   if (hasVeins) files.push_back(readSwc(into.veins));
   const std::filesystem::path* names[] = {&options.tree, &into.veins};
   for (std::size_t f = 0; f < files.size(); ++f)
-    checkEffort(files[f], voxel, formats::printable(names[f]->string()), "larger voxels");
+    checkEffort(files[f], voxel / kFiner, formats::printable(names[f]->string()), "larger voxels");
   const Placement placement = placeTrees(files, into.turn, into.move, scan, result.look, progress);
   result.move = placement.move;
   const std::vector<std::uint8_t> air = outerAir(scan, result.look.border);

@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostPieces = 600;  // of vessels, by which a place is judged
 constexpr int kCoarse = 24;               // places along each axis of the volume's middle half
 constexpr int kFine = 4;                  // mm around the best of them, in steps of 1 mm
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kShortest = 4;  // radii of a stretch
+constexpr double kInRadians = std::numbers::pi / 180;
+constexpr double kShortestStretch = 4;  // radii of a stretch
 
 struct Piece {
   Vector3d middle;  // mm
@@ -99,8 +99,9 @@ Placement placeTrees(const std::vector<CenterlineFile>& files, const Vector3d& d
   Placement placement;
   placement.middle = 0.5 * (box.low + box.high);
   for (int a = 0; a < 3; ++a)
-    placement.turn = Eigen::AngleAxisd(kDegree * degrees[a], Vector3d::Unit(a)).toRotationMatrix() *
-                     placement.turn;
+    placement.turn =
+        Eigen::AngleAxisd(kInRadians * degrees[a], Vector3d::Unit(a)).toRotationMatrix() *
+        placement.turn;
   if (move) {
     placement.move = *move;
     return placement;
@@ -129,7 +130,7 @@ BodyVessels cutToBody(const std::vector<SmoothVessel>& vessels, const VolumeGeom
       Path stretch(path.begin() + static_cast<std::ptrdiff_t>(first),
                    path.begin() + static_cast<std::ptrdiff_t>(end));
       const double length = pathLength(stretch);
-      if (stretch.size() > 1 && length >= kShortest * stretch.front().radius) {
+      if (stretch.size() > 1 && length >= kShortestStretch * stretch.front().radius) {
         kept += length;
         body.stretches.push_back({static_cast<std::int32_t>(v), first == 0, std::move(stretch)});
       }

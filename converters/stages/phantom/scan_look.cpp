@@ -181,7 +181,7 @@ std::optional<SurfaceWidth> widthAt(const Volume& volume, const BsplineVolume& s
     if (!(std::abs(level(i * kPerVoxel) - look.tissue) <= most &&
           std::abs(level(values.size() - (i + 1) * kPerVoxel) - air) <= most))
       return std::nullopt;
-  const SteepestFall steepest = steepestFall(fall, 2 * kPerVoxel);
+  const FallWidth steepest = fallWidth(fall, 2 * kPerVoxel);
   if (steepest.width == 0) return std::nullopt;
   return SurfaceWidth{normal, steepest.width * voxel / kPerVoxel};
 }

@@ -140,7 +140,7 @@ Fall findFall(std::vector<double> profile, double sign) {
   const std::size_t n = profile.size();
   std::vector<double> fall(n, 0.0);
   for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = profile[i - 1] - profile[i + 1];
-  const SteepestFall steepest = steepestFall(fall, n / kNearWallFraction);
+  const FallWidth steepest = fallWidth(fall, n / kNearWallFraction);
   if (steepest.width == 0) return {};
   return {steepest.width, findHalfLevel(profile, fall, steepest.at)};
 }
