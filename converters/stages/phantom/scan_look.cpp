@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "converters/base/error.h"
+#include "converters/base/otsu.h"
 #include "converters/base/statistics.h"
 #include "converters/voxels/bspline.h"
 #include "converters/voxels/profile_edge.h"
@@ -18,8 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kBins = 1024;         // of the histogram
-constexpr double kTrimmed = 0.001;  // share of the voxels beyond either end of the histogram
+constexpr std::size_t kBins = 1024;          // of the histogram
 constexpr std::size_t kSamples = 1'000'000;  // voxels that medians and the histogram take, at most
 constexpr double kSoftDeviations = 4;        // of the tissue's levels: bone is beyond
 constexpr int kBlock = 6;                    // voxels along the edge of a block of soft tissue
@@ -42,32 +42,14 @@ std::vector<double> sampled(const Volume& volume) {
   return values;
 }
 
-// Otsu's threshold: the greatest variance between the two classes.
-double otsuThreshold(std::vector<double> values) {
-  const double low = lowerQuantile(values, kTrimmed), high = lowerQuantile(values, 1 - kTrimmed);
-  if (!(high > low)) return low;
-  std::array<double, kBins> histogram{};
+double otsuThreshold(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double width = (*high - *low) / kBins;
+  if (!(width > 0)) return *low;
+  std::vector<std::size_t> count(kBins, 0);
   for (const double v : values)
-    histogram[static_cast<std::size_t>(
-        std::clamp((v - low) / (high - low) * kBins, 0.0, kBins - 1.0))] += 1;
-  double all = 0, sum = 0;
-  for (std::size_t b = 0; b < kBins; ++b) {
-    all += histogram[b];
-    sum += static_cast<double>(b) * histogram[b];
-  }
-  double below = 0, sumBelow = 0, best = -1, at = 0;
-  for (std::size_t b = 0; b + 1 < kBins; ++b) {
-    below += histogram[b];
-    sumBelow += static_cast<double>(b) * histogram[b];
-    if (below == 0 || below == all) continue;
-    const double between = sumBelow / below - (sum - sumBelow) / (all - below);
-    const double variance = below * (all - below) * between * between;
-    if (variance > best) {
-      best = variance;
-      at = static_cast<double>(b) + 1;
-    }
-  }
-  return low + (high - low) * at / kBins;
+    ++count[std::min(kBins - 1, static_cast<std::size_t>((v - *low) / width))];
+  return *low + static_cast<double>(otsuSplit(count, 0)) * width;
 }
 
 struct BlockNoise {

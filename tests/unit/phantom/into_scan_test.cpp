@@ -221,6 +221,24 @@ TEST_F(IntoScan, VesselsEndAtTheBody) {
   EXPECT_EQ(drawn.phantom.truth.tree.branches.size(), 1U);
 }
 
+TEST_F(IntoScan, AVesselGoesOnThroughAirInTheBody) {
+  Volume scan = makeScan();
+  scan.geometry.cells().forEach([&](const Cell& cell) {
+    const Vector3d p = cell.cast<double>().cwiseProduct(scan.geometry.spacing);
+    if ((p - Vector3d(28, 20, 30)).norm() < 5)
+      std::get<std::vector<std::int16_t>>(scan.voxels)[scan.geometry.index(cell)] =
+          static_cast<std::int16_t>(kAir);
+  });
+  PhantomOptions options;
+  options.tree = m_tube.path();
+  IntoOptions into;
+  into.move = Vector3d::Zero();
+  Progress progress;
+  const IntoResult drawn = drawIntoScan(options, into, std::move(scan), progress);
+  EXPECT_EQ(drawn.lost, 0);
+  EXPECT_NEAR(meanAround(drawn.phantom.volume, 20, 18, 38, 0.7), drawn.look.tissue + 300, 3);
+}
+
 TEST_F(IntoScan, ATreeIsMovedIntoTissueByItself) {
   const SwcFile file("into-far.swc", {214, 220, 130}, {242, 220, 130}, kRadius);
   PhantomOptions options;
