@@ -28,8 +28,8 @@ using Eigen::Vector3d;
 constexpr double kLeastShare = 0.00135;  // that of a flat wall three spreads away
 constexpr double kReachSpreads = 5;      // around vessels, beyond the last tap of the blur
 constexpr double kWidestGrain = 5;       // voxels
-// Vessels are drawn in halves of the voxels' edges. With whole ones the blur of a wall would hang on
-// where it lies between voxels: a sixth of a squared edge, as much as half of a sharp scan's blur.
+// Vessels are drawn in halves of the voxels' edges. In whole ones the blur of a wall, squared, would
+// hang on where it lies between voxels, by a quarter of a squared edge: sharp scans blur by a third.
 constexpr int kFiner = 2;
 // Streams of their own: clicks and noise do not change with each other.
 constexpr std::uint64_t kNoise = 0x6e6f697365ULL;

@@ -19,7 +19,6 @@ constexpr std::size_t kMostPieces = 600;  // of vessels, by which a place is jud
 constexpr int kCoarse = 24;               // places along each axis of the volume's middle half
 constexpr int kFine = 4;                  // mm around the best of them, in steps of 1 mm
 constexpr double kInRadians = std::numbers::pi / 180;
-constexpr double kShortestStretch = 4;  // radii of a stretch
 
 struct Piece {
   Vector3d middle;  // mm
@@ -129,9 +128,8 @@ BodyVessels cutToBody(const std::vector<SmoothVessel>& vessels, const VolumeGeom
       while (end < path.size() && isInside(path[end].position)) ++end;
       Path stretch(path.begin() + static_cast<std::ptrdiff_t>(first),
                    path.begin() + static_cast<std::ptrdiff_t>(end));
-      const double length = pathLength(stretch);
-      if (stretch.size() > 1 && length >= kShortestStretch * stretch.front().radius) {
-        kept += length;
+      if (stretch.size() > 1) {
+        kept += pathLength(stretch);
         body.stretches.push_back({static_cast<std::int32_t>(v), first == 0, std::move(stretch)});
       }
       first = end + 1;

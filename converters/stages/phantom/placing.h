@@ -42,8 +42,7 @@ struct BodyVessels {
   double lost = 0;                 ///< mm of vessel that lie elsewhere
 };
 
-/// Cuts vessels where they leave the volume or run into the air around the body; stretches shorter
-/// than two diameters are left out.
+/// Cuts vessels where they leave the volume or run into the air around the body.
 BodyVessels cutToBody(const std::vector<SmoothVessel>& vessels, const VolumeGeometry& geometry,
                       const std::vector<std::uint8_t>& outerAir);
 

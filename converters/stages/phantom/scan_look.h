@@ -33,8 +33,8 @@ struct ScanLook {
 };
 
 /// The look of a scan with air around soft tissue, as CT has it. The border of the air is Otsu's
-/// ("A threshold selection method from gray-level histograms", 1979). The noise is that of the
-/// quieter quarter of the blocks of soft voxels, each without its slope. The spread is the lower
+/// ("A threshold selection method from gray-level histograms", 1979). The noise is the
+/// lower quartile over the blocks of soft voxels, each without its slope. The spread is the lower
 /// quartile over places on the surface towards the air, of those that face along the axis. Throws
 /// Error(InvalidInput) if the volume has no block of soft tissue or no such surface, and
 /// Error(Cancelled).

@@ -72,6 +72,24 @@ Volume makeScan(double noise = kNoiseOfScan) {
   return scan;
 }
 
+// The scan with noise of standard deviation 8 whose neighbours along x are alike.
+Volume makeGrainyScan(double sigma) {
+  Volume scan = makeScan(0);
+  Random random(11);
+  Image noise{scan.geometry.cells().size, {}};
+  for (std::size_t i = 0; i < scan.geometry.voxelCount(); ++i)
+    noise.value.push_back(static_cast<float>(countedNormal(random)));
+  Progress progress;
+  blur(noise, {sigma, 0, 0}, progress);
+  double power = 0;
+  for (const float w : gaussianWeights(sigma)) power += static_cast<double>(w * w);
+  auto& voxels = std::get<std::vector<std::int16_t>>(scan.voxels);
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    voxels[i] = static_cast<std::int16_t>(
+        std::lround(voxels[i] + 8 / std::sqrt(power) * static_cast<double>(noise.value[i])));
+  return scan;
+}
+
 // An SWC file of one straight vessel between two places in the grid's frame.
 class SwcFile {
 public:
@@ -107,13 +125,13 @@ protected:
   const SwcFile m_through{"into-bone.swc", {14, 37, 30}, {42, 37, 30}, kRadius};
 
   static IntoResult draw(const SwcFile& tree, IntoOptions into = {}, std::uint64_t seed = 1,
-                         double noise = kNoiseOfScan) {
+                         Volume scan = makeScan()) {
     PhantomOptions options;
     options.tree = tree.path();
     options.seed = seed;
     if (!into.move) into.move = Vector3d::Zero();
     Progress progress;
-    return drawIntoScan(options, into, makeScan(noise), progress);
+    return drawIntoScan(options, into, std::move(scan), progress);
   }
   static const std::vector<std::int16_t>& voxelsOf(const Volume& volume) {
     return std::get<std::vector<std::int16_t>>(volume.voxels);
@@ -170,12 +188,23 @@ TEST_F(IntoScan, AVesselThroughBoneIsLumenAndBoneStaysBesideIt) {
 
 TEST_F(IntoScan, TheAddedIntensityIsTheContrastTimesTheVolume) {
   const Volume scan = makeScan(0);
-  const IntoResult drawn = draw(m_tube, {}, 1, 0);
+  const IntoResult drawn = draw(m_tube, {}, 1, makeScan(0));
   double added = 0;
   for (std::size_t i = 0; i < voxelsOf(scan).size(); ++i)
     added += voxelsOf(drawn.phantom.volume)[i] - voxelsOf(scan)[i];
   const double volume = std::numbers::pi * kRadius * kRadius * (28 + 4.0 / 3 * kRadius);
   EXPECT_NEAR(added * scan.geometry.spacing.prod(), 300 * volume, 0.02 * 300 * volume);
+}
+
+// Drawn in whole voxels, a wall between two of them would be steeper by an eighth.
+TEST_F(IntoScan, AWallBetweenTwoVoxelsIsAsWideAsTheSpread) {
+  const SwcFile file("into-wide.swc", {14, 19.6, 30}, {42, 19.6, 30}, 8);  // its wall: y = 34.5
+  const IntoResult drawn = draw(file, {}, 1, makeScan(0));
+  const auto at = [&](int y) {
+    return valueAt(drawn.phantom.volume, drawn.phantom.volume.geometry.index(Cell(35, y, 25)));
+  };
+  const double voxels = drawn.look.spread.y() / scanGrid().spacing.y();
+  EXPECT_NEAR(at(34) - at(35), 300 * std::erf(0.5 / (voxels * std::numbers::sqrt2)), 3);
 }
 
 TEST_F(IntoScan, VoxelsBeyondThreeSpreadsStayAsTheyAre) {
@@ -200,6 +229,29 @@ TEST_F(IntoScan, EqualSeedsGiveEqualVoxelsAndOthersGiveOtherNoise) {
   EXPECT_EQ(voxelsOf(first.phantom.volume), voxelsOf(again.phantom.volume));
   EXPECT_EQ(formats::encodeJson(first.phantom.truth), formats::encodeJson(again.phantom.truth));
   EXPECT_NE(voxelsOf(first.phantom.volume), voxelsOf(other.phantom.volume));
+}
+
+TEST_F(IntoScan, TheNoiseOfALumenIsAsGrainyAsTheScans) {
+  const SwcFile file("into-wide.swc", {14, 20, 30}, {42, 20, 30}, 8);
+  const IntoResult drawn = draw(file, {}, 1, makeGrainyScan(0.7));
+  EXPECT_NEAR(drawn.look.noise, 8, 0.08 * 8);
+  EXPECT_NEAR(drawn.look.grain.x(), 0.58, 0.05);  // that of the taps
+  EXPECT_LT(drawn.look.grain.y(), 0.05);
+  const VolumeGeometry& grid = drawn.phantom.volume.geometry;
+  double square = 0, alongX = 0, alongY = 0, count = 0;
+  const auto noiseAt = [&](const Cell& cell) {
+    return valueAt(drawn.phantom.volume, grid.index(cell)) - drawn.look.tissue - 300;
+  };
+  CellBox{{22, 20, 22}, {25, 10, 7}}.forEach([&](const Cell& cell) {
+    const double noise = noiseAt(cell);
+    square += noise * noise;
+    alongX += noise * noiseAt(cell + Cell::UnitX());
+    alongY += noise * noiseAt(cell + Cell::UnitY());
+    ++count;
+  });
+  EXPECT_NEAR(std::sqrt(square / count), drawn.look.noise, 0.1 * drawn.look.noise);
+  EXPECT_NEAR(alongX / square, drawn.look.grain.x(), 0.07);
+  EXPECT_NEAR(alongY / square, 0, 0.1);
 }
 
 TEST_F(IntoScan, VeinsHaveNamesAndAContrastOfTheirOwn) {
@@ -229,12 +281,7 @@ TEST_F(IntoScan, AVesselGoesOnThroughAirInTheBody) {
       std::get<std::vector<std::int16_t>>(scan.voxels)[scan.geometry.index(cell)] =
           static_cast<std::int16_t>(kAir);
   });
-  PhantomOptions options;
-  options.tree = m_tube.path();
-  IntoOptions into;
-  into.move = Vector3d::Zero();
-  Progress progress;
-  const IntoResult drawn = drawIntoScan(options, into, std::move(scan), progress);
+  const IntoResult drawn = draw(m_tube, {}, 1, std::move(scan));
   EXPECT_EQ(drawn.lost, 0);
   EXPECT_NEAR(meanAround(drawn.phantom.volume, 20, 18, 38, 0.7), drawn.look.tissue + 300, 3);
 }
