@@ -74,10 +74,6 @@ Image grainyNoise(const Cell& size, const Vector3d& grain, std::uint64_t seed, P
   return noise;
 }
 
-std::string systemLabel(const char* system, std::size_t index) {
-  return std::string(system).append(paddedNumber(index, 3));
-}
-
 // Appends the vessels of a tree to `builder`, which lie in the body; returns the millimetres that do
 // not.
 double addTree(const CenterlineFile& file, double voxel, const char* system,
@@ -103,7 +99,7 @@ double addTree(const CenterlineFile& file, double voxel, const char* system,
         }
       }
     branches[static_cast<std::size_t>(stretch.vessel)].push_back(
-        builder.add(systemLabel(system, index++), from, stretch.path));
+        builder.add(std::string(system).append(paddedNumber(index++, 3)), from, stretch.path));
   }
   return body.lost;
 }
@@ -174,8 +170,7 @@ T asVoxel(double value) {
                                    static_cast<double>(std::numeric_limits<T>::max())));
 }
 
-// Puts vessels into the scan; `contrast`: that of a share of 1.
-void blend(const Drawn& drawn, const ScanLook& look, double contrast, Volume& scan) {
+void blend(const Drawn& drawn, const ScanLook& look, Volume& scan) {
   std::visit(
       [&](auto& voxels) {
         using T = typename std::decay_t<decltype(voxels)>::value_type;
@@ -184,10 +179,9 @@ void blend(const Drawn& drawn, const ScanLook& look, double contrast, Volume& sc
           if (a < kLeastShare) continue;
           T& voxel = voxels[scan.geometry.index(drawn.cells.cell(i))];
           const auto old = static_cast<double>(voxel);
-          voxel = asVoxel<T>(old + a * (look.tissue - old) +
-                             contrast * static_cast<double>(drawn.contrast.value[i]) +
-                             look.noise * std::sqrt(a * (2 - a)) *
-                                 static_cast<double>(drawn.noise.value[i]));
+          voxel = asVoxel<T>(
+              old + a * (look.tissue - old) + static_cast<double>(drawn.contrast.value[i]) +
+              look.noise * std::sqrt(a * (2 - a)) * static_cast<double>(drawn.noise.value[i]));
         }
       },
       scan.voxels);
@@ -215,7 +209,7 @@ formats::Step describe(const PhantomOptions& options, const IntoOptions& into,
   return step;
 }
 
-// Both trees, placed and cut, with the contrast of each node as a share of the greater one.
+// Both trees, placed and cut, with the contrast of each node in the units of the scan.
 Design designIn(const PhantomOptions& options, const IntoOptions& into, const Volume& scan,
                 IntoResult& result, const Progress& progress) {
   const double voxel = scan.geometry.spacing.minCoeff();
@@ -228,16 +222,15 @@ Design designIn(const PhantomOptions& options, const IntoOptions& into, const Vo
   const Placement placement = placeTrees(files, into.turn, into.move, scan, result.look, progress);
   result.move = placement.move;
   const std::vector<std::uint8_t> air = outerAir(scan, result.look.border);
-  const double most = hasVeins ? std::max(into.contrast, into.veinContrast) : into.contrast;
   TreeBuilder builder(Frame{voxel, 0});
   for (std::size_t f = 0; f < files.size(); ++f) {
     placement.apply(files[f]);
     const std::size_t first = builder.tree().nodeCount();
     const char* const system = !hasVeins ? "b" : f == 0 ? "artery-" : "vein-";
     result.lost += addTree(files[f], voxel, system, scan.geometry, air, builder);
-    const double contrast = f == 0 ? into.contrast : into.veinContrast;
-    for (std::size_t n = first; n < builder.tree().nodeCount(); ++n)
-      builder.design().contrast[n] = static_cast<float>(contrast / most);
+    std::vector<float>& contrast = builder.design().contrast;
+    std::fill(contrast.begin() + static_cast<std::ptrdiff_t>(first), contrast.end(),
+              static_cast<float>(f == 0 ? into.contrast : into.veinContrast));
   }
   if (builder.tree().nodeCount() == 0)
     throw invalidInput("no vessel of the trees lies in the body; " + options.word("move") +
@@ -266,10 +259,7 @@ IntoResult drawIntoScan(const PhantomOptions& options, const IntoOptions& into, 
   const std::string source = describeSource(scan).sha256;
   result.look = measureScan(scan, progress);
   Design design = designIn(options, into, scan, result, progress);
-  const double most =
-      into.veins.empty() ? into.contrast : std::max(into.contrast, into.veinContrast);
-  blend(drawVessels(design, scan.geometry, result.look, options.seed, progress), result.look, most,
-        scan);
+  blend(drawVessels(design, scan.geometry, result.look, options.seed, progress), result.look, scan);
   result.phantom.seeds = clickTree(design.tree, options, scan.geometry.spacing.minCoeff());
   result.phantom.truth.tree = std::move(design.tree);
   result.phantom.truth.metadata.steps.push_back(describe(options, into, result, source));
