@@ -116,4 +116,22 @@ ProfileEdge findEdge(std::span<const float> values, std::size_t wall) {
   return edge;
 }
 
+FallWidth fallWidth(std::span<const double> fall, std::size_t near) {
+  const std::size_t n = fall.size(), middle = n / 2;
+  const auto first = fall.begin() + static_cast<std::ptrdiff_t>(middle - near);
+  const auto at = static_cast<std::size_t>(
+      std::max_element(first, first + static_cast<std::ptrdiff_t>(2 * near + 1)) - fall.begin());
+  const double half = 0.5 * fall[at];
+  if (!(half > 0)) return {at, 0};
+  std::size_t right = at, left = at;
+  while (right < n && fall[right] > half) ++right;
+  while (left > 0 && fall[left] > half) --left;
+  if (right + 1 >= n || left == 0) return {at, 0};
+  const auto crossing = [&](std::size_t low, std::size_t high) {
+    return (fall[high] - half) / (fall[high] - fall[low]);
+  };
+  return {at, static_cast<double>(right - left) - 2.0 + crossing(right, right - 1) +
+                  crossing(left, left + 1)};
+}
+
 }  // namespace lumen::convert

@@ -39,4 +39,18 @@ struct ProfileEdge {
 /// Rises if such a rise lies nearer to the wall by more than a voxel, or if there is no fall.
 ProfileEdge findEdge(std::span<const float> values, std::size_t wall);
 
+/// The steepest place of a profile across a wall.
+struct FallWidth {
+  std::size_t at = 0;  ///< a sample
+  double width =
+      0;  ///< samples, in full at half height; 0 if it does not fall to half on both sides
+};
+
+/// The maximum of `fall`, the fall of a profile from sample to sample, within `near` samples of its
+/// middle, and its width. A Gaussian blur of standard deviation s makes a flat wall 2.3548 s wide.
+FallWidth fallWidth(std::span<const double> fall, std::size_t near);
+
+/// Full width at half height of the Gaussian exp(-x^2/2).
+constexpr double kWidthAtHalfHeight = 2.3548200450309493;
+
 }  // namespace lumen::convert

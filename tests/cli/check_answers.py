@@ -8,7 +8,7 @@ BUILD is the build folder, which has the schemas and the conformance set.
 Runs each command with --json on good and bad input, and validates what it prints. Then it breaks each answer in
 every place (a key more, a key less, a value of another type), which the schema must refuse, and tells which key of
 a schema no answer had. Exit status: 0 all held, 1 something did not."""
-import functools, json, pathlib, shutil, sys, tempfile, warnings
+import functools, json, math, pathlib, random, shutil, struct, sys, tempfile, warnings
 
 import jsonschema
 
@@ -128,10 +128,22 @@ def moving(lumen, folder, case):
     return value
 
 
+def write_scan(path):
+    """A ball of soft tissue in air, as CT has them."""
+    noise = random.Random(1)
+    inside = lambda x, y, z: min(1, max(0, 13.5 - math.dist((x, y, z), (20, 20, 20))))
+    voxels = [round(-1000 + 1040 * inside(x, y, z) + noise.gauss(0, 4)) for z in range(40) for y in range(40) for x in range(40)]
+    path.write_bytes(b"NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 40\nencoding: raw\nendian: little\n"
+                     b"space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n" + struct.pack(f"<{len(voxels)}h", *voxels))
+
+
 def make_cases(lumen, folder):
     go = lambda name, *arguments, **more: hold(name, run(lumen, folder, *arguments), " ".join(arguments), **more)
     go("phantom.schema.json", "phantom", "aneurysm", "a.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds", "seeds.json")
     go("phantom.schema.json", "phantom", "tube", "a.nii.gz", "--size", "32")
+    write_scan(folder / "scan.nrrd")
+    (folder / "vessel.swc").write_text("1 0 12 20 20 2 -1\n2 0 28 20 20 2 1\n")
+    go("phantom.schema.json", "phantom", "--tree", "vessel.swc", "--into", "scan.nrrd", "drawn.nrrd")
     go("seeds.schema.json", "seeds", "a.nrrd", "proposals.mrk.json")
     go("convert.schema.json", "convert", "a.nrrd", "proposed.lumen", "--seeds", "proposals.mrk.json")
     go("convert.schema.json", "convert", "a.nrrd", "found.lumen", "--repeat", "2")

@@ -110,7 +110,9 @@ phantom tube out/p.nrrd --size 32 --seeds out/s.json
 phantom hepatic out/p.nrrd --size 32 --motion breath --phases 3
   --phases 2
 phantom out/p.nrrd --seeds out/s.json --tree fork.swc
-  --tree truth.swc --voxel 0.23 --noise 0.2 --motion heart
+  --tree truth.swc --voxel 0.23 --noise 0.2 --motion heart --into scan.nrrd
+phantom out/p.nrrd --truth out/t.lumen --tree apart.swc --into scan.nrrd --veins fork.swc
+  --contrast 200 --vein-contrast 90 --move 20,18,19 --turn 0,0,90 --veins apart.swc
 )";
 
 constexpr const char* kCaseTrials = R"(

@@ -40,6 +40,16 @@ phantom tube out/p.nrrd --tree truth.swc
   tube and --tree are two phantoms, expected one
 phantom out/p.nrrd --tree truth.swc --size 40
   --size does nothing with --tree
+phantom tube out/p.nrrd --into tube.nrrd
+  --into does nothing without --tree
+phantom out/p.nrrd --tree truth.swc --contrast 200
+  --contrast does nothing without --into
+phantom out/p.nrrd --tree truth.swc --into scan.nrrd --noise 0.1
+  --noise does nothing with --into
+phantom out/p.nrrd --tree truth.swc --into scan.nrrd --vein-contrast 90
+  --vein-contrast does nothing without --veins
+phantom out/p.nrrd --tree truth.swc --into scan.nrrd --move 500,0,0
+  no vessel of the trees lies in the body
 phantom tube out/p.nrrd --size 32 --clicks careless
   --clicks does nothing without --seeds
 phantom tube out/p.nrrd --size 32 --phases 3

@@ -2,6 +2,7 @@
 #include "tests/cli/scope_inputs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -63,6 +64,27 @@ std::string headerOf(const std::string& voxels) {
          "kinds: domain domain domain\nendian: little\nencoding: raw\nbyte skip: -1\n"
          "data file: " +
          voxels + "\n";
+}
+
+/// A ball of soft tissue in air, as CT has them, of 40 x 40 x 40 voxels of 1 mm with a little noise.
+std::string scanOfBall() {
+  constexpr int kSize = 40;
+  std::string file =
+      "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 40\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nendian: little\n"
+      "encoding: raw\n\n";
+  unsigned noise = 1;
+  for (int z = 0; z < kSize; ++z)
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        noise = noise * 1103515245U + 12345U;
+        const double away = std::hypot(x - 20.0, y - 20.0, z - 20.0);
+        const double inside = std::clamp(13.5 - away, 0.0, 1.0);
+        const auto value = static_cast<std::int16_t>(-1000 + std::lround(1040 * inside) +
+                                                     static_cast<int>((noise >> 16) % 13) - 6);
+        file.append(reinterpret_cast<const char*>(&value), sizeof value);
+      }
+  return file;
 }
 
 std::string sceneOf(const std::string& folder) {
@@ -198,6 +220,7 @@ void ScopeTest::makeVolumes() const {
   make({"phantom", "kissing", "two.nrrd", "--size", "32", "--seeds", "two.json"});
   write("apart.swc", "1 0 0 0 0 .6 -1\n2 0 6 0 0 .6 1\n3 0 0 3 0 .6 -1\n4 0 6 3 0 .6 3\n");
   make({"phantom", "--tree", "apart.swc", "apart.nrrd", "--seeds", "apart.json"});
+  write("scan.nrrd", scanOfBall());
   nlohmann::json clicks = nlohmann::json::parse(read("apart.json"));
   clicks["branches"].erase(1);
   write("one.json", clicks.dump());

@@ -11,11 +11,18 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/stage_options.h"
+#include "converters/engine/tracking_input.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/stages/phantom/into_scan.h"
 
 namespace lumen::engine {
 
 namespace {
+
+Json numbersOf(const Eigen::Vector3d& v) {
+  return Json::array({jsonNumber(v.x()), jsonNumber(v.y()), jsonNumber(v.z())});
+}
 
 class PhantomCommand : public Command {
 public:
@@ -27,7 +34,9 @@ public:
     return "  lumen phantom bifurcation fork.nrrd --truth fork-truth.lumen --seeds "
            "fork-seeds.json\n"
            "  lumen phantom --tree arteries.swc arteries.nrrd --voxel 0.3 --seeds "
-           "arteries-seeds.json";
+           "arteries-seeds.json\n"
+           "  lumen phantom --tree arteries.swc --into head-ct.nrrd --turn 90,0,0 drawn.nrrd "
+           "--truth drawn-truth.lumen";
   }
 
   void addRows(OptionTable& table) override {
@@ -48,24 +57,21 @@ public:
     table.file("seeds", m_seeds, "Also write the seeds that a user would click");
     m_options.word = optionWord();
     m_options.addRows(table);
+    addIntoRows(table);
   }
 
   Answer run(const RunContext& context) override {
     sortArguments(context.memory);
     requireInScope(*context.table, {}, context.progress);
     const Outputs outputs = checkOutputs();
+    if (!m_into.empty()) return drawInto(outputs, context.progress);
     const convert::Phantom phantom = convert::makePhantom(
         m_options,
         [&](int phase, const convert::Volume& volume) {
           outputs.volume.writeVolume(volume, volumeOf(outputs.volume, phase));
         },
         context.progress);
-    context.progress.begin("writing", 0);
-    outputs.volume.writeVolume(phantom.volume, volumeOf(outputs.volume, 0));
-    if (outputs.truth != nullptr)
-      outputs.truth->writeCase(phantom.truth, m_truth, {}, context.progress);
-    if (!m_seeds.empty()) writeText(convert::encodeSeeds(phantom.seeds, m_seeds.path()), m_seeds);
-    context.progress.end();
+    writeFiles(phantom, outputs, context.progress);
     return report(phantom);
   }
 
@@ -74,6 +80,69 @@ private:
     const FileFormat& volume;
     const FileFormat* truth;  ///< null without --truth
   };
+
+  /// Options of trees in a scan, beside which those of the image do nothing.
+  void addIntoRows(OptionTable& table) {
+    table.group("Into a scan");
+    table
+        .file("into", m_into,
+              "Draw the tree into this volume, a scan with air and soft tissue such as a CT, with "
+              "the point spread and the noise that are measured in it")
+        .onlyWith("tree");
+    table.file("veins", m_veins, "Draw the veins of this SWC file, too, in the frame of the tree")
+        .onlyWith("into");
+    m_intoOptions.addRows(table);
+    table
+        .add("move", &m_move, "X,Y,Z",
+             "Displacement of the trees, mm, LPS [the one with which the most of them lies in soft "
+             "tissue]")
+        .checkedBy(placeFault)
+        .onlyWith("into");
+    table
+        .add("turn", &m_turn, "X,Y,Z",
+             "Degrees by which the trees are turned about x, y and z, one after the other, around "
+             "their middle [0,0,0]")
+        .checkedBy(placeFault)
+        .onlyWith("into");
+    for (const char* const name :
+         {"voxel", "slice-thickness", "clutter", "noise", "bias", "psf", "motion"})
+      table.find(name)->notBeside("into");
+  }
+
+  Answer drawInto(const Outputs& outputs, Progress& progress) {
+    m_intoOptions.veins = m_veins;
+    if (!m_move.empty()) m_intoOptions.move = placeIn(m_move);
+    if (!m_turn.empty()) m_intoOptions.turn = placeIn(m_turn);
+    requireInput(m_into, "volume");
+    const FileFormat& from = inputFormat(m_into, "");
+    if (from.kind != FormatKind::Volume)
+      throw unsupported(m_into.name() + ": expected a volume, into which the tree is drawn");
+    const convert::IntoResult drawn =
+        convert::drawIntoScan(m_options, m_intoOptions,
+                              readVolumeFile(m_into, from, VolumeArguments{}, progress), progress);
+    writeFiles(drawn.phantom, outputs, progress);
+    Answer answer = report(drawn.phantom);
+    answer.json["scan"] = {{"tissue", jsonNumber(drawn.look.tissue)},
+                           {"noise", jsonNumber(drawn.look.noise)},
+                           {"point_spread_mm", numbersOf(drawn.look.spread)},
+                           {"move_mm", numbersOf(drawn.move)},
+                           {"outside_mm", jsonNumber(drawn.lost)}};
+    answer.text += m_into.name() + ": soft tissue of " + shownNumber(drawn.look.tissue, 4) +
+                   " with noise of " + shownNumber(drawn.look.noise, 3) + ", point spread " +
+                   joinedNumbers(drawn.look.spread, " x ", 3) + " mm; trees moved by " +
+                   joinedNumbers(drawn.move, ",", 5) + " mm, " + fixedText(drawn.lost, 1) +
+                   " mm of them lie outside of the body and are left out\n";
+    return answer;
+  }
+
+  void writeFiles(const convert::Phantom& phantom, const Outputs& outputs,
+                  Progress& progress) const {
+    progress.begin("writing", 0);
+    outputs.volume.writeVolume(phantom.volume, volumeOf(outputs.volume, 0));
+    if (outputs.truth != nullptr) outputs.truth->writeCase(phantom.truth, m_truth, {}, progress);
+    if (!m_seeds.empty()) writeText(convert::encodeSeeds(phantom.seeds, m_seeds.path()), m_seeds);
+    progress.end();
+  }
 
   /// OUT itself, or with a motion OUT with the number of the phase before its ending.
   [[nodiscard]] OutputFile volumeOf(const FileFormat& format, int phase) const {
@@ -127,6 +196,7 @@ private:
     json["size"] = size;
     json["voxel_size_mm"] = jsonNumber(phantom.volume.geometry.voxelSize());
     json["seeds"] = phantom.seeds.size();
+    json["scan"] = nullptr;
     json["phases"] = phantom.truth.motion ? phantom.truth.motion->time.size() : 1;
     return {std::move(json), shownVolumes(phantom) + ": " + joinedNumbers(size, " x ") +
                                  " voxels of " + fixedText(phantom.volume.geometry.voxelSize(), 3) +
@@ -142,7 +212,9 @@ private:
   }
 
   convert::PhantomOptions m_options;
-  std::string m_tree;
+  convert::IntoOptions m_intoOptions;
+  InputFile m_into;
+  std::string m_tree, m_veins, m_move, m_turn;
   OutputFile m_output, m_truth, m_seeds;
 };
 

@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/base/otsu.h"
 #include "converters/base/statistics.h"
 #include "converters/base/zeroed_array.h"
 #include "converters/stages/finding/background.h"
@@ -64,29 +65,6 @@ struct Histogram {
     for (std::size_t i = bin; i < kBins; ++i) sum += count[i];
     return sum;
   }
-  /// The bin from `first` on that splits the rest into two classes whose means differ the most, by
-  /// the variance between them (N. Otsu, "A threshold selection method from gray-level histograms",
-  /// 1979).
-  [[nodiscard]] std::size_t split(std::size_t first) const {
-    double all = 0, moment = 0;
-    for (std::size_t i = first; i < kBins; ++i) {
-      all += static_cast<double>(count[i]);
-      moment += static_cast<double>(count[i]) * static_cast<double>(i);
-    }
-    double below = 0, belowMoment = 0, greatest = -1;
-    std::size_t best = first;
-    for (std::size_t i = first; i + 1 < kBins; ++i) {
-      below += static_cast<double>(count[i]);
-      belowMoment += static_cast<double>(count[i]) * static_cast<double>(i);
-      if (below == 0 || below == all) continue;
-      const double apart = belowMoment / below - (moment - belowMoment) / (all - below);
-      const double between = below * (all - below) * apart * apart;
-      if (between <= greatest) continue;
-      greatest = between;
-      best = i + 1;
-    }
-    return best;
-  }
   /// The median of the values from a bin on.
   [[nodiscard]] float medianFrom(std::size_t bin) const {
     const std::size_t half = countFrom(bin) / 2;
@@ -122,9 +100,9 @@ Histogram countExcess(const Volume& volume, const Background& background, float 
 /// The excess of wide vessels: the median of the upper class, or of its own upper class, until it
 /// is no more than vessels may fill.
 float measureContrast(const Histogram& excess, std::size_t voxels) {
-  std::size_t bin = excess.split(0);
+  std::size_t bin = otsuSplit(excess.count, 0);
   while (static_cast<double>(excess.countFrom(bin)) > kMostLumen * static_cast<double>(voxels)) {
-    const std::size_t next = excess.split(bin);
+    const std::size_t next = otsuSplit(excess.count, bin);
     if (next == bin) break;
     bin = next;
   }

@@ -78,7 +78,7 @@ Volume draw(const PhantomScene& scene, const Design& design, const PhantomOption
             int phase, Progress& progress) {
   Image image = drawOccupancy(design, scene.grid, progress);
   addClutter(parseClutter(options.clutter), design, scene.grid, options.seed, image, progress);
-  blur(image, options.psf, progress);
+  blur(image, Eigen::Vector3d::Constant(options.psf), progress);
   if (scene.slice != 1) image = averageSlices(image, scene.slice);
   Volume volume;
   volume.geometry = geometryOf(scene, image);

@@ -104,27 +104,6 @@ double chordLength(const CenterlineFile& file) {
   return length;
 }
 
-// Refuses options that would take too much memory or time.
-void checkEffort(const CenterlineFile& file, const PhantomOptions& options,
-                 const std::string& name) {
-  const double voxel = options.voxel;
-  Box3d box;
-  double widest = 0;
-  for (const CenterlinePoint& point : file.points) {
-    box.add(point.position, point.radius);
-    widest = std::max(widest, point.radius);
-  }
-  gridAround(box, options);
-  const double nodes =
-      chordLength(file) / (0.5 * voxel) + 2 * static_cast<double>(file.points.size());
-  const double draws = nodes * std::pow(2 * widest / voxel + 3, 3);
-  if (nodes <= static_cast<double>(formats::kMaxNodes) / 4 && draws <= kMostDraws) return;
-  throw invalidInput(name + ": its vessels are " + shownNumber(chordLength(file)) +
-                     " mm long and up to " + shownNumber(widest) +
-                     " mm in radius, too much to draw in voxels of " + shownNumber(voxel) +
-                     " mm; expected a tree in mm, or a larger " + options.word("voxel"));
-}
-
 std::string labelOf(std::size_t index) {
   return std::string("b").append(paddedNumber(index, 3));
 }
@@ -156,6 +135,27 @@ Box3d boxOfPhases(const formats::CenterlineTree& tree, const PhantomOptions& opt
 }
 
 }  // namespace
+
+void checkEffort(const CenterlineFile& file, double voxel, const std::string& name,
+                 const std::string& remedy) {
+  double widest = 0;
+  for (const CenterlinePoint& point : file.points) widest = std::max(widest, point.radius);
+  const double nodes =
+      chordLength(file) / (0.5 * voxel) + 2 * static_cast<double>(file.points.size());
+  const double draws = nodes * std::pow(2 * widest / voxel + 3, 3);
+  if (nodes <= static_cast<double>(formats::kMaxNodes) / 4 && draws <= kMostDraws) return;
+  throw invalidInput(name + ": its vessels are " + shownNumber(chordLength(file)) +
+                     " mm long and up to " + shownNumber(widest) +
+                     " mm in radius, too much to draw in voxels of " + shownNumber(voxel) +
+                     " mm; expected a tree in mm, or " + remedy);
+}
+
+std::vector<SeedBranch> clickTree(const formats::CenterlineTree& tree,
+                                  const PhantomOptions& options, double voxel) {
+  Random random(options.seed, kClicks + options.clickDrawing);
+  return options.isCareless ? clickCarelessly(tree, voxel, random)
+                            : clickLargeVessels(tree, voxel, random);
+}
 
 const std::vector<std::string>& phantomNames() {
   static const std::vector<std::string> names = [] {
@@ -207,7 +207,10 @@ PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
 PhantomScene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   const std::string name = formats::printable(options.tree.string());
   const CenterlineFile file = readSwc(options.tree);
-  checkEffort(file, options, name);
+  Box3d around;
+  for (const CenterlinePoint& point : file.points) around.add(point.position, point.radius);
+  gridAround(around, options);
+  checkEffort(file, options.voxel, name, "a larger " + options.word("voxel"));
   PhantomScene scene;
   scene.treeSha256 = digestOfFile(options.tree).sha256;
   scene.design = makeDesign(file, options.voxel, name, progress);
@@ -221,9 +224,7 @@ PhantomScene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   const double slices =
       std::max<double>(kFewestSlices, std::ceil(scene.grid.size[2] / scene.slice));
   scene.grid.size[2] = static_cast<int>(std::ceil(slices * scene.slice));
-  Random random(options.seed, kClicks + options.clickDrawing);
-  scene.design.seeds = options.isCareless ? clickCarelessly(tree, options.voxel, random)
-                                          : clickLargeVessels(tree, options.voxel, random);
+  scene.design.seeds = clickTree(tree, options, options.voxel);
   return scene;
 }
 

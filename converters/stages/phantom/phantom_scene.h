@@ -4,6 +4,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/geometry/box.h"
+#include "converters/io/centerline/centerline_file.h"
 #include "converters/stages/phantom/design.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/phantom/render.h"
@@ -19,6 +20,15 @@ struct PhantomScene {
 
 /// The box around the balls of a tree's nodes, mm.
 Box3d boxOf(const formats::CenterlineTree& tree);
+
+/// Refuses a tree that would take too much memory or time in voxels of `voxel` mm; `remedy`: what is
+/// expected instead, in a message. Throws Error(InvalidInput).
+void checkEffort(const CenterlineFile& file, double voxel, const std::string& name,
+                 const std::string& remedy);
+
+/// The clicks on a tree that came from a file, as the options state them.
+std::vector<SeedBranch> clickTree(const formats::CenterlineTree& tree,
+                                  const PhantomOptions& options, double voxel);
 
 /// The phantom `options.name` in a cube. The options are within their ranges. Throws Error(Usage)
 /// if the volume is too small for it, and Error(Cancelled).

@@ -20,13 +20,13 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr float kUndrawn = 1e6F;
-constexpr int kSubvoxels = 3;             // along each edge
-constexpr double kHalfDiagonal = 0.8661;  // half diagonal of a unit cube
-constexpr int kColumns = 64;              // adjacent lines that one pass across rows takes together
+constexpr double kSubvoxels = 3;           // along the least edge of a voxel
+constexpr double kHalfDiagonal = 0.50003;  // of the diagonal of a voxel, rounded up
+constexpr int kColumns = 64;  // adjacent lines that one pass across rows takes together
 
 /// Faster than VolumeGeometry::position(): the axes are those of LPS.
 Vector3d centreOf(const VolumeGeometry& grid, int x, int y, int z) {
-  return grid.origin + grid.spacing.x() * Vector3d(x, y, z);
+  return grid.origin + grid.spacing.cwiseProduct(Vector3d(x, y, z));
 }
 
 struct Segment {
@@ -53,7 +53,7 @@ void drawSegment(const Segment& segment, const VolumeGeometry& grid, int zFirst,
                  Image& image) {
   const auto lowest = [&](int axis, int limit) {
     return std::max(limit, static_cast<int>(std::ceil((segment.low[axis] - grid.origin[axis]) /
-                                                      grid.spacing.x())));
+                                                      grid.spacing[axis])));
   };
   const auto highest = [&](int axis, int limit) {
     return std::min(limit, static_cast<int>(std::floor((segment.high[axis] - grid.origin[axis]) /
@@ -69,42 +69,52 @@ void drawSegment(const Segment& segment, const VolumeGeometry& grid, int zFirst,
     }
 }
 
+// The parts of a voxel, about cubic.
+class Subvoxels {
+public:
+  explicit Subvoxels(const Vector3d& voxel)
+      : m_count((kSubvoxels * (voxel / voxel.minCoeff()).array()).ceil().cast<int>()),
+        m_step(voxel.array() / m_count.cast<double>().array()) {}
+
+  // The mean over the parts around `centre` of share(place).
+  template <class Share>
+  [[nodiscard]] double mean(const Vector3d& centre, const Share& share) const {
+    const Vector3d middle = 0.5 * (m_count.array() - 1).cast<double>().matrix();
+    double sum = 0;
+    for (int k = 0; k < m_count[2]; ++k)
+      for (int j = 0; j < m_count[1]; ++j)
+        for (int i = 0; i < m_count[0]; ++i)
+          sum += share(centre + m_step.cwiseProduct(Vector3d(i, j, k) - middle));
+    return sum / m_count.prod();
+  }
+  // The share of a part that lies inside of a wall at the distance `distance` from its middle.
+  [[nodiscard]] double inside(double distance) const {
+    return std::clamp(0.5 - distance / m_step.minCoeff(), 0.0, 1.0);
+  }
+
+private:
+  Cell m_count;
+  Vector3d m_step;  // mm
+};
+
 // Integrates occupancy times contrast over the voxel around `centre`.
 double integrateOccupancy(const TubeTreeDistance& wall, const std::vector<float>& contrast,
-                          const Vector3d& centre, double voxel, std::vector<std::uint32_t>& near) {
-  const double step = voxel / kSubvoxels;
-  wall.collect(centre, kHalfDiagonal * voxel, near);
-  double sum = 0;
-  for (int k = 0; k < kSubvoxels; ++k)
-    for (int j = 0; j < kSubvoxels; ++j)
-      for (int i = 0; i < kSubvoxels; ++i) {
-        const Vector3d offset = step * Vector3d(i - 1, j - 1, k - 1);
-        const WallHit hit = wall.nearestAmong(near, centre + offset);
-        const double inside = std::clamp(0.5 - hit.distance / step, 0.0, 1.0);
-        const double a = static_cast<double>(contrast[hit.node]);
-        const double b =
-            static_cast<double>(contrast[std::min<std::size_t>(hit.node + 1, contrast.size() - 1)]);
-        sum += inside * (a + hit.along * (b - a));
-      }
-  return sum / (kSubvoxels * kSubvoxels * kSubvoxels);
-}
-
-// Integrates over the voxel around `centre` with a wall of closed form.
-double integrateOccupancy(const std::function<double(const Vector3d&)>& wall,
-                          const Vector3d& centre, double voxel) {
-  const double step = voxel / kSubvoxels;
-  double sum = 0;
-  for (int k = 0; k < kSubvoxels; ++k)
-    for (int j = 0; j < kSubvoxels; ++j)
-      for (int i = 0; i < kSubvoxels; ++i)
-        sum +=
-            std::clamp(0.5 - wall(centre + step * Vector3d(i - 1, j - 1, k - 1)) / step, 0.0, 1.0);
-  return sum / (kSubvoxels * kSubvoxels * kSubvoxels);
+                          const Vector3d& centre, const VolumeGeometry& grid,
+                          const Subvoxels& parts, std::vector<std::uint32_t>& near) {
+  wall.collect(centre, kHalfDiagonal * grid.spacing.norm(), near);
+  return parts.mean(centre, [&](const Vector3d& place) {
+    const WallHit hit = wall.nearestAmong(near, place);
+    const double a = static_cast<double>(contrast[hit.node]);
+    const double b =
+        static_cast<double>(contrast[std::min<std::size_t>(hit.node + 1, contrast.size() - 1)]);
+    return parts.inside(hit.distance) * (a + hit.along * (b - a));
+  });
 }
 
 void drawClosedForm(const std::function<double(const Vector3d&)>& wall, const VolumeGeometry& grid,
                     Image& image, Progress& progress) {
-  const double far = 2 * kHalfDiagonal * grid.spacing.x();
+  const Subvoxels parts(grid.spacing);
+  const double far = 2 * kHalfDiagonal * grid.spacing.norm();
   tbb::parallel_for(0, grid.size[2], [&](int z) {
     progress.check();
     for (int y = 0; y < grid.size[1]; ++y) {
@@ -115,7 +125,8 @@ void drawClosedForm(const std::function<double(const Vector3d&)>& wall, const Vo
         if (std::abs(distance) > far)
           row[x] = distance < 0 ? 1 : 0;
         else
-          row[x] = static_cast<float>(integrateOccupancy(wall, centre, grid.spacing.x()));
+          row[x] = static_cast<float>(
+              parts.mean(centre, [&](const Vector3d& place) { return parts.inside(wall(place)); }));
       }
     }
     progress.advance();
@@ -141,19 +152,6 @@ void applyContrast(const Design& design, const VolumeGeometry& grid, Image& imag
       }
     }
   });
-}
-
-std::vector<float> gaussianWeights(double sigma) {
-  const int reach = std::max(1, static_cast<int>(std::ceil(4 * sigma)));
-  std::vector<double> weights;
-  double sum = 0;
-  for (int i = -reach; i <= reach; ++i) {
-    weights.push_back(formats::repeatableExp(-0.5 * i * i / (sigma * sigma)));
-    sum += weights.back();
-  }
-  std::vector<float> normalised;
-  for (const double w : weights) normalised.push_back(static_cast<float>(w / sum));
-  return normalised;
 }
 
 // out[i] = sum_k weights[k] * in[i + k * stride] over `count` independent lanes.
@@ -236,7 +234,8 @@ Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& 
     if (!uniform) applyContrast(design, grid, image, progress);
     return image;
   }
-  const double rim = kHalfDiagonal * grid.spacing.x();
+  const Subvoxels parts(grid.spacing);
+  const double rim = kHalfDiagonal * grid.spacing.norm();
   const std::vector<Segment> segments = makeSegments(design.tree, rim);
   const TubeTreeDistance wall(design.tree);
   constexpr int kSlab = 4;
@@ -261,7 +260,7 @@ Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& 
             row[x] = 1;
           else
             row[x] = static_cast<float>(integrateOccupancy(
-                wall, design.contrast, centreOf(grid, x, y, z), grid.spacing.x(), near));
+                wall, design.contrast, centreOf(grid, x, y, z), grid, parts, near));
         }
       }
       progress.advance();
@@ -270,28 +269,43 @@ Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& 
   return image;
 }
 
-void blur(Image& image, double sigma, Progress& progress) {
-  if (sigma <= 0) return;
-  const std::vector<float> weights = gaussianWeights(sigma);
+std::vector<float> gaussianWeights(double sigma) {
+  if (sigma <= 0) return {1.0F};
+  const int reach = std::max(1, static_cast<int>(std::ceil(4 * sigma)));
+  std::vector<double> weights;
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i) {
+    weights.push_back(formats::repeatableExp(-0.5 * i * i / (sigma * sigma)));
+    sum += weights.back();
+  }
+  std::vector<float> normalised;
+  for (const double w : weights) normalised.push_back(static_cast<float>(w / sum));
+  return normalised;
+}
+
+void blur(Image& image, const Vector3d& sigma, Progress& progress) {
+  if (sigma.maxCoeff() <= 0) return;
+  const std::array<std::vector<float>, 3> weights = {
+      gaussianWeights(sigma[0]), gaussianWeights(sigma[1]), gaussianWeights(sigma[2])};
   const auto nx = static_cast<std::size_t>(image.size[0]),
              ny = static_cast<std::size_t>(image.size[1]),
              nz = static_cast<std::size_t>(image.size[2]);
-  const auto columns = [&](float* first, std::size_t n, std::size_t step,
-                           std::vector<float>& padded) {
+  const auto columns = [&](float* first, std::size_t n, int axis, std::vector<float>& padded) {
     for (std::size_t x = 0; x < nx; x += kColumns)
-      blurColumns(first + x, n, step, std::min<std::size_t>(kColumns, nx - x), weights, padded);
+      blurColumns(first + x, n, axis == 1 ? nx : nx * ny, std::min<std::size_t>(kColumns, nx - x),
+                  weights[static_cast<std::size_t>(axis)], padded);
   };
   tbb::parallel_for(0, image.size[2], [&](int z) {
     progress.check();
     std::vector<float> padded;
-    blurRows(image, weights, z);
-    columns(image.row(0, z), ny, nx, padded);
+    blurRows(image, weights[0], z);
+    columns(image.row(0, z), ny, 1, padded);
     progress.advance();
   });
   tbb::parallel_for(0, image.size[1], [&](int y) {
     progress.check();
     std::vector<float> padded;
-    columns(image.row(y, 0), nz, nx * ny, padded);
+    columns(image.row(y, 0), nz, 2, padded);
     progress.advance();
   });
 }

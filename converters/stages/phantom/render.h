@@ -29,13 +29,17 @@ struct Image {
 };
 
 /// The share of each voxel that lies in the lumen, times the local contrast of the design, in [0,
-/// 1]. Voxels that the wall may cross are integrated over 27 subvoxels, each weighted by its own
-/// signed distance. The grid has cubic voxels and the axes of LPS.
+/// 1]. Voxels that the wall may cross are integrated over subvoxels, three along their least edge
+/// and about cubic, each weighted by its own signed distance. The grid has the axes of LPS.
 Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress);
 
-/// Convolves in place with a Gaussian of standard deviation `sigma` voxels, cut at 4 sigma and
-/// normalised; voxels beyond a face equal those on it.
-void blur(Image& image, double sigma, Progress& progress);
+/// The taps of a Gaussian of standard deviation `sigma` voxels, cut at 4 sigma and normalised; one
+/// tap for 0.
+std::vector<float> gaussianWeights(double sigma);
+
+/// Convolves in place with a Gaussian of standard deviation `sigma` voxels along each axis, by
+/// gaussianWeights(); voxels beyond a face equal those on it.
+void blur(Image& image, const Eigen::Vector3d& sigma, Progress& progress);
 
 /// Averages an image over thick slices of `thickness` voxels along z; voxels at the ends of a slice
 /// count by the share that it takes in. The first slice begins where the image does; the rest at

@@ -13,6 +13,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/tracking/cylinders/wall_ellipse.h"
+#include "converters/voxels/profile_edge.h"
 
 namespace lumen::convert {
 namespace {
@@ -38,7 +39,6 @@ constexpr double kLevelReachVoxels = 2.5;
 constexpr double kLopsidedVoxels = 0.05;
 /// The largest move of a wall to the half level, in radii.
 constexpr double kLopsidedRadii = 0.1;
-constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // width of the Gaussian exp(-x^2/2)
 
 /// The last partial denominator of the continued fraction: it has converged to all digits for the
 /// arguments that occur, w < (q + 1)^2 with q <= kNearlyFlat.
@@ -140,22 +140,9 @@ Fall findFall(std::vector<double> profile, double sign) {
   const std::size_t n = profile.size();
   std::vector<double> fall(n, 0.0);
   for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = profile[i - 1] - profile[i + 1];
-  const auto middle = fall.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  const auto near = static_cast<std::ptrdiff_t>(n / kNearWallFraction);
-  const auto peak =
-      static_cast<std::size_t>(std::max_element(middle - near, middle + near + 1) - fall.begin());
-  const double half = 0.5 * fall[peak];
-  if (!(half > 0)) return {};
-  std::size_t right = peak, left = peak;
-  while (right < n && fall[right] > half) ++right;
-  while (left > 0 && fall[left] > half) --left;
-  if (right + 1 >= n || left == 0) return {};
-  const auto crossing = [&](std::size_t low, std::size_t high) {
-    return (fall[high] - half) / (fall[high] - fall[low]);
-  };
-  return {static_cast<double>(right - left) - 2.0 + crossing(right, right - 1) +
-              crossing(left, left + 1),
-          findHalfLevel(profile, fall, peak)};
+  const FallWidth steepest = fallWidth(fall, n / kNearWallFraction);
+  if (steepest.width == 0) return {};
+  return {steepest.width, findHalfLevel(profile, fall, steepest.at)};
 }
 
 /// Standard deviation of the blur under which a disc falls fastest at `seen` from its centre, by a

@@ -84,7 +84,7 @@ TEST(PhantomIntensity, BlurKeepsTheSum) {
   Image image = drawOccupancy(
       designHelix(frame), VolumeGeometry{{64, 64, 64}, Eigen::Vector3d::Constant(0.2)}, progress);
   const double sharp = std::accumulate(image.value.begin(), image.value.end(), 0.0);
-  blur(image, 1.5, progress);
+  blur(image, Eigen::Vector3d::Constant(1.5), progress);
   EXPECT_NEAR(std::accumulate(image.value.begin(), image.value.end(), 0.0), sharp, 1e-5 * sharp);
 }
 
@@ -92,7 +92,7 @@ TEST(PhantomIntensity, BlurSpreadsAnImpulseByItsSigma) {
   Image image{{21, 21, 21}, std::vector<float>(21 * 21 * 21, 0.0F)};
   image.row(10, 10)[10] = 1;
   Progress progress;
-  blur(image, 1.5, progress);
+  blur(image, Eigen::Vector3d::Constant(1.5), progress);
   double sum = 0, square = 0;
   for (int z = 0; z < 21; ++z)
     for (int y = 0; y < 21; ++y)
