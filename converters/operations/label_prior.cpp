@@ -18,8 +18,9 @@ using convert::Prior;
 
 constexpr std::uint8_t kArterial = 1, kVenous = 2, kFalseLumen = 3, kRegion = 254;
 
-std::uint8_t statementOf(LabelRole role) {
-  switch (role) {
+/// A guess from a name takes no vessel away.
+std::uint8_t statementOf(const convert::LabelMeaning& meaning) {
+  switch (meaning.role) {
     case LabelRole::Vessel:
     case LabelRole::Artery:
     case LabelRole::Aneurysm:
@@ -29,12 +30,12 @@ std::uint8_t statementOf(LabelRole role) {
       return kVenous;
     case LabelRole::FalseLumen:
       return kFalseLumen;
-    case LabelRole::Region:
-      return kRegion;
     case LabelRole::Unknown:
       return Prior::kNothing;
+    case LabelRole::Region:
+      return meaning.isStated ? kRegion : Prior::kNothing;
     default:
-      return Prior::kNoVessel;
+      return meaning.isStated ? Prior::kNoVessel : Prior::kNothing;
   }
 }
 
@@ -44,7 +45,7 @@ void forEachStatement(const LabelPart& map, const convert::VolumeGeometry& geome
                       const Progress& progress, const Visit& visit) {
   std::unordered_map<std::int64_t, std::uint8_t> statements;
   for (const convert::LabelMeaning& meaning : map.meanings)
-    if (const std::uint8_t said = statementOf(meaning.role); said != Prior::kNothing)
+    if (const std::uint8_t said = statementOf(meaning); said != Prior::kNothing)
       statements[meaning.value] = said;
   if (statements.empty()) return;
   const convert::VolumeGeometry& own = map.voxels.geometry;

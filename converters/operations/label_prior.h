@@ -13,7 +13,8 @@ namespace lumen::operations {
 /// The statements of maps about the voxels of a volume, by positions; of several about a voxel that
 /// of the first map counts. Vessels without a system, arteries, aneurysms and true lumens are one
 /// system, veins another, false lumens a third. Chambers of the heart, tissue and what lies outside
-/// of all regions, if there are any, are no vessel; labels of unknown roles say nothing. Empty if
+/// of all regions, if there are any, are no vessel, but where their role is a guess from a name;
+/// labels of unknown roles say nothing. Empty if
 /// no map says anything. Throws Error(Cancelled).
 convert::Prior priorOf(const std::vector<LabelPart>& maps, const convert::VolumeGeometry& geometry,
                        const Progress& progress);

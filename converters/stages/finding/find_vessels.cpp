@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <queue>
 #include <set>
 #include <span>
 #include <string>
@@ -63,6 +64,9 @@ public:
       all.insert(all.end(), tree.begin(), tree.end());
     return boneVoxels({m_set, m_depths, all, brightness}, bone, m_progress);
   }
+
+  /// mm from each voxel of the set to the wall.
+  [[nodiscard]] std::span<const float> depthsToWall() const { return m_depths; }
 
   /// The courses along the paths that findPaths() found.
   std::vector<SeedBranch> courses() {
@@ -173,25 +177,37 @@ void toWorld(const VolumeGeometry& grid, const VolumeGeometry& world,
     for (SeedPoint& point : course.points) point.position = inFrame(grid, world, point.position);
 }
 
-/// The system of each voxel of a set, as a prior has them; empty if these are fewer than two.
-std::vector<std::uint8_t> systemsOf(const VoxelSet& set, const Prior& prior) {
+/// The system of each voxel of a set, as a prior has them; empty if these are fewer than two. Where
+/// it has none, systems spread through the deepest voxels first, so that they meet where two lumens
+/// touch. `depths`: mm from each voxel of the set to the wall.
+std::vector<std::uint8_t> systemsOf(const VoxelSet& set, std::span<const float> depths,
+                                    const Prior& prior) {
+  struct Front {
+    float depth;
+    std::uint32_t voxel;
+    bool operator<(const Front& other) const {
+      return std::pair(depth, other.voxel) < std::pair(other.depth, voxel);
+    }
+  };
   std::vector<std::uint8_t> systems(set.size(), Prior::kNothing);
-  std::vector<std::uint32_t> reached;
-  std::uint8_t least = Prior::kNoVessel, most = Prior::kNothing;
+  std::priority_queue<Front> front;
+  std::set<std::uint8_t> known;
   for (std::uint32_t i = 0; i < set.size(); ++i) {
     if (!prior.isLumen(set.index(i))) continue;
     systems[i] = prior.systems[set.index(i)];
-    least = std::min(least, systems[i]);
-    most = std::max(most, systems[i]);
-    reached.push_back(i);
+    known.insert(systems[i]);
+    front.push({depths[i], i});
   }
-  if (least >= most) return {};
-  for (std::size_t k = 0; k < reached.size(); ++k)
-    set.eachBeside(reached[k], [&](std::uint32_t j, const Vector3d&) {
+  if (known.size() < 2) return {};
+  while (!front.empty()) {
+    const std::uint32_t i = front.top().voxel;
+    front.pop();
+    set.eachBeside(i, [&](std::uint32_t j, const Vector3d&) {
       if (systems[j] != Prior::kNothing) return;
-      systems[j] = systems[reached[k]];
-      reached.push_back(j);
+      systems[j] = systems[i];
+      front.push({depths[j], j});
     });
+  }
   return systems;
 }
 
@@ -270,7 +286,7 @@ FoundVessels findVessels(const Volume& volume, bool dark, const Prior& prior, Pr
     std::sort(found.bone.begin(), found.bone.end());
     isMore = !isBone.empty();
     if (isMore) continue;
-    found.systems = systemsOf(set, prior);
+    found.systems = systemsOf(set, finder.depthsToWall(), prior);
     found.courses = found.systems.empty() ? finder.courses()
                                           : coursesOf(grid, found.lumen, found.systems, progress);
   }

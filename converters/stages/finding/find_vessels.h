@@ -40,7 +40,7 @@ private:
 /// one tree, from the tip of its widest vessel. An aneurysm's points are inside of it. Radii are as
 /// coarse as the voxels; the tracker measures them. `dark`: vessels are darker than their
 /// background. No course leads from one system of `prior` to another; lumen of which it says
-/// nothing belongs to the system from which the fewest steps lead there. Throws Error(Cancelled).
+/// nothing belongs to the system from which the widest way leads there. Throws Error(Cancelled).
 FoundVessels findVessels(const Volume& volume, bool dark, const Prior& prior, Progress& progress);
 
 /// The courses through the lumen outside of `vessels`, in the form of findVessels(), which may

@@ -213,6 +213,94 @@ TEST(FindVessels, ATangleOfVesselsIsNoBone) {
   EXPECT_TRUE(findVessels(volume, false, {}, silent).bone.empty());
 }
 
+/// Statements about the voxels of a volume by their places.
+Prior priorOf(const Volume& volume, const std::function<std::uint8_t(const Vector3d&)>& statement) {
+  Prior prior;
+  volume.geometry.cells().forEach([&](const Cell& cell) {
+    prior.systems.push_back(statement(volume.geometry.position(cell)));
+  });
+  return prior;
+}
+
+/// Whether a course has a point on each side of the place where two vessels touch.
+bool crossesOver(const FoundVessels& found) {
+  return std::any_of(found.courses.begin(), found.courses.end(), [](const SeedBranch& course) {
+    bool isLow = false, isHigh = false;
+    for (const SeedPoint& point : course.points) {
+      isLow = isLow || point.position.x() < 28;
+      isHigh = isHigh || point.position.x() > 34;
+    }
+    return isLow && isHigh;
+  });
+}
+
+// Two vessels of radius 3 that touch along half of their length, as a vein beside an artery.
+TEST(FindVessels, NoCourseLeadsFromOneSystemToAnother) {
+  const Volume volume = drawVolume(64, 1, [](const Vector3d& p) {
+    const double left = std::min(capsule(p, {10, 32, 4}, {28.2, 32, 20}, 3),
+                                 capsule(p, {28.2, 32, 20}, {28.2, 32, 60}, 3));
+    const double right = std::min(capsule(p, {54, 32, 4}, {33.8, 32, 20}, 3),
+                                  capsule(p, {33.8, 32, 20}, {33.8, 32, 60}, 3));
+    return std::min(left, right);
+  });
+  Progress silent;
+  EXPECT_TRUE(crossesOver(findVessels(volume, false, {}, silent)));
+  // a coarse map: it knows of each vessel up to half of its length, a voxel beside the wall
+  const Prior prior = priorOf(volume, [](const Vector3d& p) -> std::uint8_t {
+    return p.z() > 40 ? 0 : p.x() < 30 ? 1 : 2;
+  });
+  const FoundVessels found = findVessels(volume, false, prior, silent);
+  EXPECT_FALSE(crossesOver(found));
+  EXPECT_EQ(found.systems.size(), found.lumen.size());
+  for (const double x : {27.5, 34.5}) {
+    double least = 100;
+    for (const SeedBranch& course : found.courses)
+      least = std::min(least, distanceFrom(course, {x, 32, 55}));
+    EXPECT_LT(least, 2) << "both go on beyond the map";
+  }
+}
+
+TEST(FindVessels, NoCourseRunsWhereAMapStatesThatNoVesselIs) {
+  const Volume volume = drawVolume(64, 1, fork);
+  const auto isBranch = [](const Vector3d& p) { return p.x() > 29; };
+  Progress silent;
+  const FoundVessels found = findVessels(
+      volume, false,
+      priorOf(volume,
+              [&](const Vector3d& p) { return isBranch(p) ? Prior::kNoVessel : Prior::kNothing; }),
+      silent);
+  ASSERT_EQ(found.courses.size(), 1U);
+  for (const SeedPoint& point : found.courses[0].points) EXPECT_FALSE(isBranch(point.position));
+  EXPECT_FALSE(found.isLumen({40, 30, 40}));
+  EXPECT_TRUE(found.isLumen({24, 30, 40}));
+}
+
+// A vessel too thin and faint to stand out on its own is followed where a map has it.
+TEST(FindVessels, AMapMakesUpForEvidenceThatIsWeak) {
+  Volume volume = drawVolume(64, 1, [](const Vector3d& p) {
+    return capsule(p, {16, 16, 4}, {16, 16, 60}, 4);
+  });
+  const Volume faint = drawVolume(64, 1, [](const Vector3d& p) {
+    return capsule(p, {46, 46, 4}, {46, 46, 60}, 1);
+  });
+  auto& voxels = std::get<std::vector<std::int16_t>>(volume.voxels);
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    voxels[i] = static_cast<std::int16_t>(voxels[i] +
+                                          std::get<std::vector<std::int16_t>>(faint.voxels)[i] / 12);
+  volume = noisy(std::move(volume), 20);
+  const auto reaches = [&](const Prior& prior) {
+    Progress silent;
+    double least = 100;
+    for (const SeedBranch& course : findVessels(volume, false, prior, silent).courses)
+      least = std::min(least, distanceFrom(course, {46, 46, 32}));
+    return least < 2;
+  };
+  EXPECT_FALSE(reaches({}));
+  EXPECT_TRUE(reaches(priorOf(volume, [](const Vector3d& p) -> std::uint8_t {
+    return capsule(p, {46, 46, 4}, {46, 46, 60}, 2) < 0 ? 1 : 0;
+  })));
+}
+
 TEST(FindVessels, NoiseHoldsNone) {
   Random random(7, 0);
   Volume volume = drawVolume(64, 1, [](const Vector3d&) { return 5.0; });
