@@ -186,7 +186,7 @@ install_test_packages() {
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev python3-numpy)
   # the Python package, its stubs, and its notebook
-  packages+=(pybind11-dev python3-dev mypy python3-pyopencl python3-nbclient python3-ipykernel)
+  packages+=(pybind11-dev python3-dev mypy python3-pyopencl python3-nbclient python3-ipykernel strace)
   # what reads openBF's input
   packages+=(python3-yaml)
   # where a SOFA is: to run it, and to build its plugin

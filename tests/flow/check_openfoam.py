@@ -34,7 +34,7 @@ def volume(triangles):
 
 
 def run(case):
-    """What Allrun prints, and the logs."""
+    """The output of Allrun, and the logs."""
     expect(os.access(case / "Allrun", os.X_OK), "Allrun is a program")
     done = subprocess.run(["nice", "./Allrun"], cwd=case, capture_output=True, text=True)
     expect(done.returncode == 0, f"Allrun: {done.stdout} {done.stderr}")

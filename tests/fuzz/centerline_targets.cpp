@@ -58,7 +58,7 @@ void checkCase(convert::CenterlineFile file) {
   }
 }
 
-/// What `parse` accepts obeys the rules; all else is refused as bad input, or as input of another kind
+/// Text that `parse` accepts obeys the rules; all else is refused as bad input, or as input of another kind
 /// where the format (VTK's) holds more than centerlines with radii.
 template <class Parse>
 void check(Parse parse, bool hasRadii) {

@@ -107,8 +107,8 @@ def waiting_and_correcting(place, branches):
     viewer = Viewer(place, ends["trunk"]["view"])
     viewer.do(op="rename", branch=0, label="corrected")
     for vessel in branches[1:]:
-        points = [{"position": p["position"], "radius": p.get("radius")} for p in vessel["points"]]
-        viewer.do(op="trackFrom", label=vessel["label"], points=points)
+        points = [{"position": p["position"], "radius_mm": p.get("radius")} for p in vessel["points"]]
+        viewer.do(op="track_from", label=vessel["label"], points=points)
     viewer.do(op="save")
     expect(len(place.labels(ends["trunk"]["view"][3])) > 1, "the missing vessel was not tracked")
     viewer.end()

@@ -33,7 +33,7 @@ class Workflow:
         (self.folder / "list.csv").write_text(NAMES + "".join(rows))
 
     def run(self, work, profile, *more, environment=None):
-        """What Snakemake prints."""
+        """The output of Snakemake."""
         words = ["snakemake", "--snakefile", WORKFLOW / "workflow/Snakefile", "--profile", WORKFLOW / "profiles" / profile, *more,
                  "--config", "list=list.csv", "licence=CC0-1.0", f"lumen={self.lumen}", f"work={work}", f"library={work}-library"]
         done = subprocess.run([str(w) for w in words], cwd=self.folder, env=environment, capture_output=True, text=True)

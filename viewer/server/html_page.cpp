@@ -155,9 +155,9 @@ Json lookOnly(Json state) {
   for (Json& revision : state["revisions"]) revision = 1;
   for (const char* const name : {"library", "measures", "series", "second"})
     state["revisions"][name] = 0;
-  for (const char* const name : {"undo", "redo", "job", "saveAs", "second"}) state[name] = nullptr;
+  for (const char* const name : {"undo", "redo", "job", "save_as", "second"}) state[name] = nullptr;
   state["formats"] = state["proposals"] = Json::array();
-  state["unsaved"] = state["measuresAreOld"] = false;
+  state["unsaved"] = state["measures_are_old"] = false;
   for (Json& file : state["files"]) file["named"] = false;  // the page reaches none
   return state;
 }
@@ -207,7 +207,7 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
   }
   if (!fileOf(page, "blob.wasm").empty()) embedded.add("blob.wasm", fileOf(page, "blob.wasm"));
   Json state = lookOnly(session.state());
-  state["hasVolume"] = document.volume && (options.volume || !document.value);
+  state["has_volume"] = document.volume && (options.volume || !document.value);
   std::string style = fileOf(page, "page.css");
   if (style.find("</style") != style.npos) throw failed("page.css would end its own element");
   PageHead head;

@@ -204,7 +204,7 @@ private:
     get("mesh", [this](const Request& request, Response& response) {
       answerPart(request, response, meshPack(m_session.now(), numberOf(request, "id")));
     });
-    get("seriesPicture", [this](const Request& request, Response& response) {
+    get("series_picture", [this](const Request& request, Response& response) {
       answerPart(request, response,
                  m_session.series.picture(static_cast<std::size_t>(numberOf(request, "series"))));
     });
@@ -220,7 +220,7 @@ private:
 
   void addWork() {
     post("do", [this](formats::JsonValue request) { return m_session.run(request); });
-    post("vesselAtClick",
+    post("vessel_at_click",
          [this](formats::JsonValue request) { return m_session.vesselAtClick(request); });
     post("cancel", [this](formats::JsonValue request) -> Json {
       const Arguments arguments(request);
@@ -234,8 +234,8 @@ private:
                                    const httplib::ContentReader& reader) {
       guarded(response, [&] { takeFile(request, response, reader); });
     });
-    m_http.Post(at("seriesFile"), [this](const Request& request, Response& response,
-                                         const httplib::ContentReader& reader) {
+    m_http.Post(at("series_file"), [this](const Request& request, Response& response,
+                                          const httplib::ContentReader& reader) {
       guarded(response, [&] { takeSeriesFile(request, response, reader); });
     });
   }

@@ -48,8 +48,8 @@ convert::EditRequest editRequest(const std::string& op, const std::vector<std::s
     if (name.starts_with("word")) edit.word = wordIn(op, request);
     if (name == "position") edit.position = request.position(op == "push" ? "at" : "position");
     if (name == "by") edit.by = request.position("by");
-    if (name == "radius") edit.radius = request.number("radius");
-    if (name == "reach") edit.reach = request.number("reach");
+    if (name == "radius") edit.radius = request.number("radius_mm");
+    if (name == "reach") edit.reach = request.number("reach_mm");
   }
   return edit;
 }
@@ -128,8 +128,8 @@ std::string moveSeed(Seeds& seeds, const Document&, const Arguments& request) {
   convert::SeedBranch& seed = findSeed(seeds, label);
   convert::SeedPoint& point = seed.points[request.index("point", seed.points.size())];
   point.position = request.position("position");
-  if (request.has("radius")) point.radius = request.number("radius");
-  if (point.radius && !(*point.radius > 0)) refuse("\"radius\" must be above 0");
+  if (request.has("radius_mm")) point.radius = request.number("radius_mm");
+  if (point.radius && !(*point.radius > 0)) refuse("\"radius_mm\" must be above 0");
   return label;
 }
 
@@ -148,9 +148,9 @@ struct NamedChange {
   std::string (*change)(Seeds& seeds, const Document& document, const Arguments& request);
 };
 
-constexpr NamedChange kChanges[] = {{"seedAdd", "place seed ", addSeed},
-                                    {"seedMove", "move seed ", moveSeed},
-                                    {"seedDelete", "delete seed ", deleteSeed}};
+constexpr NamedChange kChanges[] = {{"seed_add", "place seed ", addSeed},
+                                    {"seed_move", "move seed ", moveSeed},
+                                    {"seed_delete", "delete seed ", deleteSeed}};
 
 }  // namespace
 

@@ -72,11 +72,11 @@ Tagged deviationPack(const Moment& now, int id, Progress& progress) {
     const MeshDeviation made =
         meshDeviation(*now.document.value, mesh.mesh->mesh.position, progress);
     PackWriter pack;
-    pack.add("distance", made.distance);
+    pack.add("distance_mm", made.distance);
     pack.set("figures", {{"vertices", made.distance.size()},
-                         {"median", made.median},
-                         {"percentile90", made.percentile90},
-                         {"greatest", made.greatest}});
+                         {"median_mm", made.median},
+                         {"percentile90_mm", made.percentile90},
+                         {"greatest_mm", made.greatest}});
     // the same meshes and the same case have the same distances
     return tagged(std::to_string(id) + "-" + std::to_string(now.parts.meshes) + "-" +
                       std::to_string(now.parts.value),
@@ -98,7 +98,7 @@ Tagged distancePack(const Moment& now, const std::shared_ptr<const ReadySurface>
         static_cast<float>(wall.nearest({double{p[0]}, double{p[1]}, double{p[2]}}).distance);
   });
   PackWriter pack;
-  pack.add("distance", distance);
+  pack.add("distance_mm", distance);
   pack.set("figures", figures);
   // the same surface and the same truth have the same distances
   return tagged(surface->tag + "-" + std::to_string(now.parts.truth), pack.bytes());

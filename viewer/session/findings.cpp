@@ -57,7 +57,7 @@ void Findings::addTo(Json& state, const Document& document) const {
   }
   state["check"] = m_check;
   state["work"] = m_work;
-  state["checkIsOld"] = isChecked && m_checked != document.value;
+  state["check_is_old"] = isChecked && m_checked != document.value;
   state["figures"] = lockedFigures(document);
 }
 

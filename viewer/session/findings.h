@@ -28,7 +28,7 @@ public:
   void clear();
 
   /// Adds the members of the state that are about `document`: "check", null if there was none, with
-  /// "checkIsOld" if it was about another case; "work", the places that it leaves to a person
+  /// "check_is_old" if it was about another case; "work", the places that it leaves to a person
   /// (workJson()); and "figures".
   void addTo(Json& state, const Document& document) const;
   /// The item of the last check with that number, which no item of another check has. Throws Error(Usage)

@@ -111,11 +111,11 @@ Tagged Library::pack() const {
   for (std::size_t i = 0; i < m_list.cases.size(); ++i) {
     Json entry = {{"name", m_list.cases[i].name},
                   {"branches", nullptr},
-                  {"length", nullptr},
+                  {"length_mm", nullptr},
                   {"error", nullptr}};
     if (const auto& figures = m_figures[i]; figures && figures->error.empty()) {
       entry["branches"] = figures->branches;
-      entry["length"] = engine::jsonNumber(figures->length);
+      entry["length_mm"] = engine::jsonNumber(figures->length);
     } else if (figures) {
       entry["error"] = figures->error;
     }

@@ -57,7 +57,7 @@ public:
   void end();
 
   [[nodiscard]] bool isOpen() const { return m_isOpen; }
-  /// {"name", "cases": [{"name", "branches", "length", "error"}]}; figures are null until the case
+  /// {"name", "cases": [{"name", "branches", "length_mm", "error"}]}; figures are null until the case
   /// has been read, and stay null for one that cannot be read, whose "error" is the reason. Empty if
   /// no list is open.
   [[nodiscard]] Tagged pack() const;

@@ -178,11 +178,11 @@ Json proposalsJson(const Document& document) {
     const auto confidence = branch.meanInlierRate;
     list.push_back({{"label", branch.label},
                     {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
-                    {"length", engine::jsonNumber(formats::branchLength(tree, branch))},
-                    {"radius", engine::jsonNumber(static_cast<double>(radiusRange(radii).mean))},
+                    {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))},
+                    {"radius_mm", engine::jsonNumber(static_cast<double>(radiusRange(radii).mean))},
                     {"confidence", confidence ? engine::jsonNumber(*confidence) : Json(nullptr)},
                     {"parent", std::move(on)},
-                    {"parentWaits", parent >= 0},
+                    {"parent_waits", parent >= 0},
                     {"position", {middle.x, middle.y, middle.z}}});
   }
   return list;

@@ -23,7 +23,7 @@ Json seriesJson(const convert::DicomSeries& series) {
           {"modality", printable(series.modality)},
           {"files", series.files},
           {"size", series.size},
-          {"spacing", isSound ? engine::vectorJson(series.spacing) : Json(nullptr)},
+          {"spacing_mm", isSound ? engine::vectorJson(series.spacing) : Json(nullptr)},
           {"fault", isSound ? Json(nullptr) : Json(printable(series.fault))}};
 }
 

@@ -41,7 +41,7 @@ public:
   /// The listing as the state has it (viewer/README.md); null if there is none.
   [[nodiscard]] Json json() const;
   [[nodiscard]] std::uint64_t revision() const;
-  /// The pack `seriesPicture`; empty if there is none.
+  /// The pack `series_picture`; empty if there is none.
   [[nodiscard]] Tagged picture(std::size_t index) const;
 
 private:

@@ -29,7 +29,7 @@ void addClicks(Json& answer, const convert::Missing& missing) {
     Json points = Json::array();
     for (const Eigen::Vector3d& point : clicks.points) points.push_back(engine::vectorJson(point));
     answer["missing_vessels"][i]["clicks"] = {
-        {"points", std::move(points)}, {"radius", clicks.radius}, {"beside", clicks.beside}};
+        {"points", std::move(points)}, {"radius_mm", clicks.radius}, {"beside", clicks.beside}};
   }
 }
 
@@ -61,7 +61,7 @@ Json track(Session& session, const Arguments& request, const Moment& from) {
 Json trackFrom(Session& session, const Arguments& request, const Moment& from) {
   if (!from.document.volume) refuse("tracking needs a volume");
   Moment seeded = from;
-  seeded.document = changeSeeds("seedAdd", request, from.document)->document;
+  seeded.document = changeSeeds("seed_add", request, from.document)->document;
   return trackSeeds(session, {seeded.document.seeds->back()}, seeded);
 }
 

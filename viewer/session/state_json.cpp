@@ -27,7 +27,7 @@ Json seedsJson(const Document& document) {
     Json points = Json::array();
     for (const convert::SeedPoint& point : seed.points)
       points.push_back({{"position", engine::vectorJson(point.position)},
-                        {"radius", point.radius ? Json(*point.radius) : Json(nullptr)}});
+                        {"radius_mm", point.radius ? Json(*point.radius) : Json(nullptr)}});
     list.push_back({{"label", seed.label},
                     {"kind", formats::enumName(formats::kBranchKindNames, seed.kind)},
                     {"parent", orNull(seed.parent)},
@@ -104,7 +104,7 @@ Json unsavedJson(const std::vector<std::filesystem::path>& files,
   for (const auto& file : files) {
     const std::int64_t written = readFileStamp(file).time;
     list.push_back({{"name", formats::printable(file.filename().string())},
-                    {"written", written / kNanoseconds},
+                    {"written_ms", written / kNanoseconds},
                     {"newer", written > saved}});
   }
   return list;
@@ -119,13 +119,13 @@ Json Session::state() const {
   json["revision"] = now.revision;
   json["revisions"] = revisionsJson(*this, now.parts);
   json["title"] = makeTitle(document);
-  json["hasVolume"] = document.volume != nullptr;
-  json["hasCase"] = document.value != nullptr;
-  json["hasTruth"] = document.truth != nullptr;
+  json["has_volume"] = document.volume != nullptr;
+  json["has_case"] = document.value != nullptr;
+  json["has_truth"] = document.truth != nullptr;
   json["assumptions"] = document.volume  ? document.volume->assumptions
                         : document.value ? recordedAssumptions(document.value->metadata)
                                          : std::vector<std::string>{};
-  json["otherSource"] = orNull(otherSource(document));
+  json["other_source"] = orNull(otherSource(document));
   json["second"] = secondJson(document);
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);
@@ -138,17 +138,17 @@ Json Session::state() const {
   json["formats"] = formatsJson(document);
   json["files"] = filesJson(document, changedFiles.ids());
   const auto openCase = library.openCase();
-  json["openCase"] = openCase ? Json(*openCase) : Json(nullptr);
+  json["open_case"] = openCase ? Json(*openCase) : Json(nullptr);
   const auto target = saving.target(document);
   json["series"] = series.json();
-  json["unsavedBefore"] = unsavedJson(unsavedWork.found(), target);
-  json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
+  json["unsaved_before"] = unsavedJson(unsavedWork.found(), target);
+  json["save_as"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
   findings.addTo(json, document);
   const auto& look = options.look;
   json["look"] = look ? engine::vectorJson(*look) : Json(nullptr);
   const auto& time = options.time;
-  json["time"] = time ? Json(*time) : Json(nullptr);
-  json["measuresAreOld"] = findings.areMeasuresOld(document);
+  json["time_s"] = time ? Json(*time) : Json(nullptr);
+  json["measures_are_old"] = findings.areMeasuresOld(document);
   return json;
 }
 

@@ -64,7 +64,7 @@ private:
   [[nodiscard]] bool isTried(int level) const {
     return m_levels[place(level)] || m_hasFailed[place(level)];
   }
-  /// What the background is to make; -1: nothing.
+  /// The level that the background is to make; -1: nothing.
   [[nodiscard]] int nextLevel() const;
 
   std::shared_ptr<const ReadySurface> readyQuick();

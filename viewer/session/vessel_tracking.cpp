@@ -156,7 +156,7 @@ Json vesselNear(const Eigen::Vector3d& click, const Document& document, Tracking
   return {{"found", vessel.found},
           {"position", engine::vectorJson(vessel.position)},
           {"direction", engine::vectorJson(vessel.direction)},
-          {"radius", vessel.radius},
+          {"radius_mm", vessel.radius},
           {"reason", vessel.reason}};
 }
 

@@ -61,7 +61,7 @@ std::shared_ptr<const formats::Case> findProposals(const Document& document, Tra
                                                    const convert::TrackOptions& options,
                                                    Progress& progress);
 
-/// {"found", "position", "direction", "radius", "reason"} of the axis near a click, mm. Throws
+/// {"found", "position", "direction", "radius_mm", "reason"} of the axis near a click, mm. Throws
 /// Error(Usage) without a volume.
 Json vesselNear(const Eigen::Vector3d& click, const Document& document, TrackingCache& cache,
                 const convert::TrackOptions& options);

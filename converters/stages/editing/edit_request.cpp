@@ -68,8 +68,8 @@ const std::map<std::string, NamedEdit, std::less<>> kEdits = {
       [](Case& c, const R& r) {
         return pushWall(c, *r.node, {*r.position, *r.by, *r.radius});
       }}},
-    {"nodeAdd", {{"node"}, [](Case& c, const R& r) { return addNodeBehind(c, *r.node); }}},
-    {"nodeDelete", {{"node"}, [](Case& c, const R& r) { return deleteNode(c, *r.node); }}}};
+    {"node_add", {{"node"}, [](Case& c, const R& r) { return addNodeBehind(c, *r.node); }}},
+    {"node_delete", {{"node"}, [](Case& c, const R& r) { return deleteNode(c, *r.node); }}}};
 
 bool isGiven(const EditRequest& request, const std::string& name) {
   if (name == "branch") return request.branch.has_value();
@@ -162,6 +162,13 @@ std::uint32_t middleNode(const formats::Branch& branch) {
   return branch.firstNode + branch.nodeCount / 2;
 }
 
+/// The name today of a correction that a released file may have.
+std::string nameToday(std::string op) {
+  if (op == "nodeAdd") return "node_add";
+  if (op == "nodeDelete") return "node_delete";
+  return op;
+}
+
 }  // namespace
 
 std::string textOfRequest(const EditRequest& request, const CenterlineTree& tree) {
@@ -183,7 +190,7 @@ EditRequest requestInTree(const std::string& text, const CenterlineTree& tree) {
   const JsonPlace json(file);
   json.onlyKeys({"op", "branch", "node", "word", "position", "by", "radius", "reach"});
   EditRequest request;
-  request.op = json.at("op").text();
+  request.op = nameToday(json.at("op").text());
   if (json.has("branch")) request.branch = tree.branch[nodeAt(anchorIn(json.at("branch")), tree)];
   if (json.has("node")) request.node = nodeAt(anchorIn(json.at("node")), tree);
   if (json.has("word")) request.word = json.at("word").text();

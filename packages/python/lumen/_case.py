@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import numbers
 import os
 from typing import Any, Dict, Optional, Tuple
 
@@ -11,10 +12,14 @@ import numpy as np
 from . import _lumen
 from ._calls import called, report, watch_of
 from ._editing import Editor
+from ._errors import Error, ValueFault, shown
 from ._exchange import graph_of
-from ._options import document, mesh_rows, texts_of
+from ._options import check_flag, document, mesh_rows, texts_of
 from ._parts import Change, Mesh, Models, Motion, Picture, Points, Tree
 from ._running import Answer, Kept, call, run
+
+
+_OF_SURFACES = [("mesh.ply:", "surface:")]  # words of messages
 
 
 class Case:
@@ -28,7 +33,7 @@ class Case:
 
     def __init__(self, core, change: Optional[Change] = None):
         if not isinstance(core, _lumen.Case):
-            raise TypeError("lumen.read() reads a case, Case.from_bytes() decodes one")
+            raise ValueFault("lumen.read() reads a case, Case.from_bytes() decodes one")
         self._core = core
         self.change = change  #: the edit that made this case, or None
 
@@ -62,7 +67,7 @@ class Case:
         """
         path = os.fspath(path)
         if not path.endswith((".lumen", ".json")):
-            raise ValueError(f"{path}: found another name, expected one in .lumen or .lumen.json; "
+            raise ValueFault(f"{path}: found another name, expected one in .lumen or .lumen.json; "
                              "lumen.convert(case, path) writes meshes and centerlines")
         called(self._core.write, path, path.endswith(".json"), compress, _bits(point_bits))
 
@@ -122,7 +127,7 @@ class Case:
         # pylint: disable=too-many-arguments
         times, nodes = np.asarray(time, float), np.asarray(node)
         if times.ndim != 1 or len(times) == 0 or nodes.ndim != 1:
-            raise ValueError(f"found times of shape {times.shape} and nodes of shape {nodes.shape}, "
+            raise ValueFault(f"found times of shape {times.shape} and nodes of shape {nodes.shape}, "
                              "expected (k,) with k > 0, and (m,)")
         poses = np.empty((len(times), len(nodes), 8), np.float32)
         poses[..., :3], poses[..., 3:7], poses[..., 7] = centre, rotation, factor
@@ -217,8 +222,8 @@ class Case:
         name, core = case._given() if isinstance(case, Case) else (os.fsdecode(source), read(source)._core)
         watch = watch_of(options)
         *arrays, warnings, details = called(_lumen.mesh_of, core, name, texts_of("convert", options), *watch,
-                                            known=[name])
-        report(warnings, details)
+                                            known=[name], words=_OF_SURFACES)
+        report(warnings, details, _OF_SURFACES)
         return Mesh(*arrays)
 
     def surface(self, **options) -> Tuple[np.ndarray, np.ndarray]:
@@ -252,15 +257,21 @@ class Case:
         """
         return self.mesh(**options).to_pyvista()
 
-    def to_networkx(self):
+    def to_networkx(self, *, plain: bool = False):
         """The tree as a ``networkx.DiGraph`` whose edges lead from parents to children.
+
+        Parameters
+        ----------
+        plain : bool
+            Attributes that are numbers and texts, as ``networkx.write_graphml`` and other files of graphs take them: no
+            ``centre``, and several numbers of a node array as ``name_0``, ``name_1``...
 
         Returns
         -------
         networkx.DiGraph
-            Nodes 0 to n - 1 with ``centre`` (x, y, z), mm, LPS, ``radius``, mm, ``branch``, its label, ``inlier_rate``
-            where it is known, and the values of :attr:`node_arrays`. Edges with ``length``, mm, and ``link``, true for
-            those of :attr:`Tree.links`, which close loops.
+            Nodes 0 to n - 1 with ``centre`` (x, y, z) and ``x``, ``y``, ``z``, mm, LPS, ``radius``, mm, ``branch``, its
+            label, ``inlier_rate`` where it is known, and the values of :attr:`node_arrays`. Edges with ``length``, mm,
+            and ``link``, true for those of :attr:`Tree.links`, which close loops.
 
         Examples
         --------
@@ -268,7 +279,7 @@ class Case:
         >>> places = {node: centre[::2] for node, centre in graph.nodes(data="centre")}   # x and z: from the front
         >>> networkx.draw(graph, places, node_size=[10 * radius for _, radius in graph.nodes(data="radius")])
         """
-        return graph_of(self)
+        return graph_of(self, check_flag("plain", plain))
 
     @document("measure")
     def measure(case, **options) -> Answer:
@@ -333,8 +344,8 @@ class Case:
 
 
 def _bits(point_bits: int) -> int:
-    if not 0 <= point_bits <= 30:
-        raise ValueError(f"point_bits: found {point_bits}, expected a whole number from 0 to 30")
+    if not isinstance(point_bits, numbers.Integral) or not 0 <= point_bits <= 30:
+        raise ValueFault(f"point_bits: found {shown(point_bits)}, expected a whole number from 0 to 30")
     return point_bits
 
 
@@ -355,7 +366,14 @@ def read(path) -> Case:
     Error
         With file, place, rule, and the values found and expected.
     """
-    return Case(called(_lumen.Case.read, os.fspath(path)))
+    path = os.fsdecode(path)
+    try:
+        return Case(called(_lumen.Case.read, path, known=[path]))
+    except Error as error:
+        if error.code != "NOT_LUMEN" or not path.endswith((".nrrd", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm")):
+            raise
+        raise Error(f"{error}; lumen.Volume.read reads a volume, and lumen.convert makes a case of one", error.exit_code,
+                    file=error.file, place=error.place, code=error.code, number=error.number) from None
 
 
 def case_made(command: str, *arguments, **options) -> Case:

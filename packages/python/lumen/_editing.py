@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from . import _lumen
-from ._calls import called
+from ._calls import called, watch_of
+from ._errors import ValueFault
 from ._parts import Change
 
 
@@ -84,11 +85,13 @@ class Editor:
         the case's last fit."""
         core = self._case._core  # pylint: disable=protected-access
         nodes = [int(node) for node in nodes]
-        new = called(_lumen.refit, core, nodes, progress, threads or 0)
+        progress, threads, _ = watch_of({"progress": progress, "threads": threads})
+        new = called(_lumen.refit, core, nodes, progress, threads)
         return type(self._case)(new, self._case.change)
 
     def _edited(self, function, arguments, refit, progress):
         core = self._case._core  # pylint: disable=protected-access
+        progress, *_ = watch_of({"progress": progress})
         new, change = called(function, core, *arguments)
         change = Change(*change)
         if refit and len(change.stale) > 0:
@@ -105,5 +108,5 @@ class Editor:
 def _three(position):
     numbers = [float(number) for number in position]
     if len(numbers) != 3:
-        raise ValueError(f"found {len(numbers)} coordinates, expected 3")
+        raise ValueFault(f"found {len(numbers)} coordinates, expected 3")
     return numbers

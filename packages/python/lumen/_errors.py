@@ -2,12 +2,15 @@
 """Errors and warnings of lumen."""
 from __future__ import annotations
 
+import errno
+import os
 import re
-from typing import Optional
+from typing import Any, Optional
 
 KINDS = {1: "failed", 2: "usage", 3: "invalid input", 4: "unsupported", 130: "interrupted"}
 _PLACE = re.compile(r'\bat "(?P<pointer>/[^"]*)"|\b(?P<count>(?:byte|line) \d+)')
-_FOUND = re.compile(r"found (?P<found>.+?), expected (?P<expected>.+)", re.DOTALL)
+_FOUND = re.compile(r"(?:\bfound (?P<found>.+?))?[,;] expected (?P<expected>.+)", re.DOTALL)
+_MISSING = re.compile(r": (there is no such (?!command)|no such file|IO_MISSING\b)")
 
 
 class Warning(UserWarning):  # pylint: disable=redefined-builtin
@@ -49,10 +52,42 @@ class Error(Exception):
         self.expected = match["expected"] if expected is None and match else expected
 
     def __reduce__(self):
-        return _restored, (str(self), self.exit_code, dict(self.__dict__))
+        return _restored, (type(self), str(self), self.exit_code, dict(self.__dict__))
 
 
-def _restored(message, exit_code, facts):
-    error = Error(message, exit_code)
+class ValueFault(Error, ValueError, TypeError):
+    """A value of an argument that is none of those allowed: also a ValueError and a TypeError."""
+
+    def __init__(self, message: str, exit_code: int = 2, **facts):
+        super().__init__(message, exit_code, **facts)
+
+
+class MissingFile(Error, FileNotFoundError):
+    """A file that is not there: also a FileNotFoundError."""
+
+    def __init__(self, message: str, exit_code: int = 3, **facts):
+        super().__init__(message, exit_code, **facts)
+        self.errno = errno.ENOENT
+
+
+def class_of(message: str, file: Optional[str]) -> type:
+    """The class of an error of the compiled module."""
+    is_missing = file and (_MISSING.match(message.removeprefix(file))
+                           or "cannot be opened" in message and not os.path.lexists(file))
+    return MissingFile if is_missing else Error
+
+
+def shown(value: Any) -> str:
+    """A value in a message: numbers and short texts as they are, others by their type, since arrays are of patients."""
+    value = value.item() if getattr(value, "ndim", None) == 0 and hasattr(value, "item") else value
+    if value is None or isinstance(value, (str, bool, int, float)):
+        text = repr(value)
+        return text if len(text) <= 60 else f"{text[:56]}..."
+    kind = type(value)
+    return kind.__name__ if kind.__module__ == "builtins" else f"{kind.__module__}.{kind.__name__}"
+
+
+def _restored(kind, message, exit_code, facts):
+    error = kind(message, exit_code)
     error.__dict__.update(facts)
     return error

@@ -9,7 +9,7 @@ import numpy as np
 
 
 class PolyData:
-    """What VTK draws: a mixin of classes with ``_poly_data``, which returns points (n, 3), the kind of cells ("Polys"
+    """Things that VTK draws: a mixin of classes with ``_poly_data``, which returns points (n, 3), the kind of cells ("Polys"
     or "Lines"), the cells as lists of points, and the arrays of points and of cells by name."""
 
     def to_vtk(self):
@@ -39,16 +39,21 @@ class PolyData:
         return pyvista.wrap(self.to_vtk())
 
 
-def graph_of(case) -> Any:
+def graph_of(case, plain: bool) -> Any:
     """The tree of a case as a networkx.DiGraph: see :meth:`lumen.Case.to_networkx`."""
     import networkx  # type: ignore
     tree = case.tree
     labels = [branch.label for branch in tree.branches]
-    columns = {"centre": list(map(tuple, tree.centre.tolist())), "radius": tree.radius.tolist(),
-               "branch": [labels[branch] for branch in tree.branch]}
+    columns: Dict[str, List[Any]] = {} if plain else {"centre": list(map(tuple, tree.centre.tolist()))}
+    columns.update(zip("xyz", tree.centre.T.tolist()), radius=tree.radius.tolist(),
+                   branch=[labels[branch] for branch in tree.branch])
     if tree.inlier_rate is not None:
         columns["inlier_rate"] = tree.inlier_rate.tolist()
-    columns.update((name, values.tolist()) for name, values in case.node_arrays.items())
+    for name, values in case.node_arrays.items():
+        if plain and values.ndim > 1:
+            columns.update((f"{name}_{number}", some) for number, some in enumerate(values.T.tolist()))
+        else:
+            columns[name] = values.tolist()
     graph = networkx.DiGraph(frame="LPS", units="mm")
     graph.add_nodes_from((node, dict(zip(columns, values))) for node, values in enumerate(zip(*columns.values())))
     joined = np.flatnonzero(tree.parent >= 0)
@@ -69,7 +74,44 @@ def tables_of(answer: Dict[str, Any]) -> Dict[str, Any]:
         for kind, facts in part.items():
             if isinstance(facts, list):
                 rows.setdefault(kind, []).extend({"case": part["case"], **_row(one)} for one in facts)
-    return {kind: pandas.DataFrame(some) for kind, some in rows.items()}
+    return {kind: pandas.DataFrame(some, columns=None if some else columns_of(kind)) for kind, some in rows.items()}
+
+
+# Keys of the rows of a table, which is empty where a case has none: labels, places and values (spec/answers).
+_COURSE = ("place_mm greatest_curvature_place_mm smallest_radius_place_mm",
+           "length_mm chord_mm tortuosity sum_of_angles_rad_per_cm inflection_count_metric mean_curvature_per_mm "
+           "greatest_curvature_per_mm turns_over_90_deg turning_deg_per_cm smallest_radius_mm mean_radius_mm volume_mm3 "
+           "wall_area_mm2")
+_KEYS = {
+    "stations": ("vessel", "place_mm tangent", "along_mm curvature_per_mm torsion_per_mm inscribed_radius_mm area_mm2 "
+                 "perimeter_mm smallest_diameter_mm largest_diameter_mm circularity taper_mm_per_mm"),
+    "vessels": ("vessel", _COURSE[0], f"{_COURSE[1]} taper_mm_per_mm"),
+    "paths": ("inlet end vessels", f"{_COURSE[0]} greatest_take_off_place_mm least_calibre_step_place_mm",
+              f"{_COURSE[1]} forks greatest_take_off_deg least_calibre_step largest_catheter_fr"),
+    "forks": ("parent larger smaller",
+              "place_mm normal parent_vector_mm larger_vector_mm smaller_vector_mm",
+              "angle_deg larger_take_off_deg smaller_take_off_deg larger_in_plane_deg smaller_in_plane_deg "
+              "parent_out_of_plane_deg larger_out_of_plane_deg smaller_out_of_plane_deg larger_calibre_step "
+              "smaller_calibre_step area_ratio murray_exponent asymmetry"),
+    "narrowings": ("vessel finding", "place_mm",
+                   "along_mm length_mm diameter_mm healthy_diameter_mm nascet_percent area_percent"),
+    "sacs": ("aneurysm position", "place_mm normal tip_place_mm",
+             "neck_diameter_mm neck_area_mm2 height_mm reach_mm width_mm dome_volume_mm3 dome_area_mm2 aspect_ratio "
+             "size_ratio bottleneck_factor undulation_index ellipticity_index non_sphericity_index inflow_angle_deg"),
+}
+
+
+def columns_of(kind: str) -> List[str]:
+    """The columns of a table without rows."""
+    table = kind.replace("_changes", "s")
+    if table not in _KEYS:
+        return []
+    labels, places, values = (words.split() for words in _KEYS[table])
+    nothing = {"value": None, "plus_minus": None, "absent": "-"}
+    facts: Dict[str, Any] = dict.fromkeys([*labels, *(["before"] if table != kind else [])])
+    facts.update({name: [0, 0, 0] for name in places})
+    facts.update({name: nothing for name in values})
+    return ["case", *_row(facts)]
 
 
 def _row(facts: Dict[str, Any]) -> Dict[str, Any]:

@@ -7,7 +7,8 @@ import os
 import numpy as np
 
 from . import _images, _lumen
-from ._calls import called, report
+from ._calls import called, report, watch_of
+from ._errors import ValueFault
 from ._options import texts_of
 
 # The engine's names of types, and the types that it holds of others.
@@ -38,11 +39,16 @@ class Volume:
     """
 
     _is_placed = _has_unit = True
+    _file = ""  # of the image, for messages
 
     def __init__(self, array, spacing=1.0, origin=(0.0, 0.0, 0.0), direction=None):
         self.array = np.asarray(array)
-        if self.array.ndim != 3 or self.array.size == 0:
-            raise ValueError(f"array: found shape {self.array.shape}, expected (nk, nj, ni)")
+        if self.array.ndim != 3:
+            hint = ": choose one of its numbers or volumes first, such as array[..., 0]"
+            raise ValueFault(f"array: found shape {self.array.shape}, expected (nk, nj, ni)"
+                             f"{hint if self.array.ndim == 4 else ''}")
+        if self.array.size == 0:
+            raise ValueFault(f"array: found shape {self.array.shape}, expected (nk, nj, ni) above 0: it has no voxels")
         is_long = self.array.dtype.kind in "iu" and self.array.dtype.itemsize == 8
         if is_long and -2**31 <= self.array.min() and self.array.max() < 2**31:
             self.array = self.array.astype(np.int32)
@@ -50,9 +56,9 @@ class Volume:
         self.origin = tuple(float(o) for o in origin)
         self.direction = np.eye(3) if direction is None else np.array(direction, float).reshape(3, 3)
         if len(self.origin) != 3:
-            raise ValueError(f"origin: found {len(self.origin)} numbers, expected 3")
+            raise ValueFault(f"origin: found {len(self.origin)} numbers, expected 3")
         if self.array.dtype.str[1:] not in _TYPES:
-            raise ValueError(f"array: found {self.array.dtype}, expected integers of 8 to 32 bits, "
+            raise ValueFault(f"array: found {self.array.dtype}, expected integers of 8 to 32 bits, "
                              "float32, float64 or bool")
 
     @classmethod
@@ -68,7 +74,7 @@ class Volume:
 
         Raises
         ------
-        ValueError
+        ValueFault
             For an image of more axes, of several numbers a voxel, or with uneven coordinates.
         """
         if isinstance(image, Volume):
@@ -77,7 +83,7 @@ class Volume:
             return cls(image)
         found = _images.image_of(image)
         volume = cls(found.array, found.spacing, found.origin, found.direction)
-        volume._is_placed, volume._has_unit = found.is_placed, found.has_unit
+        volume._is_placed, volume._has_unit, volume._file = found.is_placed, found.has_unit, found.file
         return volume
 
     @classmethod
@@ -110,6 +116,7 @@ class Volume:
 
     @classmethod
     def _read(cls, name, data, progress, options):
+        progress, *_ = watch_of({"progress": progress})
         voxels, warnings = called(_lumen.read_volume, name, data, texts_of("convert", options), progress, known=[name])
         report(warnings)
         return cls(voxels.array, voxels.spacing, voxels.origin, voxels.direction)
@@ -117,7 +124,7 @@ class Volume:
     def like(self, array) -> "Volume":
         """The volume of another array at the place of this one, such as labels of the same shape."""
         if np.shape(array) != self.shape:
-            raise ValueError(f"array: found shape {np.shape(array)}, expected that of the volume, {self.shape}")
+            raise ValueFault(f"array: found shape {np.shape(array)}, expected that of the volume, {self.shape}")
         return Volume(array, self.spacing, self.origin, self.direction)
 
     @property
@@ -143,12 +150,24 @@ class Volume:
         is_exact = path.lower().endswith(".nrrd")
         called(_lumen.write_volume, path, self._parts({} if is_exact else _HELD), known=[path])
 
+    def _words(self, name):
+        """Words of messages for users in place of the engine's, which takes this volume as an NRRD of a name."""
+        words = []
+        if not self._is_placed:
+            words += [(f'{name}: its space is "scanner-xyz", which does not', f"{name}: its header does not")]
+        if not self._has_unit:
+            words += [(f'{name}: its space units are "?" "?" "?", which are not all known as lengths, so they are taken '
+                       "to be mm; state the unit with --unit",
+                       f'{name}: its header states no unit of length, so lengths are taken as mm; pass unit="mm" to '
+                       "state it")]
+        return words + ([(name, self._file)] if self._file else [])
+
     def _given(self):
         """The name and the content by which commands take this volume."""
         return "volume.nrrd", self._parts({})
 
     def _parts(self, types):
-        """What the compiled module takes: the voxels in the machine's order, in the place of `types`, of which there
+        """As the compiled module takes it: the voxels in the machine's order, in the place of `types`, of which there
         is a copy only where the array's memory is in another order."""
         kind = self.array.dtype.str[1:]
         kind = types.get(kind, kind)

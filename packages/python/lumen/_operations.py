@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from typing import Any, List, Mapping, NamedTuple
 
 from ._case import Case, case_made
-from ._images import package_of
+from ._errors import Error, ValueFault, shown
+from ._images import I_FIRST, axes_of, is_array, package_of, turned
 from ._inputs import Volume
 from ._options import commands, document, keyword_of, rows_of
 from ._running import Answer, Kept, call, run
+
+
+_NO_LABELS = re.compile("no voxel has the label|expected labels")
 
 
 @document("track", "to", "seeds")
@@ -30,6 +35,7 @@ def track(volume, *, seeds=None, **options) -> Case:
     -------
     Case
     """
+    volume, options = _beside(volume, options)
     return case_made("track", volume, seeds=seeds, **options)
 
 
@@ -48,8 +54,8 @@ def convert(source, to=None, **options) -> Any:
         Labels by which the branches that are found get their names.
     label_table : path, name or dict, optional
         Names of the labels, such as ``{1: "BA"}``.
-    labels : str or dict, optional
-        The volume holds labels, and these are of vessels, such as ``{1: "ICA", 2: "MCA"}``.
+    labels : str, dict, array, Volume or image, optional
+        A dict ``{1: "ICA", 2: "MCA"}``: the volume holds labels, and these are of vessels. Others as for :func:`case_of`.
 
     Returns
     -------
@@ -64,7 +70,23 @@ def convert(source, to=None, **options) -> Any:
     >>> case = lumen.convert(nibabel.load("head.nii.gz"), **Tracking(inlier_rate=0.6), **Fitting(accuracy=0.2))
     >>> case.to_pyvista().plot()
     """
-    return case_made("convert", source, **options) if to is None else run("convert", source, os.fspath(to), **options)
+    if to is not None and not isinstance(to, (str, os.PathLike)):
+        hint = "keywords: pass **Tracking(...)" if isinstance(to, dict) else "a path"
+        raise ValueFault(f"to: found {shown(to)}, expected {hint}")
+    source, options = _beside(source, options)
+    return _made(source, **options) if to is None else run("convert", source, os.fspath(to), **options)
+
+
+def _made(source, **options) -> Case:
+    """The case that lumen convert makes. Adds a hint to the refusal of a volume that holds no labels."""
+    try:
+        return case_made("convert", source, **options)
+    except Error as error:
+        if not isinstance(options.get("labels"), Mapping) or not _NO_LABELS.search(str(error)):
+            raise
+        raise Error(f"{error}; labels= are those that the volume itself holds: did you mean label_table?",
+                    error.exit_code, file=error.file, place=error.place, found=error.found,
+                    expected=error.expected) from None
 
 
 def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) -> Case:
@@ -79,8 +101,9 @@ def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) 
     affine_frame : "ras" or "lps"
         Frame that the affine leads to.
     labels : array, Volume, image or dict, optional
-        Labels beside the volume, which name its branches: an array of the same shape and axes as ``source``, or an
-        image. A dict ``{1: "ICA"}`` states that the volume itself holds labels, and which are of vessels.
+        Labels beside the volume, which name its branches: an image, or an array in the shape and axes of ``source``:
+        [i, j, k] for an image of nibabel or with ``affine``, those of its dims for one of xarray, else [k, j, i]. A
+        dict ``{1: "ICA"}`` states that the volume itself holds labels, and which are of vessels.
     **options
         Those of :func:`convert`, such as ``label_table={1: "BA", 2: "ICA"}``.
 
@@ -94,17 +117,38 @@ def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) 
     >>> plane = case.surface()[0][:, [0, 2]]                      # x and z: from the front
     >>> matplotlib.pyplot.scatter(*plane.T, s=1)
     """
-    is_array = lambda value: hasattr(value, "__array__") and not package_of(value)
-    placed = lambda array: Volume.of_affine(array, affine, affine_frame)
     if affine is not None:
-        source = placed(source)
-    elif is_array(source) or package_of(source):
+        _check_array(source)
+        source = Volume.of_affine(source, affine, affine_frame)
+    source, options = _beside(source, {"labels": labels, **options}, None if affine is None else I_FIRST)
+    return _made(source, **options)
+
+
+def _check_array(source) -> None:
+    """Raises ValueFault for what has a place of its own, and needs no affine."""
+    if package_of(source) == "nibabel":
+        raise ValueFault("affine: the image has its own; leave it out, or pass image.get_fdata()")
+    if package_of(source) or isinstance(source, (str, os.PathLike, Volume, Case)):
+        raise ValueFault(f"affine: the {type(source).__name__} has its own place; leave it out, or pass an array "
+                         "[i, j, k]")
+
+
+def _beside(source, options, axes=None):
+    """The source and options, of which labels beside the source, arrays in its axes, become a label map."""
+    labels = options.get("labels")
+    if "affine" in options:
+        raise ValueFault("affine: use lumen.case_of(array, affine=...), or lumen.Volume.of_affine(array, affine)")
+    given = source
+    if is_array(source) or package_of(source):
         source = Volume.of(source)
-    if labels is not None and not isinstance(labels, (str, Mapping)):
-        if is_array(labels):
-            labels = source.like(labels) if affine is None else placed(labels)
-        options["label_map"], labels = labels, None
-    return case_made("convert", source, labels=labels, **options)
+    if labels is None or isinstance(labels, (str, Mapping)):
+        return source, options
+    if is_array(labels):
+        if not isinstance(source, Volume):
+            raise ValueFault("labels: found an array beside a value without axes, expected a volume or an image as the "
+                             "source, such as lumen.Volume.read(path)")
+        labels = source.like(turned(labels, axes or axes_of(given), source.shape))
+    return source, {**options, "label_map": labels, "labels": None}
 
 
 @document("seeds")
@@ -145,7 +189,7 @@ def phantom(name: str, **options) -> Phantom:
         ``volume``, ``truth`` and ``seeds``.
     """
     if options.get("motion") not in (None, "none"):
-        raise ValueError("motion: found several phases, which are files: lumen.run(\"phantom\", name, path, "
+        raise ValueFault("motion: found several phases, which are files: lumen.run(\"phantom\", name, path, "
                          f"motion={options['motion']!r}), expected one volume")
     _, (volume, truth, seeds) = call("phantom", name, Kept("volume.nrrd"), truth=Kept("truth.lumen"),
                                      seeds=Kept("seeds.json"), **options)

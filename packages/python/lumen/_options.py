@@ -10,7 +10,10 @@ import re
 import textwrap
 from typing import Any, Dict, List, Sequence, Tuple, TypedDict
 
+import numpy as np
+
 from . import _lumen
+from ._errors import ValueFault, shown
 
 Row = Dict[str, Any]
 Texts = List[Tuple[str, List[str]]]
@@ -43,6 +46,13 @@ def option_of(word: str) -> str:
     return word.rstrip("_").replace("_", "-")
 
 
+def check_flag(word: str, value: Any) -> bool:
+    """The value of a flag. Raises ValueFault for all but True and False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueFault(f"{word}: found {shown(value)}, expected True or False")
+    return bool(value)
+
+
 def _text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -62,6 +72,8 @@ def _texts(row: Row, value: Any) -> List[str]:
     """The texts of one option. A sequence within a text has commas between its numbers."""
     separator = "x" if row["placeholder"] == "WxH" else ","
     joined = lambda one: separator.join(map(_text, one)) if _is_many(one) else _text(one)
+    if row.get("type") == "flag":
+        return [_text(check_flag(keyword_of(row["name"]), value))]
     if not _is_many(value):
         return [_text(value)]
     if row["repeats"]:
@@ -90,7 +102,7 @@ def in_python(message: str) -> str:
 
 # Options whose values may be in memory, by the types of the stubs.
 _IN_MEMORY = {"seeds": "Seeds", "volume": "VolumeLike", "image": "VolumeLike", "label-map": "VolumeLike",
-              "label-table": "PathLike | Mapping[int, str]", "labels": "str | Mapping[int, str]",
+              "label-table": "PathLike | Mapping[int, str]", "labels": "VolumeLike | Mapping[int, str]",
               "against": "Case | PathLike"}
 
 

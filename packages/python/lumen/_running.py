@@ -2,17 +2,20 @@
 """Runs of the program's commands, whose inputs and outputs may be values in memory."""
 from __future__ import annotations
 
+import functools
 import itertools
 import json
+import math
+import numbers
 import os
-from typing import Any, Dict, Mapping, Tuple
+from typing import Any, Dict, Iterable, Mapping, Tuple
 
 from . import _images, _lumen
-from ._calls import called, report, watch_of
-from ._errors import Error
+from ._calls import called, report, reworded, watch_of
+from ._errors import Error, ValueFault, shown
 from ._exchange import tables_of
 from ._inputs import Volume
-from ._options import commands, option_of, texts_of
+from ._options import commands, group_rows, keyword_of, option_of, texts_of
 
 
 class Answer(dict):
@@ -56,11 +59,32 @@ def seeds_document(seeds: Any) -> dict:
     of labels to points (n, 3)."""
     if isinstance(seeds, dict) and "format" in seeds:
         return seeds
-    if isinstance(seeds, dict):
-        seeds = [{"label": label, "points": points} for label, points in seeds.items()]
-    branches = [{key: _plain(value) for key, value in branch.items()} for branch in seeds]
+    if isinstance(seeds, Mapping):
+        is_branch = "points" in seeds and isinstance(seeds.get("label"), str)
+        seeds = [seeds] if is_branch else [{"label": label, "points": points} for label, points in seeds.items()]
+    branches = list(seeds) if isinstance(seeds, Iterable) else [seeds]
+    if not all(isinstance(branch, Mapping) for branch in branches):
+        raise ValueFault(f"seeds: found {shown(seeds)}, expected a path, {{'BA': points (n, 3)}} or a list of branches, "
+                         "each a dict with label and points")
+    branches = [{key: _plain(value) for key, value in branch.items()} for branch in branches]
+    for branch in branches:
+        if "points" in branch:
+            branch["points"] = _points(branch)
     return {"format": "lumen-seeds", "version": 1, "coordinateSystem": "LPS", "units": "mm",
             "branches": branches}
+
+
+def _points(branch):
+    """The points of a branch: a list, of one point where it is three numbers. Raises ValueFault for no number."""
+    points, label = branch["points"], branch.get("label", "")
+    if isinstance(points, list) and len(points) == 3 and all(isinstance(one, numbers.Real) for one in points):
+        points = [points]
+    for index, point in enumerate(points if isinstance(points, list) else []):
+        place = point if isinstance(point, list) else []
+        wrong = next((one for one in place if isinstance(one, float) and not math.isfinite(one)), None)
+        if wrong is not None:
+            raise ValueFault(f"seeds: branch {label!r}, point {index}: found {wrong}, expected finite numbers")
+    return points
 
 
 def _plain(value):
@@ -82,6 +106,7 @@ class Values:
     def __init__(self, arguments):
         self.given = {}
         self.kept = []
+        self.words = []  # of messages on images
         flat = itertools.chain.from_iterable(one if isinstance(one, (list, tuple)) else [one] for one in arguments)
         self._taken = {os.fsdecode(one) for one in flat if _is_path(one) and not isinstance(one, Kept)}
 
@@ -110,9 +135,16 @@ class Values:
             value = Volume.of(value)
         if hasattr(value, "_given"):
             name, held = value._given()  # pylint: disable=protected-access
-            return self._give(role + name[name.index("."):] if role else name, held)
-        raise TypeError(f"found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, a "
-                        "lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
+            name = self._give(role + name[name.index("."):] if role else name, held)
+            if isinstance(value, Volume):
+                self.words += value._words(name)  # pylint: disable=protected-access
+            return name
+        if isinstance(value, dict) and value.keys() & _grouped().keys():
+            name = next(group for word, group in _grouped().items() if word in value)
+            raise ValueFault(f"found options as an argument, expected keywords: pass **{name}(...)")
+        place = f"{role}: " if role else ""
+        raise ValueFault(f"{place}found {type(value).__module__}.{type(value).__name__}, expected a path, a lumen.Case, "
+                         "a lumen.Volume, an array, or an image of SimpleITK, ITK, nibabel or xarray")
 
     def option(self, row: Dict[str, Any], value: Any) -> Any:
         """The value of an option as texts can state it: names in place of values in memory."""
@@ -121,10 +153,26 @@ class Values:
         if row["name"] == "seeds":
             return self._give("seeds.json", json.dumps(seeds_document(value)))
         if row["name"] == "label-table":
-            return self._give("labels.json", json.dumps({str(int(label)): name for label, name in value.items()}))
+            return self._give("labels.json", json.dumps({str(_label(row, one)): name for one, name in value.items()}))
         if row["name"] == "labels" and isinstance(value, Mapping):
-            return ",".join(f"{int(label)}={name}" for label, name in value.items())
+            return ",".join(f"{_label(row, one)}={name}" for one, name in value.items())
         return self.name_of(value, row["name"].replace("-", "_")) if row["placeholder"] == "FILE" else value
+
+
+@functools.lru_cache(maxsize=None)
+def _grouped() -> Dict[str, str]:
+    """The classes of lumen.options by the keywords of their options."""
+    return {keyword_of(row["name"]): name for name, rows in group_rows().items() for row in rows}
+
+
+def _label(row: Dict[str, Any], label: Any) -> int:
+    """The number of a label. Raises ValueFault for a name in its place."""
+    try:
+        if int(label) == label or isinstance(label, str):
+            return int(label)
+    except (TypeError, ValueError):
+        pass
+    raise ValueFault(f"{keyword_of(row['name'])}: found {shown(label)} as a label, expected {{1: 'BA'}}")
 
 
 def _is_path(value: Any) -> bool:
@@ -145,10 +193,11 @@ def call(command: str, *arguments, **options) -> Tuple[Answer, list]:
     known = [name for name, word in zip(names, words + words[-1:] * len(names))
              if word not in ("NAME", "TARGET")] + [text for _, some in texts for text in some]
     json_text, text, code, warnings, details, kept = called(
-        _lumen.run, command, names, texts, values.given, values.kept, *watch, known=known)
+        _lumen.run, command, names, texts, values.given, values.kept, *watch, known=known, words=values.words)
     answer = Answer(json.loads(json_text) if json_text else {})
-    answer.text, answer.code, answer.warnings = text, code, warnings
-    report(warnings, details)
+    answer.text, answer.code = text, code
+    answer.warnings = [reworded(one, values.words) for one in warnings]
+    report(answer.warnings, details)
     return answer, [kept[name] for name in values.kept]
 
 

@@ -19,7 +19,9 @@ import pathlib
 import numpy as np
 
 from . import _lumen
+from ._calls import called
 from ._case import Case
+from ._options import check_flag
 from ._lumen import Answer, Approaches, Cursor, Hessian, Hits, Nearest
 
 __all__ = ["Answer", "Approaches", "BLENDED", "Cursor", "DISTANCE_EXACT", "HOLD", "Hessian", "Hits",
@@ -43,7 +45,7 @@ def pack(models) -> np.ndarray:
     -------
     (n,) uint32, which needs no pointer: upload it, or write it by tofile()
     """
-    return _lumen.pack([models] if isinstance(models, _lumen.Model) else list(models))
+    return called(_lumen.pack, [models] if isinstance(models, _lumen.Model) else list(models))
 
 
 def check_packed(words) -> None:
@@ -71,6 +73,6 @@ class Model(_lumen.Model):
 
     def __init__(self, source, verify: bool = True):
         if isinstance(source, Case):
-            super().__init__(source._core)  # pylint: disable=protected-access
+            called(super().__init__, source._core)  # pylint: disable=protected-access
         else:
-            super().__init__(os.fspath(source), verify)
+            called(super().__init__, os.fspath(source), check_flag("verify", verify), known=[os.fspath(source)])

@@ -13,6 +13,7 @@ import numpy as np
 
 import lumen
 from fixture import sample
+from lumen._exchange import columns_of
 
 
 class Graph:
@@ -49,6 +50,7 @@ class GraphTest(unittest.TestCase):
         for node in (0, len(tree) - 1):
             facts = graph.nodes[node]
             np.testing.assert_array_equal(np.float32(facts["centre"]), tree.centre[node])
+            np.testing.assert_array_equal([facts[axis] for axis in "xyz"], facts["centre"])
             self.assertEqual(np.float32(facts["radius"]), tree.radius[node])
             self.assertEqual(facts["branch"], tree.branches[tree.branch[node]].label)
             for name, values in self.case.node_arrays.items():
@@ -62,6 +64,27 @@ class GraphTest(unittest.TestCase):
     def test_a_graph_has_the_nodes_and_edges_of_the_tree(self):
         with unittest.mock.patch.dict(sys.modules, {"networkx": types.SimpleNamespace(DiGraph=Graph)}):
             self.check(self.case.to_networkx())
+
+    def check_plain(self, graph):
+        plain = unittest.mock.Mock(tree=self.case.tree, node_arrays={"flow": np.ones((len(self.case.tree), 2), np.float32)})
+        for facts in (graph.nodes[0], lumen._exchange.graph_of(plain, True).nodes[0]):
+            self.assertNotIn("centre", facts)
+            self.assertTrue(all(isinstance(value, (str, int, float)) for value in facts.values()))
+        self.assertLessEqual({"x", "y", "z", "radius", "branch", "flow_0", "flow_1"}, set(facts))
+
+    def test_a_plain_graph_has_numbers_and_texts(self):
+        with unittest.mock.patch.dict(sys.modules, {"networkx": types.SimpleNamespace(DiGraph=Graph)}):
+            self.check_plain(self.case.to_networkx(plain=True))
+
+    def test_files_of_graphs(self):
+        networkx = package("networkx")
+        graph = self.case.to_networkx(plain=True)
+        self.check_plain(graph)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.graphml")
+            networkx.write_graphml(graph, path)
+            again = networkx.read_graphml(path, node_type=int)
+        self.assertEqual(again.nodes[3], graph.nodes[3])
 
     def test_networkx(self):
         networkx = package("networkx")
@@ -140,6 +163,8 @@ class TablesTest(unittest.TestCase):
                     kind = os.path.splitext(os.path.basename(path))[0]
                     with self.subTest(kind=kind):
                         self.compare(rows_of_table(tables[kind]), self.rows_of(path))
+                        with open(path, encoding="utf-8") as file:  # of a table that is empty, too
+                            self.assertEqual(columns_of(kind), file.readline().rstrip("\n").split(","))
             self.assertGreater(len(rows_of_table(tables["stations"])), 10)
 
     def compare(self, ours, theirs):
@@ -158,12 +183,15 @@ class TablesTest(unittest.TestCase):
                     self.assertAlmostEqual(float(value), float(text), delta=1e-5 * max(1, abs(float(text))))
 
     def test_tables_have_the_columns_of_files(self):
-        with unittest.mock.patch.dict(sys.modules, {"pandas": types.SimpleNamespace(DataFrame=list)}):
+        with unittest.mock.patch.dict(sys.modules, {"pandas": types.SimpleNamespace(DataFrame=lambda rows, columns=None: list(rows))}):
             self.check(lambda table: table)
 
     def test_pandas(self):
         package("pandas")
         self.check(lambda table: table.to_dict("records"))
+        empty = lumen.Answer(cases=[{"case": "a.lumen", "narrowings": []}]).tables()["narrowings"]
+        self.assertEqual(list(empty.columns)[:4], ["case", "vessel", "finding", "x_mm"])
+        self.assertEqual(len(empty), 0)
 
 
 if __name__ == "__main__":

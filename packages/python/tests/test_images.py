@@ -132,7 +132,7 @@ class StandInTest(unittest.TestCase):
     def test_a_header_that_leaves_place_or_unit_open_is_doubted_by_the_engine(self):
         nowhere = nibabel_like(np.diag([-1.0, 1, 1]), codes=(0, 0))
         for given, sentence in ((nowhere, "does not state where the patient's left"),
-                                (nibabel_like(np.eye(3), unit="unknown"), "not all known as lengths")):
+                                (nibabel_like(np.eye(3), unit="unknown"), "its header states no unit of length")):
             with self.assertWarnsRegex(lumen.Warning, sentence):
                 lumen.run("info", given[0])
             with self.assertRaisesRegex(lumen.Error, "strict"):

@@ -345,7 +345,7 @@ class WatchedTest(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [])  # the work did not go on to its end
 
     def interrupted(self, work, *arguments):
-        """What a child prints whose work is interrupted soon after its begin."""
+        """The output of a child whose work is interrupted soon after its begin."""
         program = ("import lumen, sys\n"
                    "case = lumen.Case.from_bytes(sys.stdin.buffer.read())\n"
                    "print('ready', flush=True)\n"

@@ -3,6 +3,7 @@
 #include "converters/stages/editing/edit_request.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -73,7 +74,7 @@ TEST(EditRequest, EveryKindIsMadeAgainInTheSameCase) {
   for (const EditRequest& request :
        {ofBranch("delete", 2), ofBranch("delete", 0, "go"), ofNode("cut", 4), ofBranch("merge", 1),
         ofBranch("reverse", 2), ofBranch("root", 1), ofBranch("rename", 1, "x"),
-        ofBranch("kind", 2, "aneurysm"), ofNode("nodeAdd", 3), ofNode("nodeDelete", 3), move,
+        ofBranch("kind", 2, "aneurysm"), ofNode("node_add", 3), ofNode("node_delete", 3), move,
         widen}) {
     Case corrected = tracked(0), again = tracked(0);
     applyEdit(corrected, request);
@@ -82,6 +83,13 @@ TEST(EditRequest, EveryKindIsMadeAgainInTheSameCase) {
     EXPECT_TRUE(done.left.empty()) << request.op << ": " << done.left.front().why;
     EXPECT_EQ(corrected, again) << request.op;
   }
+}
+
+TEST(EditRequest, NamesOfReleasedFilesAreRead) {
+  const auto tree = tracked(0).tree;
+  for (const auto& [old, name] : std::map<std::string, std::string>{
+           {"nodeAdd", "node_add"}, {"nodeDelete", "node_delete"}, {"cut", "cut"}})
+    EXPECT_EQ(requestInTree(textOfRequest(ofNode(old, 3), tree), tree).op, name);
 }
 
 TEST(EditRequest, APlaceIsFoundWhereTracksAreALittleElsewhere) {

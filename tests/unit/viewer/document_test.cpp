@@ -311,9 +311,9 @@ TEST(VolumePack, TooManyVoxelsAreAveragedAlongTheFinestAxisFirst) {
   const ReadPack pack(wholeOf(viewer::VolumePack(countedVolume(), "v", {.mostVoxels = 8}), 64));
   EXPECT_EQ(pack.json["reduction"], Json({2, 1, 1}));
   EXPECT_EQ(pack.json["size"], Json({2, 2, 2}));
-  EXPECT_EQ(pack.json["spacing"], Json({2.0, 2.0, 2.0}));
+  EXPECT_EQ(pack.json["spacing_mm"], Json({2.0, 2.0, 2.0}));
   EXPECT_EQ(pack.json["origin"], Json({10.5, 20.0, 30.0}));  // the middle of the first two voxels
-  EXPECT_EQ(pack.json["sourceSize"], Json({4, 2, 2}));
+  EXPECT_EQ(pack.json["source_size"], Json({4, 2, 2}));
   const auto values = intensities(pack);
   ASSERT_EQ(values.size(), 8U);
   EXPECT_NEAR(values[0], -2.5, 0.51);  // of -3 and -2, in whole steps
@@ -360,13 +360,13 @@ TEST_F(MeasuresTest, AreThoseOfTheCaseUntilItChanges) {
   EXPECT_EQ(get("measures").status, 404);
   performAll({{"op", "measure"}});
   EXPECT_EQ(state()["revisions"]["measures"], 1);
-  EXPECT_EQ(state()["measuresAreOld"], false);
+  EXPECT_EQ(state()["measures_are_old"], false);
   const Json tables = Json::parse(get("measures").body);
   ASSERT_EQ(tables["vessels"].size(), 1U);
   EXPECT_EQ(tables["vessels"][0]["vessel"], "tube");
   EXPECT_NEAR(tables["vessels"][0]["length_mm"]["value"].get<double>(), 10, 0.01);
   performAll({{"op", "rename"}, {"branch", 0}, {"label", "carotid"}});
-  EXPECT_EQ(state()["measuresAreOld"], true);
+  EXPECT_EQ(state()["measures_are_old"], true);
 }
 
 TEST_F(MeasuresTest, AreTablesOfCommaSeparatedValuesToo) {

@@ -51,7 +51,7 @@ TEST_F(OpenLibraryTest, ListsItsCasesWithFiguresAndSaysWhichCannotBeRead) {
   ASSERT_EQ(library["cases"].size(), 3U);
   EXPECT_EQ(library["cases"][0]["name"], "a.lumen");
   EXPECT_EQ(library["cases"][0]["branches"], 2);
-  EXPECT_NEAR(library["cases"][0]["length"].get<double>(), 12, 1e-5);
+  EXPECT_NEAR(library["cases"][0]["length_mm"].get<double>(), 12, 1e-5);
   EXPECT_EQ(library["cases"][1]["name"], "broken.lumen");
   EXPECT_EQ(library["cases"][1]["branches"], nullptr);
   EXPECT_FALSE(library["cases"][1]["error"].get<std::string>().empty());
@@ -59,9 +59,9 @@ TEST_F(OpenLibraryTest, ListsItsCasesWithFiguresAndSaysWhichCannotBeRead) {
 }
 
 TEST_F(OpenLibraryTest, OpensTheCaseOfANumberAndSavesIntoItsFile) {
-  performAll({{"op", "openCase"}, {"index", 2}});
-  EXPECT_EQ(state()["openCase"], 2);
-  EXPECT_EQ(state()["saveAs"], "b.lumen");
+  performAll({{"op", "open_case"}, {"index", 2}});
+  EXPECT_EQ(state()["open_case"], 2);
+  EXPECT_EQ(state()["save_as"], "b.lumen");
   EXPECT_EQ(state()["unsaved"], false);
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
   ASSERT_EQ(perform({{"op", "save"}}).status, 200);
@@ -89,7 +89,7 @@ protected:
     session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
     session->openLibrary(viewer::casesIn(path("lib")));
     serveSession();
-    performAll({{"op", "openCase"}, {"index", 0}});
+    performAll({{"op", "open_case"}, {"index", 0}});
   }
 };
 
@@ -101,7 +101,7 @@ TEST_F(PublishedLibraryTest, HasTheCasesThatItListsUnderTheirTitles) {
 }
 
 TEST_F(PublishedLibraryTest, IsNeverWrittenInto) {
-  EXPECT_EQ(state()["saveAs"], nullptr);
+  EXPECT_EQ(state()["save_as"], nullptr);
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
   EXPECT_EQ(perform({{"op", "save"}}).status, 400);
   const std::vector<std::string> kept = session->keepUnsaved();
@@ -113,19 +113,19 @@ TEST_F(PublishedLibraryTest, IsNeverWrittenInto) {
 }
 
 TEST_F(OpenLibraryTest, NoPathOpensAFileNorANumberBeyondTheList) {
-  EXPECT_EQ(perform({{"op", "openCase"}, {"index", 3}}).status, 400);
-  EXPECT_EQ(perform({{"op", "openCase"}, {"index", -1}}).status, 400);
-  EXPECT_EQ(perform({{"op", "openCase"}, {"index", "deep/deeper/c.lumen"}}).status, 400);
-  EXPECT_EQ(perform({{"op", "openCase"}, {"path", path("a.lumen").string()}}).status, 400);
-  EXPECT_EQ(state()["hasCase"], false);
+  EXPECT_EQ(perform({{"op", "open_case"}, {"index", 3}}).status, 400);
+  EXPECT_EQ(perform({{"op", "open_case"}, {"index", -1}}).status, 400);
+  EXPECT_EQ(perform({{"op", "open_case"}, {"index", "deep/deeper/c.lumen"}}).status, 400);
+  EXPECT_EQ(perform({{"op", "open_case"}, {"path", path("a.lumen").string()}}).status, 400);
+  EXPECT_EQ(state()["has_case"], false);
 }
 
 TEST_F(OpenLibraryTest, ChangesThatAreNotSavedAreAskedAboutAndKept) {
-  performAll({{"op", "openCase"}, {"index", 0}});
+  performAll({{"op", "open_case"}, {"index", 0}});
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
-  EXPECT_EQ(perform({{"op", "openCase"}, {"index", 2}}).status, 409);
-  performAll({{"op", "openCase"}, {"index", 2}, {"force", true}});
-  EXPECT_EQ(state()["openCase"], 2);
+  EXPECT_EQ(perform({{"op", "open_case"}, {"index", 2}}).status, 409);
+  performAll({{"op", "open_case"}, {"index", 2}, {"force", true}});
+  EXPECT_EQ(state()["open_case"], 2);
   EXPECT_EQ(state()["undo"], nullptr);  // it would save one case into the file of another
   // the name was taken by another file, which is as it was
   EXPECT_EQ(formats::readCaseFile(path("a.unsaved.2.lumen"))->tree.branches[1].label, "mine");
@@ -134,9 +134,9 @@ TEST_F(OpenLibraryTest, ChangesThatAreNotSavedAreAskedAboutAndKept) {
 }
 
 TEST_F(OpenLibraryTest, ABrokenCaseLeavesWhatIsOpen) {
-  performAll({{"op", "openCase"}, {"index", 0}});
-  performAll({{"op", "openCase"}, {"index", 1}});
-  EXPECT_EQ(state()["openCase"], 0);
+  performAll({{"op", "open_case"}, {"index", 0}});
+  performAll({{"op", "open_case"}, {"index", 1}});
+  EXPECT_EQ(state()["open_case"], 0);
   EXPECT_EQ(state()["title"], "a.lumen");
 }
 
@@ -190,7 +190,7 @@ protected:
     Progress silent;
     own.open({path(name), name}, silent);
   }
-  /// What `reload` of the first open file does for a page that saw `seen`.
+  /// The work that `reload` of the first open file does for a page that saw `seen`.
   void reload(const viewer::Moment& seen) {
     const Json request = {{"op", "reload"}, {"id", seen.document.files[0].id}};
     const formats::JsonDocument parsed = viewer::parseRequest(request.dump(), 1000);
@@ -268,19 +268,19 @@ TEST_F(UnsavedTest, OfAnEarlierProgramIsOfferedAndNeverOverwritten) {
   writeCase("twofold.unsaved.lumen", named("of another file"));
   serve({"two.lumen"});
   EXPECT_EQ(session->findUnsaved(), std::vector{path("two.unsaved.lumen").string()});
-  const Json before = state()["unsavedBefore"];
+  const Json before = state()["unsaved_before"];
   ASSERT_EQ(before.size(), 1U);
   EXPECT_EQ(before[0]["name"], "two.unsaved.lumen");
   EXPECT_EQ(before[0]["newer"], true);
   const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
                        std::chrono::system_clock::now().time_since_epoch())
                        .count();
-  EXPECT_NEAR(static_cast<double>(now - before[0]["written"].get<std::int64_t>()), 0, 60000);
+  EXPECT_NEAR(static_cast<double>(now - before[0]["written_ms"].get<std::int64_t>()), 0, 60000);
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
   EXPECT_EQ(session->keepUnsaved(), std::vector{path("two.unsaved.2.lumen").string()});
   performAll({{"op", "recover"}, {"name", "two.unsaved.lumen"}});
   EXPECT_EQ(ReadPack(get("case").body).json["branches"][0]["label"], "before the end");
-  EXPECT_EQ(state()["saveAs"], "two.lumen");
+  EXPECT_EQ(state()["save_as"], "two.lumen");
   EXPECT_EQ(state()["unsaved"], true);
   ASSERT_EQ(perform({{"op", "save"}}).status, 200);
   EXPECT_EQ(formats::readCaseFile(path("two.lumen"))->tree.branches[0].label, "before the end");
@@ -351,7 +351,7 @@ TEST_F(UnsavedTest, SeedsAreKeptBesideTheirVolume) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
   ASSERT_EQ(
-      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
+      perform({{"op", "seed_add"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
       200);
   ASSERT_EQ(session->keepUnsaved(), std::vector{path("tube.unsaved.seeds.json").string()});
   serve({"tube.nrrd"});
@@ -368,17 +368,18 @@ protected:
     writeTube("tube.nrrd");
     writeCase("two.lumen", twoVessels());
     serve({"tube.nrrd", "two.lumen"});
-    ASSERT_EQ(perform({{"op", "seedAdd"},
-                       {"label", "waits"},
-                       {"points", Json::array({{{"position", {6.4, 6.4, 6.4}}, {"radius", 1.5}}})}})
-                  .status,
-              200);
+    ASSERT_EQ(
+        perform({{"op", "seed_add"},
+                 {"label", "waits"},
+                 {"points", Json::array({{{"position", {6.4, 6.4, 6.4}}, {"radius_mm", 1.5}}})}})
+            .status,
+        200);
   }
   void expectItWaits() {
     ASSERT_EQ(state()["seeds"].size(), 1U);
     EXPECT_EQ(state()["seeds"][0]["label"], "waits");
     EXPECT_EQ(state()["seeds"][0]["tracked"], false);
-    EXPECT_EQ(state()["seeds"][0]["points"][0]["radius"], 1.5);
+    EXPECT_EQ(state()["seeds"][0]["points"][0]["radius_mm"], 1.5);
   }
   const std::vector<std::string> m_kept{path("two.unsaved.lumen").string()};
 };
@@ -422,7 +423,7 @@ TEST_F(WaitingSeedTest, IsInADownloadedCaseAndBesideAnotherCaseThatIsOpened) {
   serve({"tube.nrrd", "copy.lumen"});
   expectItWaits();
   EXPECT_EQ(state()["unsaved"], false);
-  ASSERT_EQ(perform({{"op", "seedAdd"},
+  ASSERT_EQ(perform({{"op", "seed_add"},
                      {"label", "more"},
                      {"points", Json::array({{{"position", {6.4, 6.4, 8.0}}}})}})
                 .status,

@@ -104,12 +104,12 @@ TEST_F(MeshDeviationTest, ThePackBelongsToTheVerticesOfItsMesh) {
   for (std::size_t m = 0; m < 2; ++m) {
     const int id = meshes[m]["id"].get<int>();
     const ReadPack pack = deviation(id), mesh(get("mesh?id=" + std::to_string(id)).body);
-    const auto distance = pack.array<float>("distance");
+    const auto distance = pack.array<float>("distance_mm");
     ASSERT_EQ(3 * distance.size(), mesh.array<float>("position").size());
     for (const float d : distance) EXPECT_NEAR(double{d}, expected[m], 1e-3);
     const Json& figures = pack.json["figures"];
     EXPECT_EQ(figures["vertices"], distance.size());
-    for (const char* name : {"median", "percentile90", "greatest"})
+    for (const char* name : {"median_mm", "percentile90_mm", "greatest_mm"})
       EXPECT_NEAR(figures[name].get<double>(), std::abs(expected[m]), 1e-3) << name;
   }
 }
@@ -126,7 +126,7 @@ TEST_F(MeshDeviationTest, AMeshThatIsReadAgainHasANumberOfItsOwn) {
   EXPECT_EQ(after[0]["name"], "mesh.obj");
   EXPECT_NE(after[0]["id"], before[0]["id"]) << "a page would keep the old one";
   EXPECT_EQ(state()["files"][1]["id"], after[0]["id"]);
-  EXPECT_NEAR(deviation(after[0]["id"].get<int>()).json["figures"]["median"].get<double>(), 0.5,
+  EXPECT_NEAR(deviation(after[0]["id"].get<int>()).json["figures"]["median_mm"].get<double>(), 0.5,
               1e-3);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
   EXPECT_EQ(state()["meshes"], before);
@@ -176,8 +176,8 @@ TEST_F(MeshDeviationTest, AnotherWallAndAnotherMeshHaveOtherDistances) {
   performAll({{"op", "delete"}, {"branch", 0}});
   const httplib::Response after = get(name);
   EXPECT_NE(after.get_header_value("ETag"), tag);
-  const auto farther = ReadPack(after.body).array<float>("distance"),
-             nearer = ReadPack(before.body).array<float>("distance");
+  const auto farther = ReadPack(after.body).array<float>("distance_mm"),
+             nearer = ReadPack(before.body).array<float>("distance_mm");
   ASSERT_EQ(farther.size(), nearer.size());
   EXPECT_GT(farther[0], nearer[0] + 1);
 

@@ -78,18 +78,18 @@ TEST_F(MovingCaseTest, PackHasThePosesOfItsNodes) {
   writeCase("moving.lumen", movingVessels());
   serve({"moving.lumen"});
   const ReadPack pack(get("case").body);
-  EXPECT_EQ(pack.json["motion"], (Json{{"times", {0, 0.5}}, {"period", 0.75}}));
-  EXPECT_EQ(pack.array<std::uint32_t>("motionNode"), (std::vector<std::uint32_t>{5, 6, 7}));
-  const auto centre = pack.array<float>("motionCentre"),
-             rotation = pack.array<float>("motionRotation"),
-             factor = pack.array<float>("motionFactor");
+  EXPECT_EQ(pack.json["motion"], (Json{{"times_s", {0, 0.5}}, {"period_s", 0.75}}));
+  EXPECT_EQ(pack.array<std::uint32_t>("motion_node"), (std::vector<std::uint32_t>{5, 6, 7}));
+  const auto centre = pack.array<float>("motion_centre"),
+             rotation = pack.array<float>("motion_rotation"),
+             factor = pack.array<float>("motion_factor");
   ASSERT_EQ(centre.size(), 3 * 2 * kMovingNodes);
   EXPECT_EQ(centre[3 * kMovingNodes + 2] - centre[2], 2);
   ASSERT_EQ(rotation.size(), 4 * 2 * kMovingNodes);
   EXPECT_EQ(rotation[3], 1);
   EXPECT_NEAR(rotation[4 * kMovingNodes], std::sqrt(0.5), 1e-7);
   EXPECT_EQ(factor, std::vector<float>(2 * kMovingNodes, 1));
-  EXPECT_EQ(state()["time"], nullptr);
+  EXPECT_EQ(state()["time_s"], nullptr);
 }
 
 TEST_F(MovingCaseTest, PackOfAStillCaseHasNoMotion) {
@@ -97,7 +97,7 @@ TEST_F(MovingCaseTest, PackOfAStillCaseHasNoMotion) {
   serve({"still.lumen"});
   const ReadPack pack(get("case").body), surface(get("surface?quick=1").body);
   EXPECT_EQ(pack.json["motion"], nullptr);
-  EXPECT_FALSE(pack.json["arrays"].contains("motionNode"));
+  EXPECT_FALSE(pack.json["arrays"].contains("motion_node"));
   EXPECT_FALSE(surface.json["arrays"].contains("joint"));
 }
 
@@ -105,7 +105,7 @@ TEST_F(MovingCaseTest, SurfaceHangsOnTheNodesAroundItsVertices) {
   writeCase("moving.lumen", movingVessels());
   serve({"moving.lumen"});
   const ReadPack pack(get("surface?quick=1").body);
-  const auto node = pack.array<std::int32_t>("jointNode");
+  const auto node = pack.array<std::int32_t>("joint_node");
   EXPECT_EQ(std::set<std::int32_t>(node.begin(), node.end()),
             (std::set<std::int32_t>{-1, 5, 6, 7}));
   const auto position = pack.array<float>("position");
@@ -136,7 +136,7 @@ TEST_F(MovingCaseTest, CompactSurfaceHasTheSameBonesAtTheSamePlaces) {
   serve({"moving.lumen"});
   const std::string full = get("surface?quick=1").body;
   const ReadPack before(full), after(viewer::compactPack(full));
-  EXPECT_EQ(after.array<std::int32_t>("jointNode"), before.array<std::int32_t>("jointNode"));
+  EXPECT_EQ(after.array<std::int32_t>("joint_node"), before.array<std::int32_t>("joint_node"));
   const auto position = before.array<float>("position");
   const auto joint = before.array<std::uint16_t>("joint"),
              weight = before.array<std::uint16_t>("weight");
@@ -161,9 +161,9 @@ TEST_F(MovingCaseTest, PageBeginsAtTheTimeThatItIsGiven) {
   Progress silent;
   session->open({path("moving.lumen"), "moving.lumen"}, silent);
   serveSession();
-  EXPECT_EQ(state()["time"], 0.25);
+  EXPECT_EQ(state()["time_s"], 0.25);
   const std::string page = viewer::htmlPage(*session, smallPage(), {}, silent);
-  EXPECT_NE(page.find("\"time\":0.25"), std::string::npos);
+  EXPECT_NE(page.find("\"time_s\":0.25"), std::string::npos);
 }
 
 }  // namespace lumen::test

@@ -49,8 +49,8 @@ protected:
   /// A proposal on a proposal that itself hangs on one.
   [[nodiscard]] std::string grandchild() const {
     for (const Json& each : proposals())
-      if (each["parentWaits"] == true &&
-          proposal(each["parent"].get<std::string>())["parentWaits"] == true)
+      if (each["parent_waits"] == true &&
+          proposal(each["parent"].get<std::string>())["parent_waits"] == true)
         return each["label"];
     return {};
   }
@@ -71,7 +71,7 @@ TEST_F(ProposalsTest, WhatIsFoundWaitsAndIsNoPartOfTheCase) {
   find();
   const Json now = state();
   EXPECT_EQ(now["proposals"].size(), 4U) << now["proposals"];
-  EXPECT_EQ(now["hasCase"], false);
+  EXPECT_EQ(now["has_case"], false);
   EXPECT_EQ(now["unsaved"], false);
   EXPECT_EQ(now["undo"], "find vessels");
   EXPECT_FALSE(grandchild().empty()) << now["proposals"];
@@ -85,16 +85,16 @@ TEST_F(ProposalsTest, WhatIsFoundWaitsAndIsNoPartOfTheCase) {
 TEST_F(ProposalsTest, ConfidenceIsTheMeanOfTheNodesInlierRatesAndRadiusTheirMedian) {
   find();
   const ReadPack pack(get("proposals").body);
-  const auto rate = pack.array<float>("inlierRate"), radius = pack.array<float>("radius");
+  const auto rate = pack.array<float>("inlier_rate"), radius = pack.array<float>("radius_mm");
   const Json list = proposals();
   for (std::size_t b = 0; b < list.size(); ++b) {
-    const std::ptrdiff_t first = pack.json["branches"][b]["firstNode"],
-                         count = pack.json["branches"][b]["nodeCount"];
+    const std::ptrdiff_t first = pack.json["branches"][b]["first_node"],
+                         count = pack.json["branches"][b]["node_count"];
     const double sum = std::accumulate(rate.begin() + first, rate.begin() + first + count, 0.0);
     EXPECT_NEAR(list[b]["confidence"].get<double>(), sum / static_cast<double>(count), 1e-5);
     const double width =
         std::accumulate(radius.begin() + first, radius.begin() + first + count, 0.0);
-    EXPECT_NEAR(list[b]["radius"].get<double>(), width / static_cast<double>(count), 1e-5);
+    EXPECT_NEAR(list[b]["radius_mm"].get<double>(), width / static_cast<double>(count), 1e-5);
   }
 }
 
@@ -104,12 +104,12 @@ TEST_F(ProposalsTest, AcceptingABranchAcceptsItsParentsInOneStepThatIsUndone) {
   const std::string label = grandchild();
   performAll({{"op", "accept"}, {"labels", {label}}});
   ASSERT_EQ(branches().size(), 3U);
-  EXPECT_EQ(ReadPack(get("case").body).json["hasModels"], true);
+  EXPECT_EQ(ReadPack(get("case").body).json["has_models"], true);
   EXPECT_EQ(proposals().size(), 1U);
   EXPECT_EQ(state()["undo"], "accept 3 vessels");
   EXPECT_EQ(state()["unsaved"], true);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
-  EXPECT_EQ(state()["hasCase"], false);
+  EXPECT_EQ(state()["has_case"], false);
   EXPECT_EQ(proposals(), all);
   ASSERT_EQ(perform({{"op", "redo"}}).status, 200);
   EXPECT_EQ(branches().size(), 3U);
@@ -121,7 +121,7 @@ TEST_F(ProposalsTest, AcceptedOneByOneTheyHangAsTheyWereFound) {
                     trunk = proposal(parent)["parent"];
   performAll({{"op", "accept"}, {"labels", {trunk}}});
   EXPECT_EQ(proposal(parent)["parent"], trunk);
-  EXPECT_EQ(proposal(parent)["parentWaits"], false);
+  EXPECT_EQ(proposal(parent)["parent_waits"], false);
   const auto before = ReadPack(get("case").body).array<float>("centre");
   // an edit in between numbers the vessels anew
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 0}, {"label", "renamed"}}).status, 200);
@@ -133,8 +133,8 @@ TEST_F(ProposalsTest, AcceptedOneByOneTheyHangAsTheyWereFound) {
   ASSERT_EQ(list.size(), 3U);
   const auto branch = pack.array<std::uint32_t>("branch");
   EXPECT_EQ(list[1]["label"], parent);
-  EXPECT_EQ(branch[list[1]["parentNode"].get<std::size_t>()], 0U);
-  EXPECT_EQ(branch[list[2]["parentNode"].get<std::size_t>()], 1U);
+  EXPECT_EQ(branch[list[1]["parent_node"].get<std::size_t>()], 0U);
+  EXPECT_EQ(branch[list[2]["parent_node"].get<std::size_t>()], 1U);
   auto centre = pack.array<float>("centre");
   centre.resize(before.size());
   EXPECT_EQ(centre, before) << "vessels that were there stay as they are";
@@ -153,7 +153,7 @@ TEST_F(ProposalsTest, OnAVesselThatIsGoneAProposalIsATreeOfItsOwn) {
   performAll({{"op", "delete"}, {"branch", list[0]["label"] == trunk ? 0 : 1}});
   EXPECT_EQ(proposal(parent)["parent"], nullptr);
   performAll({{"op", "accept"}, {"labels", {parent}}});
-  EXPECT_EQ(branches()[1]["parentNode"], -1);
+  EXPECT_EQ(branches()[1]["parent_node"], -1);
 }
 
 TEST_F(ProposalsTest, RejectedOnesGoAndWhatHungOnThemWaits) {
@@ -173,7 +173,7 @@ TEST_F(ProposalsTest, RejectedOnesGoAndWhatHungOnThemWaits) {
 
 TEST_F(ProposalsTest, OnlyVesselsThatTheCaseLacksAreProposed) {
   const Json seed = {
-      {"op", "seedAdd"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 10}}}}}};
+      {"op", "seed_add"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 10}}}}}};
   ASSERT_EQ(perform(seed).status, 200);
   performAll({{"op", "track"}});
   const std::string before = get("case.lumen").body;
@@ -182,7 +182,7 @@ TEST_F(ProposalsTest, OnlyVesselsThatTheCaseLacksAreProposed) {
   EXPECT_EQ(proposals().size(), 3U) << proposals();
   const Json list = proposals();
   EXPECT_TRUE(std::any_of(list.begin(), list.end(), [](const Json& each) {
-    return each["parent"] == "mine" && each["parentWaits"] == false;
+    return each["parent"] == "mine" && each["parent_waits"] == false;
   })) << list;
   performAll({{"op", "accept"}});
   EXPECT_EQ(branches().size(), 4U);
@@ -193,7 +193,7 @@ TEST_F(ProposalsTest, OnlyVesselsThatTheCaseLacksAreProposed) {
 TEST_F(ProposalsTest, AProposalThatASeedHasTrackedMeanwhileIsDropped) {
   find();
   const Json seed = {
-      {"op", "seedAdd"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 12}}}}}};
+      {"op", "seed_add"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 12}}}}}};
   ASSERT_EQ(perform(seed).status, 200);
   performAll({{"op", "track"}});
   EXPECT_EQ(proposals().size(), 3U);
@@ -205,7 +205,7 @@ TEST_F(ProposalsTest, AProposalThatASeedHasTrackedMeanwhileIsDropped) {
 
 TEST_F(ProposalsTest, NamesOfSeedsThatWaitAreNotTakenTwice) {
   const auto seed = [](const char* label) -> Json {
-    return {{"op", "seedAdd"}, {"label", label}, {"points", {{{"position", {1, 1, 1}}}}}};
+    return {{"op", "seed_add"}, {"label", label}, {"points", {{{"position", {1, 1, 1}}}}}};
   };
   ASSERT_EQ(perform(seed("vessel-1")).status, 200);
   find();
@@ -257,7 +257,7 @@ TEST_F(ProposalsTest, OnesThatWaitAreKeptBesideTheFileAndTakenAgain) {
 
 TEST_F(ProposalsTest, GoWithTheVolumeThatTheyWereFoundIn) {
   find();
-  ASSERT_EQ(perform({{"op", "closeFile"}, {"id", 1}}).status, 200);
+  ASSERT_EQ(perform({{"op", "close_file"}, {"id", 1}}).status, 200);
   EXPECT_EQ(proposals().size(), 0U);
 }
 

@@ -136,7 +136,7 @@ TEST_F(SafetyTest, RequestsAreBoundedInSizeAndDepth) {
 }
 
 TEST_F(SafetyTest, AFormInSeveralPartsIsRefusedInASentence) {
-  for (const char* const name : {"do", "vesselAtClick", "cancel", "file?name=a.obj"}) {
+  for (const char* const name : {"do", "vessel_at_click", "cancel", "file?name=a.obj"}) {
     auto result = client().Post(
         root + name, httplib::MultipartFormDataItems{{"file", "v 0 0 0", "a.obj", "text/plain"}});
     ASSERT_TRUE(result) << name;
@@ -210,9 +210,9 @@ TEST_F(SafetyTest, NumbersFromThePageAreChecked) {
        {R"({"op": "rename", "branch": 2, "label": "x"})",
         R"({"op": "rename", "branch": -1, "label": "x"})",
         R"({"op": "rename", "branch": 1e3, "label": "x"})", R"({"op": "rename", "branch": 0})",
-        R"({"op": "seedAdd", "points": [{"position": [1, 2]}]})",
-        R"({"op": "seedAdd", "points": [{"position": [1, 2, 1e300]}]})",
-        R"({"op": "seedAdd", "points": []})", R"({"op": "unheard"})"}) {
+        R"({"op": "seed_add", "points": [{"position": [1, 2]}]})",
+        R"({"op": "seed_add", "points": [{"position": [1, 2, 1e300]}]})",
+        R"({"op": "seed_add", "points": []})", R"({"op": "unheard"})"}) {
     const auto response = perform(Json::parse(request));
     EXPECT_EQ(response.status, 400) << request;
     EXPECT_TRUE(Json::parse(response.body)["error"].is_string());

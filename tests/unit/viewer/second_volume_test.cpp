@@ -71,7 +71,7 @@ TEST_F(SecondVolumeTest, IsSentWithItsOwnGeometry) {
   EXPECT_EQ(pack.json["name"], "coarse.nrrd");
   EXPECT_EQ(pack.json["size"], Json({8, 10, 12}));
   for (const auto& [a, mm] : {std::pair{0, 1.5}, std::pair{1, 1.2}, std::pair{2, 1.0}})
-    EXPECT_NEAR(pack.json["spacing"][static_cast<std::size_t>(a)].get<double>(), mm, 1e-12);
+    EXPECT_NEAR(pack.json["spacing_mm"][static_cast<std::size_t>(a)].get<double>(), mm, 1e-12);
   EXPECT_EQ(pack.json["origin"], Json({3.0, -1.0, 0.0}));
   EXPECT_NEAR(pack.json["direction"][0].get<double>(), 0.8660254037844387, 1e-12);
   const auto stored = pack.array<std::uint16_t>("voxel");
@@ -116,7 +116,7 @@ TEST_F(SecondVolumeTest, NothingOfItEntersACase) {
   writeTube("tube.nrrd");
   writeVolume("coarse.nrrd", coarseVolume(7));
   const auto savedCase = [this] {
-    EXPECT_EQ(perform({{"op", "seedAdd"},
+    EXPECT_EQ(perform({{"op", "seed_add"},
                        {"label", "tube"},
                        {"points", Json::array({{{"position", {6.4, 6.4, 6.4}}}})}})
                   .status,
@@ -139,11 +139,11 @@ TEST_F(SecondVolumeTest, GoesWithTheFirstAndComesBackWithUndo) {
   const Json files = state()["files"];
   ASSERT_EQ(files.size(), 2U);
   EXPECT_EQ(files[1]["kind"], "second");
-  ASSERT_EQ(perform({{"op", "closeFile"}, {"id", files[1]["id"]}}).status, 200);
+  ASSERT_EQ(perform({{"op", "close_file"}, {"id", files[1]["id"]}}).status, 200);
   EXPECT_EQ(state()["second"], nullptr);
-  EXPECT_EQ(state()["hasVolume"], true);
+  EXPECT_EQ(state()["has_volume"], true);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
-  ASSERT_EQ(perform({{"op", "closeFile"}, {"id", files[0]["id"]}}).status, 200);
+  ASSERT_EQ(perform({{"op", "close_file"}, {"id", files[0]["id"]}}).status, 200);
   EXPECT_EQ(state()["second"], nullptr);
   EXPECT_EQ(state()["files"].size(), 0U);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
@@ -177,11 +177,11 @@ TEST_F(SecondVolumeTest, CanBeDropped) {
   drop("coarse.nrrd");
   EXPECT_EQ(state()["second"]["name"], "coarse.nrrd");
   drop("two.lumen");  // no volume: refused
-  EXPECT_EQ(state()["hasCase"], false);
+  EXPECT_EQ(state()["has_case"], false);
   serve({});
   drop("coarse.nrrd");  // nothing to be seen beside
   EXPECT_EQ(state()["second"], nullptr);
-  EXPECT_EQ(state()["hasVolume"], false);
+  EXPECT_EQ(state()["has_volume"], false);
 }
 
 }  // namespace lumen::test

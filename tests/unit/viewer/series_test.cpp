@@ -23,11 +23,11 @@ protected:
     return files;
   }
   [[nodiscard]] int send(int batch, const std::string& name, const std::string& bytes) const {
-    return post("seriesFile?batch=" + std::to_string(batch) + "&name=" + name, bytes).status;
+    return post("series_file?batch=" + std::to_string(batch) + "&name=" + name, bytes).status;
   }
   /// Opens a series of the list that the state has.
   [[nodiscard]] Json request(int series) const {
-    return {{"op", "openSeries"}, {"series", series}, {"of", state()["revisions"]["series"]}};
+    return {{"op", "open_series"}, {"series", series}, {"of", state()["revisions"]["series"]}};
   }
   void sendAll(int batch, const std::vector<std::string>& files) const {
     for (std::size_t n = 0; n < files.size(); ++n)
@@ -43,24 +43,24 @@ TEST_F(SeriesTest, DroppedFilesAreListedAndOneSeriesIsOpened) {
   EXPECT_EQ(send(7, "notes.txt", "a text"), 200);
   const std::string image = slices("1.2.1", "Angio")[0];
   EXPECT_EQ(send(7, "broken", image.substr(0, image.size() - 5)), 200);
-  performAll({{"op", "listSeries"}, {"batch", 7}});
+  performAll({{"op", "list_series"}, {"batch", 7}});
   Json series = state()["series"];
   ASSERT_EQ(series["list"].size(), 2U);
   EXPECT_EQ(series["list"][1]["description"], "Mask");
   EXPECT_EQ(series["list"][1]["modality"], "CT");
   EXPECT_EQ(series["list"][1]["files"], 4);
   EXPECT_EQ(series["list"][1]["size"], (Json{4, 3, 4}));
-  EXPECT_EQ(series["list"][1]["spacing"], (Json{0.25, 0.5, 2.0}));
+  EXPECT_EQ(series["list"][1]["spacing_mm"], (Json{0.25, 0.5, 2.0}));
   EXPECT_TRUE(series["list"][1]["fault"].is_null());
   EXPECT_EQ(series["faulty"], 1);
   EXPECT_EQ(series["others"], 1);
   const std::string fault = series["faults"][0];
   EXPECT_TRUE(fault.starts_with("broken: ")) << fault;
-  EXPECT_FALSE(state()["hasVolume"]);
-  const ReadPack picture(get("seriesPicture?series=1").body);
+  EXPECT_FALSE(state()["has_volume"]);
+  const ReadPack picture(get("series_picture?series=1").body);
   EXPECT_EQ(picture.json["arrays"]["pixel"]["shape"], (Json{3, 4}));
   EXPECT_EQ(picture.array<std::uint8_t>("pixel").back(), 255);
-  EXPECT_EQ(get("seriesPicture?series=2").status, 404);
+  EXPECT_EQ(get("series_picture?series=2").status, 404);
 
   EXPECT_EQ(perform(request(2)).status, 400);
   performAll(request(1));
@@ -72,7 +72,7 @@ TEST_F(SeriesTest, DroppedFilesAreListedAndOneSeriesIsOpened) {
   EXPECT_NE(state()["assumptions"].dump().find("broken"), std::string::npos);  // of this series
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
   EXPECT_EQ(state()["title"], "Mask");
-  ASSERT_EQ(perform({{"op", "closeSeries"}}).status, 200);
+  ASSERT_EQ(perform({{"op", "close_series"}}).status, 200);
   EXPECT_TRUE(state()["series"].is_null());
 }
 
@@ -80,11 +80,11 @@ TEST_F(SeriesTest, ANumberInAListIsNoSeriesOfTheListThatHasReplacedIt) {
   serve({});
   sendAll(7, slices("1.2.1", "Angio"));
   sendAll(7, slices("1.2.2", "Mask"));
-  performAll({{"op", "listSeries"}, {"batch", 7}});
+  performAll({{"op", "list_series"}, {"batch", 7}});
   const Json seen = request(0);
   sendAll(9, slices("1.2.3", "Other"));
   sendAll(9, slices("1.2.4", "Fourth"));
-  performAll({{"op", "listSeries"}, {"batch", 9}});
+  performAll({{"op", "list_series"}, {"batch", 9}});
   EXPECT_EQ(perform(seen).status, 409);
   performAll(request(0));
   EXPECT_EQ(state()["title"], "Other");
@@ -93,19 +93,19 @@ TEST_F(SeriesTest, ANumberInAListIsNoSeriesOfTheListThatHasReplacedIt) {
 TEST_F(SeriesTest, TheOnlySeriesIsOpenedAtOnce) {
   serve({});
   sendAll(1, slices("1.2.1", ""));
-  performAll({{"op", "listSeries"}, {"batch", 1}});
-  EXPECT_TRUE(state()["hasVolume"]);
+  performAll({{"op", "list_series"}, {"batch", 1}});
+  EXPECT_TRUE(state()["has_volume"]);
   EXPECT_EQ(state()["title"], "series 1");
 }
 
 TEST_F(SeriesTest, FilesWithoutSeriesChangeNothing) {
   serve({});
   EXPECT_EQ(send(3, "notes.txt", "a text"), 200);
-  performAll({{"op", "listSeries"}, {"batch", 3}});
-  EXPECT_FALSE(state()["hasVolume"]);
+  performAll({{"op", "list_series"}, {"batch", 3}});
+  EXPECT_FALSE(state()["has_volume"]);
   EXPECT_TRUE(state()["series"].is_null());
-  EXPECT_EQ(perform({{"op", "listSeries"}, {"batch", 3}}).status, 400);  // it has ended
-  EXPECT_EQ(perform({{"op", "listSeries"}, {"batch", 4}}).status, 400);
+  EXPECT_EQ(perform({{"op", "list_series"}, {"batch", 3}}).status, 400);  // it has ended
+  EXPECT_EQ(perform({{"op", "list_series"}, {"batch", 4}}).status, 400);
 }
 
 TEST_F(SeriesTest, ABatchIsBounded) {
@@ -117,8 +117,8 @@ TEST_F(SeriesTest, ABatchIsBounded) {
   EXPECT_EQ(send(1, "b", std::string(600, 'x')), 400);
   EXPECT_EQ(send(1, "c", std::string(400, 'x')), 200);
   EXPECT_EQ(send(2, "d", std::string(600, 'x')), 200);  // another batch
-  EXPECT_EQ(post("seriesFile?batch=x&name=a", "x").status, 400);
-  EXPECT_EQ(post("seriesFile?batch=1", "x").status, 400);
+  EXPECT_EQ(post("series_file?batch=x&name=a", "x").status, 400);
+  EXPECT_EQ(post("series_file?batch=1", "x").status, 400);
 }
 
 TEST_F(SeriesTest, AFolderOfSeveralSeriesIsOffered) {

@@ -31,8 +31,8 @@ TEST_F(LookTest, ThePackOfACaseHasItsTree) {
   serve({"two.lumen"});
   const Json now = state();
   EXPECT_EQ(now["title"], "two.lumen");
-  EXPECT_EQ(now["hasCase"], true);
-  EXPECT_EQ(now["saveAs"], "two.lumen");
+  EXPECT_EQ(now["has_case"], true);
+  EXPECT_EQ(now["save_as"], "two.lumen");
   EXPECT_EQ(now["unsaved"], false);
   const ReadPack pack(get("case").body);
   const auto centre = pack.array<float>("centre");
@@ -40,7 +40,7 @@ TEST_F(LookTest, ThePackOfACaseHasItsTree) {
   EXPECT_EQ(centre[3 * 7], value.tree.centre[7].x);
   EXPECT_EQ(pack.array<std::int32_t>("parent"), value.tree.parent);
   EXPECT_EQ(pack.json["branches"][1]["label"], "right");
-  EXPECT_FLOAT_EQ(pack.array<float>("rootDistance").at(7), 7);  // seven steps of 1 mm
+  EXPECT_FLOAT_EQ(pack.array<float>("root_distance_mm").at(7), 7);  // seven steps of 1 mm
   EXPECT_EQ(pack.json["reachable"]["closed"].size(), 0U);
 }
 
@@ -57,7 +57,7 @@ TEST_F(LookTest, ASurfaceComesAtOnceAndAFinerOneLater) {
   ReadPack full(get("surface").body);
   while (full.json["kind"] != "closed" || full.json["level"] != 0)
     full = ReadPack(get("surface").body);
-  EXPECT_GT(full.array<float>("radius").size(), nodes.size());
+  EXPECT_GT(full.array<float>("radius_mm").size(), nodes.size());
   bool hasInlet = false;
   for (const Json& part : full.json["parts"])
     hasInlet = hasInlet || part["name"].get<std::string>().starts_with("inlet");
@@ -74,9 +74,9 @@ TEST_F(LookTest, ASurfaceHasFewerTrianglesForMoving) {
   EXPECT_LE(moving.size(), quick.array<std::uint32_t>("triangle").size());
   std::size_t next = 0;
   for (const Json& part : quick.json["parts"]) {
-    EXPECT_EQ(part["movingFirst"], next);
-    EXPECT_GT(part["movingCount"], 0);
-    next += part["movingCount"].get<std::size_t>();
+    EXPECT_EQ(part["moving_first"], next);
+    EXPECT_GT(part["moving_count"], 0);
+    next += part["moving_count"].get<std::size_t>();
   }
   EXPECT_EQ(3 * next, moving.size());
   for (const std::uint32_t v : moving) ASSERT_LT(3 * v, position.size());
@@ -152,7 +152,7 @@ TEST_F(LookTest, DistancesToTheTruthBelongToTheSurfacesVertices) {
   Progress silent;
   session->open({path("truth.lumen"), "truth.lumen", viewer::OpenAs::Truth}, silent);
   const ReadPack surface(get("surface?quick=1").body), pack(get("distance?quick=1").body);
-  const auto distance = pack.array<float>("distance");
+  const auto distance = pack.array<float>("distance_mm");
   ASSERT_EQ(3 * distance.size(), surface.array<float>("position").size());
   std::vector<float> sorted = distance;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
@@ -203,12 +203,12 @@ TEST_F(WorkTest, EveryChangeIsUndoneAndDoneAgainToTheSameCaseUnderNewRevisions) 
       {{"op", "reverse"}, {"branch", 0}},
       {{"op", "rename"}, {"branch", 1}, {"label", "ica"}},
       {{"op", "kind"}, {"branch", 1}, {"kind", "aneurysm"}},
-      {{"op", "move"}, {"node", last}, {"position", {5.5, 10, 0.5}}, {"radius", 0.9}},
-      {{"op", "widen"}, {"node", 3}, {"radius", 1.4}, {"reach", 2}},
-      {{"op", "push"}, {"node", 3}, {"at", {3, 1, 0}}, {"by", {0, 0.4, 0}}, {"radius", 0.8}},
-      {{"op", "nodeAdd"}, {"node", 3}},
-      {{"op", "nodeDelete"}, {"node", 3}},
-      {{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}};
+      {{"op", "move"}, {"node", last}, {"position", {5.5, 10, 0.5}}, {"radius_mm", 0.9}},
+      {{"op", "widen"}, {"node", 3}, {"radius_mm", 1.4}, {"reach_mm", 2}},
+      {{"op", "push"}, {"node", 3}, {"at", {3, 1, 0}}, {"by", {0, 0.4, 0}}, {"radius_mm", 0.8}},
+      {{"op", "node_add"}, {"node", 3}},
+      {{"op", "node_delete"}, {"node", 3}},
+      {{"op", "seed_add"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}};
   for (const Json& change : changes) {
     serve({"two.lumen"});
     const auto bytes = [this] { return get("case.lumen").body + state()["seeds"].dump(); };
@@ -243,7 +243,7 @@ TEST_F(WorkTest, ATruthThatIsClosedUndoneAndClosedAgainHasOtherDistances) {
   const auto [truth, status] = revisions();
   EXPECT_EQ(status, 200);
   const std::string tag = get("distance?quick=1").get_header_value("ETag");
-  ASSERT_EQ(perform({{"op", "closeFile"}, {"id", 2}}).status, 200);
+  ASSERT_EQ(perform({{"op", "close_file"}, {"id", 2}}).status, 200);
   EXPECT_EQ(revisions(), std::pair(truth + 1, 404));
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
   EXPECT_EQ(revisions(), std::pair(truth + 2, 200));
@@ -274,34 +274,34 @@ TEST_F(WorkTest, RenameUndoRedoAndSaveLeaveExactlyThatInTheFile) {
 TEST_F(WorkTest, AClickBecomesAFittedVesselAndCanBeUndone) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  const Json seed = {{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}};
+  const Json seed = {{"op", "seed_add"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}};
   ASSERT_EQ(perform(seed).status, 200);
   EXPECT_EQ(state()["seeds"][0]["tracked"], false);
   performAll({{"op", "track"}, {"labels", nullptr}});
   const Json now = state();
-  EXPECT_EQ(now["hasCase"], true);
+  EXPECT_EQ(now["has_case"], true);
   EXPECT_EQ(now["seeds"][0]["tracked"], true);
   EXPECT_EQ(now["unsaved"], true);
   const ReadPack pack(get("case").body);
-  EXPECT_EQ(pack.json["hasModels"], true);
-  const auto radius = pack.array<float>("radius");
+  EXPECT_EQ(pack.json["has_models"], true);
+  const auto radius = pack.array<float>("radius_mm");
   EXPECT_NEAR(radius[radius.size() / 2], 1.0, 0.1);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
-  EXPECT_EQ(state()["hasCase"], false);
+  EXPECT_EQ(state()["has_case"], false);
 }
 
 TEST_F(WorkTest, ACutIsFittedAtOnceAndUndoneToTheSameBytes) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+  ASSERT_EQ(perform({{"op", "seed_add"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
             200);
   performAll({{"op", "track"}});
   const std::string before = get("case.lumen").body;
-  const auto nodes = ReadPack(get("case").body).array<float>("radius").size();
+  const auto nodes = ReadPack(get("case").body).array<float>("radius_mm").size();
   performAll({{"op", "cut"}, {"node", nodes / 2}});
   const ReadPack pack(get("case").body);
   EXPECT_EQ(pack.json["branches"].size(), 2U);
-  EXPECT_EQ(pack.json["branches"][1]["parentNode"], -1);
+  EXPECT_EQ(pack.json["branches"][1]["parent_node"], -1);
   EXPECT_EQ(pack.json["reachable"]["closed"].size(), 0U);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
   EXPECT_EQ(get("case.lumen").body, before);
@@ -310,12 +310,12 @@ TEST_F(WorkTest, ACutIsFittedAtOnceAndUndoneToTheSameBytes) {
 TEST_F(WorkTest, AClickFindsTheAxisOfTheVessel) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  const Json vessel = Json::parse(post("vesselAtClick", R"({"position": [6.8, 6.2, 7]})").body);
+  const Json vessel = Json::parse(post("vessel_at_click", R"({"position": [6.8, 6.2, 7]})").body);
   EXPECT_EQ(vessel["found"], true);
   EXPECT_NEAR(vessel["position"][0].get<double>(), 6.4, 0.1);
   EXPECT_NEAR(vessel["position"][1].get<double>(), 6.4, 0.1);
-  EXPECT_NEAR(vessel["radius"].get<double>(), 1.0, 0.1);
-  EXPECT_EQ(Json::parse(post("vesselAtClick", R"({"position": [-100, 0, 0]})").body)["found"],
+  EXPECT_NEAR(vessel["radius_mm"].get<double>(), 1.0, 0.1);
+  EXPECT_EQ(Json::parse(post("vessel_at_click", R"({"position": [-100, 0, 0]})").body)["found"],
             false);
 }
 
@@ -323,16 +323,16 @@ TEST_F(WorkTest, SeedsAreMovedAndDeleted) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
   ASSERT_EQ(
-      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
+      perform({{"op", "seed_add"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
       200);
   EXPECT_EQ(
-      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
+      perform({{"op", "seed_add"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
       400);
   ASSERT_EQ(
-      perform({{"op", "seedMove"}, {"label", "a"}, {"point", 0}, {"position", {4, 5, 6}}}).status,
+      perform({{"op", "seed_move"}, {"label", "a"}, {"point", 0}, {"position", {4, 5, 6}}}).status,
       200);
   EXPECT_EQ(state()["seeds"][0]["points"][0]["position"], Json({4.0, 5.0, 6.0}));
-  ASSERT_EQ(perform({{"op", "seedDelete"}, {"label", "a"}}).status, 200);
+  ASSERT_EQ(perform({{"op", "seed_delete"}, {"label", "a"}}).status, 200);
   EXPECT_EQ(state()["seeds"].size(), 0U);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
   EXPECT_EQ(state()["seeds"].size(), 1U);
@@ -342,11 +342,11 @@ TEST_F(WorkTest, TheSeedOfATrackedVesselGoesWithIt) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
   ASSERT_EQ(
-      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}})
+      perform({{"op", "seed_add"}, {"label", "a"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}})
           .status,
       200);
   performAll({{"op", "track"}, {"labels", nullptr}});
-  ASSERT_EQ(perform({{"op", "seedAdd"},
+  ASSERT_EQ(perform({{"op", "seed_add"},
                      {"label", "b"},
                      {"parent", "a"},
                      {"points", {{{"position", {1, 2, 3}}}}}})
@@ -373,7 +373,7 @@ TEST_F(WorkTest, TheSeedOfATrackedVesselGoesWithIt) {
 TEST_F(WorkTest, EveryFormatOfTheStateCanBeSaved) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+  ASSERT_EQ(perform({{"op", "seed_add"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
             200);
   performAll({{"op", "track"}});
   const Json formats = state()["formats"];
@@ -396,7 +396,7 @@ TEST_F(WorkTest, ALongJobIsCancelledAndLeavesTheDocumentAsItWas) {
   session->open({path("tube.nrrd"), "tube.nrrd"}, silent);
   serveSession();
   const auto revision = session->now().revision;
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+  ASSERT_EQ(perform({{"op", "seed_add"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
             200);
   const Json job = Json::parse(perform({{"op", "track"}}).body);
   EXPECT_EQ(perform({{"op", "undo"}}).status, 409);
@@ -412,7 +412,7 @@ TEST_F(FilesTest, ADroppedFileAndADownloadNeedNoTemporaryFolder) {
   ASSERT_EQ(post("file?name=a%20case.lumen&as=auto", bytesOf(twoVessels())).status, 200);
   waitForJob();
   EXPECT_EQ(state()["title"], "a case.lumen");
-  EXPECT_EQ(state()["saveAs"], nullptr);
+  EXPECT_EQ(state()["save_as"], nullptr);
   for (const char* const format : {"seeds", "lumen", "obj", "swc"})
     EXPECT_EQ(get(std::string("save?format=") + format).status, 200) << format;
   ASSERT_EQ(post("file?name=t.nrrd",
@@ -420,7 +420,7 @@ TEST_F(FilesTest, ADroppedFileAndADownloadNeedNoTemporaryFolder) {
                 .status,
             200);
   waitForJob();
-  EXPECT_TRUE(state()["hasVolume"]);
+  EXPECT_TRUE(state()["has_volume"]);
 }
 
 TEST_F(FilesTest, AFileThatIsDroppedDuringAJobIsRefused) {
@@ -432,7 +432,7 @@ TEST_F(FilesTest, AFileThatIsDroppedDuringAJobIsRefused) {
   Progress silent;
   session->open({path("tube.nrrd"), "tube.nrrd"}, silent);
   serveSession();
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+  ASSERT_EQ(perform({{"op", "seed_add"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
             200);
   ASSERT_EQ(perform({{"op", "track"}}).status, 200);
   EXPECT_EQ(post("file?name=a.obj", "v 0 0 0\n").status, 409);
@@ -441,18 +441,18 @@ TEST_F(FilesTest, AFileThatIsDroppedDuringAJobIsRefused) {
 TEST_F(FilesTest, ADroppedCaseIsNotSavedIntoTheFileOfTheOneItReplaces) {
   writeCase("one.lumen", twoVessels());
   serve({"one.lumen"});
-  EXPECT_EQ(state()["saveAs"], "one.lumen");
+  EXPECT_EQ(state()["save_as"], "one.lumen");
   const auto before = formats::readFileBytes(path("one.lumen"));
   const std::string body(reinterpret_cast<const char*>(before->data()), before->size());
   ASSERT_EQ(post("file?name=other.lumen&as=auto", body).status, 200);
   waitForJob();
   ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
-  EXPECT_EQ(state()["saveAs"], nullptr);
+  EXPECT_EQ(state()["save_as"], nullptr);
   EXPECT_EQ(perform({{"op", "save"}}).status, 400);
   EXPECT_EQ(*formats::readFileBytes(path("one.lumen")), *before);
   performAll({{"op", "undo"}});
   performAll({{"op", "undo"}});
-  EXPECT_EQ(state()["saveAs"], "one.lumen");
+  EXPECT_EQ(state()["save_as"], "one.lumen");
 }
 
 TEST_F(FilesTest, ABrokenFileIsRefusedByItsNameWithoutAPath) {
@@ -470,7 +470,7 @@ TEST_F(FilesTest, ABrokenFileIsRefusedByItsNameWithoutAPath) {
     }
   EXPECT_TRUE(text.starts_with("broken.lumen: ")) << text;
   EXPECT_EQ(text.find('/'), std::string::npos) << text;
-  EXPECT_EQ(state()["hasCase"], false);
+  EXPECT_EQ(state()["has_case"], false);
 }
 
 TEST_F(FilesTest, AChangeOnDiskIsNoticedAndNotOverwritten) {

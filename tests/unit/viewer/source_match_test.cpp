@@ -25,7 +25,7 @@ class SourceMatchTest : public ServedTest {
 protected:
   /// One seed on the tube's axis, which waits.
   void addSeed() {
-    ASSERT_EQ(perform({{"op", "seedAdd"},
+    ASSERT_EQ(perform({{"op", "seed_add"},
                        {"label", "tube"},
                        {"points", Json::array({{{"position", {6.4, 6.4, 6.4}}}})}})
                   .status,
@@ -37,17 +37,17 @@ TEST_F(SourceMatchTest, ACaseOfThisVolumeAsksNothing) {
   writeTube("tube.nrrd");
   writeCase("own.lumen", caseOfTubeWith(0));
   serve({"tube.nrrd", "own.lumen"});
-  EXPECT_EQ(state()["otherSource"], nullptr);
+  EXPECT_EQ(state()["other_source"], nullptr);
   addSeed();
   performAll({{"op", "track"}});
-  EXPECT_EQ(perform({{"op", "acceptVolume"}}).status, 400);
+  EXPECT_EQ(perform({{"op", "accept_volume"}}).status, 400);
 }
 
 TEST_F(SourceMatchTest, ACaseWithoutAVolumeOfItsOwnAsksNothing) {
   writeTube("tube.nrrd");
   writeCase("free.lumen", twoVessels());
   serve({"tube.nrrd", "free.lumen"});
-  EXPECT_EQ(state()["otherSource"], nullptr);
+  EXPECT_EQ(state()["other_source"], nullptr);
 }
 
 TEST_F(SourceMatchTest, NothingIsTrackedIntoACaseOfAnotherVolume) {
@@ -56,7 +56,7 @@ TEST_F(SourceMatchTest, NothingIsTrackedIntoACaseOfAnotherVolume) {
   for (const auto& names : {std::vector<std::string>{"tube.nrrd", "other.lumen"},
                             std::vector<std::string>{"other.lumen", "tube.nrrd"}}) {
     serve(names);
-    const Json said = state()["otherSource"];
+    const Json said = state()["other_source"];
     ASSERT_TRUE(said.is_string());
     EXPECT_NE(said.get<std::string>().find("other.lumen was made from another volume"),
               std::string::npos)
@@ -76,8 +76,8 @@ TEST_F(SourceMatchTest, TheAnswerIsKeptInTheCaseAndCanBeUndone) {
   writeTube("tube.nrrd");
   writeCase("other.lumen", caseOfTubeWith(1));
   serve({"tube.nrrd", "other.lumen"});
-  ASSERT_EQ(perform({{"op", "acceptVolume"}}).status, 200);
-  EXPECT_EQ(state()["otherSource"], nullptr);
+  ASSERT_EQ(perform({{"op", "accept_volume"}}).status, 200);
+  EXPECT_EQ(state()["other_source"], nullptr);
   EXPECT_EQ(state()["undo"], "accept tube.nrrd");
   addSeed();
   performAll({{"op", "track"}});
@@ -92,21 +92,21 @@ TEST_F(SourceMatchTest, TheAnswerIsKeptInTheCaseAndCanBeUndone) {
             convert::describeSource(tubeVolume()).sha256);
 
   serve({"tube.nrrd", "other.lumen"});  // once is enough
-  EXPECT_EQ(state()["otherSource"], nullptr);
+  EXPECT_EQ(state()["other_source"], nullptr);
 
   writeCase("other.lumen", caseOfTubeWith(1));
   serve({"tube.nrrd", "other.lumen"});
-  ASSERT_EQ(perform({{"op", "acceptVolume"}}).status, 200);
+  ASSERT_EQ(perform({{"op", "accept_volume"}}).status, 200);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
-  EXPECT_TRUE(state()["otherSource"].is_string());
+  EXPECT_TRUE(state()["other_source"].is_string());
 }
 
 TEST_F(SourceMatchTest, AVolumeThatIsClosedAsksNothing) {
   writeTube("tube.nrrd");
   writeCase("other.lumen", caseOfTubeWith(1));
   serve({"tube.nrrd", "other.lumen"});
-  ASSERT_EQ(perform({{"op", "closeFile"}, {"id", state()["files"][0]["id"]}}).status, 200);
-  EXPECT_EQ(state()["otherSource"], nullptr);
+  ASSERT_EQ(perform({{"op", "close_file"}, {"id", state()["files"][0]["id"]}}).status, 200);
+  EXPECT_EQ(state()["other_source"], nullptr);
 }
 
 TEST_F(SourceMatchTest, WhatIsNotCertainAboutTheVolumeStays) {

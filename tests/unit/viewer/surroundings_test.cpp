@@ -140,7 +140,7 @@ TEST_F(TrackFurtherTest, ASecondClickAddsAVesselAndLeavesTheFirstAsItIs) {
   serve({"tubes.nrrd"});
   const auto click = [this](const std::string& label, double x) {
     ASSERT_EQ(
-        perform({{"op", "seedAdd"}, {"label", label}, {"points", {{{"position", {x, 6.4, 6.4}}}}}})
+        perform({{"op", "seed_add"}, {"label", label}, {"points", {{{"position", {x, 6.4, 6.4}}}}}})
             .status,
         200);
     performAll({{"op", "track"}, {"labels", {label}}});
@@ -152,7 +152,7 @@ TEST_F(TrackFurtherTest, ASecondClickAddsAVesselAndLeavesTheFirstAsItIs) {
   const ReadPack two(get("case").body);
   ASSERT_EQ(two.json["branches"].size(), 2U);
   EXPECT_EQ(two.json["branches"][1]["label"], "second");
-  EXPECT_EQ(two.json["hasModels"], true);
+  EXPECT_EQ(two.json["has_models"], true);
   auto centre = two.array<float>("centre");
   centre.resize(one.array<float>("centre").size());
   EXPECT_EQ(centre, one.array<float>("centre"));
@@ -196,11 +196,11 @@ TEST(CompactPack, HasTheSameTrianglesInTheSamePartsWithinItsSteps) {
   const std::string full = *session.surfacePack(0, true).bytes;
   const ReadPack before(full), after(viewer::compactPack(full));
   EXPECT_EQ(after.json["parts"], before.json["parts"]);
-  const auto position = before.array<float>("position"), radius = before.array<float>("radius");
+  const auto position = before.array<float>("position"), radius = before.array<float>("radius_mm");
   const auto node = before.array<std::uint32_t>("node"),
              triangle = before.array<std::uint32_t>("triangle");
   const auto p = stored(after, "position"), n = stored(after, "node"),
-             t = stored(after, "triangle"), r = stored(after, "radius");
+             t = stored(after, "triangle"), r = stored(after, "radius_mm");
   ASSERT_EQ(t.size(), triangle.size());
   // a triangle by its corners in place of their numbers, turned to begin with the least
   using Corner = std::array<long, 5>;
@@ -228,7 +228,8 @@ TEST(CompactPack, HasTheSameTrianglesInTheSamePartsWithinItsSteps) {
       [&](std::size_t i) -> Corner {
         const std::uint32_t v = triangle[i];
         return {steps("position", 0, position[3 * v]), steps("position", 1, position[3 * v + 1]),
-                steps("position", 2, position[3 * v + 2]), steps("radius", 0, radius[v]), node[v]};
+                steps("position", 2, position[3 * v + 2]), steps("radius_mm", 0, radius[v]),
+                node[v]};
       },
       before.json["parts"]);
   const auto is = sorted(

@@ -93,7 +93,7 @@ TEST_F(WorkListTest, AnEndIsTrackedOnFromItsPlaceAsOneChange) {
   const Json& clicks = all["check"]["missing_vessels"][end["missing"].get<std::size_t>()]["clicks"];
   Json points = Json::array();
   for (const Json& point : clicks["points"]) points.push_back({{"position", point}});
-  performAll({{"op", "trackFrom"}, {"points", points}});
+  performAll({{"op", "track_from"}, {"points", points}});
   EXPECT_LT(countOf(work(), "early-end"), countOf(all["work"], "early-end")) << work();
   EXPECT_EQ(state()["seeds"].size(), 1U);
   ASSERT_EQ(perform({{"op", "undo"}}).status, 200);

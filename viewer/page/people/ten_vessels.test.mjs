@@ -39,7 +39,7 @@ async function seenVessels(address) {
   const { proposals } = await (await fetch(new URL("state", address))).json();
   return proposals
     .filter(each => each.kind === "vessel")
-    .sort((a, b) => b.length - a.length)
+    .sort((a, b) => b.length_mm - a.length_mm)
     .map(each => each.position);
 }
 

@@ -180,10 +180,10 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case "Shift+T":
       return working(() => void trackOn(app));
     case "Shift+A":
-      return working(() => atCursor(app, node => void app.perform({ op: "nodeAdd", node }), "adds a node"));
+      return working(() => atCursor(app, node => void app.perform({ op: "node_add", node }), "adds a node"));
     case "Shift+D":
       return working(() =>
-        atCursor(app, node => void app.perform({ op: "nodeDelete", node }), "deletes the node"),
+        atCursor(app, node => void app.perform({ op: "node_delete", node }), "deletes the node"),
       );
     default:
       return slabKey(app, null, key);

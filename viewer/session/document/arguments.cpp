@@ -131,9 +131,9 @@ std::vector<convert::SeedPoint> Arguments::points(const char* name) const {
     const Arguments members(entry.value());
     convert::SeedPoint point;
     point.position = members.position("position");
-    if (members.has("radius")) {
-      point.radius = members.number("radius");
-      if (!(*point.radius > 0)) refuse("\"radius\" must be above 0");
+    if (members.has("radius_mm")) {
+      point.radius = members.number("radius_mm");
+      if (!(*point.radius > 0)) refuse("\"radius_mm\" must be above 0");
     }
     points.push_back(point);
   }

@@ -42,7 +42,7 @@ public:
   void remove(const std::filesystem::path& file);
 
 private:
-  /// What a copy holds: a case with its seeds, or one part alone.
+  /// The content of a copy: a case with its seeds, or one part alone.
   using Parts = std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>;
   struct Copy {
     std::filesystem::path file;  ///< empty: there is none

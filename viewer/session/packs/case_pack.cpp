@@ -34,14 +34,15 @@ Json branchesJson(const formats::CenterlineTree& tree) {
   Json list = Json::array();
   for (const formats::Branch& branch : tree.branches) {
     const auto mean = branch.meanInlierRate;
-    list.push_back({{"label", branch.label},
-                    {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
-                    {"parentNode", branch.parentNode},
-                    {"firstNode", branch.firstNode},
-                    {"nodeCount", branch.nodeCount},
-                    {"stopReason", formats::enumName(formats::kStopReasonNames, branch.stopReason)},
-                    {"confidence", mean ? engine::jsonNumber(*mean) : Json(nullptr)},
-                    {"length", engine::jsonNumber(formats::branchLength(tree, branch))}});
+    list.push_back(
+        {{"label", branch.label},
+         {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
+         {"parent_node", branch.parentNode},
+         {"first_node", branch.firstNode},
+         {"node_count", branch.nodeCount},
+         {"stop_reason", formats::enumName(formats::kStopReasonNames, branch.stopReason)},
+         {"confidence", mean ? engine::jsonNumber(*mean) : Json(nullptr)},
+         {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))}});
   }
   return list;
 }
@@ -62,9 +63,9 @@ Json reachableJson(const formats::Case& value, const Progress& progress) {
   for (const convert::ClosedPath& path : reach->closed)
     closed.push_back({{"node", path.node},
                       {"position", {path.position.x, path.position.y, path.position.z}},
-                      {"beyond", path.beyond}});
-  return {{"reached", reach->length},
-          {"total", reach->of},
+                      {"beyond_mm", path.beyond}});
+  return {{"reached_mm", reach->length},
+          {"total_mm", reach->of},
           {"trees", reach->trees},
           {"closed", std::move(closed)}};
 }
@@ -72,12 +73,12 @@ Json reachableJson(const formats::Case& value, const Progress& progress) {
 void addNodes(PackWriter& pack, const formats::CenterlineTree& tree) {
   pack.add("centre", std::span(tree.centre));
   pack.add("direction", std::span(tree.direction));
-  pack.add("radius", tree.radius);
-  pack.add("height", tree.height);
+  pack.add("radius_mm", tree.radius);
+  pack.add("height_mm", tree.height);
   pack.add("parent", tree.parent);
   pack.add("branch", tree.branch);
-  if (!tree.inlierRate.empty()) pack.add("inlierRate", tree.inlierRate);
-  pack.add("rootDistance", rootDistances(tree));
+  if (!tree.inlierRate.empty()) pack.add("inlier_rate", tree.inlierRate);
+  pack.add("root_distance_mm", rootDistances(tree));
   pack.add("links", std::span(tree.links));
 }
 
@@ -112,12 +113,12 @@ void addMotion(PackWriter& pack, const std::optional<formats::Motion>& motion) {
     centre.push_back(pose.centre);
     factor.push_back(pose.factor);
   }
-  pack.set("motion", {{"times", motion->time},
-                      {"period", motion->period > 0 ? Json(motion->period) : Json(nullptr)}});
-  pack.add("motionNode", motion->node);
-  pack.add("motionCentre", std::span(std::as_const(centre)));
-  pack.add("motionRotation", std::span(std::as_const(rotation)), {motion->pose.size(), 4});
-  pack.add("motionFactor", factor);
+  pack.set("motion", {{"times_s", motion->time},
+                      {"period_s", motion->period > 0 ? Json(motion->period) : Json(nullptr)}});
+  pack.add("motion_node", motion->node);
+  pack.add("motion_centre", std::span(std::as_const(centre)));
+  pack.add("motion_rotation", std::span(std::as_const(rotation)), {motion->pose.size(), 4});
+  pack.add("motion_factor", factor);
 }
 
 }  // namespace
@@ -128,17 +129,17 @@ std::string casePack(const formats::Case& value, bool withPoints, Progress& prog
   addOrigins(pack, value);
   addEdited(pack, value);
   if (value.points && value.models)
-    pack.add("error",
+    pack.add("error_mm",
              convert::errorOfFit(value, convert::fittedNeighbourhood(value.metadata), progress));
   if (value.points && withPoints) {
-    pack.add("pointOffset", value.points->offset);
+    pack.add("point_offset", value.points->offset);
     pack.add("point", std::span(value.points->position));
   }
   addMotion(pack, value.motion);
   pack.set("branches", branchesJson(value.tree));
   const auto& voxel = value.metadata.voxelSize;
-  pack.set("voxelSize", voxel ? engine::jsonNumber(*voxel) : Json(nullptr));
-  pack.set("hasModels", value.models.has_value());
+  pack.set("voxel_size_mm", voxel ? engine::jsonNumber(*voxel) : Json(nullptr));
+  pack.set("has_models", value.models.has_value());
   pack.set("reachable", reachableJson(value, progress));
   pack.set("steps", engine::stepsJson(value.metadata));
   return pack.bytes();
@@ -295,7 +296,8 @@ std::string compactPack(std::string_view bytes) {
   for (const auto& [name, value] : read.members().items())
     if (name != "arrays") pack.set(name, value);
   addSteps(pack, "position", position, old, 3, kPositionSteps);
-  if (read.has("radius")) addSteps(pack, "radius", read.get<float>("radius"), old, 1, kRadiusSteps);
+  if (read.has("radius_mm"))
+    addSteps(pack, "radius_mm", read.get<float>("radius_mm"), old, 1, kRadiusSteps);
   if (read.has("node")) {
     const auto all = read.get<std::uint32_t>("node");
     std::vector<std::uint32_t> node(old.size());
@@ -305,8 +307,8 @@ std::string compactPack(std::string_view bytes) {
         "node", planes(node, 1),
         {{"type", "u32"}, {"shape", {node.size()}}, {"stored", "u32"}, {"coding", "differences"}});
   }
-  if (read.has("jointNode")) {
-    pack.add("jointNode", read.get<std::int32_t>("jointNode"));
+  if (read.has("joint_node")) {
+    pack.add("joint_node", read.get<std::int32_t>("joint_node"));
     for (const char* const name : {"joint", "weight"})
       addFours(pack, name, read.get<std::uint16_t>(name), old);
   }
@@ -328,7 +330,7 @@ std::string compactDistances(std::string_view mesh, std::string_view distances) 
   PackWriter pack;
   for (const auto& [name, value] : read.members().items())
     if (name != "arrays") pack.set(name, value);
-  addSteps(pack, "distance", read.get<float>("distance"), old, 1, kDistanceSteps);
+  addSteps(pack, "distance_mm", read.get<float>("distance_mm"), old, 1, kDistanceSteps);
   return pack.bytes();
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kCellEdge = 4;         // mm: points of one cell are asked for together
 constexpr std::size_t kTogether = 128;  // points between two looks whether to go on
-constexpr double kFigureShare = 0.9;    // share of the vertices of "percentile90"
+constexpr double kFigureShare = 0.9;    // share of the vertices of "percentile90_mm"
 
 /// The order in which points that are near each other follow one another; as they are within a cell.
 std::vector<std::uint32_t> orderByCell(std::span<const Eigen::Vector3d> points) {

@@ -81,8 +81,8 @@ void addMoving(PackWriter& pack, Parts& parts, const convert::SurfaceMesh& surfa
   const MovingSurface moving =
       movingSurface(surface.position, surface.radius, parts.triangle, parts.run, kMostMoving);
   for (std::size_t i = 0; i < moving.run.size(); ++i) {
-    parts.list[i]["movingFirst"] = moving.run[i].first;
-    parts.list[i]["movingCount"] = moving.run[i].count;
+    parts.list[i]["moving_first"] = moving.run[i].first;
+    parts.list[i]["moving_count"] = moving.run[i].count;
   }
   pack.add("moving", std::span(std::as_const(moving.triangle)));
 }
@@ -96,7 +96,7 @@ std::int32_t nodeOfJoint(const std::string& name) {
 void addSkin(PackWriter& pack, const convert::MeshSkin& skin) {
   std::vector<std::int32_t> nodes;
   for (const std::string& name : skin.name) nodes.push_back(nodeOfJoint(name));
-  pack.add("jointNode", nodes);
+  pack.add("joint_node", nodes);
   const convert::MeshSkin::Vertices& vertices = skin.levels.front();
   const auto add = [&pack](const char* name, const std::vector<convert::MeshSkin::Four>& rows) {
     std::vector<std::uint16_t> values;
@@ -112,7 +112,7 @@ Json overlapsJson(const convert::SurfaceReport& report) {
   for (const convert::Overlap& overlap : report.overlaps)
     list.push_back({{"branch", overlap.branch},
                     {"other", overlap.other},
-                    {"depth", overlap.depth},
+                    {"depth_mm", overlap.depth},
                     {"position", engine::vectorJson(overlap.place)}});
   return list;
 }
@@ -172,7 +172,7 @@ std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel&
   PackWriter pack;
   pack.add("position", std::span(surface.position));
   pack.add("node", surface.node);
-  pack.add("radius", surface.radius);
+  pack.add("radius_mm", surface.radius);
   std::vector<PartKey> keys;
   keys.reserve(surface.triangle.size());
   for (std::size_t i = 0; i < surface.triangle.size(); ++i)

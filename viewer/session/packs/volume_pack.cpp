@@ -58,10 +58,10 @@ VolumePack::VolumePack(std::shared_ptr<const convert::Volume> volume, const std:
   const auto window = greyRange();
   PackWriter pack;
   pack.set("size", m_size);
-  pack.set("spacing", engine::vectorJson(spacing));
+  pack.set("spacing_mm", engine::vectorJson(spacing));
   pack.set("origin", engine::vectorJson(origin));
   pack.set("direction", std::vector<double>(direction.data(), direction.data() + 9));
-  pack.set("sourceSize", geometry.size);
+  pack.set("source_size", geometry.size);
   pack.set("reduction", m_reduction);
   pack.set("scale", m_scale);
   pack.set("offset", m_offset);

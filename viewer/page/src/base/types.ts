@@ -7,7 +7,7 @@ export interface Seed {
   label: string;
   kind: string;
   parent: string | null;
-  points: { position: Vec3; radius: number | null }[];
+  points: { position: Vec3; radius_mm: number | null }[];
   tracked: boolean;
 }
 
@@ -16,15 +16,15 @@ export interface Proposal {
   label: string;
   kind: string;
   /** mm */
-  length: number;
+  length_mm: number;
   /** Median, mm. */
-  radius: number;
+  radius_mm: number;
   /** Mean inlier rate of its nodes, in [0, 1]. */
   confidence: number | null;
   /** Vessel of the case, or proposal, that it leaves. */
   parent: string | null;
   /** Its parent is a proposal. */
-  parentWaits: boolean;
+  parent_waits: boolean;
   /** In its middle. */
   position: Vec3;
 }
@@ -34,7 +34,7 @@ export interface MissingVessel {
   length_mm: number;
   radius_mm: number;
   /** Clicks that track it. */
-  clicks?: { points: Vec3[]; radius: number | null };
+  clicks?: { points: Vec3[]; radius_mm: number | null };
 }
 
 export type WorkKind =
@@ -82,7 +82,7 @@ interface CheckAnswer {
 export interface UnsavedFile {
   name: string;
   /** When it was written, ms since 1970. */
-  written: number;
+  written_ms: number;
   /** Whether that was after the file that `save` writes. */
   newer: boolean;
 }
@@ -95,7 +95,7 @@ export interface DicomSeries {
   /** Columns, rows, slices. */
   size: Vec3;
   /** mm; null where `fault` says why it cannot be opened. */
-  spacing: Vec3 | null;
+  spacing_mm: Vec3 | null;
   fault: string | null;
 }
 
@@ -138,13 +138,13 @@ export interface State {
   revisions: Revisions;
   title: string;
   files: FileEntry[];
-  hasVolume: boolean;
-  hasCase: boolean;
-  hasTruth: boolean;
+  has_volume: boolean;
+  has_case: boolean;
+  has_truth: boolean;
   /** What the reader of the volume took for granted, such as where left and right are. */
   assumptions: string[];
   /** A sentence on the volume from which the case was not made, until it is accepted. */
-  otherSource: string | null;
+  other_source: string | null;
   /** The volume that is seen beside the first, and a sentence on what speaks against that. */
   second: { name: string; doubt: string | null } | null;
   meshes: { id: number | string; name: string }[];
@@ -153,28 +153,28 @@ export interface State {
   undo: string | null;
   redo: string | null;
   unsaved: boolean;
-  saveAs: string | null;
+  save_as: string | null;
   /** Files that hold what an earlier program did not save. */
-  unsavedBefore: UnsavedFile[];
+  unsaved_before: UnsavedFile[];
   /** Series that can be opened; null: no folder of DICOM was named or dropped. */
   series: SeriesList | null;
   /** Index in the library. */
-  openCase: number | null;
+  open_case: number | null;
   job: { job: number; name: string } | null;
   check: CheckAnswer | null;
   /** Places that the check leaves to a person; null before a check. */
   work: Work | null;
   /** The case has changed since it was checked. */
-  checkIsOld: boolean;
+  check_is_old: boolean;
   /** The case has changed since it was measured. */
-  measuresAreOld: boolean;
+  measures_are_old: boolean;
   /** As `lumen compare` answers, or null. */
   figures: Record<string, unknown> | null;
   formats: string[];
   /** Where the page looks first; null: at the widest vessel. */
   look: Vec3 | null;
   /** Time of the case's motion that the page shows first, s; null: the case at rest. */
-  time: number | null;
+  time_s: number | null;
 }
 
 export const kEmptyState: State = {
@@ -182,11 +182,11 @@ export const kEmptyState: State = {
   revisions: { case: 0, surface: 0, volume: 0, seeds: 0 },
   title: "",
   files: [],
-  hasVolume: false,
-  hasCase: false,
-  hasTruth: false,
+  has_volume: false,
+  has_case: false,
+  has_truth: false,
   assumptions: [],
-  otherSource: null,
+  other_source: null,
   second: null,
   meshes: [],
   seeds: [],
@@ -194,17 +194,17 @@ export const kEmptyState: State = {
   undo: null,
   redo: null,
   unsaved: false,
-  saveAs: null,
-  unsavedBefore: [],
+  save_as: null,
+  unsaved_before: [],
   series: null,
-  openCase: null,
+  open_case: null,
   job: null,
   check: null,
   work: null,
-  checkIsOld: false,
+  check_is_old: false,
   look: null,
-  time: null,
-  measuresAreOld: false,
+  time_s: null,
+  measures_are_old: false,
   figures: null,
   formats: [],
 };
@@ -212,7 +212,7 @@ export const kEmptyState: State = {
 export interface LibraryCase {
   name: string;
   branches: number | null;
-  length: number | null;
+  length_mm: number | null;
   error: string | null;
 }
 export interface Library {
@@ -223,13 +223,13 @@ export interface Library {
 export interface BranchRecord {
   label: string;
   kind: string;
-  parentNode: number;
-  firstNode: number;
-  nodeCount: number;
-  stopReason: string;
+  parent_node: number;
+  first_node: number;
+  node_count: number;
+  stop_reason: string;
   confidence: number | null;
   /** mm, as `lumen info` reports it: with the edge to its parent. */
-  length: number;
+  length_mm: number;
 }
 
 export type Event =
@@ -245,6 +245,6 @@ export type Operation = { op: string; [key: string]: unknown };
 export interface VesselAtClick {
   found: boolean;
   position: Vec3;
-  radius: number;
+  radius_mm: number;
   reason?: string;
 }

@@ -65,7 +65,7 @@ test("a file's tree has the labels, lengths and numbers of lumen info", () => {
   const file = fileOf(twoVessels()),
     tree = new Tree(new Pack(packOfCase(file)));
   expect(isCaseFile(file)).toBe(true);
-  expect(tree.branches.map(b => [b.label, b.length, b.confidence, b.stopReason])).toEqual([
+  expect(tree.branches.map(b => [b.label, b.length_mm, b.confidence, b.stop_reason])).toEqual([
     ["trunk", 1, 0.75, "left-volume"],
     ["branch", 1.75, null, "left-volume"], // 0.25 of the first edge lie in the trunk
   ]);

@@ -66,12 +66,12 @@ function branchesOf(chunks: Map<string, Uint8Array>, nodes: number): BranchRecor
     out.push({
       label: new TextDecoder().decode(labels.subarray(label, label + view.getUint16(at + 16, true))),
       kind: kKinds[records[at + 18]] ?? "vessel",
-      parentNode,
-      firstNode,
-      nodeCount,
-      stopReason: kStops[records[at + 19]] ?? "unknown",
+      parent_node: parentNode,
+      first_node: firstNode,
+      node_count: nodeCount,
+      stop_reason: kStops[records[at + 19]] ?? "unknown",
       confidence: confidence < 0 ? null : confidence,
-      length: 0,
+      length_mm: 0,
     });
   }
   return out;
@@ -100,10 +100,10 @@ function measure(
       throw new Error(`Node ${i} of the case names a parent or a branch that does not exist.`);
     if (parent[i] < 0) continue;
     const apart = Math.hypot(...[0, 1, 2].map(a => centre[3 * i + a] - centre[3 * parent[i] + a])),
-      isFirst = branches[branch[i]].firstNode === i, // its edge counts from the parent's ball on
+      isFirst = branches[branch[i]].first_node === i, // its edge counts from the parent's ball on
       edge = isFirst ? Math.max(0, apart - radius[parent[i]]) : apart;
     distance[i] = distance[parent[i]] + edge;
-    branches[branch[i]].length += edge;
+    branches[branch[i]].length_mm += edge;
   }
   return distance;
 }
@@ -129,20 +129,20 @@ export function packOfCase(bytes: Uint8Array): Uint8Array {
   return makePack(
     {
       branches,
-      voxelSize: meta.voxelSize ?? null,
-      hasModels: chunks.has("MWID") && chunks.has("MKER"),
+      voxel_size_mm: meta.voxelSize ?? null,
+      has_models: chunks.has("MWID") && chunks.has("MKER"),
       reachable: null,
       steps: meta.steps ?? [],
     },
     {
       centre: { type: "f32", shape: [n, 3], data: nodes.centre },
       direction: { type: "f32", shape: [n, 3], data: numbers("NDIR", 3) },
-      radius: { type: "f32", shape: [n], data: nodes.radius },
-      height: { type: "f32", shape: [n], data: numbers("NHEI", 1) },
+      radius_mm: { type: "f32", shape: [n], data: nodes.radius },
+      height_mm: { type: "f32", shape: [n], data: numbers("NHEI", 1) },
       parent: { type: "i32", shape: [n], data: nodes.parent },
       branch: { type: "u32", shape: [n], data: nodes.branch },
-      ...(inlierRate === null ? {} : { inlierRate: { type: "f32", shape: [n], data: inlierRate } }),
-      rootDistance: { type: "f32", shape: [n], data: measure(nodes, branches) },
+      ...(inlierRate === null ? {} : { inlier_rate: { type: "f32", shape: [n], data: inlierRate } }),
+      root_distance_mm: { type: "f32", shape: [n], data: measure(nodes, branches) },
       links: { type: "u32", shape: [links.length / 2, 2], data: links },
     },
   );

@@ -8,11 +8,11 @@ const pack = (distance: number[], figures: Record<string, unknown>): Pack =>
   new Pack(
     makePack(
       { figures },
-      { distance: { type: "f32", shape: [distance.length], data: Float32Array.from(distance) } },
+      { distance_mm: { type: "f32", shape: [distance.length], data: Float32Array.from(distance) } },
     ),
   );
 const made = (name: string, distance: number[]): Deviation =>
-  deviationOf(pack(distance, { median: 0.123, percentile90: 12.34 }), name, distance.length);
+  deviationOf(pack(distance, { median_mm: 0.123, percentile90_mm: 12.34 }), name, distance.length);
 
 describe("deviationOf", () => {
   it("takesDistancesAndFigures", () => {
@@ -21,9 +21,9 @@ describe("deviationOf", () => {
     expect(deviationText(deviation)).toBe("median 0.12 mm, 90 % within 12.3 mm");
   });
   it("refusesThoseOfAnotherMeshAndFiguresThatAreNone", () => {
-    const good = { median: 1, percentile90: 2 };
+    const good = { median_mm: 1, percentile90_mm: 2 };
     expect(() => deviationOf(pack([1, 2], good), "wall.stl", 3)).toThrow(/wall\.stl/);
-    expect(() => deviationOf(pack([1], { ...good, median: null }), "wall.stl", 1)).toThrow(/wall\.stl/);
+    expect(() => deviationOf(pack([1], { ...good, median_mm: null }), "wall.stl", 1)).toThrow(/wall\.stl/);
   });
 });
 

@@ -19,8 +19,8 @@ export const kDeviationMap: MapName = "diverging";
 
 /** Reads the distances of a mesh with the stated number of vertices. Throws if the answer is that of another mesh. */
 export function deviationOf(pack: Pack, name: string, vertices: number): Deviation {
-  const distance = pack.get("distance", "f32"),
-    { median, percentile90 } = pack.meta.figures as Record<string, unknown>;
+  const distance = pack.get("distance_mm", "f32"),
+    { median_mm: median, percentile90_mm: percentile90 } = pack.meta.figures as Record<string, unknown>;
   if (distance.length !== vertices || typeof median !== "number" || typeof percentile90 !== "number")
     throw new Error(`${name}: its distances are those of another mesh.`);
   return { name, distance, median, percentile90 };

@@ -226,7 +226,7 @@ export function surfacePack(model: Model, tree: Tree): Uint8Array {
       normal: { type: "f32", shape: [vertices, 3], data: normal },
       triangle: { type: "u32", shape: [sorted.length / 3, 3], data: sorted },
       node: { type: "u32", shape: [vertices], data: node },
-      radius: { type: "f32", shape: [vertices], data: Float32Array.from(node, n => tree.radius[n]) },
+      radius_mm: { type: "f32", shape: [vertices], data: Float32Array.from(node, n => tree.radius[n]) },
     },
   );
 }

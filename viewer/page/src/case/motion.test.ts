@@ -15,12 +15,12 @@ function motion(period: number | null, factor = [1, 1, 2, 1]): Motion {
   return Motion.of(
     new Pack(
       makePack(
-        { motion: { times: [0.1, 0.6], period } },
+        { motion: { times_s: [0.1, 0.6], period_s: period } },
         {
-          motionNode: { type: "u32", shape: [2], data: new Uint32Array([4, 7]) },
-          motionCentre: f32([4, 3], [0, 0, 0, 5, 5, 5, 2, 0, 0, 5, 5, 5]),
-          motionRotation: f32([4, 4], [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, kHalf, kHalf, 0, 0, 0, -1]),
-          motionFactor: f32([factor.length], factor),
+          motion_node: { type: "u32", shape: [2], data: new Uint32Array([4, 7]) },
+          motion_centre: f32([4, 3], [0, 0, 0, 5, 5, 5, 2, 0, 0, 5, 5, 5]),
+          motion_rotation: f32([4, 4], [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, kHalf, kHalf, 0, 0, 0, -1]),
+          motion_factor: f32([factor.length], factor),
         },
       ),
     ),

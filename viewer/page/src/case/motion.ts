@@ -81,21 +81,21 @@ export class Motion {
 
   /** That of a case's pack; null if it has none. Throws where the arrays do not fit together. */
   static of(pack: Pack): Motion | null {
-    const about = (pack.meta.motion ?? null) as { times: number[]; period: number | null } | null;
+    const about = (pack.meta.motion ?? null) as { times_s: number[]; period_s: number | null } | null;
     if (about === null) return null;
-    const node = pack.get("motionNode", "u32"),
-      centre = pack.get("motionCentre", "f32"),
-      rotation = pack.get("motionRotation", "f32"),
-      factor = pack.get("motionFactor", "f32"),
-      poses = node.length * about.times.length;
+    const node = pack.get("motion_node", "u32"),
+      centre = pack.get("motion_centre", "f32"),
+      rotation = pack.get("motion_rotation", "f32"),
+      factor = pack.get("motion_factor", "f32"),
+      poses = node.length * about.times_s.length;
     if (
-      about.times.length === 0 ||
+      about.times_s.length === 0 ||
       centre.length !== 3 * poses ||
       rotation.length !== 4 * poses ||
       factor.length !== poses
     )
       throw new Error("The case's motion has not one pose for each moving node and time.");
-    return new Motion(about.times, about.period, node, centre, rotation, factor);
+    return new Motion(about.times_s, about.period_s, node, centre, rotation, factor);
   }
 
   /** The first time, s. */

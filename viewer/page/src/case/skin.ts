@@ -19,7 +19,7 @@ export class Skin {
 
   /** That of a surface's pack; null if it does not move. Throws where a vertex names a joint that does not exist. */
   static of(pack: Pack, vertices: number): Skin | null {
-    const node = pack.optional("jointNode", "i32");
+    const node = pack.optional("joint_node", "i32");
     if (node === null) return null;
     const joint = pack.get("joint", "u16"),
       weight = pack.get("weight", "u16");

@@ -16,15 +16,15 @@ function pack(moving: number[] | null): Pack {
     makePack(
       {
         parts: [
-          { name: "a", branch: 0, first: 0, count: 2, movingFirst: 0, movingCount: 1 },
-          { name: "b", branch: 1, first: 2, count: 1, movingFirst: 1, movingCount: 0 },
+          { name: "a", branch: 0, first: 0, count: 2, moving_first: 0, moving_count: 1 },
+          { name: "b", branch: 1, first: 2, count: 1, moving_first: 1, moving_count: 0 },
         ],
       },
       {
         position: { type: "f32", shape: [5, 3], data: new Float32Array(position) },
         triangle: u32(triangle),
         node: { type: "u32", shape: [5], data: new Uint32Array(5) },
-        radius: { type: "f32", shape: [5], data: new Float32Array(5).fill(1) },
+        radius_mm: { type: "f32", shape: [5], data: new Float32Array(5).fill(1) },
         ...(moving === null ? {} : { moving: u32(moving) }),
       },
     ),

@@ -28,8 +28,8 @@ interface PartRecord {
   branch: number;
   first: number;
   count: number;
-  movingFirst?: number;
-  movingCount?: number;
+  moving_first?: number;
+  moving_count?: number;
 }
 
 export interface Hit {
@@ -102,7 +102,7 @@ export class Surface {
     this.position = pack.get("position", "f32");
     this.triangle = pack.get("triangle", "u32");
     this.node = pack.get("node", "u32");
-    this.radius = pack.get("radius", "f32");
+    this.radius = pack.get("radius_mm", "f32");
     this.kind = String(pack.meta.kind ?? "closed");
     this.level = Number(pack.meta.level ?? 0);
     this.levels = Number(pack.meta.levels ?? 1);
@@ -132,7 +132,14 @@ export class Surface {
     this.parts = (pack.meta.parts as PartRecord[])
       .filter(part => part.count > 0)
       .map(part => {
-        const { name, branch, first, count, movingFirst = 0, movingCount = 0 } = part;
+        const {
+          name,
+          branch,
+          first,
+          count,
+          moving_first: movingFirst = 0,
+          moving_count: movingCount = 0,
+        } = part;
         return {
           name,
           branch,

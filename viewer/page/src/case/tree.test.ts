@@ -5,7 +5,7 @@ import { sampleTree } from "./sample_tree";
 describe("Tree", () => {
   const tree = sampleTree();
   it("measuresABranchAlongItsOwnNodes", () => {
-    expect(tree.branches.map(b => b.length)).toEqual([10, 4, 3]);
+    expect(tree.branches.map(b => b.length_mm)).toEqual([10, 4, 3]);
   });
   it("knowsParents", () => {
     expect(tree.branches.map(b => b.parentBranch)).toEqual([-1, 0, -1]);

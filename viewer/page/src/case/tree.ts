@@ -33,7 +33,7 @@ export class Tree {
   readonly branches: Branch[];
   readonly hasModels: boolean;
   readonly voxelSize: number;
-  readonly reachable: { reached: number; total: number; trees: number } | null;
+  readonly reachable: { reached_mm: number; total_mm: number; trees: number } | null;
   readonly count: number;
   /** Null: the case does not move. */
   readonly motion: Motion | null;
@@ -41,19 +41,19 @@ export class Tree {
   constructor(pack: Pack) {
     this.centre = pack.get("centre", "f32");
     this.direction = pack.get("direction", "f32");
-    this.radius = pack.get("radius", "f32");
-    this.height = pack.get("height", "f32");
+    this.radius = pack.get("radius_mm", "f32");
+    this.height = pack.get("height_mm", "f32");
     this.parent = pack.get("parent", "i32");
     this.branch = pack.get("branch", "u32");
-    this.inlierRate = pack.optional("inlierRate", "f32");
-    this.error = pack.optional("error", "f32");
+    this.inlierRate = pack.optional("inlier_rate", "f32");
+    this.error = pack.optional("error_mm", "f32");
     this.edited = pack.optional("edited", "u8");
-    this.rootDistance = pack.get("rootDistance", "f32");
-    this.pointOffset = pack.optional("pointOffset", "u32");
+    this.rootDistance = pack.get("root_distance_mm", "f32");
+    this.pointOffset = pack.optional("point_offset", "u32");
     this.point = pack.optional("point", "f32");
     this.links = pack.optional("links", "u32") ?? new Uint32Array(0);
-    this.hasModels = pack.meta.hasModels === true;
-    this.voxelSize = typeof pack.meta.voxelSize === "number" ? pack.meta.voxelSize : 0;
+    this.hasModels = pack.meta.has_models === true;
+    this.voxelSize = typeof pack.meta.voxel_size_mm === "number" ? pack.meta.voxel_size_mm : 0;
     this.reachable = (pack.meta.reachable ?? null) as Tree["reachable"];
     this.count = this.radius.length;
     this.motion = Motion.of(pack);
@@ -63,14 +63,14 @@ export class Tree {
   }
 
   private describe(record: BranchRecord, index: number): Branch {
-    const radii = Array.from(this.radius.subarray(record.firstNode, record.firstNode + record.nodeCount));
+    const radii = Array.from(this.radius.subarray(record.first_node, record.first_node + record.node_count));
     return {
       ...record,
       index,
       mean: radii.reduce((sum, r) => sum + r, 0) / radii.length,
       least: Math.min(...radii),
       greatest: Math.max(...radii),
-      parentBranch: record.parentNode < 0 ? -1 : this.branch[record.parentNode],
+      parentBranch: record.parent_node < 0 ? -1 : this.branch[record.parent_node],
     };
   }
 
@@ -83,12 +83,12 @@ export class Tree {
 
   /** Nodes of a branch, from the node that it leaves its parent at. */
   nodesOf(record: BranchRecord): number[] {
-    const own = Array.from({ length: record.nodeCount }, (_, i) => record.firstNode + i);
-    return record.parentNode < 0 ? own : [record.parentNode, ...own];
+    const own = Array.from({ length: record.node_count }, (_, i) => record.first_node + i);
+    return record.parent_node < 0 ? own : [record.parent_node, ...own];
   }
 
   /** Number of nodes of a branch whose wall was changed by hand. */
-  countEdited({ firstNode, nodeCount }: BranchRecord): number {
+  countEdited({ first_node: firstNode, node_count: nodeCount }: BranchRecord): number {
     return this.edited?.subarray(firstNode, firstNode + nodeCount).reduce((sum, each) => sum + each, 0) ?? 0;
   }
 
@@ -96,7 +96,7 @@ export class Tree {
   pathTo(branch: number): number[] {
     const record = this.branches[branch],
       path: number[] = [];
-    for (let node = record.firstNode + record.nodeCount - 1; node >= 0; node = this.parent[node])
+    for (let node = record.first_node + record.node_count - 1; node >= 0; node = this.parent[node])
       path.push(node);
     return path.reverse();
   }

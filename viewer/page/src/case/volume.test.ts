@@ -14,10 +14,10 @@ function volume(direction = [1, 0, 0, 0, 1, 0, 0, 0, 1]): Volume {
       makePack(
         {
           size: [4, 3, 2],
-          spacing: [2, 1, 0.5],
+          spacing_mm: [2, 1, 0.5],
           origin: [10, 20, 30],
           direction,
-          sourceSize: [4, 3, 2],
+          source_size: [4, 3, 2],
           reduction: [1, 1, 1],
           scale: 2,
           offset: -5,
@@ -63,7 +63,7 @@ describe("Volume", () => {
         new Volume(
           new Pack(
             makePack(
-              { size: [4, 3, 3], spacing: [1, 1, 1] },
+              { size: [4, 3, 3], spacing_mm: [1, 1, 1] },
               { voxel: { type: "u8", shape: [24], data: new Uint8Array(24) } },
             ),
           ),

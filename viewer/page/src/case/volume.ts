@@ -5,10 +5,10 @@ import type { Vec3 } from "../base/types";
 
 interface Meta {
   size: number[];
-  spacing: number[];
+  spacing_mm: number[];
   origin: number[];
   direction: number[];
-  sourceSize: number[];
+  source_size: number[];
   reduction: number[];
   scale: number;
   offset: number;
@@ -31,7 +31,7 @@ export class Volume {
   constructor(pack: Pack) {
     this.meta = pack.meta as unknown as Meta;
     this.size = this.meta.size as Vec3;
-    this.spacing = this.meta.spacing as Vec3;
+    this.spacing = this.meta.spacing_mm as Vec3;
     const voxel = pack.any("voxel");
     if (!(voxel instanceof Uint8Array) && !(voxel instanceof Uint16Array))
       throw new Error("The volume's voxels are of an unknown type.");

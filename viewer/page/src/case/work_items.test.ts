@@ -22,7 +22,7 @@ const vessel: MissingVessel = {
       [1, 2, 3],
       [2, 3, 4],
     ],
-    radius: 0.5,
+    radius_mm: 0.5,
   },
 };
 const state = (items: WorkItem[]): Pick<State, "check" | "work"> => ({
@@ -52,10 +52,10 @@ describe("remedies", () => {
     expect(remediesOf(item("early-end"))).toEqual([]);
     expect(requestOf("track", item("missing", 1), state([]), null)).toBeNull();
     expect(requestOf("track", item("missing", 0), state([]), null)).toEqual({
-      op: "trackFrom",
+      op: "track_from",
       points: [
-        { position: [1, 2, 3], radius: 0.5 },
-        { position: [2, 3, 4], radius: null },
+        { position: [1, 2, 3], radius_mm: 0.5 },
+        { position: [2, 3, 4], radius_mm: null },
       ],
     });
   });
@@ -68,7 +68,7 @@ describe("remedies", () => {
       join = (branch: number): unknown => requestOf("join", { ...item("loose"), branch }, state([]), tree);
     expect(join(2)).toEqual({ op: "join", branch: 2, node: 8 }); // the trunk's node beside its first one
     expect(join(1)).toEqual({ op: "join", branch: 1, node: 16 }); // not the trunk, on which it hangs
-    tree.branches[2].parentNode = 10;
+    tree.branches[2].parent_node = 10;
     expect(join(2)).toBeNull();
   });
 });

@@ -57,12 +57,12 @@ export function remediesOf(item: WorkItem): Remedy[] {
 function nearestOutside(tree: Tree, branch: number): number {
   const rootOf = (b: number): number => {
     let at = b;
-    while (tree.branches[at].parentNode >= 0) at = tree.branch[tree.branches[at].parentNode];
+    while (tree.branches[at].parent_node >= 0) at = tree.branch[tree.branches[at].parent_node];
     return at;
   };
   const own = rootOf(branch),
     outside = tree.branches.map((_, b) => rootOf(b) !== own);
-  return tree.nearest(tree.position(tree.branches[branch].firstNode), b => outside[b]);
+  return tree.nearest(tree.position(tree.branches[branch].first_node), b => outside[b]);
 }
 
 /** The request of a remedy; null if it cannot be asked for. */
@@ -77,8 +77,11 @@ export function requestOf(
       const clicks = item.missing === null ? undefined : state.check?.missing_vessels?.[item.missing]?.clicks;
       if (clicks === undefined) return null;
       return {
-        op: "trackFrom",
-        points: clicks.points.map((position, i) => ({ position, radius: i === 0 ? clicks.radius : null })),
+        op: "track_from",
+        points: clicks.points.map((position, i) => ({
+          position,
+          radius_mm: i === 0 ? clicks.radius_mm : null,
+        })),
       };
     }
     case "cut":

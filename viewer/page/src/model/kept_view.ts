@@ -180,10 +180,10 @@ export function keepView(app: Part<keyof View>): void {
   };
   const bringBack = ({ document: { state, tree, volume, second } }: Pick<View, "document">): void => {
     const isThere =
-      (state.hasVolume || state.hasCase) &&
-      (!state.hasVolume || volume !== null) &&
+      (state.has_volume || state.has_case) &&
+      (!state.has_volume || volume !== null) &&
       (state.second === null || second !== null);
-    if (isBack || !isThere || (state.hasCase && tree === null)) return;
+    if (isBack || !isThere || (state.has_case && tree === null)) return;
     isBack = true;
     const kept = read();
     if (kept !== null) queueMicrotask(() => applyView(app, kept)); // after what the volume brings along

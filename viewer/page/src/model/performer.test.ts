@@ -50,11 +50,11 @@ test("two undos at once are two undos, each of the state that the one before it 
 const kNamed: Operation[] = [
   { op: "delete", branch: 1 },
   { op: "join", branch: 1, node: 4 },
-  { op: "move", node: 4, position: [0, 0, 0], radius: 1 },
-  { op: "widen", node: 4, radius: 1, reach: 2 },
-  { op: "push", node: 4, at: [0, 0, 0], by: [1, 0, 0], radius: 1 },
-  { op: "nodeAdd", node: 4 },
-  { op: "nodeDelete", node: 4 },
+  { op: "move", node: 4, position: [0, 0, 0], radius_mm: 1 },
+  { op: "widen", node: 4, radius_mm: 1, reach_mm: 2 },
+  { op: "push", node: 4, at: [0, 0, 0], by: [1, 0, 0], radius_mm: 1 },
+  { op: "node_add", node: 4 },
+  { op: "node_delete", node: 4 },
   { op: "unignore", ignored: 1 },
 ];
 

@@ -21,9 +21,9 @@ function movingApp(time: number | null): { app: App; told: string[] } {
 
 const kChanges: Operation[] = [
   { op: "delete", branch: 1 },
-  { op: "widen", node: 4, radius: 1, reach: 2 },
+  { op: "widen", node: 4, radius_mm: 1, reach_mm: 2 },
   { op: "push", node: 4 },
-  { op: "nodeDelete", node: 4 },
+  { op: "node_delete", node: 4 },
   { op: "track", labels: null },
   { op: "accept", labels: ["a"] },
 ];

@@ -9,7 +9,16 @@ import { distance } from "../base/vec";
 const kSame = 1e-4; // mm: a crosshair on a node
 
 /** Operations that add to the tree or its walls, and name no part of them; those of the case at rest are meant. */
-const kAtRest = new Set(["fit", "seedAdd", "seedMove", "seedDelete", "track", "trackFrom", "find", "accept"]);
+const kAtRest = new Set([
+  "fit",
+  "seed_add",
+  "seed_move",
+  "seed_delete",
+  "track",
+  "track_from",
+  "find",
+  "accept",
+]);
 
 /** Shows the case at a time of its motion, s. Tools act at rest: navigation takes the place of another. */
 export function goToTime(app: Part<"document" | "motion" | "tools">, time: number): void {

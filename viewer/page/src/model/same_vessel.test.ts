@@ -25,7 +25,7 @@ describe("sameVessels", () => {
       ["<b>alone</b>", 2],
     ]);
     const more = sampleTree();
-    more.branches[0] = { ...more.branches[0], label: "new", firstNode: 1 }; // the trunk is gone, another vessel is before the rest
+    more.branches[0] = { ...more.branches[0], label: "new", first_node: 1 }; // the trunk is gone, another vessel is before the rest
     expect([...sameVessels(where({}), more).colourNumbers]).toEqual([
       ["child", 1],
       ["<b>alone</b>", 2],
@@ -34,7 +34,7 @@ describe("sameVessels", () => {
   });
   it("showsTheRestWhenTheOneThatWasAloneIsGone", () => {
     const rest = sampleTree();
-    rest.branches[1] = { ...rest.branches[1], label: "new", firstNode: 12 };
+    rest.branches[1] = { ...rest.branches[1], label: "new", first_node: 12 };
     expect(sameVessels(where({ selected: 1, node: 13, solo: "child" }), rest)).toMatchObject({
       selected: -1,
       node: -1,

@@ -7,7 +7,7 @@ type Kept = Omit<View["selection"], "allOpacity" | "proposal" | "place">;
 
 /** Old name of each vessel that has another name in the new tree, but begins at the same place. */
 function renamed(old: Tree, tree: Tree): Map<string, string> {
-  const begin = (t: Tree, b: number): string => t.position(t.branches[b].firstNode).join();
+  const begin = (t: Tree, b: number): string => t.position(t.branches[b].first_node).join();
   const had = new Set(old.branches.map(b => b.label)),
     has = new Set(tree.branches.map(b => b.label));
   const gone = new Map(old.branches.filter(b => !has.has(b.label)).map(b => [begin(old, b.index), b.label]));
@@ -63,8 +63,8 @@ export function sameVessels(view: Pick<View, "document" | "selection">, tree: Tr
   const node =
     found === null || before.node < 0
       ? -1
-      : found.nodeCount === was.nodeCount
-        ? found.firstNode + before.node - was.firstNode
+      : found.node_count === was.node_count
+        ? found.first_node + before.node - was.first_node
         : tree.nearest(old.position(before.node), b => b === selected);
   const alone = solo === null ? undefined : tree.branches.find(b => b.label === name(solo)); // one that is gone would leave nothing to see
   return {

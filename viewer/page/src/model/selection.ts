@@ -16,7 +16,7 @@ export function select(app: Part<"document" | "selection">, branch: number): voi
   store.set({
     selection: {
       selected: branch,
-      node: branch < 0 ? -1 : tree.branches[branch].firstNode + (tree.branches[branch].nodeCount >> 1),
+      node: branch < 0 ? -1 : tree.branches[branch].first_node + (tree.branches[branch].node_count >> 1),
     },
   });
 }
@@ -44,7 +44,7 @@ export function showBranch(app: CursorPart, branch: number): void {
     selection: { selected, node },
   } = app.store.get();
   if (tree === null || tree.branches[branch] === undefined) return;
-  const { firstNode, nodeCount } = tree.branches[branch];
+  const { first_node: firstNode, node_count: nodeCount } = tree.branches[branch];
   goToNode(app, branch === selected && node >= 0 ? node : firstNode + (nodeCount >> 1));
 }
 
@@ -90,7 +90,7 @@ export function stepAlong(app: CursorPart, count: number): void {
     selection: { selected, node },
   } = app.store.get();
   if (tree === null || selected < 0) return;
-  const { firstNode, nodeCount } = tree.branches[selected];
+  const { first_node: firstNode, node_count: nodeCount } = tree.branches[selected];
   goToNode(
     app,
     Math.min(firstNode + nodeCount - 1, Math.max(firstNode, (node < 0 ? firstNode : node) + count)),

@@ -36,10 +36,10 @@ export function pushed(p: Vec3, centre: Vec3, axis: Vec3, stroke: Stroke): Vec3 
 /** The branch of a node, the one that it leaves, and those that leave it: walls that a stroke can move. */
 export function branchesAt(tree: Tree, node: number): Set<number> {
   const own = tree.branch[node],
-    { parentNode } = tree.branches[own],
+    { parent_node: parentNode } = tree.branches[own],
     found = new Set([own]);
   if (parentNode >= 0) found.add(tree.branch[parentNode]);
   for (const branch of tree.branches)
-    if (branch.parentNode >= 0 && tree.branch[branch.parentNode] === own) found.add(branch.index);
+    if (branch.parent_node >= 0 && tree.branch[branch.parent_node] === own) found.add(branch.index);
   return found;
 }

@@ -16,7 +16,7 @@ export function fromBase64(text: string): Uint8Array {
   return bytes;
 }
 
-async function inflated(bytes: Uint8Array): Promise<Uint8Array> {
+export async function inflated(bytes: Uint8Array): Promise<Uint8Array> {
   const stream = new globalThis.Blob([bytes as BufferSource])
     .stream()
     .pipeThrough(new DecompressionStream("deflate"));
@@ -75,7 +75,7 @@ export class EmbeddedSource implements Source {
     return Promise.reject(new Refused(404, "This page is one file: nothing in it can be edited."));
   }
   vesselAtClick(): Promise<VesselAtClick> {
-    return Promise.resolve({ found: false, position: [0, 0, 0], radius: 0, direction: [0, 0, 1] });
+    return Promise.resolve({ found: false, position: [0, 0, 0], radius_mm: 0, direction: [0, 0, 1] });
   }
   open(): Promise<void> {
     return Promise.reject(new Refused(404, "This page is one file: open others with lumen view."));

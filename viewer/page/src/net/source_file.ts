@@ -5,6 +5,7 @@ import { isCaseFile, packOfCase } from "../case/case_file";
 import { surfacePack } from "../case/field_surface";
 import { Pack } from "../case/pack";
 import type { Source } from "./source";
+import { embeddedToday } from "./old_page";
 import { EmbeddedSource, type Embedded } from "./source_embedded";
 import { Tree } from "../case/tree";
 
@@ -44,7 +45,7 @@ function embeddedCase(title: string, file: Uint8Array, wasm: () => Promise<Uint8
       }
     };
   return {
-    state: { title, hasCase: true, revisions: { case: 1, surface: 1, volume: 0, seeds: 0 } },
+    state: { title, has_case: true, revisions: { case: 1, surface: 1, volume: 0, seeds: 0 } },
     parts,
   };
 }
@@ -54,7 +55,7 @@ function embeddedInPage(text: string): Embedded {
   const found = new DOMParser().parseFromString(text, "text/html").getElementById("lumen-embedded");
   if (found === null)
     throw new Error("The file is neither a case (.lumen) nor a page that lumen view --html has written.");
-  return JSON.parse(found.textContent) as Embedded;
+  return embeddedToday(JSON.parse(found.textContent) as Embedded);
 }
 
 /** Fetches `address`, whose content decides its kind. Throws with a sentence for people. */

@@ -95,14 +95,14 @@ export class ServerSource implements Source {
     return this.post("do", JSON.stringify({ ...operation, revision }));
   }
   async vesselAtClick(position: number[]): Promise<VesselAtClick> {
-    return (await this.post("vesselAtClick", JSON.stringify({ position }))) as unknown as VesselAtClick;
+    return (await this.post("vessel_at_click", JSON.stringify({ position }))) as unknown as VesselAtClick;
   }
   async open(name: string, as: OpenAs, file: globalThis.Blob): Promise<void> {
     await this.post(withQuery("file", { name, as }), file, "application/octet-stream");
   }
   async sendSeriesFile(batch: number, file: File): Promise<void> {
     const query = { batch: String(batch), name: file.name.slice(-kMostName) || "file" };
-    await this.post(withQuery("seriesFile", query), file, "application/octet-stream");
+    await this.post(withQuery("series_file", query), file, "application/octet-stream");
   }
   async cancel(job: number): Promise<void> {
     await this.post("cancel", JSON.stringify({ job }));

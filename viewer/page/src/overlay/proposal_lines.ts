@@ -87,7 +87,7 @@ export function drawProposalsInScene(
     c.lineWidth = isChosen ? 3 : 1.75;
     strokeAxis(c, camera, tree, branch);
     c.setLineDash([]);
-    const middle = camera.project(tree.position(branch.firstNode + (branch.nodeCount >> 1)));
+    const middle = camera.project(tree.position(branch.first_node + (branch.node_count >> 1)));
     if (isChosen && middle !== null) label(c, branch.label, middle.x + 9, middle.y - 9, kColour);
   });
 }

@@ -42,7 +42,7 @@ function shownBranches(
     .sort(
       (a, b) =>
         Number(b.index === view.selection.selected) - Number(a.index === view.selection.selected) ||
-        b.length - a.length,
+        b.length_mm - a.length_mm,
     );
 }
 
@@ -63,7 +63,7 @@ export function drawNamesInScene(
   draw(
     c,
     shownBranches(view).flatMap(b => {
-      const at = camera.project(tree.position(b.firstNode + (b.nodeCount >> 1)));
+      const at = camera.project(tree.position(b.first_node + (b.node_count >> 1)));
       return at === null ? [] : [{ text: b.label, x: at.x + kAside, y: at.y }];
     }),
   );
@@ -82,7 +82,7 @@ export function drawNamesInSlice(
     shownBranches(view).flatMap(b => {
       let best: Name | null = null,
         least = Infinity;
-      for (let node = b.firstNode; node < b.firstNode + b.nodeCount; ++node) {
+      for (let node = b.first_node; node < b.first_node + b.node_count; ++node) {
         const at = slice.toPixel(tree.position(node)),
           away = Math.abs(at.depth);
         if (away >= least || away > tree.radius[node]) continue;

@@ -34,11 +34,11 @@ export class Actions {
   /** To the file that it came from; a case without one is downloaded. */
   async save(): Promise<void> {
     const { state } = this.app.store.get().document;
-    if (!state.hasCase) {
+    if (!state.has_case) {
       this.app.inform("There is no case to save yet: track a vessel first.", "warning");
       return;
     }
-    if (state.saveAs === null) this.download("lumen");
+    if (state.save_as === null) this.download("lumen");
     else await this.saveFile(); // the message names the file
   }
   private async saveFile(): Promise<void> {
@@ -47,7 +47,7 @@ export class Actions {
       await source.perform({ op: "save" }, store.get().document.state.revision);
     } catch (error) {
       const text = errorText(error),
-        { files, saveAs } = store.get().document.state;
+        { files, save_as: saveAs } = store.get().document.state;
       if (
         !(error instanceof Refused) ||
         error.status !== 409 ||
@@ -113,7 +113,7 @@ export class Actions {
         await source.sendSeriesFile(batch, file);
         if (this.batch !== batch) return; // others were dropped meanwhile
       }
-      await this.app.perform({ op: "listSeries", batch, second: part === "second" });
+      await this.app.perform({ op: "list_series", batch, second: part === "second" });
     } catch (error) {
       inform(errorText(error), "error");
     }

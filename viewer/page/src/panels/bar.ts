@@ -136,16 +136,16 @@ export function makeBar(
     redo.disabled = state.redo === null;
     undo.title = state.undo === null ? "Nothing to undo" : `Undo: ${state.undo}  (Control+Z)`;
     redo.title = state.redo === null ? "Nothing to do again" : `Redo: ${state.redo}  (Control+Shift+Z)`;
-    save.disabled = !state.hasCase;
+    save.disabled = !state.has_case;
     save.title =
-      state.saveAs === null
+      state.save_as === null
         ? "Save the case as a download  (Control+S)"
-        : `Save to ${state.saveAs}  (Control+S)`;
+        : `Save to ${state.save_as}  (Control+S)`;
     formats.replaceChildren(
       h("option", { value: "" }, "Export…"),
       ...state.formats.map(name => h("option", { value: name }, name === "html" ? "page (html)" : name)),
       h("option", { value: kViewFormat }, "view (colours, window, measurements)"),
     );
-    formats.disabled = !state.hasCase && !state.hasVolume;
+    formats.disabled = !state.has_case && !state.has_volume;
   });
 }

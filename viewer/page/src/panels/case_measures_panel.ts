@@ -77,7 +77,7 @@ class CaseMeasures {
       this.figures,
     );
     app.store.watch(["document.state"], ({ document: { state } }) => {
-      this.section.hidden = !state.hasCase;
+      this.section.hidden = !state.has_case;
       run.disabled = state.job !== null;
       void this.take(state.revisions.measures ?? 0);
     });
@@ -106,7 +106,7 @@ class CaseMeasures {
     this.note.textContent =
       this.seen === 0
         ? "Lengths, tortuosity, calibres, forks, narrowings and aneurysms of the whole case, each with half of its 95 % interval."
-        : state.measuresAreOld
+        : state.measures_are_old
           ? "The case has changed since: measure again."
           : count === 0
             ? "There is none of this kind."

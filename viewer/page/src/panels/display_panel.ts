@@ -93,7 +93,7 @@ function sceneSection(
         option.disabled =
           option.value !== "branch" &&
           (option.value === "compare"
-            ? !view.document.state.hasTruth
+            ? !view.document.state.has_truth
             : numbersOf(view, option.value as ColourBy) === null);
     },
   );

@@ -10,8 +10,8 @@ import { button, h, section } from "../base/ui";
 /** Corrections of the cursor's node, which act where every view shows it. */
 const kAtCursor: Record<string, string | undefined> = {
   cut: "cuts",
-  nodeAdd: "adds a node",
-  nodeDelete: "deletes the node",
+  node_add: "adds a node",
+  node_delete: "deletes the node",
 };
 
 /** A length in mm, or nothing: then `usual` counts. */
@@ -117,7 +117,7 @@ export function editSection(app: CursorPart<"tools", "source" | "inform" | "perf
       "node-add",
       "Add node",
       "Put a node between the cursor's and the next",
-      v => (v.selection.node < 0 ? null : { op: "nodeAdd", node: v.selection.node }),
+      v => (v.selection.node < 0 ? null : { op: "node_add", node: v.selection.node }),
       undefined,
       "Shift+A",
     ),
@@ -125,7 +125,7 @@ export function editSection(app: CursorPart<"tools", "source" | "inform" | "perf
       "node-delete",
       "Delete node",
       "Delete the cursor's node; its neighbours take its wall points",
-      v => (v.selection.node < 0 ? null : { op: "nodeDelete", node: v.selection.node }),
+      v => (v.selection.node < 0 ? null : { op: "node_delete", node: v.selection.node }),
       undefined,
       "Shift+D",
     ),
@@ -150,7 +150,7 @@ export function editSection(app: CursorPart<"tools", "source" | "inform" | "perf
       const { tree } = v.document,
         to = Number(target.value);
       if (tree === null || target.value === "") return null;
-      const first = tree.position(tree.branches[v.selection.selected].firstNode);
+      const first = tree.position(tree.branches[v.selection.selected].first_node);
       return { op: "join", branch: branch(v), node: tree.nearest(first, b => b === to) };
     },
   );
@@ -185,7 +185,7 @@ export function editSection(app: CursorPart<"tools", "source" | "inform" | "perf
     name.textContent =
       b === undefined
         ? "Select a vessel."
-        : `${b.label}${view.selection.node >= 0 ? `, cursor at node ${view.selection.node - b.firstNode + 1} of ${b.nodeCount}` : ""}`;
+        : `${b.label}${view.selection.node >= 0 ? `, cursor at node ${view.selection.node - b.first_node + 1} of ${b.node_count}` : ""}`;
     for (const each of [...buttons, join])
       each.disabled = (b === undefined && each.id !== "edit-fit") || view.document.state.job !== null;
   });

@@ -12,11 +12,11 @@ const kConfidence =
   "Confidence, 0 to 1: the share of the measured wall points that lie on the vessel's cylinders, as a mean of its nodes";
 
 /** A sentence on the proposals as they are. */
-function aboutProposals(state: Pick<State, "hasCase" | "proposals">): string {
+function aboutProposals(state: Pick<State, "has_case" | "proposals">): string {
   const count = state.proposals.length;
   if (count > 0)
     return `${count === 1 ? "One vessel waits" : `${count} vessels wait`} (dashed). To accept one accepts its parents too; it is then fitted, and part of the case.`;
-  return state.hasCase
+  return state.has_case
     ? "Finds the vessels of the volume that the case lacks, and proposes them."
     : "Finds the vessels of the volume without a click, and proposes them.";
 }
@@ -57,8 +57,8 @@ export function findPanel(app: Needs): HTMLElement[] {
     );
   store.watch(["document.state"], ({ document: { state } }) => {
     const waiting = state.proposals.length > 0;
-    box.hidden = !state.hasVolume;
-    run.disabled = !state.hasVolume || state.job !== null;
+    box.hidden = !state.has_volume;
+    run.disabled = !state.has_volume || state.job !== null;
     all.disabled = none.disabled = state.job !== null;
     list.hidden = decide.hidden = !waiting;
     about.textContent = aboutProposals(state);
@@ -82,7 +82,7 @@ function proposalRow(app: Needs, proposal: Proposal): HTMLElement {
     goTo(app, proposal.position);
   };
   const accept = button(
-      { icon: "check", label: `Accept ${label}${proposal.parentWaits ? " and its parents" : ""}` },
+      { icon: "check", label: `Accept ${label}${proposal.parent_waits ? " and its parents" : ""}` },
       () => void app.perform({ op: "accept", labels: [label] }),
     ),
     reject = button(
@@ -112,8 +112,8 @@ function proposalRow(app: Needs, proposal: Proposal): HTMLElement {
       h(
         "div",
         { class: "figures" },
-        h("span", { title: "Length" }, mm(proposal.length)),
-        h("span", { title: "Mean radius, mm" }, `r ${brief(proposal.radius)}`),
+        h("span", { title: "Length" }, mm(proposal.length_mm)),
+        h("span", { title: "Mean radius, mm" }, `r ${brief(proposal.radius_mm)}`),
         h("span", { class: "confidence", title: kConfidence }, `confidence ${brief(proposal.confidence)}`),
       ),
     ),

@@ -50,7 +50,7 @@ export function libraryPanel(app: Needs): HTMLElement[] {
         ? `${library?.name ?? ""}: ${cases.length} cases`
         : `${shown.length} of ${cases.length} cases`;
     list.replaceChildren(
-      ...shown.map(([index, each]) => row(app, each, index, index === state.openCase, state.job !== null)),
+      ...shown.map(([index, each]) => row(app, each, index, index === state.open_case, state.job !== null)),
     );
   };
   const fetchIt = async (): Promise<void> => {
@@ -80,7 +80,7 @@ function row(app: Needs, each: LibraryCase, index: number, isOpen: boolean, busy
       ? "cannot be read"
       : each.branches === null
         ? "…"
-        : `${each.branches} vessels, ${mm(each.length)}`;
+        : `${each.branches} vessels, ${mm(each.length_mm)}`;
   return h(
     "li",
     { class: "row item" },
@@ -104,7 +104,7 @@ function row(app: Needs, each: LibraryCase, index: number, isOpen: boolean, busy
 async function openCase(app: Needs, index: number): Promise<void> {
   const { source, store, inform } = app;
   try {
-    await source.perform({ op: "openCase", index }, store.get().document.state.revision);
+    await source.perform({ op: "open_case", index }, store.get().document.state.revision);
   } catch (error) {
     const text = errorText(error);
     if (!(error instanceof Refused) || error.status !== 409 || !store.get().document.state.unsaved) {
@@ -118,6 +118,6 @@ async function openCase(app: Needs, index: number): Promise<void> {
         "Leave it",
       )
     )
-      await app.perform({ op: "openCase", index, force: true });
+      await app.perform({ op: "open_case", index, force: true });
   }
 }

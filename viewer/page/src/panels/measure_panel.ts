@@ -179,13 +179,13 @@ function compareSection(
   store.watch(["document.state", "document.figures", "document.distance"], view => {
     const f = view.document.figures,
       wall = f?.wall_distance_mm as { median?: number; p90?: number; max?: number } | undefined;
-    hint.textContent = view.document.state.hasTruth
+    hint.textContent = view.document.state.has_truth
       ? f === null
         ? "Compare to see distances as colour."
         : "Colours: distance of the surface to the truth’s; red is outside."
       : "Open a second case or the truth beside this one.";
     run.disabled =
-      !view.document.state.hasTruth || !view.document.state.hasCase || view.document.state.job !== null;
+      !view.document.state.has_truth || !view.document.state.has_case || view.document.state.job !== null;
     const rows =
       f === null
         ? []

@@ -15,13 +15,13 @@ export function requestFor(
   answer: string | null,
   state: Pick<State, "files">,
 ): { op: string; id?: FileEntry["id"] } | null {
-  if (answer === "accept") return { op: "acceptVolume" };
+  if (answer === "accept") return { op: "accept_volume" };
   const file = state.files.find(each => each.kind === answer);
-  return file === undefined ? null : { op: "closeFile", id: file.id };
+  return file === undefined ? null : { op: "close_file", id: file.id };
 }
 
 async function askWhich(app: Part<"document", "perform">): Promise<void> {
-  const { otherSource } = app.store.get().document.state;
+  const { other_source: otherSource } = app.store.get().document.state;
   if (otherSource === null) return;
   const answer = await choose(
     "One patient, or two?",
@@ -51,10 +51,10 @@ export function oneSourcePanel(app: Part<"document", "source" | "perform">): HTM
     );
   let asked: string | null = null;
   app.store.watch(["document.state"], ({ document: { state } }) => {
-    line.hidden = state.otherSource === null;
-    text.textContent = state.otherSource ?? "";
-    if (state.otherSource === asked) return;
-    asked = state.otherSource;
+    line.hidden = state.other_source === null;
+    text.textContent = state.other_source ?? "";
+    if (state.other_source === asked) return;
+    asked = state.other_source;
     void askWhich(app);
   });
   return [line];

@@ -23,7 +23,7 @@ describe("windowOf", () => {
 const cases = ["head/Left ICA.lumen", "head/right ica.lumen", "aorta.lumen"].map(name => ({
   name,
   branches: 1,
-  length: 2,
+  length_mm: 2,
   error: null,
 }));
 
@@ -42,14 +42,14 @@ const series: DicomSeries = {
   modality: "CT",
   files: 40,
   size: [512, 256, 40],
-  spacing: [0.5, 0.5, 1.25],
+  spacing_mm: [0.5, 0.5, 1.25],
   fault: null,
 };
 
 describe("aboutSeries", () => {
   it("statesModalitySlicesSpacingAndSize", () => {
     expect(aboutSeries(series)).toBe("CT, 40 slices, 0.50 × 0.50 × 1.25 mm, 512 × 256 pixels");
-    expect(aboutSeries({ ...series, modality: "", files: 1, spacing: null })).toBe(
+    expect(aboutSeries({ ...series, modality: "", files: 1, spacing_mm: null })).toBe(
       "no modality, 40 slices, 1 file, 512 × 256 pixels",
     );
   });
@@ -81,9 +81,9 @@ describe("requestFor", () => {
     { id: 7, kind: "case", name: "b.lumen", changed: false, named: true },
   ];
   it("closesTheFileOfTheAnswer", () => {
-    expect(requestFor("volume", { files })).toEqual({ op: "closeFile", id: 4 });
-    expect(requestFor("case", { files })).toEqual({ op: "closeFile", id: 7 });
-    expect(requestFor("accept", { files })).toEqual({ op: "acceptVolume" });
+    expect(requestFor("volume", { files })).toEqual({ op: "close_file", id: 4 });
+    expect(requestFor("case", { files })).toEqual({ op: "close_file", id: 7 });
+    expect(requestFor("accept", { files })).toEqual({ op: "accept_volume" });
   });
   it("asksForNothingWithoutAnAnswer", () => {
     expect(requestFor(null, { files })).toBeNull();
@@ -106,7 +106,7 @@ describe("coordinates", () => {
 
 describe("aboutUnsaved", () => {
   it("saysWhichOfBothIsNewer", () => {
-    const file = { name: "a.unsaved.lumen", written: 0, newer: true };
+    const file = { name: "a.unsaved.lumen", written_ms: 0, newer: true };
     expect(aboutUnsaved(file, "a.lumen")).toContain("after a.lumen");
     expect(aboutUnsaved({ ...file, newer: false }, "a.lumen")).toContain(
       "a.lumen has been written since and is newer",

@@ -11,7 +11,7 @@ const kChoices = [
 
 /** A sentence on a file: where it comes from, when it was written, and whether the case is newer. */
 export function aboutUnsaved(file: UnsavedFile, saveAs: string | null): string {
-  const written = new Date(file.written).toLocaleString(),
+  const written = new Date(file.written_ms).toLocaleString(),
     beside =
       saveAs === null
         ? ""
@@ -26,7 +26,7 @@ export function offerUnsaved(app: Part<"document", "source" | "perform">): void 
   if (!app.source.live) return;
   const asked = new Set<string>();
   let asking = false;
-  const ask = async ({ unsavedBefore, saveAs }: State): Promise<void> => {
+  const ask = async ({ unsaved_before: unsavedBefore, save_as: saveAs }: State): Promise<void> => {
     const file = unsavedBefore.find(each => !asked.has(each.name));
     if (asking || file === undefined) return;
     asking = true;

@@ -12,7 +12,7 @@ type Needs = Part<"document" | "tools", "source" | "perform">;
 const kEdge = 128; // pixels of a picture's canvas
 
 /** A line about a series: modality, slices, spacing, size. */
-export function aboutSeries({ modality, files, size, spacing }: DicomSeries): string {
+export function aboutSeries({ modality, files, size, spacing_mm: spacing }: DicomSeries): string {
   return [
     modality || "no modality",
     size[2] === 1 ? "1 slice" : `${size[2]} slices`,
@@ -42,7 +42,7 @@ function paint(canvas: HTMLCanvasElement, pixel: Uint8Array, width: number, heig
 
 async function fetchPicture(app: Needs, index: number, canvas: HTMLCanvasElement): Promise<void> {
   const revision = app.store.get().document.state.revisions.series ?? 0,
-    bytes = await app.source.bytes("seriesPicture", { series: String(index), of: String(revision) });
+    bytes = await app.source.bytes("series_picture", { series: String(index), of: String(revision) });
   if (bytes === null) return;
   const pack = new Pack(bytes),
     [height, width] = pack.shape("pixel");
@@ -58,7 +58,7 @@ const kParts = [
  * volume there is nothing to ask. */
 export async function askPart(app: Part<"document">, name: string): Promise<OpenAs | null> {
   const { volume, state } = app.store.get().document;
-  if (!state.hasVolume) return "auto";
+  if (!state.has_volume) return "auto";
   return (await choose(
     "Replace the volume, or put this one over it?",
     `${volume?.meta.name ?? "A volume"} is open. ${name} can take its place, or be seen over or beside it, where its file places it. Vessels are tracked in the first volume alone.`,
@@ -70,7 +70,7 @@ export async function askPart(app: Part<"document">, name: string): Promise<Open
 async function openSeries(app: Needs, series: DicomSeries, index: number, of: number): Promise<void> {
   const part =
     app.store.get().tools.seriesAs ?? (await askPart(app, series.description || `Series ${index + 1}`));
-  if (part !== null) await app.perform({ op: "openSeries", series: index, of, second: part === "second" });
+  if (part !== null) await app.perform({ op: "open_series", series: index, of, second: part === "second" });
 }
 
 function row(app: Needs, series: DicomSeries, index: number, choose: () => void): HTMLElement {

@@ -162,7 +162,7 @@ export class Strip {
     }
     const tree = view.document.tree!,
       b = tree.branches[view.selection.selected],
-      nodes = Array.from({ length: b.nodeCount }, (_, i) => b.firstNode + i),
+      nodes = Array.from({ length: b.node_count }, (_, i) => b.first_node + i),
       s = [0];
     for (let i = 1; i < nodes.length; ++i)
       s.push(s[i - 1] + distance(tree.position(nodes[i - 1]), tree.position(nodes[i])));

@@ -17,10 +17,10 @@ const kSorts: [Sort, string][] = [
 ];
 const kOrders: Record<Exclude<Sort, "tree">, (a: Branch, b: Branch) => number> = {
   label: (a, b) => a.label.localeCompare(b.label, "en", { numeric: true }),
-  length: (a, b) => b.length - a.length,
+  length: (a, b) => b.length_mm - a.length_mm,
   radius: (a, b) => b.mean - a.mean,
   confidence: (a, b) => (a.confidence ?? 2) - (b.confidence ?? 2), // the doubtful first
-  stop: (a, b) => a.stopReason.localeCompare(b.stopReason, "en"),
+  stop: (a, b) => a.stop_reason.localeCompare(b.stop_reason, "en"),
 };
 
 export class TreePanel {
@@ -117,7 +117,7 @@ export class TreePanel {
 
   private ordered(tree: Tree): { branch: Branch; depth: number }[] {
     const matches = (b: Branch): boolean =>
-      this.wanted === "" || `${b.label} ${b.kind} ${b.stopReason}`.toLowerCase().includes(this.wanted);
+      this.wanted === "" || `${b.label} ${b.kind} ${b.stop_reason}`.toLowerCase().includes(this.wanted);
     if (this.sort === "tree")
       return tree
         .outline()
@@ -139,7 +139,7 @@ export class TreePanel {
         h(
           "li",
           { class: "none", role: "none" },
-          view.document.state.hasVolume
+          view.document.state.has_volume
             ? "No vessels yet. Find them (Shift+F), or place seeds in the volume and track them: tool “Seed”, key S."
             : "Nothing is open.",
         ),
@@ -185,11 +185,11 @@ export class TreePanel {
         id: `branch-${b.index}`,
         "aria-level": depth + 1,
         "data-branch": b.index,
-        title: `${b.label}: ${b.kind}, ${mm(b.length)} long, radius ${brief(b.mean)} (${brief(b.least)} to ${brief(b.greatest)}) mm`,
+        title: `${b.label}: ${b.kind}, ${mm(b.length_mm)} long, radius ${brief(b.mean)} (${brief(b.least)} to ${brief(b.greatest)}) mm`,
       },
       swatch,
       h("span", { class: "name" }, b.label),
-      h("span", { class: "number" }, brief(b.length)),
+      h("span", { class: "number" }, brief(b.length_mm)),
       h("span", { class: "number" }, brief(b.mean)),
       h(
         "span",
@@ -208,7 +208,7 @@ export class TreePanel {
     });
     element.addEventListener("dblclick", e => {
       if ((e.target as HTMLElement).closest("button, input") === null)
-        goToNode(app, b.firstNode + (b.nodeCount >> 1));
+        goToNode(app, b.first_node + (b.node_count >> 1));
     });
     this.rows.push({ branch: b.index, element, eye, swatch });
     return element;
@@ -263,8 +263,8 @@ export class TreePanel {
                 { class: "hint" },
                 `${
                   r === null
-                    ? `${brief(view.document.tree.branches.reduce((s, x) => s + x.length, 0))} mm of vessels`
-                    : `${brief(r.reached)} of ${brief(r.total)} mm are reachable from ${r.trees === 1 ? "the root" : `the roots of ${r.trees} trees`}`
+                    ? `${brief(view.document.tree.branches.reduce((s, x) => s + x.length_mm, 0))} mm of vessels`
+                    : `${brief(r.reached_mm)} of ${brief(r.total_mm)} mm are reachable from ${r.trees === 1 ? "the root" : `the roots of ${r.trees} trees`}`
                 }. Click a vessel here or in a view.`,
               ),
             ]),
@@ -273,14 +273,14 @@ export class TreePanel {
     }
     const parent = b.parentBranch < 0 ? "none: a root" : view.document.tree!.branches[b.parentBranch].label;
     const rows: [string, string][] = [
-      ["Length", mm(b.length)],
+      ["Length", mm(b.length_mm)],
       ["Radius", `${brief(b.mean)} (${brief(b.least)} – ${brief(b.greatest)}) mm`],
       ["Confidence", b.confidence === null ? "–" : `${Math.round(100 * b.confidence)} %`],
-      ["Stopped by", b.stopReason.replaceAll("-", " ")],
+      ["Stopped by", b.stop_reason.replaceAll("-", " ")],
       ["Parent", parent],
     ];
     const edited = view.document.tree!.countEdited(b);
-    if (edited > 0) rows.push(["Edited", `${edited} of ${b.nodeCount} nodes, by hand`]);
+    if (edited > 0) rows.push(["Edited", `${edited} of ${b.node_count} nodes, by hand`]);
     const opacity = slider(
       "branch-opacity",
       `Opacity of ${b.label}`,

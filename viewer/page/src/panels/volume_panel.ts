@@ -30,7 +30,7 @@ const setWindow = (app: Part<"slices">, keys: VolumeKeys, window: [number, numbe
 /** A name and a geometry for people. */
 function aboutVolume({ meta: m }: Volume): string {
   const reduced = m.reduction.some(r => r > 1) ? `, shown reduced by ${m.reduction.join(" × ")}` : "";
-  return `${m.name}: ${m.sourceSize.join(" × ")} voxels of ${m.spacing.map((s, i) => brief(s / (m.reduction[i] || 1))).join(" × ")} mm${reduced}`;
+  return `${m.name}: ${m.source_size.join(" × ")} voxels of ${m.spacing_mm.map((s, i) => brief(s / (m.reduction[i] || 1))).join(" × ")} mm${reduced}`;
 }
 
 export function volumeSection(app: Part<"document" | "slices" | "scene" | "page">): HTMLElement {

@@ -123,7 +123,7 @@ function sentence(state: State): string {
     return "Lists all that check and reachability find: missing vessels, early ends, dark, blocked and loose places, walls off the volume's edges.";
   const left = work.items.length === 0 ? "Nothing is left" : countKinds(work.items);
   return `${left}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
-    state.checkIsOld ? " The case has changed since: check again." : ""
+    state.check_is_old ? " The case has changed since: check again." : ""
   }`;
 }
 
@@ -157,7 +157,7 @@ export function checkSection(
   store.watch(["document.state"], ({ document: { state } }) => {
     const items = state.work?.items ?? [],
       found = state.work?.found ?? 0;
-    run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
+    run.disabled = !state.has_case || !state.has_volume || state.job !== null;
     about.textContent = sentence(state);
     progress.hidden = found === 0;
     list.hidden = items.length === 0;

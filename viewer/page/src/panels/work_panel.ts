@@ -80,14 +80,14 @@ function seedSection(app: Part<"document" | "slices" | "tools", "perform">, hand
   );
   store.watch(["document.state"], ({ document: { state } }) => {
     const waiting = state.seeds.filter(s => !s.tracked);
-    all.disabled = waiting.length === 0 || state.job !== null || !state.hasVolume;
+    all.disabled = waiting.length === 0 || state.job !== null || !state.has_volume;
     list.replaceChildren(...state.seeds.filter(s => !s.tracked).map(seed => seedRow(app, seed)));
     if (waiting.length === 0)
       list.append(
         h(
           "li",
           { class: "hint" },
-          state.hasVolume
+          state.has_volume
             ? "No seeds wait. Choose “Seed” (S) and click in a vessel, in a slice or in the projection."
             : "Seeds need a volume: open one, or drop it here.",
         ),
@@ -134,7 +134,7 @@ function trackedRow(app: Part<"slices">, seed: Seed): HTMLElement {
 }
 
 function seedRow(app: Part<"document" | "slices", "perform">, seed: Seed): HTMLElement {
-  const radius = seed.points[0]?.radius ?? null,
+  const radius = seed.points[0]?.radius_mm ?? null,
     busy = app.store.get().document.state.job !== null;
   const track = button(
     { icon: "play", label: `Track ${seed.label}`, class: "button" },
@@ -153,7 +153,7 @@ function seedRow(app: Part<"document" | "slices", "perform">, seed: Seed): HTMLE
     track,
     button(
       { icon: "close", label: `Remove ${seed.label}`, class: "button" },
-      () => void app.perform({ op: "seedDelete", label: seed.label }),
+      () => void app.perform({ op: "seed_delete", label: seed.label }),
     ),
   );
 }
@@ -184,13 +184,13 @@ function fileSection(app: Part<"document" | "tools", "source" | "perform">): HTM
             : []),
           button(
             { icon: "close", label: `Close ${file.name}`, class: "button" },
-            () => void app.perform({ op: "closeFile", id: file.id }),
+            () => void app.perform({ op: "close_file", id: file.id }),
           ),
         ),
       ),
     );
     list.append(
-      ...state.unsavedBefore.map(({ name }) =>
+      ...state.unsaved_before.map(({ name }) =>
         h(
           "li",
           { class: "row item" },
@@ -206,7 +206,7 @@ function fileSection(app: Part<"document" | "tools", "source" | "perform">): HTM
     );
     if (state.series !== null && !hadSeries) box.open = true;
     hadSeries = state.series !== null;
-    if (state.unsavedBefore.length > 0 || state.files.some(file => file.changed)) box.open = true;
+    if (state.unsaved_before.length > 0 || state.files.some(file => file.changed)) box.open = true;
     if (state.series !== null)
       list.append(
         h(
@@ -227,7 +227,7 @@ function fileSection(app: Part<"document" | "tools", "source" | "perform">): HTM
           ),
           button(
             { icon: "close", label: "Forget these series", class: "button" },
-            () => void app.perform({ op: "closeSeries" }),
+            () => void app.perform({ op: "close_series" }),
           ),
         ),
       );

@@ -59,7 +59,7 @@ function cylindersOf(tree: Tree, branch: number, sides: number): InstancedMesh {
   const mesh = new InstancedMesh(
     new CylinderGeometry(1, 1, 1, sides, 1, true),
     new PartMaterial(false),
-    tree.branches[branch].nodeCount,
+    tree.branches[branch].node_count,
   );
   placeCylinders(mesh, tree, branch);
   mesh.frustumCulled = false;
@@ -72,8 +72,8 @@ export function placeCylinders(mesh: InstancedMesh, tree: Tree, branch: number):
   const up = new Vector3(0, 1, 0),
     matrix = new Matrix4(),
     turn = new Quaternion();
-  for (let i = 0; i < record.nodeCount; ++i) {
-    const node = record.firstNode + i,
+  for (let i = 0; i < record.node_count; ++i) {
+    const node = record.first_node + i,
       r = tree.radius[node];
     // without a length of its own a node reaches half-way to its neighbours
     const length = Math.max(tree.height[node], 0.2 * r, spacing(tree, node));

@@ -181,7 +181,7 @@ export class SceneView implements StageView {
           marks.push(
             ball(
               point.position,
-              Math.max(point.radius ?? 0, 1.5 * least),
+              Math.max(point.radius_mm ?? 0, 1.5 * least),
               seed.tracked ? [0.49, 0.83, 0.66] : [1, 0.82, 0.4],
               seed.tracked ? 0.5 : 0.9,
             ),

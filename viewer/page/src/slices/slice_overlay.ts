@@ -81,7 +81,7 @@ function drawLines(c: Context, slice: SliceProjection, view: Omit<View, "page">)
   for (const branch of tree.branches) {
     if (!isShown(view, branch.index)) continue;
     c.fillStyle = toCss(colourOf(view, branch.index), 0.9);
-    for (let k = 3 * branch.firstNode; k < 3 * (branch.firstNode + branch.nodeCount); k += 3)
+    for (let k = 3 * branch.first_node; k < 3 * (branch.first_node + branch.node_count); k += 3)
       if (Math.abs(on(depth, k)) < near) c.fillRect(on(x, k) - 1, on(y, k) - 1, 2, 2);
   }
 }
@@ -123,7 +123,7 @@ function drawSeeds(
   if (view.scene.layers.seeds)
     for (const seed of view.document.state.seeds) {
       seed.points.forEach((point, i) => {
-        const r = point.radius ?? 0,
+        const r = point.radius_mm ?? 0,
           reach = reachOf(view, slice, Math.max(r, 4 * pixel, 1.5));
         if (r > 0) ring(c, slice, point.position, r / pixel, seed.tracked ? "#7dd3a8" : "#ffd166", reach);
         ring(c, slice, point.position, 3, seed.tracked ? "#7dd3a8" : "#ffd166", reach, true);

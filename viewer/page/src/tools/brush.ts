@@ -96,7 +96,7 @@ export class Brush {
   private async push(node: number, at: Vec3, by: Vec3, radius: number): Promise<void> {
     goToNode(this.app, node);
     this.app.store.set({ slices: { crosshair: at } }); // the slice stays
-    await this.app.perform({ op: "push", node, at, by, radius });
+    await this.app.perform({ op: "push", node, at, by, radius_mm: radius });
   }
   giveUp(): void {
     this.held = null;

@@ -35,7 +35,7 @@ describe("a stroke of the brush", () => {
 function straight(parentNode: number): Tree {
   const position = (i: number): Vec3 => [i, 0, 0];
   return {
-    branches: [{ firstNode: 0, nodeCount: 6, label: "ica", parentNode }],
+    branches: [{ first_node: 0, node_count: 6, label: "ica", parent_node: parentNode }],
     radius: new Float32Array(6).fill(1),
     position,
     axis: (): Vec3 => [1, 0, 0],

@@ -22,8 +22,8 @@ const sentence = (text: string): string =>
 /** The clicks that the check proposes, of which the first has a radius. */
 function seedPoints(place: MissingVessel): Seed["points"] {
   const points = place.clicks?.points ?? [place.position],
-    radius = place.clicks === undefined ? place.radius_mm : place.clicks.radius;
-  return points.map((position, i) => ({ position, radius: i === 0 ? radius : null }));
+    radius = place.clicks === undefined ? place.radius_mm : place.clicks.radius_mm;
+  return points.map((position, i) => ({ position, radius_mm: i === 0 ? radius : null }));
 }
 
 const kStretch = 3; // radii over which a radius that is dragged fades, unless the user states another length
@@ -107,9 +107,9 @@ export class Hand {
         op: "move",
         node: held.node,
         position: held.to,
-        radius: tree!.radius[held.node],
+        radius_mm: tree!.radius[held.node],
       });
-    else void this.app.perform({ op: "seedMove", label: held.seed, point: held.point, position: held.to });
+    else void this.app.perform({ op: "seed_move", label: held.seed, point: held.point, position: held.to });
     return true;
   }
 
@@ -120,7 +120,7 @@ export class Hand {
       for (const [i, point] of seed.points.entries())
         if (
           !seed.tracked &&
-          distance(point.position, p) < Math.max(kNearSeed * slice.mmPerPixel, 0.5 * (point.radius ?? 0))
+          distance(point.position, p) < Math.max(kNearSeed * slice.mmPerPixel, 0.5 * (point.radius_mm ?? 0))
         ) {
           this.held = { seed: seed.label, point: i, from: point.position, to: point.position };
           return true;
@@ -140,7 +140,7 @@ export class Hand {
       app.inform("This place is outside of the volume.", "warning");
       return;
     }
-    if (!state.hasVolume) {
+    if (!state.has_volume) {
       app.inform("Seeds are placed in a volume: open one first.", "warning");
       return;
     }
@@ -158,13 +158,13 @@ export class Hand {
         `${sentence(atClick.reason ?? "no vessel was found near there")} The seed stays where you clicked.`,
         "warning",
       );
-    else if (distance(p, point) > kRim * atClick.radius)
+    else if (distance(p, point) > kRim * atClick.radius_mm)
       app.inform(
-        `The click was at the rim of a vessel of radius ${brief(atClick.radius)} mm, or beside it: the seed was moved ${brief(distance(p, point))} mm onto its axis.`,
+        `The click was at the rim of a vessel of radius ${brief(atClick.radius_mm)} mm, or beside it: the seed was moved ${brief(distance(p, point))} mm onto its axis.`,
         "warning",
       );
-    else app.inform(`On the axis of a vessel, radius ${brief(atClick.radius)} mm.`);
-    const made = { position: point, radius: atClick.found ? atClick.radius : null };
+    else app.inform(`On the axis of a vessel, radius ${brief(atClick.radius_mm)} mm.`);
+    const made = { position: point, radius_mm: atClick.found ? atClick.radius_mm : null };
     if (this.seedKind === "vessel") await this.addSeed([made], "vessel");
     else store.set({ tools: { clicks: [...store.get().tools.clicks, made] } });
   }
@@ -183,7 +183,7 @@ export class Hand {
   }
   private async addSeed(points: Seed["points"], kind: string): Promise<void> {
     await this.app.perform({
-      op: "seedAdd",
+      op: "seed_add",
       kind,
       points,
       ...(this.parent === null ? {} : { parent: this.parent }),
@@ -199,7 +199,7 @@ export class Hand {
       same = (p: Vec3): boolean => distance(p, points[0].position) < 1e-6;
     this.app.store.set({ slices: { crosshair: place.position } });
     if (this.app.source.live && !state.seeds.some(seed => same(seed.points[0].position)))
-      void this.app.perform({ op: "seedAdd", kind: "vessel", points }).then(done => {
+      void this.app.perform({ op: "seed_add", kind: "vessel", points }).then(done => {
         if (done) this.app.inform("A seed was placed there. Track it with “Track all”, key T.");
       });
   }
@@ -316,8 +316,8 @@ export class Hand {
       reach = stretch ?? kStretch * tree!.radius[node];
     await this.app.perform(
       reach > 0
-        ? { op: "widen", node, radius, reach }
-        : { op: "move", node, position: tree!.position(node), radius },
+        ? { op: "widen", node, radius_mm: radius, reach_mm: reach }
+        : { op: "move", node, position: tree!.position(node), radius_mm: radius },
     );
   }
   /** Asks for the radius of the vessel at the cursor's node. */

@@ -17,7 +17,12 @@ interface Onward {
 
 /** The crosshair where it is outside of the selected vessel; else the place beyond the end that is nearer to it. */
 export function onward(tree: Tree, branch: number, crosshair: Vec3): Onward {
-  const { firstNode, nodeCount, label, parentNode } = tree.branches[branch],
+  const {
+      first_node: firstNode,
+      node_count: nodeCount,
+      label,
+      parent_node: parentNode,
+    } = tree.branches[branch],
     last = firstNode + nodeCount - 1,
     node = tree.nearest(crosshair, b => b === branch);
   if (distance(tree.position(node), crosshair) > tree.radius[node]) return { from: crosshair, parent: label };
@@ -37,7 +42,7 @@ export async function trackOn(
     selection: { selected },
     slices: { crosshair },
   } = app.store.get();
-  if (tree === null || selected < 0 || !state.hasVolume) {
+  if (tree === null || selected < 0 || !state.has_volume) {
     app.inform("Select the vessel that goes on, and put the crosshair where it does.", "warning");
     return;
   }
@@ -57,8 +62,8 @@ export async function trackOn(
       return;
     }
     await app.perform({
-      op: "trackFrom",
-      points: [{ position: there.position, radius: there.radius }],
+      op: "track_from",
+      points: [{ position: there.position, radius_mm: there.radius_mm }],
       ...(parent === null ? {} : { parent }),
     });
   } catch (error) {

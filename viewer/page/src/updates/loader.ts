@@ -51,7 +51,7 @@ export class Loader {
     }
     if (r.volume !== this.seen.volume) {
       this.seen.volume = r.volume;
-      jobs.push(this.volume.take(state.hasVolume));
+      jobs.push(this.volume.take(state.has_volume));
     }
     if ((r.second ?? 0) !== this.seen.second) {
       this.seen.second = r.second ?? 0;
@@ -78,7 +78,7 @@ export class Loader {
         scene: { colourBy },
       } = this.app.store.get(),
       r = state.revisions;
-    if (colourBy !== "compare" || surface === null || !state.hasTruth) return;
+    if (colourBy !== "compare" || surface === null || !state.has_truth) return;
     const key = `${r.case} ${r.truth ?? 0} ${this.shown.kind} ${this.shown.level}`;
     if (key === this.seen.distance) return;
     this.seen.distance = key;
@@ -89,7 +89,7 @@ export class Loader {
   private settle(): void {
     const { store, stage } = this.app,
       { tree, volume, state } = store.get().document;
-    if (!this.first || (tree === null && (volume === null || state.hasCase))) return;
+    if (!this.first || (tree === null && (volume === null || state.has_case))) return;
     this.first = false;
     store.set({
       slices: {
@@ -97,7 +97,7 @@ export class Loader {
           state.look ?? (tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre()),
       },
       scene: { cast: tree === null && volume !== null ? "mip" : "off" },
-      motion: state.time !== null && tree?.motion ? { time: tree.motion.within(state.time) } : {},
+      motion: state.time_s !== null && tree?.motion ? { time: tree.motion.within(state.time_s) } : {},
     });
     stage.invalidate();
   }
@@ -109,13 +109,13 @@ export class Loader {
 
   private async takeCase(state: State): Promise<void> {
     const { store } = this.app,
-      pack = state.hasCase ? await this.pack("case") : null;
+      pack = state.has_case ? await this.pack("case") : null;
     const tree = pack === null ? null : new Tree(pack);
     store.set({
       document: { tree, ...(tree === null ? { surface: null } : {}) },
       selection: sameVessels(store.get(), tree),
     });
-    this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
+    this.app.stage.firstPicture ||= tree !== null && !state.has_volume;
     this.settle();
     void this.openModel(tree);
   }
@@ -156,7 +156,7 @@ export class Loader {
     const { store, stage } = this.app,
       ofCase = state.revisions.case,
       live = (): boolean => ofCase === this.seen.case;
-    if (!state.hasCase || store.get().document.tree?.hasModels !== true) {
+    if (!state.has_case || store.get().document.tree?.hasModels !== true) {
       store.set({ document: { surface: null } });
       return;
     }
@@ -212,7 +212,7 @@ export class Loader {
     const query: Record<string, string> =
       surface.kind === "quick" ? { quick: "1" } : { level: String(surface.level) };
     const pack = await this.pack("distance", query),
-      distance = pack?.optional("distance", "f32") ?? null,
+      distance = pack?.optional("distance_mm", "f32") ?? null,
       { store } = this.app;
     if (store.get().document.surface !== surface) return;
     if (distance !== null && distance.length !== surface.radius.length) {

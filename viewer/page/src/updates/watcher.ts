@@ -174,14 +174,14 @@ export class Watcher {
     app.store.watch(["document.state"], ({ document: { state } }) => {
       empty.hidden =
         !app.source.live ||
-        state.hasCase ||
-        state.hasVolume ||
+        state.has_case ||
+        state.has_volume ||
         state.meshes.length > 0 ||
         document.body.dataset.ready === undefined;
     });
     new MutationObserver(() => {
       const { state } = app.store.get().document;
-      empty.hidden = !app.source.live || state.hasCase || state.hasVolume || state.meshes.length > 0;
+      empty.hidden = !app.source.live || state.has_case || state.has_volume || state.meshes.length > 0;
     }).observe(document.body, { attributes: true, attributeFilter: ["data-ready"] });
   }
 
