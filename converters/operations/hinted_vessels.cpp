@@ -164,14 +164,16 @@ std::vector<convert::SeedBranch> moved(std::vector<convert::SeedBranch> seeds, d
   return seeds;
 }
 
-/// A volume with normal noise of a deviation, voxel units, added to its voxels.
-convert::Volume withNoise(const convert::Volume& volume, double deviation, Random random) {
+/// A volume with normal noise of a deviation, voxel units, added to its image.
+convert::Volume withNoise(const convert::Volume& volume, const convert::ImageRegion& image,
+                          double deviation, Random random) {
   std::vector<float> voxels;
   std::visit(
       [&](const auto& from) {
         voxels.reserve(from.size());
         for (const auto value : from)
-          voxels.push_back(static_cast<float>(value + deviation * random.normal()));
+          voxels.push_back(static_cast<float>(
+              image.holds(voxels.size()) ? value + deviation * random.normal() : value));
       },
       volume.voxels);
   return {volume.geometry, std::move(voxels), volume.assumptions};
@@ -189,14 +191,15 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
   progress.begin("repeating", repeats);
   QuietProgress quiet(progress);
   const float sign = options.track.dark ? -1.0F : 1.0F;
-  const double noise = double{convert::Background(volume, sign, progress).noise()};
+  const convert::ImageRegion image = convert::findImage(volume, progress);
+  const double noise = double{convert::Background(volume, sign, progress, image).noise()};
   for (std::uint64_t run = 1; run <= repeats; ++run) {
     VesselOptions other = options;
     other.track.seed += run;
     other.seeds = moved(options.seeds, volume.geometry.voxelSize(), Random(other.track.seed));
     try {
       const convert::Volume noisy =
-          withNoise(volume, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
+          withNoise(volume, image, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
       runs.push_back(trackVessels(noisy, name, other, context.within(quiet)).result);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <variant>
 
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
+#include "converters/stages/finding/bright_voxels.h"
 
 namespace lumen::convert {
 namespace {
@@ -17,21 +19,24 @@ namespace {
 constexpr int kAround = 2;       // blocks on either side that a place compares
 constexpr double kQuiet = 0.25;  // quantile of the blocks that hold background alone
 
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
 /// Median of a block's voxels, and the median absolute deviation from it.
 struct BlockLevel {
-  float median = 0, deviation = 0;
+  float median = kUnknown, deviation = kUnknown;
 };
 
+/// The level of the image in a block; unknown where hardly any of it is image.
 template <class T>
-BlockLevel measureLevel(const std::vector<T>& voxels, const CellBox& cells, const CellBox& block,
-                        float sign) {
+BlockLevel measureLevel(const std::vector<T>& voxels, const ImageRegion& image,
+                        const CellBox& cells, const CellBox& block, float sign) {
   std::vector<float> values;
   values.reserve(block.count());
   block.forEach([&](const Cell& cell) {
-    const auto value = static_cast<float>(voxels[cells.index(cell)]);
-    if (std::isfinite(value)) values.push_back(sign * value);
+    const std::size_t i = cells.index(cell);
+    if (image.holds(i)) values.push_back(sign * static_cast<float>(voxels[i]));
   });
-  if (values.empty()) return {};
+  if (values.size() < std::min(kSpeck, block.count())) return {};
   BlockLevel level;
   level.median = upperMedian(values);
   for (float& value : values) value = std::abs(value - level.median);
@@ -41,7 +46,8 @@ BlockLevel measureLevel(const std::vector<T>& voxels, const CellBox& cells, cons
 
 }  // namespace
 
-Background::Background(const Volume& volume, float sign, const Progress& progress)
+Background::Background(const Volume& volume, float sign, const Progress& progress,
+                       const ImageRegion& image)
     : m_voxels(volume.geometry.cells()) {
   m_blocks.size = (m_voxels.size.array() + kBlock - 1) / kBlock;
   std::vector<float> medians(m_blocks.count()), deviations(m_blocks.count());
@@ -50,7 +56,8 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
         tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
           progress.check();
           const CellBox block{m_blocks.cell(b) * kBlock, Cell::Constant(kBlock)};
-          const BlockLevel level = measureLevel(voxels, m_voxels, block.meet(m_voxels), sign);
+          const BlockLevel level =
+              measureLevel(voxels, image, m_voxels, block.meet(m_voxels), sign);
           medians[b] = level.median;
           deviations[b] = level.deviation;
         });
@@ -61,6 +68,7 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
   smoothOver(medians, deviations);
   for (int x = 0; x < m_voxels.size[0]; ++x) m_alongX.push_back(between(x, m_blocks.size[0]));
   std::vector<float> all = deviations;
+  std::erase_if(all, [](float deviation) { return std::isnan(deviation); });
   m_noise = std::max(m_noise, static_cast<float>(kDeviationOfMedian) * lowerQuantile(all, kQuiet));
 }
 
@@ -79,9 +87,12 @@ void Background::smoothOver(const std::vector<float>& medians,
     std::vector<float> levels, spreads;
     m_blocks.meet(CellBox::between(at - Cell::Constant(kAround), at + Cell::Constant(kAround)))
         .forEach([&](const Cell& cell) {
+          if (std::isnan(medians[m_blocks.index(cell)])) return;
           levels.push_back(medians[m_blocks.index(cell)]);
           spreads.push_back(deviations[m_blocks.index(cell)]);
         });
+    m_level[b] = m_unevenness[b] = kUnknown;
+    if (levels.empty()) return;
     m_level[b] = lowerQuantile(levels, kQuiet);
     m_unevenness[b] = static_cast<float>(kDeviationOfMedian) * upperMedian(spreads);
   });

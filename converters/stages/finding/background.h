@@ -9,19 +9,21 @@
 
 #include "converters/base/progress.h"
 #include "converters/voxels/cell_box.h"
+#include "converters/voxels/image_region.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
 
 /// Background by blocks of voxels: the lower quartile of the medians of the blocks around each
 /// place, so that a vessel that fills a block does not count. Brighter is more, also where vessels
-/// are dark.
+/// are dark. Voxels that are no image do not count.
 class Background {
 public:
   static constexpr int kBlock = 16;  ///< voxels along an edge
 
   /// `sign`: 1, or -1 if vessels are darker than their background. Throws Error(Cancelled).
-  Background(const Volume& volume, float sign, const Progress& progress);
+  Background(const Volume& volume, float sign, const Progress& progress,
+             const ImageRegion& image = {});
 
   /// The intensity (times the sign) of the background at each voxel of a row along x, linear
   /// between the middles of blocks. `row` has a value for each voxel of the row.

@@ -30,12 +30,16 @@ constexpr double kLeastLength = 10;   // voxels of the longest vessel of a tree
 constexpr double kLeastOfParent = 1;  // of the parent's depth: less is a bump on its wall
 constexpr int kSmoothing = 6;         // passes of (1, 2, 1)/4 over a course
 constexpr double kSacStep = 0.5;      // radii from one point of an aneurysm to the next
+/// Radii that a course goes on past the border of the image: half of the distance between nodes, as
+/// the tracker puts none at an end within the volume.
+constexpr double kPastBorder = 0.25;
 
 /// From voxels of the lumen to courses.
 class CourseFinder {
 public:
-  CourseFinder(const VoxelSet& set, Progress& progress)
+  CourseFinder(const VoxelSet& set, const ImageRegion& image, Progress& progress)
       : m_set(set),
+        m_image(image),
         m_depths(depths(progress)),
         m_paths(set, m_depths, m_isOpen, progress, kLeastOfParent),
         m_progress(progress) {}
@@ -70,7 +74,9 @@ public:
 private:
   std::vector<float> depths(const Progress& progress) const {
     return measureDepths(
-        m_set, [this](std::size_t i) { return m_set.find(i) != VoxelSet::kNone; }, progress);
+        m_set,
+        [this](std::size_t i) { return m_set.find(i) != VoxelSet::kNone || !m_image.holds(i); },
+        progress);
   }
 
   std::vector<std::uint32_t> connectedPart(std::uint32_t first, std::vector<bool>& isSeen) const {
@@ -112,18 +118,37 @@ private:
     for (const std::uint32_t i : voxelsOf(path))
       course.points.push_back({m_set.position(i), static_cast<double>(m_depths[i])});
     for (int pass = 0; pass < kSmoothing; ++pass) smooth(course.points);
-    if (path.isSac) thinToSac(course);
+    if (path.isSac) {
+      thinToSac(course);
+      return course;
+    }
+    if (path.meets == VesselPath::kNone) passBorder(course.points);
+    if (path.parent != VesselPath::kNone) return course;
+    std::reverse(course.points.begin(), course.points.end());
+    passBorder(course.points);
+    std::reverse(course.points.begin(), course.points.end());
     return course;
+  }
+
+  /// Adds a point past the border of the image, if the last one lies at it.
+  void passBorder(std::vector<SeedPoint>& points) const {
+    if (points.size() < 2) return;
+    const VolumeGeometry& geometry = m_set.geometry();
+    const SeedPoint end = points.back();
+    const Vector3d way = end.position - points[points.size() - 2].position;
+    const Vector3d index = geometry.indexFromWorld(end.position);
+    if (!m_image.isBeside(geometry.cells(), index.array().round().cast<int>().matrix())) return;
+    points.push_back({end.position + kPastBorder * *end.radius * way.normalized(), end.radius});
   }
 
   /// The voxels of a path, whose free ends lead into the middle of a face that cuts the vessel.
   [[nodiscard]] std::vector<std::uint32_t> voxelsOf(const VesselPath& path) const {
     std::vector<std::uint32_t> voxels = path.voxels;
     if (path.isSac) return voxels;
-    if (path.meets == VesselPath::kNone) endAtFace(m_set, m_depths, voxels);
+    if (path.meets == VesselPath::kNone) endAtFace(m_set, m_image, m_depths, voxels);
     if (path.parent != VesselPath::kNone) return voxels;
     std::reverse(voxels.begin(), voxels.end());
-    endAtFace(m_set, m_depths, voxels);
+    endAtFace(m_set, m_image, m_depths, voxels);
     std::reverse(voxels.begin(), voxels.end());
     return voxels;
   }
@@ -154,6 +179,7 @@ private:
   }
 
   const VoxelSet& m_set;
+  const ImageRegion& m_image;
   std::vector<float> m_depths;
   VesselPaths::IsOpen m_isOpen = [](const Vector3d&, const Vector3d&) { return true; };
   VesselPaths m_paths;
@@ -195,9 +221,19 @@ bool FoundVessels::isIn(const std::vector<std::size_t>& voxels, const Vector3d& 
          std::binary_search(voxels.begin(), voxels.end(), geometry.cells().index(cell));
 }
 
-FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
+bool FoundVessels::isImage(const Vector3d& point) const {
+  const Vector3d at = geometry.indexFromWorld(point);
+  return geometry.containsIndex(at) &&
+         image.holds(geometry.index(at.array().round().cast<int>().matrix()));
+}
+
+FoundVessels findVessels(const Volume& whole, bool dark, Progress& progress) {
   progress.begin("find", 0);
-  BrightVoxels bright = findBrightVoxels(volume, dark, progress);
+  FoundVessels found;
+  found.image = findImage(whole, progress);
+  for (const std::string& sentence : found.image.sentences) progress.detail(sentence);
+  const Volume& volume = found.image.without(whole);
+  BrightVoxels bright = findBrightVoxels(volume, found.image, dark, progress);
   progress.detail("lumen: " + std::to_string(bright.indices.size()) + " voxels, contrast " +
                   fixedText(bright.contrast, 6) + ", noise " + fixedText(bright.noise, 6));
   const auto brightness = [&](std::size_t i) {
@@ -206,12 +242,11 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
         volume.voxels);
   };
   const VolumeGeometry grid = gridGeometry(volume.geometry);
-  FoundVessels found;
   found.geometry = volume.geometry;
   found.lumen = std::move(bright.indices);
   for (bool isMore = true; isMore;) {  // each pass takes bone away
     const VoxelSet set(grid, std::move(found.lumen));
-    CourseFinder finder(set, progress);
+    CourseFinder finder(set, found.image, progress);
     finder.findPaths();
     const std::vector<bool> isBone = finder.isBone(found.bone, brightness);
     found.lumen.clear();
@@ -237,7 +272,7 @@ std::vector<SeedBranch> coursesInRemainingLumen(const FoundVessels& found,
   // the rim of a vessel: half a voxel for its wall, half a voxel for its section
   for (WorldBall& ball : balls) ball.radius += grid.voxelSize();
   const VoxelSet set(grid, outside(grid, found.lumen, balls, progress));
-  CourseFinder finder(set, progress);
+  CourseFinder finder(set, found.image, progress);
   finder.findPaths();
   std::vector<SeedBranch> courses = finder.courses();
   toWorld(grid, found.geometry, courses);
