@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <set>
 #include <utility>
 #include <variant>
@@ -18,6 +19,7 @@
 #include "converters/stages/editing/selection.h"
 #include "converters/stages/finding/background.h"
 #include "converters/stages/tracking/tracking_volume.h"
+#include "converters/voxels/image_region.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
@@ -164,16 +166,14 @@ std::vector<convert::SeedBranch> moved(std::vector<convert::SeedBranch> seeds, d
   return seeds;
 }
 
-/// A volume with normal noise of a deviation, voxel units, added to its image.
-convert::Volume withNoise(const convert::Volume& volume, const convert::ImageRegion& image,
-                          double deviation, Random random) {
+/// A volume with normal noise of a deviation, voxel units, added to its voxels.
+convert::Volume withNoise(const convert::Volume& volume, double deviation, Random random) {
   std::vector<float> voxels;
   std::visit(
       [&](const auto& from) {
         voxels.reserve(from.size());
         for (const auto value : from)
-          voxels.push_back(static_cast<float>(
-              image.holds(voxels.size()) ? value + deviation * random.normal() : value));
+          voxels.push_back(static_cast<float>(value + deviation * random.normal()));
       },
       volume.voxels);
   return {volume.geometry, std::move(voxels), volume.assumptions};
@@ -191,15 +191,16 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
   progress.begin("repeating", repeats);
   QuietProgress quiet(progress);
   const float sign = options.track.dark ? -1.0F : 1.0F;
-  const convert::ImageRegion image = convert::findImage(volume, progress);
-  const double noise = double{convert::Background(volume, sign, progress, image).noise()};
+  const std::shared_ptr<const convert::Volume> continued = convert::continueImage(volume, progress);
+  const convert::Volume& image = continued ? *continued : volume;
+  const double noise = double{convert::Background(image, sign, progress).noise()};
   for (std::uint64_t run = 1; run <= repeats; ++run) {
     VesselOptions other = options;
     other.track.seed += run;
     other.seeds = moved(options.seeds, volume.geometry.voxelSize(), Random(other.track.seed));
     try {
       const convert::Volume noisy =
-          withNoise(volume, image, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
+          withNoise(image, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
       runs.push_back(trackVessels(noisy, name, other, context.within(quiet)).result);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;

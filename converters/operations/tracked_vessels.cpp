@@ -10,7 +10,6 @@
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/seeds/case_seeds.h"
-#include "converters/io/volume/write_volume.h"
 #include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/finding/find_vessels.h"
@@ -101,16 +100,15 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   candidates = found.courses.size();
   if (found.courses.empty()) return {};
   convert::TrackResult result = convert::trackAlongCourses(
-      found.image.without(volume), found.courses, placesOfBone(found), options, progress,
+      volume, found.courses, placesOfBone(found), options, progress,
       [&](std::span<const convert::WorldBall> vessels) {
         return convert::coursesInRemainingLumen(found, vessels, progress);
       });
-  if (found.image.continued) result.result.metadata.source = convert::describeSource(volume);
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
   const convert::LumenInVolume lumen{
       [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
-      [&](const Eigen::Vector3d& point) { return found.isImage(point); }};
+      [&](const Eigen::Vector3d& point) { return found.geometry.containsWorld(point); }};
   for (const Eigen::Vector3d& place : convert::correctTopology(result.result, lumen))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
   const std::vector<Eigen::Vector3d> inlets =

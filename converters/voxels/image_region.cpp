@@ -5,173 +5,157 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <type_traits>
-#include <utility>
 #include <variant>
+#include <vector>
 
-#include "converters/base/shown_text.h"
 #include "converters/base/statistics.h"
 
 namespace lumen::convert {
 namespace {
 
-/// Voxels in a row on either side of a border that are looked at: a vessel of fewer has no inside.
-constexpr std::size_t kRun = 4;
-/// The least number of such rows, so that medians over them are known to some percent.
-constexpr std::size_t kLeastRows = 100;
-/// Share of its greatest distance from the fill's value that the image has beside the fill. A cut
-/// knows nothing of the image, which is as far from that value beside the cut as anywhere. The wall
-/// of a vessel, an organ or a body fades: its first voxel has half of the distance in the mean.
+/// Layers of voxels of the image beside a fill that are looked at: a vessel of fewer has no inside.
+constexpr std::size_t kLayers = 4;
+/// Share of the greatest distance from a fill's value that a layer of the image has. A cut knows
+/// nothing of the image, so a layer of less is blurred by the fill: linear interpolation leaves half
+/// of the distance in the mean.
 constexpr float kSharp = 0.8F;
 /// The least thickness of the image, voxels for each face of a voxel on its border: .39 radii of a
 /// tube, .22 of a ball. Vessels around which all else has one value are thinner.
 constexpr double kImageThickness = 4;
 /// The same for the fill: equal voxels that noise makes have .3 or less.
 constexpr double kFillThickness = 1;
+/// The least share of a volume that is image: vessels may fill less.
+constexpr double kLeastImage = 0.1;
 constexpr std::size_t kVoxelsAtOnce = 1 << 16;  // between two polls of cancellation
 
-/// Intensities beside the border of a fill.
-class BorderLevels {
-public:
-  void add(const std::array<float, kRun>& image, float fill) {
-    for (std::size_t k = 0; k < kRun; ++k) m_distance[k].push_back(std::abs(image[k] - fill));
-    m_change.push_back(std::abs(image[1] - image[0]));
-  }
-  /// Whether the image is noisy, and does not fade into the fill.
-  [[nodiscard]] bool isCut() {
-    if (m_change.size() < kLeastRows || upperMedian(m_change) == 0) return false;
-    std::array<float, kRun> level{};
-    for (std::size_t k = 0; k < kRun; ++k) level[k] = upperMedian(m_distance[k]);
-    return level[0] >= kSharp * *std::max_element(level.begin(), level.end());
-  }
+/// Values that may fill what is no image.
+struct Fill {
+  float low = 0, high = 0;
+  bool isStated = false;  ///< by the file, so that no evidence is needed
 
-private:
-  std::array<std::vector<float>, kRun> m_distance;  ///< from the fill, by depth in the image
-  std::vector<float> m_change;  ///< from the first voxel of the image to the second
+  template <class T>
+  [[nodiscard]] bool holds(T value) const {
+    return static_cast<float>(value) >= low && static_cast<float>(value) <= high;
+  }
 };
+
+using Voxel = std::size_t;
 
 /// Finds the voxels that are no image, and continues the image over them.
 template <class T>
-class ImageLimits {
+class ImageFinder {
 public:
-  ImageLimits(const std::vector<T>& voxels, const CellBox& cells, const Progress& progress)
+  ImageFinder(const std::vector<T>& voxels, const CellBox& cells, const Progress& progress)
       : m_voxels(voxels), m_cells(cells), m_progress(progress), m_isImage(voxels.size(), true) {}
 
-  /// Takes the voxels of a fill away from the image, if there is evidence of one. Returns their
-  /// number.
-  std::size_t takeAway(T fill) {
-    if (!isCut(fill)) return 0;
-    const std::vector<std::size_t> found = connectedToFaces(fill);
-    std::size_t faces = 0;
-    for (const std::size_t i : found)
-      eachBeside(i, [&](std::size_t j) { faces += m_isImage[j] ? 1 : 0; });
-    const auto fillSize = static_cast<double>(found.size()),
-               all = static_cast<double>(m_voxels.size()), border = static_cast<double>(faces);
-    if (faces > 0 && fillSize >= kFillThickness * border &&
-        all - fillSize >= kImageThickness * border)
-      return found.size();
-    for (const std::size_t i : found) m_isImage[i] = true;
-    return 0;
+  /// Takes the voxels of a fill away from the image, if there is evidence of one.
+  bool takeAway(const Fill& fill) {
+    const std::vector<Voxel> taken = connectedToFaces(fill);
+    double faces = 0;
+    for (const Voxel i : taken) eachBeside(i, [&](Voxel j) { faces += m_isImage[j] ? 1 : 0; });
+    const auto all = static_cast<double>(m_voxels.size()), size = static_cast<double>(taken.size());
+    const bool isNoSpeck = faces > 0 && size >= kFillThickness * faces;
+    if (isNoSpeck && fill.isStated) return true;
+    if (isNoSpeck && all - size >= std::max(kImageThickness * faces, kLeastImage * all)) {
+      takeBlurred(fill.low, taken);
+      return true;
+    }
+    for (const Voxel i : taken) m_isImage[i] = true;
+    return false;
   }
 
-  [[nodiscard]] std::vector<bool> isImage() const { return m_isImage; }
+  [[nodiscard]] const std::vector<bool>& isImage() const { return m_isImage; }
 
   /// The voxels with the image continued: voxel by voxel outward from its border, each is the mean
   /// of its neighbours that are nearer to it.
   [[nodiscard]] std::vector<T> continued() const {
     std::vector<T> out = m_voxels;
-    std::vector<bool> isKnown = m_isImage, isDue(m_voxels.size(), false);
-    std::vector<std::size_t> layer, next;
-    const auto queue = [&](std::size_t i, std::vector<std::size_t>& into) {
-      m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
-        const std::size_t j = m_cells.index(cell);
-        if (isKnown[j] || isDue[j]) return;
-        isDue[j] = true;
-        into.push_back(j);
-      });
-    };
-    for (std::size_t i = 0; i < isKnown.size(); ++i)
-      if (m_isImage[i] && isAtBorder(i)) queue(i, layer);
-    for (; !layer.empty(); layer.swap(next), next.clear()) {
-      m_progress.check();
-      for (const std::size_t i : layer) out[i] = meanAround(i, out, isKnown);
-      for (const std::size_t i : layer) isKnown[i] = true;
-      for (const std::size_t i : layer) queue(i, next);
+    std::vector<bool> isKnown = m_isImage, isSeen = m_isImage;
+    std::vector<Voxel> layer;
+    for (Voxel i = 0; i < m_isImage.size(); ++i)
+      if (m_isImage[i] && isAtBorder(i)) layer.push_back(i);
+    for (layer = around(layer, isSeen); !layer.empty(); layer = around(layer, isSeen)) {
+      for (const Voxel i : layer) out[i] = meanAround(i, out, isKnown);
+      for (const Voxel i : layer) isKnown[i] = true;
     }
     return out;
   }
 
 private:
   template <class Visit>
-  void eachBeside(std::size_t i, const Visit& visit) const {
+  void eachBeside(Voxel i, const Visit& visit) const {
     const Cell cell = m_cells.cell(i);
     for (const Cell& step : kFaceSteps)
       if (m_cells.contains(cell + step)) visit(m_cells.index(cell + step));
   }
 
-  [[nodiscard]] bool isAtBorder(std::size_t i) const {
+  [[nodiscard]] bool isAtBorder(Voxel i) const {
     bool isBeside = false;
-    eachBeside(i, [&](std::size_t j) { isBeside = isBeside || !m_isImage[j]; });
+    eachBeside(i, [&](Voxel j) { isBeside = isBeside || !m_isImage[j]; });
     return isBeside;
   }
 
-  /// Whether the image is cut where it borders on a fill, along all axes.
-  [[nodiscard]] bool isCut(T fill) const {
-    BorderLevels levels;
-    for (int axis = 0; axis < 3; ++axis) {
-      m_progress.check();
-      const auto stride = static_cast<std::ptrdiff_t>(m_cells.stride(axis));
-      const auto length = static_cast<std::size_t>(m_cells.size[axis]);
-      for (std::size_t i = 0; i + static_cast<std::size_t>(stride) < m_voxels.size(); ++i) {
-        const bool isHere = m_voxels[i] == fill;
-        if (isHere == (m_voxels[i + static_cast<std::size_t>(stride)] == fill)) continue;
-        const std::size_t at = i / static_cast<std::size_t>(stride) % length;
-        if (at + 1 < kRun || at + kRun >= length) continue;
-        addRow(fill, isHere ? i : i + static_cast<std::size_t>(stride), isHere ? stride : -stride,
-               levels);
-      }
-    }
-    return levels.isCut();
+  /// The voxels around these that are not seen yet, which then are.
+  std::vector<Voxel> around(const std::vector<Voxel>& voxels, std::vector<bool>& isSeen) const {
+    m_progress.check();
+    std::vector<Voxel> out;
+    for (const Voxel i : voxels)
+      m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
+        const Voxel j = m_cells.index(cell);
+        if (isSeen[j]) return;
+        isSeen[j] = true;
+        out.push_back(j);
+      });
+    return out;
   }
 
-  /// Adds the row of voxels across a border: `last` is the last one of the fill.
-  void addRow(T fill, std::size_t last, std::ptrdiff_t step, BorderLevels& levels) const {
-    const auto at = [&](std::ptrdiff_t k) {
-      return m_voxels[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(last) + k * step)];
-    };
-    std::array<float, kRun> image{};
-    for (std::size_t k = 0; k < kRun; ++k) {
-      const auto steps = static_cast<std::ptrdiff_t>(k);
-      if (at(-steps) != fill || at(steps + 1) == fill) return;
-      image[k] = static_cast<float>(at(steps + 1));
-    }
-    levels.add(image, static_cast<float>(fill));
-  }
-
-  /// Takes the voxels of a fill that reach a face away from the image, and returns them.
-  std::vector<std::size_t> connectedToFaces(T fill) {
-    std::vector<std::size_t> found;
-    const auto take = [&](std::size_t i) {
-      if (!m_isImage[i] || m_voxels[i] != fill) return;
+  /// Takes the voxels of a fill that are connected with a face away from the image.
+  std::vector<Voxel> connectedToFaces(const Fill& fill) {
+    std::vector<Voxel> taken;
+    const auto take = [&](Voxel i) {
+      if (!m_isImage[i] || !fill.holds(m_voxels[i])) return;
       m_isImage[i] = false;
-      found.push_back(i);
+      taken.push_back(i);
     };
-    m_cells.forEach([&](const Cell& cell) {
-      if ((cell.array() == 0).any() || (cell.array() == m_cells.high().array()).any())
-        take(m_cells.index(cell));
-    });
-    for (std::size_t k = 0; k < found.size(); ++k) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int end : {0, m_cells.high()[axis]}) {
+        CellBox face = m_cells;
+        face.low[axis] = end;
+        face.size[axis] = 1;
+        face.forEach([&](const Cell& cell) { take(m_cells.index(cell)); });
+      }
+    for (std::size_t k = 0; k < taken.size(); ++k) {
       if (k % kVoxelsAtOnce == 0) m_progress.check();
-      eachBeside(found[k], take);
+      eachBeside(taken[k], take);
     }
-    return found;
+    return taken;
   }
 
-  [[nodiscard]] T meanAround(std::size_t i, const std::vector<T>& values,
+  /// Takes the layers of the image beside a fill away that are blurred by it.
+  void takeBlurred(float fill, const std::vector<Voxel>& filled) {
+    std::vector<bool> isSeen(m_isImage);
+    isSeen.flip();
+    std::array<std::vector<Voxel>, kLayers> layers;
+    std::array<float, kLayers> level{};
+    for (std::size_t k = 0; k < kLayers; ++k) {
+      layers[k] = around(k == 0 ? filled : layers[k - 1], isSeen);
+      std::vector<float> distance;
+      for (const Voxel i : layers[k])
+        distance.push_back(std::abs(static_cast<float>(m_voxels[i]) - fill));
+      if (!distance.empty()) level[k] = upperMedian(distance);
+    }
+    const float whole = kSharp * *std::max_element(level.begin(), level.end());
+    for (std::size_t k = 0; level[k] < whole; ++k)
+      for (const Voxel i : layers[k]) m_isImage[i] = false;
+  }
+
+  [[nodiscard]] T meanAround(Voxel i, const std::vector<T>& values,
                              const std::vector<bool>& isKnown) const {
     double sum = 0, count = 0;
     m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
-      const std::size_t j = m_cells.index(cell);
+      const Voxel j = m_cells.index(cell);
       if (!isKnown[j]) return;
       sum += static_cast<double>(values[j]);
       ++count;
@@ -185,46 +169,37 @@ private:
   std::vector<bool> m_isImage;
 };
 
-/// The values of the corners from which a row of equal voxels leads along each axis.
+/// The padding that a file states, and the value of each corner.
 template <class T>
-std::vector<T> cornerValues(const std::vector<T>& voxels, const CellBox& cells) {
-  std::vector<T> values;
+std::vector<Fill> possibleFills(const std::vector<T>& voxels, const Volume& volume) {
+  std::vector<Fill> fills;
+  if (volume.padding) fills.push_back({(*volume.padding)[0], (*volume.padding)[1], true});
+  const CellBox cells = volume.geometry.cells();
   for (int corner = 0; corner < 8; ++corner) {
     const Cell side(corner % 2, corner / 2 % 2, corner / 4);
-    const Cell at = cells.high().cwiseProduct(side), inward = Cell::Ones() - 2 * side;
-    const T value = voxels[cells.index(at)];
-    bool isFilled = std::find(values.begin(), values.end(), value) == values.end();
-    for (int axis = 0; axis < 3; ++axis)
-      for (int k = 1; isFilled && k < static_cast<int>(kRun); ++k) {
-        const Cell next = at + k * inward[axis] * Cell::Unit(axis);
-        isFilled = cells.contains(next) && voxels[cells.index(next)] == value;
-      }
-    if (isFilled) values.push_back(value);
+    const T value = voxels[cells.index(cells.high().cwiseProduct(side))];
+    const bool isNew = std::none_of(fills.begin(), fills.end(),
+                                    [&](const Fill& fill) { return fill.holds(value); });
+    if (isNew) fills.push_back({static_cast<float>(value), static_cast<float>(value), false});
   }
-  return values;
+  return fills;
 }
 
 }  // namespace
 
-bool ImageRegion::isBeside(const CellBox& cells, const Cell& cell) const {
-  return std::any_of(kFaceSteps.begin(), kFaceSteps.end(), [&](const Cell& step) {
-    return cells.contains(cell + step) && !holds(cells.index(cell + step));
-  });
-}
-
-ImageRegion findImage(const Volume& volume, const Progress& progress) {
-  ImageRegion out;
+std::shared_ptr<const Volume> continueImage(const Volume& volume, const Progress& progress) {
+  if (volume.geometry.image) return nullptr;
+  std::shared_ptr<Volume> out;
   std::visit(
       [&]<class T>(const std::vector<T>& voxels) {
-        const CellBox cells = volume.geometry.cells();
-        ImageLimits<T> limits(voxels, cells, progress);
-        for (const T fill : cornerValues(voxels, cells))
-          if (const std::size_t count = limits.takeAway(fill); count > 0)
-            out.sentences.push_back(std::to_string(count) + " voxels of " +
-                                    shownNumber(static_cast<double>(fill)) + " are no image");
-        if (out.sentences.empty()) return;
-        out.isImage = limits.isImage();
-        out.continued = Volume{volume.geometry, limits.continued(), volume.assumptions};
+        ImageFinder<T> finder(voxels, volume.geometry.cells(), progress);
+        bool isAll = true;
+        for (const Fill& fill : possibleFills(voxels, volume))
+          if (finder.takeAway(fill)) isAll = false;
+        if (isAll) return;
+        out = std::make_shared<Volume>(
+            Volume{volume.geometry, finder.continued(), volume.assumptions});
+        out->geometry.image = std::make_shared<const std::vector<bool>>(finder.isImage());
       },
       volume.voxels);
   return out;

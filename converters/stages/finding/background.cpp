@@ -11,7 +11,6 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
-#include "converters/stages/finding/bright_voxels.h"
 
 namespace lumen::convert {
 namespace {
@@ -21,22 +20,21 @@ constexpr double kQuiet = 0.25;  // quantile of the blocks that hold background 
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Median of a block's voxels, and the median absolute deviation from it.
+/// Median of a block's voxels, and the median absolute deviation from it. Unknown without image.
 struct BlockLevel {
   float median = kUnknown, deviation = kUnknown;
 };
 
-/// The level of the image in a block; unknown where hardly any of it is image.
 template <class T>
-BlockLevel measureLevel(const std::vector<T>& voxels, const ImageRegion& image,
-                        const CellBox& cells, const CellBox& block, float sign) {
+BlockLevel measureLevel(const std::vector<T>& voxels, const VolumeGeometry& geometry,
+                        const CellBox& block, float sign) {
   std::vector<float> values;
   values.reserve(block.count());
   block.forEach([&](const Cell& cell) {
-    const std::size_t i = cells.index(cell);
-    if (image.holds(i)) values.push_back(sign * static_cast<float>(voxels[i]));
+    const std::size_t i = geometry.index(cell);
+    if (geometry.isImage(i)) values.push_back(sign * static_cast<float>(voxels[i]));
   });
-  if (values.size() < std::min(kSpeck, block.count())) return {};
+  if (values.empty()) return {};
   BlockLevel level;
   level.median = upperMedian(values);
   for (float& value : values) value = std::abs(value - level.median);
@@ -46,8 +44,7 @@ BlockLevel measureLevel(const std::vector<T>& voxels, const ImageRegion& image,
 
 }  // namespace
 
-Background::Background(const Volume& volume, float sign, const Progress& progress,
-                       const ImageRegion& image)
+Background::Background(const Volume& volume, float sign, const Progress& progress)
     : m_voxels(volume.geometry.cells()) {
   m_blocks.size = (m_voxels.size.array() + kBlock - 1) / kBlock;
   std::vector<float> medians(m_blocks.count()), deviations(m_blocks.count());
@@ -57,7 +54,7 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
           progress.check();
           const CellBox block{m_blocks.cell(b) * kBlock, Cell::Constant(kBlock)};
           const BlockLevel level =
-              measureLevel(voxels, image, m_voxels, block.meet(m_voxels), sign);
+              measureLevel(voxels, volume.geometry, block.meet(m_voxels), sign);
           medians[b] = level.median;
           deviations[b] = level.deviation;
         });
@@ -91,10 +88,10 @@ void Background::smoothOver(const std::vector<float>& medians,
           levels.push_back(medians[m_blocks.index(cell)]);
           spreads.push_back(deviations[m_blocks.index(cell)]);
         });
-    m_level[b] = m_unevenness[b] = kUnknown;
-    if (levels.empty()) return;
-    m_level[b] = lowerQuantile(levels, kQuiet);
-    m_unevenness[b] = static_cast<float>(kDeviationOfMedian) * upperMedian(spreads);
+    const bool isKnown = !levels.empty();
+    m_level[b] = isKnown ? lowerQuantile(levels, kQuiet) : kUnknown;
+    m_unevenness[b] =
+        isKnown ? static_cast<float>(kDeviationOfMedian) * upperMedian(spreads) : kUnknown;
   });
 }
 

@@ -9,7 +9,6 @@
 
 #include "converters/base/progress.h"
 #include "converters/voxels/cell_box.h"
-#include "converters/voxels/image_region.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -22,8 +21,7 @@ public:
   static constexpr int kBlock = 16;  ///< voxels along an edge
 
   /// `sign`: 1, or -1 if vessels are darker than their background. Throws Error(Cancelled).
-  Background(const Volume& volume, float sign, const Progress& progress,
-             const ImageRegion& image = {});
+  Background(const Volume& volume, float sign, const Progress& progress);
 
   /// The intensity (times the sign) of the background at each voxel of a row along x, linear
   /// between the middles of blocks. `row` has a value for each voxel of the row.

@@ -34,34 +34,27 @@ constexpr std::size_t kSampled = 7;  // every seventh voxel shows the background
 
 enum Mark : std::uint8_t { kBackground = 0, kWeak = 1, kLumen = 2, kNoImage = 3 };
 
-/// A volume whose image is continued over what is none, and its background.
-struct Scene {
-  const Volume& volume;
-  const ImageRegion& image;
-  Background background;
-  float sign;
-};
-
 /// Calls visit(z, index, excess) for every voxel of the image, row by row in parallel, with its
 /// brightness over the background.
 template <class Visit>
-void forEachExcess(const Scene& scene, const Progress& progress, const Visit& visit) {
-  const CellBox cells = scene.volume.geometry.cells();
+void forEachExcess(const Volume& volume, const Background& background, float sign,
+                   const Progress& progress, const Visit& visit) {
+  const CellBox cells = volume.geometry.cells();
   std::visit(
       [&](const auto& voxels) {
         tbb::parallel_for(0, cells.size[2], [&](int z) {
           progress.check();
           std::vector<float> row;
           for (int y = 0; y < cells.size[1]; ++y) {
-            scene.background.alongRow(y, z, row);
+            background.alongRow(y, z, row);
             const std::size_t first = cells.index(Cell(0, y, z));
             for (std::size_t x = 0; x < row.size(); ++x)
-              if (scene.image.holds(first + x))
-                visit(z, first + x, scene.sign * static_cast<float>(voxels[first + x]) - row[x]);
+              if (volume.geometry.isImage(first + x))
+                visit(z, first + x, sign * static_cast<float>(voxels[first + x]) - row[x]);
           }
         });
       },
-      scene.volume.voxels);
+      volume.voxels);
 }
 
 /// Counts of excess values in bins of equal width from `low` to `high`.
@@ -114,19 +107,20 @@ struct Histogram {
 };
 
 /// Excess of all voxels that stand out of the noise.
-Histogram countExcess(const Scene& scene, const Progress& progress) {
-  const auto slices = static_cast<std::size_t>(scene.volume.geometry.size[2]);
+Histogram countExcess(const Volume& volume, const Background& background, float sign,
+                      const Progress& progress) {
+  const auto slices = static_cast<std::size_t>(volume.geometry.size[2]);
   std::vector<float> highest(slices, 0.0F);
-  forEachExcess(scene, progress, [&](int z, std::size_t, float excess) {
+  forEachExcess(volume, background, sign, progress, [&](int z, std::size_t, float excess) {
     float& high = highest[static_cast<std::size_t>(z)];
     high = std::max(high, excess);
   });
   Histogram all;
-  all.low = static_cast<float>(kAboveNoise) * scene.background.noise();
+  all.low = static_cast<float>(kAboveNoise) * background.noise();
   all.high = *std::max_element(highest.begin(), highest.end());
   if (!(all.high > all.low)) return all;
   std::vector<Histogram> parts(slices, all);
-  forEachExcess(scene, progress, [&](int z, std::size_t, float excess) {
+  forEachExcess(volume, background, sign, progress, [&](int z, std::size_t, float excess) {
     Histogram& part = parts[static_cast<std::size_t>(z)];
     if (excess > part.low) ++part.count[part.binOf(excess)];
   });
@@ -227,48 +221,48 @@ void growIntoWeak(const CellBox& cells, ZeroedArray<std::uint8_t>& mark, const P
 }
 
 /// Marks the lumen of wide vessels where they are less bright than the rest.
-void markFaded(const Scene& scene, float contrast, ZeroedArray<std::uint8_t>& mark,
-               const Progress& progress) {
-  Excess excess{scene.volume.geometry.cells(), ZeroedArray<float>(mark.size()),
-                [&](const Cell& cell) {
-                  return static_cast<float>(kAboveNoise) * scene.background.noiseAt(cell);
+void markFaded(const Volume& volume, const Background& background, float sign, float contrast,
+               ZeroedArray<std::uint8_t>& mark, const Progress& progress) {
+  Excess excess{volume.geometry.cells(), ZeroedArray<float>(mark.size()), [&](const Cell& cell) {
+                  return static_cast<float>(kAboveNoise) * background.noiseAt(cell);
                 }};
-  forEachExcess(scene, progress, [&](int, std::size_t i, float value) { excess.value[i] = value; });
+  forEachExcess(volume, background, sign, progress,
+                [&](int, std::size_t i, float value) { excess.value[i] = value; });
   std::vector<bool> isLumen(mark.size());
   for (std::size_t i = 0; i < mark.size(); ++i) isLumen[i] = mark[i] == kLumen;
   growIntoFaded(excess, contrast, isLumen, progress);
   for (std::size_t i = 0; i < mark.size(); ++i)
-    if (isLumen[i] && mark[i] != kNoImage) mark[i] = kLumen;
+    if (isLumen[i]) mark[i] = kLumen;
 }
 
 }  // namespace
 
-BrightVoxels findBrightVoxels(const Volume& volume, const ImageRegion& image, bool dark,
-                              const Progress& progress) {
+BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress) {
   const float sign = dark ? -1.0F : 1.0F;
-  const Scene scene{volume, image, Background(volume, sign, progress, image), sign};
-  const Background& background = scene.background;
-  const Histogram excess = countExcess(scene, progress);
+  const Background background(volume, sign, progress);
+  const Histogram excess = countExcess(volume, background, sign, progress);
   BrightVoxels out;
   out.noise = static_cast<double>(background.noise());
   if (excess.countFrom(0) == 0) return out;
   const CellBox cells = volume.geometry.cells();
-  const auto outside = std::count(image.isImage.begin(), image.isImage.end(), false);
-  const float contrast = measureContrast(excess, cells.count() - static_cast<std::size_t>(outside));
-  out.contrast = static_cast<double>(contrast);
-
   ZeroedArray<std::uint8_t> mark(cells.count());  // kBackground
-  for (std::size_t i = 0; i < image.isImage.size(); ++i)
-    if (!image.holds(i)) mark[i] = kNoImage;
+  std::size_t imageSize = mark.size();
+  for (std::size_t i = 0; i < mark.size(); ++i) {
+    if (volume.geometry.isImage(i)) continue;
+    mark[i] = kNoImage;
+    --imageSize;
+  }
+  const float contrast = measureContrast(excess, imageSize);
+  out.contrast = static_cast<double>(contrast);
   const float half = std::max(0.5F * contrast, excess.low);
-  forEachExcess(scene, progress, [&](int, std::size_t i, float value) {
+  forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
     if (value > half) mark[i] = kLumen;
   });
-  markFaded(scene, contrast, mark, progress);
+  markFaded(volume, background, sign, contrast, mark, progress);
   const ZeroedArray<float> strength = ridgeStrength(volume, sign, progress);
   const UsualRidges usual(cells, strength, mark, progress);
   const float faintRidge = kFaintest * kRidgeShare * contrast;
-  forEachExcess(scene, progress, [&](int, std::size_t i, float value) {
+  forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
     if (mark[i] == kLumen || !(strength[i] > faintRidge)) return;
     const Cell cell = cells.cell(i);
     const float noise =

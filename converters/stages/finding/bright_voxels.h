@@ -9,7 +9,6 @@
 #include "converters/base/progress.h"
 #include "converters/base/zeroed_array.h"
 #include "converters/voxels/cell_box.h"
-#include "converters/voxels/image_region.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -57,9 +56,7 @@ struct BrightVoxels {
 /// Voxels of wide vessels, which are brighter than halfway between their background and the wide
 /// vessels of the volume; and those of thin ones, which lose brightness to blur, by the strength of
 /// the ridge that they are on (docs/method.md, section 1.13). Empty if nothing stands out of the
-/// noise. `dark`: vessels are darker than their background. `image`: the voxels of the volume that
-/// count; the others continue it. Throws Error(Cancelled).
-BrightVoxels findBrightVoxels(const Volume& volume, const ImageRegion& image, bool dark,
-                              const Progress& progress);
+/// noise. Voxels that are no image do not count. `dark`: vessels are darker than their background. Throws Error(Cancelled).
+BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress);
 
 }  // namespace lumen::convert

@@ -14,11 +14,11 @@ constexpr double kGain = 0.5;
 /// section is that of another, wider vessel.
 constexpr double kSameVessel = 2.0 / 3.0;
 
-bool isAtFace(const VoxelSet& set, const ImageRegion& image, std::uint32_t i) {
+bool isAtFace(const VoxelSet& set, std::uint32_t i) {
   const Cell cell = set.cell(i), high = set.geometry().cells().high();
   for (int a = 0; a < 3; ++a)
     if (high[a] > 0 && (cell[a] == 0 || cell[a] == high[a])) return true;
-  return image.isBeside(set.geometry().cells(), cell);
+  return set.geometry().isBesideNoImage(cell);
 }
 
 /// The number of voxels of a path, from its beginning, that lie outside of the ball around `middle`.
@@ -36,9 +36,9 @@ std::size_t countOutside(const VoxelSet& set, std::span<const float> depths,
 
 }  // namespace
 
-void endAtFace(const VoxelSet& set, const ImageRegion& image, std::span<const float> depths,
+void endAtFace(const VoxelSet& set, std::span<const float> depths,
                std::vector<std::uint32_t>& voxels) {
-  if (voxels.size() < 2 || !isAtFace(set, image, voxels.back())) return;
+  if (voxels.size() < 2 || !isAtFace(set, voxels.back())) return;
   const std::uint32_t tip = voxels.back();
   double widest = 0;
   for (const std::uint32_t i : voxels) widest = std::max(widest, double{depths[i]});
@@ -48,7 +48,7 @@ void endAtFace(const VoxelSet& set, const ImageRegion& image, std::span<const fl
   set.eachWithin(tip, widest / kGain, [&](std::uint32_t j) {
     const double depth{depths[j]};
     const double gain = depth - kGain * (set.position(j) - set.position(tip)).norm();
-    if (gain <= most || !isAtFace(set, image, j)) return;
+    if (gain <= most || !isAtFace(set, j)) return;
     const std::size_t outside = countOutside(set, depths, voxels, j);
     if (outside == 0 || double{depths[voxels[outside - 1]]} < kSameVessel * depth) return;
     most = gain;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "converters/stages/finding/ends_at_faces.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/grid_geometry.h"
+#include "converters/voxels/image_region.h"
 #include "converters/voxels/vessel_paths.h"
 
 namespace lumen::convert {
@@ -30,16 +32,12 @@ constexpr double kLeastLength = 10;   // voxels of the longest vessel of a tree
 constexpr double kLeastOfParent = 1;  // of the parent's depth: less is a bump on its wall
 constexpr int kSmoothing = 6;         // passes of (1, 2, 1)/4 over a course
 constexpr double kSacStep = 0.5;      // radii from one point of an aneurysm to the next
-/// Radii that a course goes on past the border of the image: half of the distance between nodes, as
-/// the tracker puts none at an end within the volume.
-constexpr double kPastBorder = 0.25;
 
 /// From voxels of the lumen to courses.
 class CourseFinder {
 public:
-  CourseFinder(const VoxelSet& set, const ImageRegion& image, Progress& progress)
+  CourseFinder(const VoxelSet& set, Progress& progress)
       : m_set(set),
-        m_image(image),
         m_depths(depths(progress)),
         m_paths(set, m_depths, m_isOpen, progress, kLeastOfParent),
         m_progress(progress) {}
@@ -75,7 +73,9 @@ private:
   std::vector<float> depths(const Progress& progress) const {
     return measureDepths(
         m_set,
-        [this](std::size_t i) { return m_set.find(i) != VoxelSet::kNone || !m_image.holds(i); },
+        [this](std::size_t i) {
+          return m_set.find(i) != VoxelSet::kNone || !m_set.geometry().isImage(i);
+        },
         progress);
   }
 
@@ -118,37 +118,18 @@ private:
     for (const std::uint32_t i : voxelsOf(path))
       course.points.push_back({m_set.position(i), static_cast<double>(m_depths[i])});
     for (int pass = 0; pass < kSmoothing; ++pass) smooth(course.points);
-    if (path.isSac) {
-      thinToSac(course);
-      return course;
-    }
-    if (path.meets == VesselPath::kNone) passBorder(course.points);
-    if (path.parent != VesselPath::kNone) return course;
-    std::reverse(course.points.begin(), course.points.end());
-    passBorder(course.points);
-    std::reverse(course.points.begin(), course.points.end());
+    if (path.isSac) thinToSac(course);
     return course;
-  }
-
-  /// Adds a point past the border of the image, if the last one lies at it.
-  void passBorder(std::vector<SeedPoint>& points) const {
-    if (points.size() < 2) return;
-    const VolumeGeometry& geometry = m_set.geometry();
-    const SeedPoint end = points.back();
-    const Vector3d way = end.position - points[points.size() - 2].position;
-    const Vector3d index = geometry.indexFromWorld(end.position);
-    if (!m_image.isBeside(geometry.cells(), index.array().round().cast<int>().matrix())) return;
-    points.push_back({end.position + kPastBorder * *end.radius * way.normalized(), end.radius});
   }
 
   /// The voxels of a path, whose free ends lead into the middle of a face that cuts the vessel.
   [[nodiscard]] std::vector<std::uint32_t> voxelsOf(const VesselPath& path) const {
     std::vector<std::uint32_t> voxels = path.voxels;
     if (path.isSac) return voxels;
-    if (path.meets == VesselPath::kNone) endAtFace(m_set, m_image, m_depths, voxels);
+    if (path.meets == VesselPath::kNone) endAtFace(m_set, m_depths, voxels);
     if (path.parent != VesselPath::kNone) return voxels;
     std::reverse(voxels.begin(), voxels.end());
-    endAtFace(m_set, m_image, m_depths, voxels);
+    endAtFace(m_set, m_depths, voxels);
     std::reverse(voxels.begin(), voxels.end());
     return voxels;
   }
@@ -179,7 +160,6 @@ private:
   }
 
   const VoxelSet& m_set;
-  const ImageRegion& m_image;
   std::vector<float> m_depths;
   VesselPaths::IsOpen m_isOpen = [](const Vector3d&, const Vector3d&) { return true; };
   VesselPaths m_paths;
@@ -221,19 +201,14 @@ bool FoundVessels::isIn(const std::vector<std::size_t>& voxels, const Vector3d& 
          std::binary_search(voxels.begin(), voxels.end(), geometry.cells().index(cell));
 }
 
-bool FoundVessels::isImage(const Vector3d& point) const {
-  const Vector3d at = geometry.indexFromWorld(point);
-  return geometry.containsIndex(at) &&
-         image.holds(geometry.index(at.array().round().cast<int>().matrix()));
-}
-
 FoundVessels findVessels(const Volume& whole, bool dark, Progress& progress) {
   progress.begin("find", 0);
-  FoundVessels found;
-  found.image = findImage(whole, progress);
-  for (const std::string& sentence : found.image.sentences) progress.detail(sentence);
-  const Volume& volume = found.image.without(whole);
-  BrightVoxels bright = findBrightVoxels(volume, found.image, dark, progress);
+  const std::shared_ptr<const Volume> continued = continueImage(whole, progress);
+  const Volume& volume = continued ? *continued : whole;
+  if (const auto& image = volume.geometry.image)
+    progress.detail(std::to_string(std::count(image->begin(), image->end(), false)) +
+                    " voxels are no image");
+  BrightVoxels bright = findBrightVoxels(volume, dark, progress);
   progress.detail("lumen: " + std::to_string(bright.indices.size()) + " voxels, contrast " +
                   fixedText(bright.contrast, 6) + ", noise " + fixedText(bright.noise, 6));
   const auto brightness = [&](std::size_t i) {
@@ -242,11 +217,12 @@ FoundVessels findVessels(const Volume& whole, bool dark, Progress& progress) {
         volume.voxels);
   };
   const VolumeGeometry grid = gridGeometry(volume.geometry);
+  FoundVessels found;
   found.geometry = volume.geometry;
   found.lumen = std::move(bright.indices);
   for (bool isMore = true; isMore;) {  // each pass takes bone away
     const VoxelSet set(grid, std::move(found.lumen));
-    CourseFinder finder(set, found.image, progress);
+    CourseFinder finder(set, progress);
     finder.findPaths();
     const std::vector<bool> isBone = finder.isBone(found.bone, brightness);
     found.lumen.clear();
@@ -272,7 +248,7 @@ std::vector<SeedBranch> coursesInRemainingLumen(const FoundVessels& found,
   // the rim of a vessel: half a voxel for its wall, half a voxel for its section
   for (WorldBall& ball : balls) ball.radius += grid.voxelSize();
   const VoxelSet set(grid, outside(grid, found.lumen, balls, progress));
-  CourseFinder finder(set, found.image, progress);
+  CourseFinder finder(set, progress);
   finder.findPaths();
   std::vector<SeedBranch> courses = finder.courses();
   toWorld(grid, found.geometry, courses);

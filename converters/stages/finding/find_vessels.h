@@ -11,7 +11,6 @@
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/voxels/cube_search.h"
-#include "converters/voxels/image_region.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
@@ -22,13 +21,10 @@ struct FoundVessels {
   std::vector<std::size_t> lumen;  ///< indices of voxels, ascending
   std::vector<std::size_t> bone;   ///< the same, of bright tissue that is no vessel
   std::vector<SeedBranch> courses;
-  ImageRegion image;
 
   /// Whether the voxel around a point, mm, LPS, is one of these.
   [[nodiscard]] bool isLumen(const Eigen::Vector3d& point) const { return isIn(lumen, point); }
   [[nodiscard]] bool isBone(const Eigen::Vector3d& point) const { return isIn(bone, point); }
-  /// Whether a point lies within the volume's image.
-  [[nodiscard]] bool isImage(const Eigen::Vector3d& point) const;
 
 private:
   [[nodiscard]] bool isIn(const std::vector<std::size_t>& voxels,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +19,7 @@ namespace lumen::convert {
 namespace {
 
 using Inside = std::function<bool(const Vector3d&)>;
+using ContinuedVolume = std::shared_ptr<const Volume>;
 
 constexpr int kSize = 64;
 constexpr double kTissue = 300, kNoise = 20;
@@ -27,7 +30,7 @@ const std::vector<Inside> kShapes = {
     [](const Vector3d& p) { return (p - kMiddle).head<2>().norm() < 28; },
     [](const Vector3d& p) {
       const Vector3d q = Eigen::AngleAxisd(0.5, Vector3d(1, 2, 3).normalized()) * (p - kMiddle);
-      return q.cwiseAbs().maxCoeff() < 24;
+      return q.cwiseAbs().maxCoeff() < 26;
     },
     [](const Vector3d& p) {
       return (p - kMiddle - Vector3d(4, 0, 0)).norm() < 24 ||
@@ -60,35 +63,67 @@ Volume cut(const Inside& isInside, std::int16_t fill) {
   return volume;
 }
 
+/// The same with a border that linear interpolation halfway between voxels has blurred.
+Volume blurred(const Inside& isInside, std::int16_t fill) {
+  Volume volume = vesselInTissue();
+  for (std::size_t i = 0; i < voxelsOf(volume).size(); ++i) {
+    double share = 0;
+    for (int corner = 0; corner < 8; ++corner)
+      share += isInside(volume.geometry.position(volume.geometry.cell(i)) +
+                        Vector3d(corner % 2 - 0.5, corner / 2 % 2 - 0.5, corner / 4 - 0.5))
+                   ? 0.125
+                   : 0;
+    voxelsOf(volume)[i] =
+        static_cast<std::int16_t>(std::lround(fill + share * (voxelsOf(volume)[i] - fill)));
+  }
+  return volume;
+}
+
+ContinuedVolume continued(const Volume& volume) {
+  return continueImage(volume, Progress());
+}
+
 bool hasBorder(const Volume& volume) {
-  return !findImage(volume, Progress()).isImage.empty();
+  return continued(volume) != nullptr;
+}
+
+/// The number of voxels that are image on one side alone.
+std::size_t countWrong(const Volume& volume, const Inside& isInside) {
+  const ContinuedVolume out = continued(volume);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < volume.geometry.voxelCount(); ++i)
+    if ((!out || out->geometry.isImage(i)) !=
+        isInside(volume.geometry.position(volume.geometry.cell(i))))
+      ++wrong;
+  return wrong;
 }
 
 TEST(ImageRegion, IsWhatNoFillCoversWhateverItsShapeAndValue) {
   for (const Inside& isInside : kShapes)
-    for (const std::int16_t fill : kFills) {
-      const Volume volume = cut(isInside, fill);
-      const ImageRegion image = findImage(volume, Progress());
-      ASSERT_EQ(image.isImage.size(), volume.geometry.voxelCount()) << fill;
-      std::size_t wrong = 0;
-      for (std::size_t i = 0; i < image.isImage.size(); ++i)
-        if (image.holds(i) != isInside(volume.geometry.position(volume.geometry.cell(i)))) ++wrong;
-      EXPECT_EQ(wrong, 0U) << fill;
-      ASSERT_EQ(image.sentences.size(), 1U);
-      EXPECT_NE(image.sentences[0].find("voxels of " + std::to_string(fill) + " are no image"),
-                std::string::npos)
-          << image.sentences[0];
-    }
+    for (const std::int16_t fill : kFills) EXPECT_EQ(countWrong(cut(isInside, fill), isInside), 0U);
 }
 
 TEST(ImageRegion, AFillOfTheMeanIsKnownButForSingleEqualVoxelsBesideIt) {
   const Volume volume = cut(kShapes[0], static_cast<std::int16_t>(kTissue));
-  const ImageRegion image = findImage(volume, Progress());
-  ASSERT_FALSE(image.isImage.empty());
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < image.isImage.size(); ++i)
-    if (image.holds(i) != kShapes[0](volume.geometry.position(volume.geometry.cell(i)))) ++wrong;
-  EXPECT_LT(wrong, volume.geometry.voxelCount() / 500);
+  ASSERT_TRUE(hasBorder(volume));
+  EXPECT_LT(countWrong(volume, kShapes[0]), volume.geometry.voxelCount() / 500);
+}
+
+TEST(ImageRegion, HoldsNoVoxelThatTheFillBlurs) {
+  for (const Inside& isInside : kShapes) {
+    const ContinuedVolume out = continued(blurred(isInside, -1024));
+    ASSERT_TRUE(out);
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < out->geometry.voxelCount(); ++i) {
+      if (!out->geometry.isImage(i)) continue;
+      ++size;
+      const Vector3d p = out->geometry.position(out->geometry.cell(i));
+      for (int corner = 0; corner < 8; ++corner)
+        ASSERT_TRUE(
+            isInside(p + Vector3d(corner % 2 - 0.5, corner / 2 % 2 - 0.5, corner / 4 - 0.5)));
+    }
+    EXPECT_GT(size, out->geometry.voxelCount() / 10);
+  }
 }
 
 TEST(ImageRegion, TheBackgroundOfVesselsIsNoFill) {
@@ -112,27 +147,21 @@ TEST(ImageRegion, TheBackgroundOfVesselsIsNoFill) {
   EXPECT_FALSE(hasBorder(volume));  // a mask
 }
 
-TEST(ImageRegion, AnImageThatFadesIntoTheValueHasNoBorder) {
-  const auto faded = [](double share) {  // of the tissue, in the outermost voxel of a circle
-    Volume volume = vesselInTissue();
-    for (std::size_t i = 0; i < voxelsOf(volume).size(); ++i) {
-      const Vector3d p = volume.geometry.position(volume.geometry.cell(i));
-      const double radius = (p - kMiddle).head<2>().norm();
-      if (radius > 27) voxelsOf(volume)[i] = static_cast<std::int16_t>(share * voxelsOf(volume)[i]);
-      if (radius > 28) voxelsOf(volume)[i] = 0;
-    }
-    return volume;
-  };
-  EXPECT_TRUE(hasBorder(faded(0.92)));
-  EXPECT_FALSE(hasBorder(faded(0.68)));
+Volume cutToTube(double radius) {
+  return cut([=](const Vector3d& p) { return (p - kMiddle).head<2>().norm() < radius; }, 0);
+}
+
+TEST(ImageRegion, IsATenthOfTheVolumeAtLeast) {
+  EXPECT_FALSE(hasBorder(cutToTube(11.2)));  // 9.6 % of it, 4.4 voxels for each face
+  EXPECT_TRUE(hasBorder(cutToTube(11.8)));   // 10.7 %
 }
 
 TEST(ImageRegion, IsThick) {
-  const auto circle = [](double radius) {
-    return cut([=](const Vector3d& p) { return (p - kMiddle).head<2>().norm() < radius; }, 0);
+  const auto plates = [](int thick) {  // they fill 7/11 and 9/11 of the volume
+    return cut([=](const Vector3d& p) { return std::fmod(p.z(), thick + 4) > 3.5; }, 0);
   };
-  EXPECT_TRUE(hasBorder(circle(11.5)));  // a tube of .39 radii: 4.5 voxels for each face
-  EXPECT_FALSE(hasBorder(circle(8.8)));  // 3.4
+  EXPECT_FALSE(hasBorder(plates(7)));  // two faces each: 3.5 voxels for each face
+  EXPECT_TRUE(hasBorder(plates(9)));   // 4.5
 }
 
 TEST(ImageRegion, AFillHasAVoxelForEachFaceOnItsBorder) {
@@ -149,30 +178,30 @@ TEST(ImageRegion, AFillHasAVoxelForEachFaceOnItsBorder) {
   EXPECT_FALSE(hasBorder(spikes(5)));  // 21454 voxels, 23596 faces
 }
 
-TEST(ImageRegion, AFillIsFourVoxelsThick) {
-  const auto layers = [](int thick) {
-    return cut([=](const Vector3d& p) { return p.z() > thick - 0.5; }, 0);
-  };
-  EXPECT_TRUE(hasBorder(layers(4)));
-  EXPECT_FALSE(hasBorder(layers(3)));
-}
-
-TEST(ImageRegion, FewRowsAreNoEvidence) {
-  const auto corner = [](const Cell& box) {
-    return cut(
-        [=](const Vector3d& p) { return (p.array() > box.cast<double>().array() - 0.5).any(); }, 0);
-  };
-  EXPECT_TRUE(hasBorder(corner({6, 6, 6})));   // 108 rows
-  EXPECT_FALSE(hasBorder(corner({5, 6, 6})));  // 96 rows
+TEST(ImageRegion, PaddingThatTheFileStatesNeedsNoEvidence) {
+  Volume volume = cutToTube(6);
+  EXPECT_FALSE(hasBorder(volume));
+  volume.padding = {-3, 0};
+  voxelsOf(volume)[0] = -3;
+  const std::size_t hole = volume.geometry.index(Cell(31, 31, 31));
+  voxelsOf(volume)[hole] = -1;  // which no path of padding connects with a face
+  const ContinuedVolume out = continued(volume);
+  ASSERT_TRUE(out);
+  EXPECT_FALSE(out->geometry.isImage(0));
+  EXPECT_TRUE(out->geometry.isImage(hole));
+  EXPECT_FALSE(out->geometry.containsIndex({0, 31, 31}));
+  EXPECT_TRUE(out->geometry.containsIndex({31, 31, 31}));
+  EXPECT_FALSE(hasBorder(*out));  // nothing is left to continue
 }
 
 TEST(ImageRegion, TheImageGoesOnWithoutAStep) {
-  const Volume volume = cut(kShapes[2], -1024);
-  const ImageRegion image = findImage(volume, Progress());
-  const auto& voxels = std::get<std::vector<std::int16_t>>(image.without(volume).voxels);
+  Volume volume = cut(kShapes[2], -1024);
+  const ContinuedVolume out = continued(volume);
+  ASSERT_TRUE(out);
+  const auto& voxels = std::get<std::vector<std::int16_t>>(out->voxels);
   for (std::size_t i = 0; i < voxels.size(); ++i) {
-    if (image.holds(i))
-      ASSERT_EQ(voxels[i], std::get<std::vector<std::int16_t>>(volume.voxels)[i]);
+    if (out->geometry.isImage(i))
+      ASSERT_EQ(voxels[i], voxelsOf(volume)[i]);
     else
       ASSERT_GT(voxels[i], kTissue - 4 * kNoise);
   }
@@ -180,26 +209,21 @@ TEST(ImageRegion, TheImageGoesOnWithoutAStep) {
 
 TEST(ImageRegion, NoiseAndLevelAreThoseOfTheImage) {
   const Volume volume = cut([](const Vector3d& p) { return p.x() < 34 && p.y() < 44; }, 0);
-  const ImageRegion image = findImage(volume, Progress());
-  EXPECT_NEAR(Background(image.without(volume), 1, Progress(), image).noise(), kNoise, 1);
+  EXPECT_NEAR(Background(*continued(volume), 1, Progress()).noise(), kNoise, 1);
 }
 
-TEST(ImageRegion, OneVesselIsFoundWhichEndsAQuarterOfItsRadiusPastTheBorder) {
+TEST(ImageRegion, OneVesselIsFoundFromBorderToBorder) {
   for (const Inside& isInside : kShapes)
     for (const std::int16_t fill : kFills) {
       Progress silent;
       const FoundVessels found = findVessels(cut(isInside, fill), false, silent);
       ASSERT_EQ(found.courses.size(), 1U) << fill;
-      std::vector<SeedPoint> points = found.courses[0].points;
-      for (std::size_t i = 1; i + 1 < points.size(); ++i)
-        EXPECT_TRUE(found.isImage(points[i].position)) << fill;
-      for (int end = 0; end < 2; ++end) {
-        const SeedPoint last = points.back(), atBorder = points[points.size() - 2];
-        const Vector3d past = last.position - atBorder.position;
-        EXPECT_NEAR(past.norm(), 0.25 * *last.radius, 1e-9) << fill;
-        EXPECT_FALSE(found.isImage(atBorder.position + 2.5 * past.normalized())) << fill;
-        std::reverse(points.begin(), points.end());
-      }
+      for (const SeedPoint& point : found.courses[0].points)
+        EXPECT_TRUE(found.geometry.containsWorld(point.position)) << fill;
+      for (const SeedPoint& end : {found.courses[0].points.front(), found.courses[0].points.back()})
+        EXPECT_TRUE(found.geometry.isBesideNoImage(
+            VolumeGeometry::nearestCell(found.geometry.indexFromWorld(end.position))))
+            << fill;
     }
 }
 
