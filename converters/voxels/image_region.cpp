@@ -58,10 +58,9 @@ public:
     const auto all = static_cast<double>(m_voxels.size()), size = static_cast<double>(taken.size());
     const bool isNoSpeck = faces > 0 && size >= kFillThickness * faces;
     if (isNoSpeck && fill.isStated) return true;
-    if (isNoSpeck && all - size >= std::max(kImageThickness * faces, kLeastImage * all)) {
-      takeBlurred(fill.low, taken);
+    if (isNoSpeck && all - size >= std::max(kImageThickness * faces, kLeastImage * all) &&
+        takeBlurred(fill.low, taken))
       return true;
-    }
     for (const Voxel i : taken) m_isImage[i] = true;
     return false;
   }
@@ -133,22 +132,29 @@ private:
     return taken;
   }
 
-  /// Takes the layers of the image beside a fill away that are blurred by it.
-  void takeBlurred(float fill, const std::vector<Voxel>& filled) {
+  /// Takes the layers of the image beside a fill away that are blurred by it. False if the first one
+  /// that is not has no noise, so that it is no image.
+  bool takeBlurred(float fill, const std::vector<Voxel>& filled) {
     std::vector<bool> isSeen(m_isImage);
     isSeen.flip();
     std::array<std::vector<Voxel>, kLayers> layers;
-    std::array<float, kLayers> level{};
+    std::array<float, kLayers> level{}, noise{};
     for (std::size_t k = 0; k < kLayers; ++k) {
       layers[k] = around(k == 0 ? filled : layers[k - 1], isSeen);
       std::vector<float> distance;
       for (const Voxel i : layers[k])
         distance.push_back(std::abs(static_cast<float>(m_voxels[i]) - fill));
-      if (!distance.empty()) level[k] = upperMedian(distance);
+      if (distance.empty()) break;
+      level[k] = upperMedian(distance);
+      for (float& value : distance) value = std::abs(value - level[k]);
+      noise[k] = upperMedian(distance);
     }
     const float whole = kSharp * *std::max_element(level.begin(), level.end());
-    for (std::size_t k = 0; level[k] < whole; ++k)
+    std::size_t sharp = 0;
+    while (level[sharp] < whole) ++sharp;
+    for (std::size_t k = 0; k < sharp && noise[sharp] > 0; ++k)
       for (const Voxel i : layers[k]) m_isImage[i] = false;
+    return noise[sharp] > 0;
   }
 
   [[nodiscard]] T meanAround(Voxel i, const std::vector<T>& values,

@@ -12,8 +12,8 @@ namespace lumen::convert {
 /// The volume with its image continued over the voxels that are none, and with VolumeGeometry::image
 /// set; null if all are image, or if it is set already. These voxels are no image: those of the
 /// padding or of a corner's value that are connected with a face of the volume, unless they are
-/// specks, and those that the latter blurs. A corner's value counts only if what it leaves is thick,
-/// and more than vessels may fill. Throws Error(Cancelled).
+/// specks, and those that the latter blurs. A corner's value counts only if what it leaves is
+/// noisy, thick, and more than vessels may fill. Throws Error(Cancelled).
 std::shared_ptr<const Volume> continueImage(const Volume& volume, const Progress& progress);
 
 }  // namespace lumen::convert

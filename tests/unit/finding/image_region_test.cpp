@@ -30,7 +30,7 @@ const std::vector<Inside> kShapes = {
     [](const Vector3d& p) { return (p - kMiddle).head<2>().norm() < 28; },
     [](const Vector3d& p) {
       const Vector3d q = Eigen::AngleAxisd(0.5, Vector3d(1, 2, 3).normalized()) * (p - kMiddle);
-      return q.cwiseAbs().maxCoeff() < 26;
+      return q.cwiseAbs().maxCoeff() < 22;
     },
     [](const Vector3d& p) {
       return (p - kMiddle - Vector3d(4, 0, 0)).norm() < 24 ||
@@ -63,16 +63,21 @@ Volume cut(const Inside& isInside, std::int16_t fill) {
   return volume;
 }
 
+/// The share of the places half a voxel from a place along all axes that lie inside.
+double shareInside(const Inside& isInside, const Vector3d& place) {
+  double share = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d aside(corner % 2 - 0.5, corner / 2 % 2 - 0.5, corner / 4 - 0.5);
+    share += isInside(place + aside) ? 0.125 : 0;
+  }
+  return share;
+}
+
 /// The same with a border that linear interpolation halfway between voxels has blurred.
 Volume blurred(const Inside& isInside, std::int16_t fill) {
   Volume volume = vesselInTissue();
   for (std::size_t i = 0; i < voxelsOf(volume).size(); ++i) {
-    double share = 0;
-    for (int corner = 0; corner < 8; ++corner)
-      share += isInside(volume.geometry.position(volume.geometry.cell(i)) +
-                        Vector3d(corner % 2 - 0.5, corner / 2 % 2 - 0.5, corner / 4 - 0.5))
-                   ? 0.125
-                   : 0;
+    const double share = shareInside(isInside, volume.geometry.position(volume.geometry.cell(i)));
     voxelsOf(volume)[i] =
         static_cast<std::int16_t>(std::lround(fill + share * (voxelsOf(volume)[i] - fill)));
   }
@@ -110,19 +115,20 @@ TEST(ImageRegion, AFillOfTheMeanIsKnownButForSingleEqualVoxelsBesideIt) {
 }
 
 TEST(ImageRegion, HoldsNoVoxelThatTheFillBlurs) {
-  for (const Inside& isInside : kShapes) {
+  for (std::size_t s = 0; s < kShapes.size(); ++s) {
+    const Inside& isInside = kShapes[s];
     const ContinuedVolume out = continued(blurred(isInside, -1024));
     ASSERT_TRUE(out);
-    std::size_t size = 0;
+    std::size_t whole = 0, kept = 0, wrong = 0;
     for (std::size_t i = 0; i < out->geometry.voxelCount(); ++i) {
-      if (!out->geometry.isImage(i)) continue;
-      ++size;
-      const Vector3d p = out->geometry.position(out->geometry.cell(i));
-      for (int corner = 0; corner < 8; ++corner)
-        ASSERT_TRUE(
-            isInside(p + Vector3d(corner % 2 - 0.5, corner / 2 % 2 - 0.5, corner / 4 - 0.5)));
+      const double share = shareInside(isInside, out->geometry.position(out->geometry.cell(i)));
+      whole += share == 1 ? 1 : 0;
+      kept += share == 1 && out->geometry.isImage(i) ? 1 : 0;
+      wrong += share < 1 && out->geometry.isImage(i) ? 1 : 0;
     }
-    EXPECT_GT(size, out->geometry.voxelCount() / 10);
+    // the notch between the balls of the last shape ends in voxels that are blurred alone
+    EXPECT_LE(wrong, s < 2 ? 0 : whole / 100) << s;
+    EXPECT_GT(kept, whole * 9 / 10);
   }
 }
 
@@ -145,6 +151,11 @@ TEST(ImageRegion, TheBackgroundOfVesselsIsNoFill) {
   EXPECT_FALSE(hasBorder(clipped));  // noise below 0 is 0
   for (std::int16_t& voxel : voxelsOf(volume)) voxel = voxel > 500 ? 1 : 0;
   EXPECT_FALSE(hasBorder(volume));  // a mask
+  const auto block = [](const Vector3d& p) {
+    return ((p - kMiddle).cwiseAbs() - Vector3d(24, 20, 20)).maxCoeff();
+  };
+  EXPECT_FALSE(hasBorder(drawVolume(kSize, 1, block)));  // thick, without noise
+  EXPECT_TRUE(hasBorder(cut([&](const Vector3d& p) { return block(p) < 0; }, 0)));
 }
 
 Volume cutToTube(double radius) {
