@@ -30,7 +30,7 @@ const std::vector<Inside> kShapes = {
     [](const Vector3d& p) { return (p - kMiddle).head<2>().norm() < 28; },
     [](const Vector3d& p) {
       const Vector3d q = Eigen::AngleAxisd(0.5, Vector3d(1, 2, 3).normalized()) * (p - kMiddle);
-      return q.cwiseAbs().maxCoeff() < 22;
+      return q.cwiseAbs().maxCoeff() < 20;
     },
     [](const Vector3d& p) {
       return (p - kMiddle - Vector3d(4, 0, 0)).norm() < 24 ||
