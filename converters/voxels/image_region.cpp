@@ -52,14 +52,27 @@ public:
 
   /// Takes the voxels of a fill away from the image, if there is evidence of one.
   bool takeAway(const Fill& fill) {
-    const std::vector<Voxel> taken = connectedToFaces(fill);
-    double faces = 0;
-    for (const Voxel i : taken) eachBeside(i, [&](Voxel j) { faces += m_isImage[j] ? 1 : 0; });
-    const auto all = static_cast<double>(m_voxels.size()), size = static_cast<double>(taken.size());
-    const bool isNoSpeck = faces > 0 && size >= kFillThickness * faces;
-    if (isNoSpeck && fill.isStated) return true;
-    if (isNoSpeck && all - size >= std::max(kImageThickness * faces, kLeastImage * all) &&
-        takeBlurred(fill.low, taken))
+    std::vector<Voxel> taken;
+    double faces = 0;  // of voxels, between the fill and the image
+    const auto leavesImage = [&] {
+      const auto all = static_cast<double>(m_voxels.size());
+      const double rest = all - static_cast<double>(taken.size());
+      return fill.isStated || rest >= std::max(kImageThickness * faces, kLeastImage * all);
+    };
+    const auto isTaken = [&](Voxel i) {
+      if (!m_isImage[i]) return true;
+      if (!fill.holds(m_voxels[i])) return false;
+      m_isImage[i] = false;
+      taken.push_back(i);
+      return true;
+    };
+    eachAtFaces(isTaken);
+    for (std::size_t k = 0; k < taken.size() && leavesImage(); ++k) {
+      if (k % kVoxelsAtOnce == 0) m_progress.check();
+      eachBeside(taken[k], [&](Voxel j) { faces += isTaken(j) ? 0 : 1; });
+    }
+    if (faces > 0 && static_cast<double>(taken.size()) >= kFillThickness * faces && leavesImage() &&
+        (fill.isStated || takeBlurred(fill.low, taken)))
       return true;
     for (const Voxel i : taken) m_isImage[i] = true;
     return false;
@@ -86,8 +99,11 @@ private:
   template <class Visit>
   void eachBeside(Voxel i, const Visit& visit) const {
     const Cell cell = m_cells.cell(i);
-    for (const Cell& step : kFaceSteps)
-      if (m_cells.contains(cell + step)) visit(m_cells.index(cell + step));
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t stride = m_strides[static_cast<std::size_t>(axis)];
+      if (cell[axis] > 0) visit(i - stride);
+      if (cell[axis] + 1 < m_cells.size[axis]) visit(i + stride);
+    }
   }
 
   [[nodiscard]] bool isAtBorder(Voxel i) const {
@@ -110,26 +126,16 @@ private:
     return out;
   }
 
-  /// Takes the voxels of a fill that are connected with a face away from the image.
-  std::vector<Voxel> connectedToFaces(const Fill& fill) {
-    std::vector<Voxel> taken;
-    const auto take = [&](Voxel i) {
-      if (!m_isImage[i] || !fill.holds(m_voxels[i])) return;
-      m_isImage[i] = false;
-      taken.push_back(i);
-    };
+  /// Calls visit(voxel) for those in the faces of the volume.
+  template <class Visit>
+  void eachAtFaces(const Visit& visit) const {
     for (int axis = 0; axis < 3; ++axis)
       for (const int end : {0, m_cells.high()[axis]}) {
         CellBox face = m_cells;
         face.low[axis] = end;
         face.size[axis] = 1;
-        face.forEach([&](const Cell& cell) { take(m_cells.index(cell)); });
+        face.forEach([&](const Cell& cell) { visit(m_cells.index(cell)); });
       }
-    for (std::size_t k = 0; k < taken.size(); ++k) {
-      if (k % kVoxelsAtOnce == 0) m_progress.check();
-      eachBeside(taken[k], take);
-    }
-    return taken;
   }
 
   /// Takes the layers of the image beside a fill away that are blurred by it. False if the first one
@@ -171,6 +177,8 @@ private:
 
   const std::vector<T>& m_voxels;
   const CellBox m_cells;
+  const std::array<std::size_t, 3> m_strides = {m_cells.stride(0), m_cells.stride(1),
+                                                m_cells.stride(2)};
   const Progress& m_progress;
   std::vector<bool> m_isImage;
 };
