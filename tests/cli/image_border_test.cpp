@@ -27,7 +27,8 @@ class ImageBorderTest : public CliTest {
 protected:
   void SetUp() override {
     fillOnce("cut-fork", [this] {
-      make({"phantom", "bifurcation", "fork.nii", "--size", "64", "--truth", "truth.lumen"});
+      make({"phantom", "bifurcation", "fork.nii", "--size", "64", "--truth", "truth.lumen",
+            "--seeds", "seeds.json"});
     });
   }
 
@@ -96,7 +97,24 @@ TEST_F(ImageBorderTest, TheVolumeThatTheCaseNamesIsTheWholeOne) {
   EXPECT_EQ(made["provenance"]["source"]["sha256"], volume["sha256"]) << made << volume;
 }
 
-TEST_F(ImageBorderTest, TheFillIsNamedForWhoAsks) {
+TEST_F(ImageBorderTest, NoVesselGoesOnBeyondTheBorder) {
+  cut(kCircle, -1024);
+  make({"convert", "cut.nii", "cut.lumen"});
+  const Outcome checked = lumen({"check", "cut.nii", "cut.lumen"});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_TRUE(contains(checked.out, " of 3 reach as far as the volume")) << checked.out;
+  EXPECT_FALSE(contains(checked.out, "goes on for")) << checked.out;
+}
+
+TEST_F(ImageBorderTest, ATrackFromAClickEndsAtTheBorder) {
+  cut(kTurned, -1024);
+  make({"convert", "cut.nii", "clicked.lumen", "--seeds", "seeds.json", "--seeds-only"});
+  const Json score = answer({"compare", "clicked.lumen", "truth.lumen", "--json"});
+  EXPECT_LE(score["false_mm"].get<double>(), 0.01 * trueLength(kTurned));
+  EXPECT_GE(score["missed_mm"].get<double>(), 1);  // the ends are cut off
+}
+
+TEST_F(ImageBorderTest, TheVoxelsThatAreNoImageAreCountedForWhoAsks) {
   cut(kCircle, -1024);
   const Outcome done = lumen({"convert", "cut.nii", "cut.lumen", "--verbose"});
   EXPECT_TRUE(contains(done.err, " voxels are no image")) << done.err;
