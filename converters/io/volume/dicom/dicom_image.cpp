@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/parsed_number.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -59,27 +58,6 @@ constexpr std::array<Syntax, 12> kSyntaxes = {{
     {"1.2.840.10008.1.2.4.91", kExplicit, DicomPacking::Jpeg2000},
     {"1.2.840.10008.1.2.5", kExplicit, DicomPacking::RunLength}}};
 // clang-format on
-
-std::string trimmedText(std::string text) {
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos ? std::string() : text.substr(first);
-}
-
-/// The numbers of "0.5\0.25 "; empty if one of them is malformed.
-std::vector<double> parseNumbers(const std::string& text) {
-  std::vector<double> values;
-  std::size_t begin = 0;
-  for (bool more = true; more;) {
-    const std::size_t end = text.find('\\', begin);
-    more = end != std::string::npos;
-    const auto value = parsedNumber(trimmedText(text.substr(begin, more ? end - begin : end)));
-    begin = end + 1;
-    if (!value || !std::isfinite(*value)) return {};
-    values.push_back(*value);
-  }
-  return values;
-}
 
 /// Collects the needed values of a data set during the walk.
 struct Content {
