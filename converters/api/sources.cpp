@@ -90,7 +90,7 @@ convert::Volume volumeOf(const lumen_engine_volume& from, const std::string& nam
   }
   convert::checkGeometry(geometry, name);
   volume.voxels = voxelsOf(from, geometry.voxelCount());
-  convert::checkVoxels(volume.voxels, name);
+  convert::checkVoxels(volume, name);
   return volume;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <set>
 #include <utility>
 #include <variant>
@@ -18,6 +19,7 @@
 #include "converters/stages/editing/selection.h"
 #include "converters/stages/finding/background.h"
 #include "converters/stages/tracking/tracking_volume.h"
+#include "converters/voxels/image_region.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
@@ -191,14 +193,16 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
   progress.begin("repeating", repeats);
   QuietProgress quiet(progress);
   const float sign = options.track.dark ? -1.0F : 1.0F;
-  const double noise = double{convert::Background(volume, sign, progress).noise()};
+  const std::shared_ptr<const convert::Volume> continued = convert::continueImage(volume, progress);
+  const convert::Volume& image = continued ? *continued : volume;
+  const double noise = double{convert::Background(image, sign, progress).noise()};
   for (std::uint64_t run = 1; run <= repeats; ++run) {
     VesselOptions other = options;
     other.track.seed += run;
     other.seeds = moved(options.seeds, volume.geometry.voxelSize(), Random(other.track.seed));
     try {
       const convert::Volume noisy =
-          withNoise(volume, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
+          withNoise(image, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
       runs.push_back(trackVessels(noisy, name, other, context.within(quiet)).result);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;

@@ -111,7 +111,7 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   if (result.result.tree.nodeCount() == 0) return result;
   const convert::LumenInVolume lumen{
       [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
-      [&](const Eigen::Vector3d& point) { return volume.geometry.containsWorld(point); }};
+      [&](const Eigen::Vector3d& point) { return found.geometry.containsWorld(point); }};
   for (const Eigen::Vector3d& place : convert::correctTopology(result.result, lumen))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
   const std::vector<Eigen::Vector3d> inlets =

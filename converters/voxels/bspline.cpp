@@ -341,6 +341,10 @@ void BsplineVolume::sampleLine(const Eigen::Vector3d& startIndex, const Eigen::V
     interpolate(block, count, values.data());
     std::copy_n(values.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(first));
   }
+  if (!geometry().image) return;
+  for (std::size_t n = 0; n < out.size(); ++n)
+    if (!geometry().containsIndex(startIndex + static_cast<double>(n) * stepIndex))
+      out[n] = std::numeric_limits<float>::quiet_NaN();
 }
 
 }  // namespace lumen::convert

@@ -38,7 +38,7 @@ public:
   [[nodiscard]] const VolumeGeometry& geometry() const;
 
   /// Values at index positions start + n * step for n = 0 .. out.size() - 1, in the voxels' units;
-  /// NaN where the position lies outside the voxel centres' box. SIMD by run-time dispatch.
+  /// NaN where VolumeGeometry::containsIndex() is false. SIMD by run-time dispatch.
   void sampleLine(const Eigen::Vector3d& startIndex, const Eigen::Vector3d& stepIndex,
                   std::span<float> out) const;
   /// The scalar reference for sampleLine: the same values to float rounding.

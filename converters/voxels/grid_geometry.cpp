@@ -18,6 +18,7 @@ double rounded(double value) {
 VolumeGeometry gridGeometry(const VolumeGeometry& world) {
   VolumeGeometry grid;
   grid.size = world.size;
+  grid.image = world.image;
   for (Eigen::Index a = 0; a < 3; ++a) grid.spacing[a] = rounded(world.spacing[a]);
   return grid;
 }

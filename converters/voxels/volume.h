@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,6 +25,8 @@ struct VolumeGeometry {
   Eigen::Vector3d spacing = Eigen::Vector3d::Ones();        ///< mm, > 0
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();         ///< mm, LPS
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();  ///< orthonormal columns
+  /// For each voxel whether it is image; null: all are (continueImage()).
+  std::shared_ptr<const std::vector<bool>> image{};
 
   [[nodiscard]] Eigen::Vector3d worldFromIndex(const Eigen::Vector3d& index) const {
     return origin + direction * spacing.cwiseProduct(index);
@@ -30,11 +34,12 @@ struct VolumeGeometry {
   [[nodiscard]] Eigen::Vector3d indexFromWorld(const Eigen::Vector3d& world) const {
     return (direction.transpose() * (world - origin)).cwiseQuotient(spacing);
   }
-  /// True for index positions within the voxel centres' box, [0, size - 1] on each axis.
+  /// True for index positions within the voxel centres' box, [0, size - 1] on each axis, whose
+  /// nearest voxel is image.
   [[nodiscard]] bool containsIndex(const Eigen::Vector3d& index) const {
     for (int a = 0; a < 3; ++a)
       if (!(index[a] >= 0 && index[a] <= size[static_cast<std::size_t>(a)] - 1)) return false;
-    return true;
+    return !image || isImage(this->index(nearestCell(index)));
   }
   [[nodiscard]] bool containsWorld(const Eigen::Vector3d& world) const {
     return containsIndex(indexFromWorld(world));
@@ -46,6 +51,16 @@ struct VolumeGeometry {
   [[nodiscard]] CellBox cells() const { return {Cell::Zero(), {size[0], size[1], size[2]}}; }
   [[nodiscard]] std::size_t voxelCount() const { return cells().count(); }
   [[nodiscard]] bool contains(const Cell& cell) const { return cells().contains(cell); }
+  [[nodiscard]] bool isImage(std::size_t voxel) const { return !image || (*image)[voxel]; }
+  /// True for a cell of the volume that shares a face with a voxel that is no image.
+  [[nodiscard]] bool isBesideNoImage(const Cell& cell) const {
+    return image && std::any_of(kFaceSteps.begin(), kFaceSteps.end(), [&](const Cell& step) {
+             return contains(cell + step) && !isImage(index(cell + step));
+           });
+  }
+  static Cell nearestCell(const Eigen::Vector3d& index) {
+    return index.array().round().cast<int>().matrix();
+  }
   /// The index of a cell among the voxels.
   [[nodiscard]] std::size_t index(const Cell& cell) const { return cells().index(cell); }
   [[nodiscard]] Cell cell(std::size_t index) const { return cells().cell(index); }
@@ -79,6 +94,8 @@ struct Volume {
   Voxels voxels;
   /// Assumptions of the reader where the file is incomplete (VolumeHeader::assumptions).
   std::vector<std::string> assumptions{};
+  /// The least and the greatest value of what is no image, where the file states it.
+  std::optional<std::array<float, 2>> padding{};
 };
 
 }  // namespace lumen::convert

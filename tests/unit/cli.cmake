@@ -25,6 +25,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_format_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/image_border_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/interrupt_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/measure_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_options_test.cpp

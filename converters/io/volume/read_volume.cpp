@@ -98,11 +98,11 @@ VolumeHeader readVolumeHeader(const InputFile& file, const VolumeFormat& format,
 Volume readVolume(const InputFile& file, const VolumeFormat& format,
                   const ReadVolumeOptions& options, const Progress& progress) {
   OpenVolume opened = open(file, format, options, progress);
-  Volume volume{opened.header.geometry, {}, std::move(opened.header.assumptions)};
+  Volume volume{opened.header.geometry, {}, std::move(opened.header.assumptions), opened.padding};
   volume.voxels = opened.readVoxels(progress, volume.assumptions);
   progress.check();
   if (options.crop) crop(volume, *options.crop, file.path());
-  checkVoxels(volume.voxels, file.path(), options.allowsConstant);
+  checkVoxels(volume, file.path(), options.allowsConstant);
   progress.check();
   return volume;
 }

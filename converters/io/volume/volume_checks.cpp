@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -22,7 +23,7 @@ constexpr double kMaxVoxels = 1e11;
 // Deflate expands at most 1032 times (zlib's technical notes).
 constexpr double kMaxExpansion = 1032;
 
-/// Refuses values that are not finite, and constant volumes unless they are allowed.
+/// Refuses infinite values, and constant volumes unless they are allowed.
 template <class T>
 void checkValues(const std::vector<T>& voxels, const fs::path& path, bool allowsConstant) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -39,6 +40,22 @@ void checkValues(const std::vector<T>& voxels, const fs::path& path, bool allows
     throw invalidInput(path.string() + ": every voxel is " +
                        shownNumber(static_cast<double>(voxels[0])) +
                        "; expected an image with vessels in it");
+}
+
+/// Sets voxels that are not a number to the least of the others. They stay where no other is finite.
+void padNotANumber(std::vector<float>& voxels, Volume& volume) {
+  const auto isNone = [](float v) { return std::isnan(v); };
+  const auto count = std::count_if(voxels.begin(), voxels.end(), isNone);
+  if (count == 0) return;
+  float least = std::numeric_limits<float>::infinity();
+  for (const float v : voxels) least = std::min(least, isNone(v) ? least : v);
+  if (!std::isfinite(least)) return;
+  std::replace_if(voxels.begin(), voxels.end(), isNone, least);
+  volume.padding = {least, least};
+  volume.assumptions.push_back(std::to_string(count) +
+                               " of its voxels are not a number (NaN); they "
+                               "count as no image, with the least of the others, " +
+                               shownNumber(static_cast<double>(least)));
 }
 
 }  // namespace
@@ -121,8 +138,10 @@ std::string longNumber(double value) {
   return shownNumber(value, kHeaderDigits);
 }
 
-void checkVoxels(const Voxels& voxels, const fs::path& path, bool allowsConstant) {
-  std::visit([&](const auto& values) { checkValues(values, path, allowsConstant); }, voxels);
+void checkVoxels(Volume& volume, const fs::path& path, bool allowsConstant) {
+  if (auto* const floats = std::get_if<std::vector<float>>(&volume.voxels))
+    padNotANumber(*floats, volume);
+  std::visit([&](const auto& values) { checkValues(values, path, allowsConstant); }, volume.voxels);
 }
 
 }  // namespace lumen::convert

@@ -16,10 +16,10 @@ namespace lumen::convert {
 /// sound and the direction is orthonormal within 1e-3; makes it orthonormal to rounding.
 void checkGeometry(VolumeGeometry& geometry, const std::filesystem::path& path);
 
-/// Throws Error(InvalidInput), naming `path`, for voxels that are not finite, or that are all equal
-/// unless that is allowed.
-void checkVoxels(const Voxels& voxels, const std::filesystem::path& path,
-                 bool allowsConstant = false);
+/// Sets voxels that are not a number to the least of the others, which becomes the padding, with a
+/// sentence among the assumptions. Throws Error(InvalidInput), naming `path`, for infinite voxels, and
+/// for voxels that are all equal unless that is allowed.
+void checkVoxels(Volume& volume, const std::filesystem::path& path, bool allowsConstant = false);
 
 /// Throws Error(InvalidInput), naming `path` and `field`, unless `value` is a valid spacing; `axis`
 /// counts from 1.

@@ -4,9 +4,11 @@
 // the data, and open any file that a header names.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,7 @@ namespace lumen::convert {
 /// A volume with an accepted header.
 struct OpenVolume {
   VolumeHeader header;
+  std::optional<std::array<float, 2>> padding{};  ///< as Volume::padding
   /// Reads the voxels; appends sentences about them to `assumptions`.
   std::function<Voxels(const Progress&, std::vector<std::string>& assumptions)> readVoxels;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <variant>
 
@@ -12,6 +13,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/voxels/image_region.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::convert {
@@ -223,8 +225,10 @@ std::size_t requireOverlap(const Volume& volume, const formats::CenterlineTree& 
   return outside;
 }
 
-CheckResult checkCase(const Volume& volume, const formats::Case& value, const EdgeOptions& options,
+CheckResult checkCase(const Volume& whole, const formats::Case& value, const EdgeOptions& options,
                       Progress& progress) {
+  const std::shared_ptr<const Volume> continued = continueImage(whole, progress);
+  const Volume& volume = continued ? *continued : whole;
   const formats::CenterlineTree& tree = value.tree;
   CheckResult result;
   CheckReport& report = result.report;

@@ -79,7 +79,8 @@ std::vector<Reached> grow(const LumenVoxels& lumen, const Levels& levels, Neares
   const auto from = [&](std::size_t index, std::uint32_t node) {
     cells.forEachNeighbour(cells.cell(index), [&](const Cell& cell) {
       const std::size_t next = cells.index(cell);
-      if (bright[next] != 0 || !(value(next) > levels.node[node].half) ||
+      if (bright[next] != 0 || !levels.volume.geometry.isImage(next) ||
+          !(value(next) > levels.node[node].half) ||
           !(value(next) > levels.node[nearest.of(cell)].faint))
         return;
       bright[next] = 1;

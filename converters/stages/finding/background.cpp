@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <variant>
 
@@ -17,19 +18,21 @@ namespace {
 constexpr int kAround = 2;       // blocks on either side that a place compares
 constexpr double kQuiet = 0.25;  // quantile of the blocks that hold background alone
 
-/// Median of a block's voxels, and the median absolute deviation from it.
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+/// Median of a block's voxels, and the median absolute deviation from it. Unknown without image.
 struct BlockLevel {
-  float median = 0, deviation = 0;
+  float median = kUnknown, deviation = kUnknown;
 };
 
 template <class T>
-BlockLevel measureLevel(const std::vector<T>& voxels, const CellBox& cells, const CellBox& block,
-                        float sign) {
+BlockLevel measureLevel(const std::vector<T>& voxels, const VolumeGeometry& geometry,
+                        const CellBox& block, float sign) {
   std::vector<float> values;
   values.reserve(block.count());
   block.forEach([&](const Cell& cell) {
-    const auto value = static_cast<float>(voxels[cells.index(cell)]);
-    if (std::isfinite(value)) values.push_back(sign * value);
+    const std::size_t i = geometry.index(cell);
+    if (geometry.isImage(i)) values.push_back(sign * static_cast<float>(voxels[i]));
   });
   if (values.empty()) return {};
   BlockLevel level;
@@ -50,7 +53,8 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
         tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
           progress.check();
           const CellBox block{m_blocks.cell(b) * kBlock, Cell::Constant(kBlock)};
-          const BlockLevel level = measureLevel(voxels, m_voxels, block.meet(m_voxels), sign);
+          const BlockLevel level =
+              measureLevel(voxels, volume.geometry, block.meet(m_voxels), sign);
           medians[b] = level.median;
           deviations[b] = level.deviation;
         });
@@ -61,6 +65,7 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
   smoothOver(medians, deviations);
   for (int x = 0; x < m_voxels.size[0]; ++x) m_alongX.push_back(between(x, m_blocks.size[0]));
   std::vector<float> all = deviations;
+  std::erase_if(all, [](float deviation) { return std::isnan(deviation); });
   m_noise = std::max(m_noise, static_cast<float>(kDeviationOfMedian) * lowerQuantile(all, kQuiet));
 }
 
@@ -79,11 +84,14 @@ void Background::smoothOver(const std::vector<float>& medians,
     std::vector<float> levels, spreads;
     m_blocks.meet(CellBox::between(at - Cell::Constant(kAround), at + Cell::Constant(kAround)))
         .forEach([&](const Cell& cell) {
+          if (std::isnan(medians[m_blocks.index(cell)])) return;
           levels.push_back(medians[m_blocks.index(cell)]);
           spreads.push_back(deviations[m_blocks.index(cell)]);
         });
-    m_level[b] = lowerQuantile(levels, kQuiet);
-    m_unevenness[b] = static_cast<float>(kDeviationOfMedian) * upperMedian(spreads);
+    const bool isKnown = !levels.empty();
+    m_level[b] = isKnown ? lowerQuantile(levels, kQuiet) : kUnknown;
+    m_unevenness[b] =
+        isKnown ? static_cast<float>(kDeviationOfMedian) * upperMedian(spreads) : kUnknown;
   });
 }
 

@@ -15,7 +15,7 @@ namespace lumen::convert {
 
 /// Background by blocks of voxels: the lower quartile of the medians of the blocks around each
 /// place, so that a vessel that fills a block does not count. Brighter is more, also where vessels
-/// are dark.
+/// are dark. Voxels that are no image do not count.
 class Background {
 public:
   static constexpr int kBlock = 16;  ///< voxels along an edge

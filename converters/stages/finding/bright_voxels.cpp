@@ -26,8 +26,8 @@ constexpr float kFaintest = 0.05F;
 /// Strength of the ridge of a thin vessel as a share of its contrast, at the scale that suits it.
 constexpr float kRidgeShare = 0.25F;
 
-/// Calls visit(index, excess) for every voxel, row by row in parallel, with its brightness over the
-/// background.
+/// Calls visit(z, index, excess) for every voxel of the image, row by row in parallel, with its
+/// brightness over the background.
 template <class Visit>
 void forEachExcess(const Volume& volume, const Background& background, float sign,
                    const Progress& progress, const Visit& visit) {
@@ -41,7 +41,8 @@ void forEachExcess(const Volume& volume, const Background& background, float sig
             background.alongRow(y, z, row);
             const std::size_t first = cells.index(Cell(0, y, z));
             for (std::size_t x = 0; x < row.size(); ++x)
-              visit(z, first + x, sign * static_cast<float>(voxels[first + x]) - row[x]);
+              if (volume.geometry.isImage(first + x))
+                visit(z, first + x, sign * static_cast<float>(voxels[first + x]) - row[x]);
           }
         });
       },
@@ -147,10 +148,15 @@ BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Prior& prio
   out.noise = static_cast<double>(background.noise());
   if (excess.countFrom(0) == 0) return out;
   const CellBox cells = volume.geometry.cells();
-  const float contrast = measureContrast(excess, cells.count());
-  out.contrast = static_cast<double>(contrast);
-
   ZeroedArray<std::uint8_t> mark(cells.count());  // kBackground
+  std::size_t imageSize = mark.size();
+  for (std::size_t i = 0; i < mark.size(); ++i) {
+    if (volume.geometry.isImage(i)) continue;
+    mark[i] = kOtherTissue;
+    --imageSize;
+  }
+  const float contrast = measureContrast(excess, imageSize);
+  out.contrast = static_cast<double>(contrast);
   const float half = std::max(0.5F * contrast, excess.low);
   forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
     if (value > half) mark[i] = kLumen;

@@ -62,7 +62,7 @@ struct BrightVoxels {
 /// the ridge that they are on (docs/method.md, section 1.13). Empty if nothing stands out of the
 /// noise. In computed tomography (ct_levels.h) wide vessels are those whose level is even, which
 /// bone's is not, and thin ones are connected with them or lie amid soft tissue.
-/// `dark`: vessels are darker than their background. `prior`: what is no vessel is no lumen; lumen needs no
+/// Voxels that are no image do not count. `dark`: vessels are darker than their background. `prior`: what is no vessel is no lumen; lumen needs no
 /// more than to stand out of the noise, and nothing beside it. Throws Error(Cancelled).
 BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Prior& prior,
                               const Progress& progress);

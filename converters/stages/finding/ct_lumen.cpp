@@ -60,13 +60,18 @@ private:
                       m_volume.voxels);
   }
 
+  /// Whether a voxel is known to be no vessel, or is no image.
+  [[nodiscard]] bool isNone(std::size_t i) const {
+    return m_prior.isNoVessel(i) || !m_volume.geometry.isImage(i);
+  }
+
   /// Calm voxels are lumen or soft tissue by their level; all others are neither so far.
   void markCalm() {
     forEachNeighbourhood(
         m_volume, m_levels.soft, m_progress, [&](std::size_t i, const Neighbourhood& around) {
           const bool isCalm = m_levels.isCalm(around);
           m_isSoft[i] = isCalm && std::abs(around.mean - m_levels.soft) < kSoftRange ? 1 : 0;
-          const bool isLumen = isCalm && around.mean > m_half && !m_prior.isNoVessel(i);
+          const bool isLumen = isCalm && around.mean > m_half && !isNone(i);
           m_mark[i] = isLumen ? kLumen : m_isSoft[i] != 0 ? kBackground : kOtherTissue;
         });
   }
@@ -130,7 +135,7 @@ private:
     const auto from = [&](std::size_t i) {
       m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
         const std::size_t j = m_cells.index(cell);
-        if (m_mark[j] == kLumen || m_prior.isNoVessel(j) || !(value(j) > m_half)) return;
+        if (m_mark[j] == kLumen || isNone(j) || !(value(j) > m_half)) return;
         m_mark[j] = kLumen;
         next.push_back(j);
       });
@@ -147,7 +152,7 @@ private:
   void addKnown() {
     const float bright = m_levels.soft + CtLevels::kLeastContrast;
     for (std::size_t i = 0; i < m_prior.systems.size(); ++i)
-      if (m_prior.isLumen(i) && value(i) > bright) m_mark[i] = kLumen;
+      if (m_prior.isLumen(i) && !isNone(i) && value(i) > bright) m_mark[i] = kLumen;
   }
 
   /// Marks ridges: strong ones amid soft tissue are lumen, others may lead on from it.
@@ -162,7 +167,7 @@ private:
         for (int x = 0; x < m_cells.size[0]; ++x) {
           const Cell cell(x, y, z);
           const std::size_t i = m_cells.index(cell);
-          if (m_mark[i] == kLumen || m_prior.isNoVessel(i)) continue;
+          if (m_mark[i] == kLumen || isNone(i)) continue;
           if (!(strength[i] > kWeakRidge * usual.at(cell)) || !(value(i) > noise)) continue;
           const bool isStrong = value(i) > bright && strength[i] > kStrongRidge * usual.at(cell);
           if (m_prior.isLumen(i) || (isStrong && isAmidSoft(cell)))
@@ -205,7 +210,7 @@ private:
     for (std::size_t i = 0; i < m_mark.size(); ++i) {
       if (m_mark[i] == kLumen)
         out.indices.push_back(i);
-      else if (value(i) > m_half)
+      else if (value(i) > m_half && m_volume.geometry.isImage(i))
         out.bone.push_back(i);
     }
     out.contrast = static_cast<double>(2 * (m_half - m_levels.soft));

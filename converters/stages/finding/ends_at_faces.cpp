@@ -18,7 +18,7 @@ bool isAtFace(const VoxelSet& set, std::uint32_t i) {
   const Cell cell = set.cell(i), high = set.geometry().cells().high();
   for (int a = 0; a < 3; ++a)
     if (high[a] > 0 && (cell[a] == 0 || cell[a] == high[a])) return true;
-  return false;
+  return set.geometry().isBesideNoImage(cell);
 }
 
 /// The number of voxels of a path, from its beginning, that lie outside of the ball around `middle`.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <queue>
 #include <set>
 #include <span>
@@ -21,6 +22,7 @@
 #include "converters/stages/finding/ends_at_faces.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/grid_geometry.h"
+#include "converters/voxels/image_region.h"
 #include "converters/voxels/vessel_paths.h"
 
 namespace lumen::convert {
@@ -77,7 +79,11 @@ public:
 private:
   std::vector<float> depths(const Progress& progress) const {
     return measureDepths(
-        m_set, [this](std::size_t i) { return m_set.find(i) != VoxelSet::kNone; }, progress);
+        m_set,
+        [this](std::size_t i) {
+          return m_set.find(i) != VoxelSet::kNone || !m_set.geometry().isImage(i);
+        },
+        progress);
   }
 
   std::vector<std::uint32_t> connectedPart(std::uint32_t first, std::vector<bool>& isSeen) const {
@@ -258,8 +264,13 @@ bool FoundVessels::isIn(const std::vector<std::size_t>& voxels, const Vector3d& 
          std::binary_search(voxels.begin(), voxels.end(), geometry.cells().index(cell));
 }
 
-FoundVessels findVessels(const Volume& volume, bool dark, const Prior& prior, Progress& progress) {
+FoundVessels findVessels(const Volume& whole, bool dark, const Prior& prior, Progress& progress) {
   progress.begin("find", 0);
+  const std::shared_ptr<const Volume> continued = continueImage(whole, progress);
+  const Volume& volume = continued ? *continued : whole;
+  if (const auto& image = volume.geometry.image)
+    progress.detail(std::to_string(std::count(image->begin(), image->end(), false)) +
+                    " voxels are no image");
   BrightVoxels bright = findBrightVoxels(volume, dark, prior, progress);
   progress.detail("lumen: " + std::to_string(bright.indices.size()) + " voxels, contrast " +
                   fixedText(bright.contrast, 6) + ", noise " + fixedText(bright.noise, 6));

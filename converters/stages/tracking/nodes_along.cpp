@@ -80,12 +80,13 @@ private:
   std::vector<double> m_at;  ///< mm from the first point
 };
 
-/// True if a place lies in a voxel at a face of the volume: its vessel goes on, and has no rounded
-/// end there.
+/// True if a place lies in a voxel at a face of the volume, or at the border of its image: its
+/// vessel goes on, and has no rounded end there.
 bool liesAtFace(const VolumeGeometry& geometry, const Vector3d& place) {
   const Eigen::Array3d index = geometry.indexFromWorld(place).array();
   const Eigen::Array3d last = geometry.cells().high().cast<double>().array();
-  return (index < 0.5 || index > last - 0.5).any();
+  return (index < 0.5 || index > last - 0.5).any() ||
+         geometry.isBesideNoImage(VolumeGeometry::nearestCell(index));
 }
 
 bool inLumen(const TrackedBranch* other, const Vector3d& point) {

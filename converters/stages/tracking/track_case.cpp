@@ -225,7 +225,7 @@ void addVesselsInRemainingLumen(const TrackingVolume& volume, const GridFrame& f
                                 const CoursesInRemainingLumen& remaining,
                                 const PlaceTest& isNoVessel, const WallShape& shape,
                                 TrackedTree& tree, Progress& progress) {
-  std::vector<SeedBranch> courses = frame.toGrid(remaining(ballsIn(tree, frame.geometry())));
+  std::vector<SeedBranch> courses = frame.toGrid(remaining(ballsIn(tree, volume.geometry())));
   std::erase_if(courses, [](const SeedBranch& c) { return c.kind != BranchKind::Vessel; });
   if (courses.empty()) return;
   std::set<std::string> labels;

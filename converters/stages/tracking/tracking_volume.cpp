@@ -10,6 +10,8 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/stages/tracking/cylinders/tracked_tree.h"
+#include "converters/voxels/grid_geometry.h"
+#include "converters/voxels/image_region.h"
 
 namespace lumen::convert {
 namespace {
@@ -139,8 +141,8 @@ TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracke
   m_options.word = word;
   m_options.check(volume.geometry.spacing.minCoeff());
   checkVoxels(volume.geometry.spacing, word);
-  m_smoothed =
-      smoothForNoise(volume, volume.geometry, middlesAsClicks(tracked), m_options, progress);
+  const Volume& image = imageOf(volume, progress);
+  m_smoothed = smoothForNoise(image, image.geometry, middlesAsClicks(tracked), m_options, progress);
   m_options.smoothing = m_smoothed.smoothing;
   m_wallShape = measureWallShape(*this, makeTrackedTree(tracked));
   if (!m_options.pointSpread) return;
@@ -151,16 +153,23 @@ TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracke
 TrackingVolume::TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
                                const TrackOptions& options, Progress& progress)
     : m_options(options) {
-  checkAndWarn(volume, clicks, options, progress);
-  prepare(volume, volume.geometry, clicks, progress);
+  const Volume& image = imageOf(volume, progress);
+  checkAndWarn(image, clicks, options, progress);
+  prepare(image, image.geometry, clicks, progress);
 }
 
 TrackingVolume::TrackingVolume(const Volume& volume, const GridFrame& frame,
                                const std::vector<SeedBranch>& clicks, const TrackOptions& options,
                                Progress& progress)
     : m_options(options) {
-  checkAndWarn(volume, clicks, options, progress);
-  prepare(volume, frame.geometry(), frame.toGrid(clicks), progress);
+  const Volume& image = imageOf(volume, progress);
+  checkAndWarn(image, clicks, options, progress);
+  prepare(image, gridGeometry(image.geometry), frame.toGrid(clicks), progress);
+}
+
+const Volume& TrackingVolume::imageOf(const Volume& volume, Progress& progress) {
+  m_continued = continueImage(volume, progress);
+  return m_continued ? *m_continued : volume;
 }
 
 void TrackingVolume::prepare(const Volume& volume, const VolumeGeometry& geometry,

@@ -2,6 +2,7 @@
 // A volume in which vessels are tracked repeatedly, with the data that every track needs.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,10 +65,13 @@ public:
   [[nodiscard]] const std::optional<WallShape>& wallShape() const { return m_wallShape; }
 
 private:
+  /// The volume, or what continues its image.
+  const Volume& imageOf(const Volume& volume, Progress& progress);
   void prepare(const Volume& volume, const VolumeGeometry& geometry,
                const std::vector<SeedBranch>& clicks, const Progress& progress);
 
   TrackOptions m_options;
+  std::shared_ptr<const Volume> m_continued;  ///< null if all of the volume is image
   SmoothedVolume m_smoothed;
   std::optional<WallShape> m_wallShape;
 };

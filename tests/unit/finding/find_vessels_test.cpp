@@ -286,7 +286,7 @@ TEST(FindVessels, AMapMakesUpForEvidenceThatIsWeak) {
   auto& voxels = std::get<std::vector<std::int16_t>>(volume.voxels);
   for (std::size_t i = 0; i < voxels.size(); ++i)
     voxels[i] = static_cast<std::int16_t>(voxels[i] +
-                                          std::get<std::vector<std::int16_t>>(faint.voxels)[i] / 12);
+                                          std::get<std::vector<std::int16_t>>(faint.voxels)[i] / 9);
   volume = noisy(std::move(volume), 20);
   const auto reaches = [&](const Prior& prior) {
     Progress silent;

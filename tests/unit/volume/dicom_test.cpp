@@ -50,6 +50,22 @@ TEST_F(Dicom, RescaleIsApplied) {
   EXPECT_EQ(std::visit([](const auto& x) { return static_cast<double>(x[1]); }, v.voxels), -1023);
 }
 
+TEST_F(Dicom, PaddingIsRescaledAsTheVoxelsAre) {
+  DicomSlice slice;
+  slice.slope = "2";
+  slice.intercept = "-1024";
+  slice.beforePixels = DicomSlice::number16(0x28, 0x120, 7);
+  writeSeries("a", slice, 3);
+  using Range = std::array<float, 2>;
+  EXPECT_EQ(readQuietly(directory()).padding, (Range{-1010, -1010}));
+  slice.beforePixels += DicomSlice::number16(0x28, 0x121, 3);  // the other end of the range
+  writeSeries("a", slice, 3);
+  EXPECT_EQ(readQuietly(directory()).padding, (Range{-1018, -1010}));
+  slice.beforePixels = DicomSlice::text(0x28, 0x120, "US", "");
+  writeSeries("a", slice, 3);
+  EXPECT_FALSE(readQuietly(directory()).padding);
+}
+
 TEST_F(Dicom, SeveralSeriesAreListed) {
   writeSeries("a", {}, 3);
   DicomSlice other;

@@ -106,7 +106,7 @@ TEST_F(HostileVolume, EachOfMetaImageIsNamed) {
       {{"TransformMatrix = 1 0 0 0.1 0.995 0 0 0 1"}, kSound, {"3: ", "orthogonal"}},
       {{}, std::string(8, '\7'), {"3: ", "every voxel is 7"}},
       {{"ElementType = MET_FLOAT"},
-       bytes<float>({1, 2, nan, 3, nan, 4, 5, 6}),
+       bytes<float>({1, 2, nan, 3, -std::numeric_limits<float>::infinity(), 4, 5, 6}),
        {"3: ", "2 of its voxels are not finite"}},
       {{"ElementType = MET_DOUBLE"},
        bytes<double>({1, 2, 1e300, 3, 3, 4, 5, 6}),

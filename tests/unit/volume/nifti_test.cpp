@@ -168,9 +168,11 @@ TEST_F(Nifti, MoreVoxelsThanAShortCountsAreNotWritten) {
 }
 
 TEST_F(Nifti, VoxelsThatAreNotFiniteAreNotTakenForZeros) {
-  const std::string voxels = bytes<float>({0, 1, 2, 3, 4, 5, 6, NAN});
-  expectRefused(readRefusal(write("v.nii", header(16, 32).text() + voxels)),
+  const auto voxels = [](float last) { return bytes<float>({3, 1, 2, 3, 4, 5, 6, last}); };
+  expectRefused(readRefusal(write("v.nii", header(16, 32).text() + voxels(INFINITY))),
                 {"3: ", "v.nii", "1 of its voxels"});
+  const Volume read = readQuietly(write("v.nii", header(16, 32).text() + voxels(NAN)));
+  EXPECT_EQ(std::get<std::vector<float>>(read.voxels)[7], 1);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/io/volume/read_volume.h"
 
+#include <limits>
+
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -121,6 +123,19 @@ TEST_F(ReadVolume, CropOutsideIsRefused) {
                 {"from 3 to 2"});
   expectRefused(readRefusal(path("v.nrrd"), {{}, CellBox::between({-1, 0, 0}, {2, 3, 2})}),
                 {"from -1 to 2"});
+}
+
+TEST_F(ReadVolume, NotANumberIsPadding) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Volume volume =
+      readQuietly(writeMeta("MET_FLOAT", bytes<float>({1, nan, -2.5F, 3, nan, 4, 5, 6})));
+  EXPECT_EQ(std::get<std::vector<float>>(volume.voxels),
+            (std::vector<float>{1, -2.5F, -2.5F, 3, -2.5F, 4, 5, 6}));
+  EXPECT_EQ(volume.padding, (std::array{-2.5F, -2.5F}));
+  ASSERT_EQ(volume.assumptions.size(), 1U);
+  EXPECT_EQ(volume.assumptions[0],
+            "2 of its voxels are not a number (NaN); they count as no image, with the least of the "
+            "others, -2.5");
 }
 
 TEST_F(ReadVolume, Int8IsWidenedToInt16) {

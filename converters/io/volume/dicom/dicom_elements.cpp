@@ -2,11 +2,15 @@
 #include "converters/io/volume/dicom/dicom_elements.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/options/parsed_number.h"
 
 namespace lumen::convert {
 namespace {
@@ -257,6 +261,26 @@ std::string tagText(DicomTag tag) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "(%04x,%04x)", tag >> 16U, tag & 0xffffU);
   return text.data();
+}
+
+std::string trimmedText(std::string text) {
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
+  const auto first = text.find_first_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first);
+}
+
+std::vector<double> parseNumbers(const std::string& text) {
+  std::vector<double> values;
+  std::size_t begin = 0;
+  for (bool more = true; more;) {
+    const std::size_t end = text.find('\\', begin);
+    more = end != std::string::npos;
+    const auto value = parsedNumber(trimmedText(text.substr(begin, more ? end - begin : end)));
+    begin = end + 1;
+    if (!value || !std::isfinite(*value)) return {};
+    values.push_back(*value);
+  }
+  return values;
 }
 
 }  // namespace lumen::convert

@@ -76,4 +76,10 @@ bool isRepresentation(const std::array<char, 2>& vr);
 /// The tag as text, "(0028,0010)".
 std::string tagText(DicomTag tag);
 
+/// A text without the spaces around it and the zeros behind it.
+std::string trimmedText(std::string text);
+
+/// The numbers of "0.5\0.25 "; empty if one of them is malformed.
+std::vector<double> parseNumbers(const std::string& text);
+
 }  // namespace lumen::convert

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
-#include "converters/base/options/parsed_number.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -22,7 +21,8 @@ constexpr DicomTag kTransferSyntax = 0x00020010, kStorageClass = 0x00020002, kSe
                    kFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011,
                    kPixelSpacing = 0x00280030, kBitsAllocated = 0x00280100,
                    kBitsStored = 0x00280101, kHighBit = 0x00280102, kSigned = 0x00280103,
-                   kIntercept = 0x00281052, kSlope = 0x00281053, kDistance = 0x00180088;
+                   kPadding = 0x00280120, kPaddingLimit = 0x00280121, kIntercept = 0x00281052,
+                   kSlope = 0x00281053, kDistance = 0x00180088;
 /// Functional groups that all frames share, and those of single frames.
 constexpr DicomTag kShared = 0x52009229, kPerFrame = 0x52009230;
 
@@ -59,27 +59,6 @@ constexpr std::array<Syntax, 12> kSyntaxes = {{
     {"1.2.840.10008.1.2.5", kExplicit, DicomPacking::RunLength}}};
 // clang-format on
 
-std::string trimmedText(std::string text) {
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos ? std::string() : text.substr(first);
-}
-
-/// The numbers of "0.5\0.25 "; empty if one of them is malformed.
-std::vector<double> parseNumbers(const std::string& text) {
-  std::vector<double> values;
-  std::size_t begin = 0;
-  for (bool more = true; more;) {
-    const std::size_t end = text.find('\\', begin);
-    more = end != std::string::npos;
-    const auto value = parsedNumber(trimmedText(text.substr(begin, more ? end - begin : end)));
-    begin = end + 1;
-    if (!value || !std::isfinite(*value)) return {};
-    values.push_back(*value);
-  }
-  return values;
-}
-
 /// Collects the needed values of a data set during the walk.
 struct Content {
   Values top, shared;
@@ -88,11 +67,11 @@ struct Content {
 
   /// Destination of the value, or null if it is not needed.
   Values* place(DicomTag tag, std::span<const DicomTag> path, std::size_t item) {
-    static constexpr std::array kTop = {kSeries,      kModality, kDescription,    kPosition,
-                                        kOrientation, kSamples,  kPhotometric,    kFrames,
-                                        kRows,        kColumns,  kPixelSpacing,   kBitsAllocated,
-                                        kBitsStored,  kHighBit,  kSigned,         kDistance,
-                                        kIntercept,   kSlope,    kTransferSyntax, kStorageClass};
+    static constexpr std::array kTop = {
+        kSeries,         kModality,     kDescription, kPosition,    kOrientation,  kSamples,
+        kPhotometric,    kFrames,       kRows,        kColumns,     kPixelSpacing, kBitsAllocated,
+        kBitsStored,     kHighBit,      kSigned,      kDistance,    kIntercept,    kSlope,
+        kTransferSyntax, kStorageClass, kPadding,     kPaddingLimit};
     static constexpr std::array kGroup = {kPosition, kOrientation, kPixelSpacing,
                                           kDistance, kIntercept,   kSlope};
     const auto has = [&](const auto& tags) {
@@ -144,10 +123,16 @@ public:
       throw invalidInput(std::string(name) + " " + tagText(tag) +
                          (found == m_values.end() ? " is missing" : " is not of two bytes") +
                          "; expected one number");
-    const auto byte = [&](std::size_t i) {
-      return static_cast<std::size_t>(static_cast<unsigned char>(found->second[i]));
-    };
-    return m_bigEndian ? byte(0) << 8U | byte(1) : byte(1) << 8U | byte(0);
+    return number(found->second);
+  }
+
+  /// A stored value of two bytes; empty where the element is missing or has another length.
+  [[nodiscard]] std::optional<double> level(DicomTag tag, bool isSigned) const {
+    const auto found = m_values.find(tag);
+    if (found == m_values.end() || found->second.size() != 2) return std::nullopt;
+    const auto stored = static_cast<std::uint16_t>(number(found->second));
+    return isSigned ? static_cast<double>(static_cast<std::int16_t>(stored))
+                    : static_cast<double>(stored);
   }
 
   /// Decimal numbers; empty where the element is missing or empty.
@@ -171,6 +156,13 @@ public:
   }
 
 private:
+  [[nodiscard]] std::size_t number(const std::string& bytes) const {
+    const auto byte = [&](std::size_t i) {
+      return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
+    };
+    return m_bigEndian ? byte(0) << 8U | byte(1) : byte(1) << 8U | byte(0);
+  }
+
   const Values& m_values;
   bool m_bigEndian;
 };
@@ -231,6 +223,8 @@ void readFormat(const DataSetReader& reader, DicomImage& image) {
   image.bitsStored = reader.word(kBitsStored, "the number of bits used", image.bitsAllocated);
   const std::size_t highBit = reader.word(kHighBit, "the highest bit", image.bitsStored - 1);
   image.isSigned = reader.word(kSigned, "the representation of pixels", 0) == 1;
+  if (const auto padding = reader.level(kPadding, image.isSigned))
+    image.padding = {*padding, reader.level(kPaddingLimit, image.isSigned).value_or(*padding)};
   if (image.bitsAllocated != 8 && image.bitsAllocated != 16 && image.bitsAllocated != 32)
     throw unsupported("its pixels have " + std::to_string(image.bitsAllocated) +
                       " bits; expected 8, 16 or 32");

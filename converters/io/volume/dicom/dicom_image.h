@@ -38,8 +38,9 @@ struct DicomImage {
   std::size_t columns = 0, rows = 0, frames = 1, samples = 1;
   std::size_t bitsAllocated = 0, bitsStored = 0;
   bool isSigned = false;
-  std::string photometric;           ///< interpretation, such as MONOCHROME2
-  DicomPlane plane;                  ///< properties of all frames
+  std::optional<std::array<double, 2>> padding;  ///< stored values that are no image, both ends
+  std::string photometric;                       ///< interpretation, such as MONOCHROME2
+  DicomPlane plane;                              ///< properties of all frames
   std::vector<DicomPlane> perFrame;  ///< properties of single frames, at least the first
   DicomElement pixels;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // DICOM of open_volume.h.
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -62,6 +65,17 @@ Voxels readSlices(const DicomStack& stack, const Progress& progress) {
   return all;
 }
 
+/// The padding that an image states, in the units of the voxels.
+std::optional<std::array<float, 2>> paddingOf(const DicomImage& image) {
+  if (!image.padding) return std::nullopt;
+  const DicomPlane& plane = image.perFrame.empty() ? image.plane : image.perFrame[0];
+  const auto scale = [&](double stored) {
+    return static_cast<float>(plane.slope.value_or(1) * stored + plane.intercept.value_or(0));
+  };
+  const float one = scale((*image.padding)[0]), other = scale((*image.padding)[1]);
+  return std::array{std::min(one, other), std::max(one, other)};
+}
+
 OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
                      const Progress& progress) {
   const fs::path& path = folder.path();
@@ -70,6 +84,7 @@ OpenVolume openDicom(const InputFile& folder, const ReadVolumeOptions& options,
       stackOf(findDicomSeries(folder, options, progress), options, path));
   const DicomImage& first = stack->images[0];
   OpenVolume open;
+  open.padding = paddingOf(first);
   VolumeHeader& header = open.header;
   header.geometry = stack->geometry;
   header.storedType = (first.isSigned ? "int" : "uint") + std::to_string(first.bitsAllocated);
