@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSize = 80;
-constexpr double kNoise = 10, kTissue = 40;
+constexpr int kScanSize = 80;
+constexpr double kScanNoise = 10, kSoftTissue = 40;
 
 double inBox(const Vector3d& p, const Vector3d& low, const Vector3d& high) {
   return ((p - 0.5 * (low + high)).cwiseAbs() - 0.5 * (high - low)).maxCoeff();
@@ -38,6 +38,9 @@ double apart(const Vector3d& p) {
 double organ(const Vector3d& p) {
   return (p - Vector3d(52, 18, 20)).norm() - 9;
 }
+double inBone(const Vector3d& p) {
+  return capsule(p, {57, 57, 16}, {57, 57, 64}, 1.5);
+}
 double bone(const Vector3d& p) {
   return inBox(p, {44, 44, 8}, {70, 70, 72});
 }
@@ -47,6 +50,7 @@ struct Scene {
   double organ = 140;
   double offset = 0;  ///< added to every voxel
   bool hasVessels = true;
+  bool hasVesselInBone = false;
 };
 
 /// Marrow is a texture of two voxels, the cortex around it two voxels thick.
@@ -59,7 +63,7 @@ double boneLevel(const Vector3d& p) {
 
 Volume draw(const Scene& scene) {
   Volume volume;
-  volume.geometry.size = {kSize, kSize, kSize};
+  volume.geometry.size = {kScanSize, kScanSize, kScanSize};
   Random random(3);
   std::vector<std::int16_t> voxels;
   const auto mix = [](double& value, double other, double distance) {
@@ -68,20 +72,21 @@ Volume draw(const Scene& scene) {
   volume.geometry.cells().forEach([&](const Cell& cell) {
     const Vector3d p = cell.cast<double>();
     double value = -1000;
-    mix(value, kTissue, inBox(p, {6, 6, -9}, {74, 74, 90}));
+    mix(value, kSoftTissue, inBox(p, {6, 6, -9}, {74, 74, 90}));
     mix(value, scene.organ, organ(p));
     mix(value, boneLevel(p), bone(p));
+    if (scene.hasVesselInBone) mix(value, scene.blood, inBone(p));
     if (scene.hasVessels) mix(value, scene.blood, std::min({aorta(p), branch(p), apart(p)}));
-    voxels.push_back(
-        static_cast<std::int16_t>(std::lround(value + scene.offset + kNoise * random.normal())));
+    voxels.push_back(static_cast<std::int16_t>(
+        std::lround(value + scene.offset + kScanNoise * random.normal())));
   });
   volume.voxels = std::move(voxels);
   return volume;
 }
 
-FoundVessels found(const Scene& scene) {
+FoundVessels found(const Scene& scene, const Prior& prior = {}) {
   Progress silent;
-  return findVessels(draw(scene), false, {}, silent);
+  return findVessels(draw(scene), false, prior, silent);
 }
 
 std::optional<CtLevels> levels(const Volume& volume) {
@@ -115,8 +120,8 @@ TEST(CtLevels, AreThoseOfSoftTissue) {
   for (const double offset : {0.0, 1000.0, 1024.0}) {
     const auto found = levels(draw({.offset = offset}));
     ASSERT_TRUE(found) << offset;
-    EXPECT_NEAR(static_cast<double>(found->soft), kTissue + offset, 10) << offset;
-    EXPECT_NEAR(static_cast<double>(found->noise), kNoise, 2) << offset;
+    EXPECT_NEAR(static_cast<double>(found->soft), kSoftTissue + offset, 10) << offset;
+    EXPECT_NEAR(static_cast<double>(found->noise), kScanNoise, 2) << offset;
   }
 }
 
@@ -145,6 +150,30 @@ TEST(CtLumen, FaintContrastIsFound) {
 TEST(CtLumen, WithoutContrastNothingIsFound) {
   EXPECT_TRUE(found({.organ = 70, .hasVessels = false}).courses.empty());
   EXPECT_TRUE(found({.blood = 50, .organ = 70}).courses.empty());
+}
+
+// Bone is as bright and as uneven as a thin vessel within it: a coarse map alone shows which is which.
+TEST(CtLumen, AVesselThroughBoneIsFoundByItsMap) {
+  const Scene scene{.hasVesselInBone = true};
+  Prior prior;
+  const VolumeGeometry geometry = draw(scene).geometry;
+  geometry.cells().forEach([&](const Cell& cell) {
+    prior.systems.push_back(inBone(geometry.position(cell) + Vector3d::UnitX()) < 1 ? 1 : 0);
+  });
+  EXPECT_GT(farthest(found(scene), {57, 57, 20}, {57, 57, 60}), 9);
+  EXPECT_LT(farthest(found(scene, prior), {57, 57, 20}, {57, 57, 60}), 3);
+}
+
+TEST(CtLumen, NoLumenLiesWhereAMapHasNoVessel) {
+  Prior prior;
+  const VolumeGeometry geometry = draw({}).geometry;
+  geometry.cells().forEach([&](const Cell& cell) {
+    prior.systems.push_back(aorta(geometry.position(cell)) < 3 ? Prior::kNoVessel : 0);
+  });
+  const FoundVessels vessels = found({}, prior);
+  for (const std::size_t i : vessels.lumen) EXPECT_NE(prior.systems[i], Prior::kNoVessel);
+  EXPECT_TRUE(vessels.isBone({22, 40, 40}));
+  EXPECT_LT(farthest(vessels, {47, 20.2, 51.4}, {35, 37, 57}), 2);
 }
 
 }  // namespace

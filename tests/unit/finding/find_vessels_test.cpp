@@ -275,32 +275,6 @@ TEST(FindVessels, NoCourseRunsWhereAMapStatesThatNoVesselIs) {
   EXPECT_TRUE(found.isLumen({24, 30, 40}));
 }
 
-// A vessel too thin and faint to stand out on its own is followed where a map has it.
-TEST(FindVessels, AMapMakesUpForEvidenceThatIsWeak) {
-  Volume volume = drawVolume(64, 1, [](const Vector3d& p) {
-    return capsule(p, {16, 16, 4}, {16, 16, 60}, 4);
-  });
-  const Volume faint = drawVolume(64, 1, [](const Vector3d& p) {
-    return capsule(p, {46, 46, 4}, {46, 46, 60}, 1);
-  });
-  auto& voxels = std::get<std::vector<std::int16_t>>(volume.voxels);
-  for (std::size_t i = 0; i < voxels.size(); ++i)
-    voxels[i] = static_cast<std::int16_t>(voxels[i] +
-                                          std::get<std::vector<std::int16_t>>(faint.voxels)[i] / 9);
-  volume = noisy(std::move(volume), 20);
-  const auto reaches = [&](const Prior& prior) {
-    Progress silent;
-    double least = 100;
-    for (const SeedBranch& course : findVessels(volume, false, prior, silent).courses)
-      least = std::min(least, distanceFrom(course, {46, 46, 32}));
-    return least < 2;
-  };
-  EXPECT_FALSE(reaches({}));
-  EXPECT_TRUE(reaches(priorOf(volume, [](const Vector3d& p) -> std::uint8_t {
-    return capsule(p, {46, 46, 4}, {46, 46, 60}, 2) < 0 ? 1 : 0;
-  })));
-}
-
 TEST(FindVessels, NoiseHoldsNone) {
   Random random(7, 0);
   Volume volume = drawVolume(64, 1, [](const Vector3d&) { return 5.0; });
