@@ -18,8 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Inside = std::function<bool(double, double, double)>;  // of voxels from the middle
 
-constexpr int kSize = 64;
-constexpr double kVoxel = 0.2, kMiddle = 0.5 * (kSize - 1);
+constexpr int kBorderSize = 64;
+constexpr double kVoxel = 0.2, kMiddle = 0.5 * (kBorderSize - 1);
 
 /// A fork with noise, its case, and the same fork with all voxels outside of a region set to one
 /// value.
@@ -35,10 +35,10 @@ protected:
   /// Fills fork.nii outside of a region, as cut.nii.
   void cut(const Inside& isInside, std::int16_t fill) const {
     std::string bytes = read("fork.nii");
-    std::size_t at = bytes.size() - sizeof fill * kSize * kSize * kSize;
-    for (int z = 0; z < kSize; ++z)
-      for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x, at += sizeof fill)
+    std::size_t at = bytes.size() - sizeof fill * kBorderSize * kBorderSize * kBorderSize;
+    for (int z = 0; z < kBorderSize; ++z)
+      for (int y = 0; y < kBorderSize; ++y)
+        for (int x = 0; x < kBorderSize; ++x, at += sizeof fill)
           if (!isInside(x - kMiddle, y - kMiddle, z - kMiddle))
             std::memcpy(bytes.data() + at, &fill, sizeof fill);
     write("cut.nii", bytes);

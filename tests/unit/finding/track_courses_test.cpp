@@ -30,7 +30,8 @@ Phantom phantom(const std::string& name, const std::string& clutter = "",
 }
 
 formats::Case treeOf(const Volume& volume, Progress& progress) {
-  return trackAlongCourses(volume, findVessels(volume, false, {}, progress).courses, {}, {}, progress)
+  return trackAlongCourses(volume, findVessels(volume, false, {}, progress).courses, {}, {},
+                           progress)
       .result;
 }
 
