@@ -260,11 +260,12 @@ void addLabelTableRows(OptionTable& table, MaskArguments& mask) {
 
 void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
   table
-      .file("label-map", mask.labelMaps,
-            "Volume of labels by which the branches that are found get their names, or a folder of "
-            "one for each structure; its grid may be another. May be given several times: the "
-            "first that "
-            "has a label counts")
+      .file(
+          "label-map", mask.labelMaps,
+          "Volume of labels that name branches and state what is a vessel or none, or a folder of "
+          "one for each structure; its grid may be another. May be given several times: the "
+          "first that "
+          "has a label counts")
       .many()
       .forInputs(kVolumes)
       .without(kOption.seeds.name)

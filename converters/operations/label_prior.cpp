@@ -82,7 +82,7 @@ convert::Prior priorOf(const std::vector<LabelPart>& maps, const convert::Volume
     forEachStatement(map, geometry, progress, [&](std::size_t i, std::uint8_t statement) {
       if (statement == kRegion)
         isInRegion[i] = 1;
-      else if (said[i] == Prior::kNothing)
+      else if (said[i] == Prior::kNothing || said[i] == Prior::kNoVessel)
         said[i] = statement;
     });
   const bool hasRegion = std::find(isInRegion.begin(), isInRegion.end(), 1) != isInRegion.end();

@@ -11,7 +11,7 @@
 namespace lumen::operations {
 
 /// The statements of maps about the voxels of a volume, by positions; of several about a voxel that
-/// of the first map counts. Vessels without a system, arteries, aneurysms and true lumens are one
+/// of the first map counts that has a lumen there. Vessels without a system, arteries, aneurysms and true lumens are one
 /// system, veins another, false lumens a third. Chambers of the heart, tissue and what lies outside
 /// of all regions, if there are any, are no vessel, but where their role is a guess from a name;
 /// labels of unknown roles say nothing. Empty if

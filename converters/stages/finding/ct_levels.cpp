@@ -19,7 +19,7 @@ struct Range {
   float low, high;
 };
 constexpr Range kAir{-1050, -950}, kFat{-140, -60}, kSoft{0, 100}, kBody{-140, 100};
-/// Offsets of files that hold no negative numbers.
+/// Offsets of files of whole numbers that are not negative.
 constexpr std::array<float, 3> kOffsets = {0, -1000, -1024};
 
 constexpr Range kLevels{-1100, 4000};
@@ -112,10 +112,11 @@ bool isBody(const LevelCounts& counts, float offset, double voxels) {
 
 std::optional<CtLevels> measureCtLevels(const Volume& volume, const Progress& progress) {
   if (std::holds_alternative<std::vector<std::uint8_t>>(volume.voxels)) return {};
+  const bool isFloat = std::holds_alternative<std::vector<float>>(volume.voxels);
   const LevelCounts counts = countLevels(volume, progress);
   const auto voxels = static_cast<double>(volume.geometry.voxelCount());
   for (const float offset : kOffsets) {
-    if (!isBody(counts, offset, voxels)) continue;
+    if ((isFloat && offset != 0) || !isBody(counts, offset, voxels)) continue;
     CtLevels levels;
     levels.soft = counts.mode(moved(kSoft, offset));
     levels.noise = counts.quietDeviation(levels.soft);

@@ -51,7 +51,7 @@ def convert(source, to=None, **options) -> Any:
         File to write: .lumen, a mesh (.glb, .vtp, .stl, .ply, .obj) or a centerline (.swc, .vtp).
         The name states the format, so no ``to=`` option of the program is needed.
     label_map : path, Volume, image or array, or a list of them, optional
-        Labels by which the branches that are found get their names.
+        Labels that name branches and state what is a vessel or none.
     role : dict, optional
         What labels are, such as ``{"aorta": "artery", 5: "bone"}``.
     label_table : path, name or dict, optional

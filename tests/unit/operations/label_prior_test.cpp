@@ -78,10 +78,11 @@ TEST(LabelPrior, AGuessFromANameTakesNothingAway) {
   EXPECT_EQ(alongX({map}), (Row{1, 1, 0, 0, 0}));
 }
 
-TEST(LabelPrior, TheFirstMapThatSpeaksCounts) {
+TEST(LabelPrior, TheFirstMapWithALumenCounts) {
   EXPECT_EQ(alongX({halves(1, LabelRole::Unknown, LabelRole::Bone),
-                    halves(1, LabelRole::Vein, LabelRole::Artery)}),
-            (Row{2, 2, kNo, kNo, 0}));
+                    halves(1, LabelRole::Vein, LabelRole::Artery),
+                    halves(1, LabelRole::Bone, LabelRole::Vein)}),
+            (Row{2, 2, 1, 1, 0}));
 }
 
 TEST(LabelPrior, NothingLiesOutsideOfARegion) {
