@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -13,6 +14,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/stages/finding/bright_voxels.h"
 #include "converters/voxels/image_region.h"
 #include "formats/case/case_field.h"
 
@@ -185,6 +187,17 @@ bool alike(const Values& a, const Values& b, double tolerance) {
   return true;
 }
 
+/// Voxels of computed tomography that levels of tissue show to be no lumen; empty for other volumes.
+std::vector<bool> tissueOf(const Volume& volume, bool dark, const Progress& progress) {
+  std::vector<bool> isTissue;
+  const auto levels = dark ? std::nullopt : measureCtLevels(volume, progress);
+  if (!levels) return isTissue;
+  isTissue.resize(volume.geometry.voxelCount(), true);
+  for (const std::size_t i : findCtLumen(volume, *levels, {}, progress).indices)
+    isTissue[i] = false;
+  return isTissue;
+}
+
 }  // namespace
 
 EdgeOptions recordedEdgeOptions(const formats::Case& value) {
@@ -250,7 +263,7 @@ CheckResult checkCase(const Volume& whole, const formats::Case& value, const Edg
   report.lumenVolume = static_cast<double>(lumen.voxels().size()) * volume.geometry.spacing.prod();
   const std::vector<NodeLevels> ofNodes = nodeLevels(tree, offsets);
   if (!ofNodes.empty()) {
-    const Levels levels{volume, options.dark, ofNodes};
+    const Levels levels{volume, options.dark, ofNodes, tissueOf(volume, options.dark, progress)};
     report.dark = darkInside(lumen, levels, progress);
     report.missing = brightOutside(lumen, levels, tree, progress);
     report.shownLength = shownLength(tree, lumen, levels);

@@ -80,6 +80,7 @@ std::vector<Reached> grow(const LumenVoxels& lumen, const Levels& levels, Neares
     cells.forEachNeighbour(cells.cell(index), [&](const Cell& cell) {
       const std::size_t next = cells.index(cell);
       if (bright[next] != 0 || !levels.volume.geometry.isImage(next) ||
+          (!levels.isNoVessel.empty() && levels.isNoVessel[next]) ||
           !(value(next) > levels.node[node].half) ||
           !(value(next) > levels.node[nearest.of(cell)].faint))
         return;

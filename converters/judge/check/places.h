@@ -27,6 +27,8 @@ struct Levels {
   const Volume& volume;
   bool dark;  ///< vessels are darker than their background
   std::span<const NodeLevels> node;
+  /// For each voxel whether levels of tissue show that it is no vessel; empty where they do not.
+  std::vector<bool> isNoVessel{};
 };
 
 /// Calls visit(value), where value(i) is the intensity of voxel i, brighter is more.

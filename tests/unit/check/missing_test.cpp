@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/base/random.h"
 #include "converters/draw/overlay/overlay.h"
 #include "converters/judge/check/check.h"
 #include "converters/stages/phantom/phantom.h"
@@ -71,6 +72,32 @@ struct Tube {
     return checkCase(phantom.volume, phantom.truth, {kBlur, false}, progress).report;
   }
 };
+
+/// The tube in soft tissue of computed tomography, with spongy bone beside it and air in a corner; `offset` is
+/// added to Hounsfield units.
+CheckReport besideBone(int offset) {
+  Tube tube;
+  const VolumeGeometry& geometry = tube.phantom.volume.geometry;
+  const Vector3d middle = geometry.indexFromWorld(tube.centre(tube.tree().nodeCount() / 2));
+  const double wall = tube.radius / geometry.spacing[0];
+  auto& voxels = std::get<std::vector<std::int16_t>>(tube.phantom.volume.voxels);
+  Random random(5);
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const Cell cell = geometry.cell(i);
+    double value = 40 + 0.3 * (static_cast<double>(voxels[i]) - double{kDark});
+    const double beside = cell[0] - middle[0];
+    if (beside > wall + 0.5 && cell[2] > 16 && cell[2] < 48) value = 450 + 200 * random.normal();
+    if (cell[0] < 10) value = -1000;
+    voxels[i] = static_cast<std::int16_t>(std::lround(value + 5 * random.normal() + offset));
+  }
+  return tube.report();
+}
+
+TEST(Missing, BoneOfComputedTomographyIsNoVessel) {
+  EXPECT_GT(besideBone(300).missingLength(), 1)
+      << "no scale of tomography: all that is bright counts";
+  EXPECT_EQ(besideBone(0).missingLength(), 0);
+}
 
 TEST(OpenEnds, ABranchThatStopsShortSaysHowFarTheVesselGoesOn) {
   Tube tube;
