@@ -1,6 +1,6 @@
-# The pieces of a report, and texts of cases in pages.
+# The pieces of a report, and texts of cases in pages. The case stands before libblob, which brings copies of the numbers of errors.
 lumen_test(report_test FOLDER report
-  LIBS lumen_report)
+  LIBS lumen_report lumen_case lumen::blob_static)
 
 # The page in Chromium, from disk and on paper. Its packages are those of the viewer's page.
 if(NODE)
