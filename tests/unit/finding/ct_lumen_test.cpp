@@ -51,6 +51,7 @@ struct Scene {
   double offset = 0;  ///< added to every voxel
   bool hasVessels = true;
   bool hasVesselInBone = false;
+  bool hasEvenMarrow = false;  ///< in a cube of six voxels
 };
 
 /// Marrow is a texture of two voxels, the cortex around it two voxels thick.
@@ -75,6 +76,7 @@ Volume draw(const Scene& scene) {
     mix(value, kSoftTissue, inBox(p, {6, 6, -9}, {74, 74, 90}));
     mix(value, scene.organ, organ(p));
     mix(value, boneLevel(p), bone(p));
+    if (scene.hasEvenMarrow) mix(value, 320, inBox(p, {54, 54, 37}, {60, 60, 43}));
     if (scene.hasVesselInBone) mix(value, scene.blood, inBone(p));
     if (scene.hasVessels) mix(value, scene.blood, std::min({aorta(p), branch(p), apart(p)}));
     voxels.push_back(static_cast<std::int16_t>(
@@ -137,6 +139,13 @@ TEST(CtLumen, VesselsAreFoundAndBoneIsNot) {
   EXPECT_TRUE(vessels.isBone({45, 57, 40}));
   EXPECT_FALSE(vessels.isLumen({57, 57, 40}));
   EXPECT_FALSE(vessels.isLumen({52, 18, 20})) << "an organ of less than half of the contrast";
+}
+
+// Marrow may be even by chance, but not along ten voxels.
+TEST(CtLumen, AnEvenPlaceInMarrowIsNoLumen) {
+  const FoundVessels vessels = found({.hasEvenMarrow = true});
+  EXPECT_FALSE(vessels.isLumen({57, 57, 40}));
+  EXPECT_TRUE(vessels.isBone({57, 57, 40}));
 }
 
 TEST(CtLumen, AnOffsetChangesNothing) {
