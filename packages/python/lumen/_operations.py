@@ -53,7 +53,7 @@ def convert(source, to=None, **options) -> Any:
     label_map : path, Volume, image or array, or a list of them, optional
         Labels that name branches and state what is a vessel or none.
     role : dict, optional
-        What labels are, such as ``{"aorta": "artery", 5: "bone"}``.
+        Roles of labels, such as ``{"aorta": "artery", 5: "bone"}``.
     label_table : path, name or dict, optional
         Names of the labels, such as ``{1: "BA"}``.
     labels : str, dict, array, Volume or image, optional
