@@ -73,8 +73,11 @@ void reportRefused(convert::TrackRemarks& remarks, Progress& progress) {
 /// must outlive it.
 convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
   if (found.bone.empty()) return {};
-  return {[&found](const Eigen::Vector3d& point) { return found.isBone(point); },
-          found.isBoneKnown};
+  convert::PlaceTest places{[&found](const Eigen::Vector3d& point) { return found.isBone(point); },
+                            found.isBoneKnown};
+  if (found.rim)
+    places.isRim = [&found](const Eigen::Vector3d& point) { return found.rim->isOn(point); };
+  return places;
 }
 
 }  // namespace
@@ -103,10 +106,11 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   whyNone =
       "no cylinder fits along any of " + counted(found.courses.size(), "candidate", "candidates");
   convert::TrackResult result = convert::trackAlongCourses(
-      volume, found.courses, placesOfBone(found), options, progress,
+      found.tracked(volume), found.courses, placesOfBone(found), options, progress,
       [&](std::span<const convert::WorldBall> vessels) {
         return convert::coursesInRemainingLumen(found, vessels, progress);
       });
+  result.result.metadata.source = convert::describeSource(volume);
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
   const convert::LumenInVolume lumen{

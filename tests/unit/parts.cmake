@@ -25,7 +25,7 @@ target_compile_options(seeds_test PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict
 lumen_test(centerline_test FOLDER centerline
   LABELS memory
   LIBS lumen_centerline lumen_vtk_xml)
-lumen_test(finding_test FOLDER finding WITHOUT track_courses_test.cpp
+lumen_test(finding_test FOLDER finding WITHOUT track_courses_test.cpp beside_bone_test.cpp
   LABELS threads
   LIBS lumen_finding)
 # Finding and tracking together.
@@ -34,7 +34,8 @@ lumen_test(whole_tree_test
   SLOW WholePatient.HasTheVesselThatAnotherHidesAsOne
        WholePatient.HasAVesselThatIsEnteredWhereItTouchesAsOne
        WholeCircleOfWillis.HasThreeInletsAndThreeCommunicatingArteries
-  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/finding/track_courses_test.cpp)
+  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/finding/track_courses_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/finding/beside_bone_test.cpp)
 lumen_test(tracking_test FOLDER tracking
   LABELS threads
   LIBS lumen_fitting lumen_phantom lumen_tracking)

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/base/zeroed_array.h"
+#include "converters/stages/finding/bone_rim.h"
 #include "converters/stages/finding/ct_levels.h"
 #include "converters/stages/finding/prior.h"
 #include "converters/voxels/cell_box.h"
@@ -53,8 +55,14 @@ struct BrightVoxels {
   std::vector<std::size_t> indices;  ///< ascending, x fastest
   std::vector<std::size_t> bone;     ///< the same: as bright, and no lumen
   bool isBoneKnown = false;          ///< `bone` was looked for, as in computed tomography
-  double contrast = 0;               ///< excess of wide vessels over their background, voxel units
-  double noise = 0;                  ///< standard deviation of the background, voxel units
+  /// In computed tomography, the volume with all that is brighter than blood as much darker; null in
+  /// all others.
+  std::shared_ptr<const Volume> folded;
+  /// Where no wide vessel shows the level of blood: the rim of bone, and the strength of the ridges of `folded`.
+  std::shared_ptr<const BoneRim> rim;
+  std::shared_ptr<const ZeroedArray<float>> strength;
+  double contrast = 0;  ///< excess of wide vessels over their background, voxel units
+  double noise = 0;     ///< standard deviation of the background, voxel units
 };
 
 /// Voxels of wide vessels, which are brighter than halfway between their background and the wide

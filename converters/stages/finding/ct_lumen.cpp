@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -27,6 +29,9 @@ constexpr int kLeastReach = 10;    // voxels from end to end of a core
 constexpr float kAboveTissue = 4;  // standard deviations of the noise
 constexpr float kBloodStep = 20;   // Hounsfield units of a level of blood
 constexpr int kBloodLevels = 200;
+constexpr double kCrestShare = 0.95;  // of the voxels along the middle of thin vessels
+/// Hounsfield units below soft tissue, as of air, that bone is made in place of bright.
+constexpr float kMostBelowSoft = 1000;
 
 /// Finds lumen in a volume of computed tomography.
 class CtLumen {
@@ -47,10 +52,10 @@ public:
     keepLargeCores();
     measureBlood();
     growToWalls();
-    addKnown();
-    const ZeroedArray<float> strength = ridgeStrength(m_volume, 1, m_progress);
-    markRidges(strength, UsualRidges(m_cells, strength, m_mark, m_progress));
-    growIntoWeak(m_cells, m_mark, m_progress);
+    if (m_blood)
+      markThin(*m_blood + kAboveTissue * m_levels.noise);
+    else
+      markThinAlone();
     return collect();
   }
 
@@ -148,19 +153,82 @@ private:
     }
   }
 
-  /// Adds the voxels of known vessels that have contrast, even or not.
-  void addKnown() {
+  /// Adds the voxels of known vessels that have the contrast of blood, even or not.
+  void addKnown(float brightest) {
     const float bright = m_levels.soft + CtLevels::kLeastContrast;
     for (std::size_t i = 0; i < m_prior.systems.size(); ++i)
-      if (m_prior.isLumen(i) && !isNone(i) && value(i) > bright) m_mark[i] = kLumen;
+      if (m_prior.isLumen(i) && !isNone(i) && value(i) > bright && value(i) < boneAbove(brightest))
+        m_mark[i] = kLumen;
+  }
+
+  /// The level that no place in a vessel has, even if it is blurred with bone beside it.
+  [[nodiscard]] float boneAbove(float brightest) const { return 2 * brightest - m_levels.soft; }
+
+  /// Adds thin vessels where no wide one shows the level of blood: those amid soft tissue show it,
+  /// and then those that run on beside bone are found.
+  void markThinAlone() {
+    const std::vector<std::uint8_t> before(m_mark.data(), m_mark.data() + m_mark.size());
+    markThin(m_levels.soft + CtLevels::kMostContrast);
+    const std::optional<float> level = crestLevel();
+    if (!level || !m_prior.systems.empty()) return;
+    std::copy(before.begin(), before.end(), m_mark.data());
+    const float brightest = *level + kAboveTissue * m_levels.noise;
+    m_rim = std::make_shared<const BoneRim>(m_volume, m_levels.soft, brightest);
+    markThin(brightest);
+  }
+
+  /// Adds thin vessels, which are ridges of the volume in which all that is brighter than blood is
+  /// as much darker.
+  void markThin(float brightest) {
+    m_folded = fold(brightest);
+    addKnown(brightest);
+    m_strength =
+        std::make_shared<const ZeroedArray<float>>(ridgeStrength(*m_folded, 1, m_progress));
+    markRidges(UsualRidges(m_cells, *m_strength, m_mark, m_progress), brightest);
+    growIntoWeak(m_cells, m_mark, m_progress);
+  }
+
+  [[nodiscard]] std::shared_ptr<const Volume> fold(float brightest) const {
+    auto out = std::make_shared<Volume>(m_volume);
+    std::visit(
+        [&](auto& voxels) {
+          using Value = typename std::decay_t<decltype(voxels)>::value_type;
+          tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t i) {
+            const float above = value(i) - brightest;
+            if (!(above > 0) || m_mark[i] == kLumen) return;
+            voxels[i] =
+                static_cast<Value>(std::max(brightest - above, m_levels.soft - kMostBelowSoft));
+          });
+        },
+        out->voxels);
+    return out;
+  }
+
+  /// The level that few voxels along the middle of vessels exceed; empty if there are none.
+  [[nodiscard]] std::optional<float> crestLevel() const {
+    std::vector<float> crest;
+    for (std::size_t i = 0; i < m_mark.size(); ++i) {
+      if (m_mark[i] != kLumen) continue;
+      bool isHighest = true;
+      m_cells.forEachNeighbour(m_cells.cell(i), [&](const Cell& cell) {
+        const std::size_t j = m_cells.index(cell);
+        isHighest = isHighest && !(m_mark[j] == kLumen && value(j) > value(i));
+      });
+      if (isHighest) crest.push_back(value(i));
+    }
+    if (crest.empty()) return {};
+    const auto at = crest.begin() + static_cast<std::ptrdiff_t>(
+                                        kCrestShare * static_cast<double>(crest.size() - 1));
+    std::nth_element(crest.begin(), at, crest.end());
+    return *at;
   }
 
   /// Marks ridges: strong ones amid soft tissue are lumen, others may lead on from it.
-  void markRidges(const ZeroedArray<float>& strength, const UsualRidges& usual) {
+  void markRidges(const UsualRidges& usual, float brightest) {
     const float noise = m_levels.soft + kAboveTissue * m_levels.noise,
-                bright = m_levels.soft + CtLevels::kLeastContrast;
-    float most = m_levels.soft + CtLevels::kMostContrast;
-    if (m_blood) most = std::max(most, *m_blood + kAboveTissue * m_levels.noise);
+                bright = m_levels.soft + CtLevels::kLeastContrast,
+                most = std::max(m_levels.soft + CtLevels::kMostContrast, brightest);
+    const ZeroedArray<float>& strength = *m_strength;
     tbb::parallel_for(0, m_cells.size[2], [&](int z) {
       m_progress.check();
       for (int y = 0; y < m_cells.size[1]; ++y)
@@ -170,9 +238,10 @@ private:
           if (m_mark[i] == kLumen || isNone(i)) continue;
           if (!(strength[i] > kWeakRidge * usual.at(cell)) || !(value(i) > noise)) continue;
           const bool isStrong = value(i) > bright && strength[i] > kStrongRidge * usual.at(cell);
-          if (m_prior.isLumen(i) || (isStrong && isAmidSoft(cell)))
+          const bool isKnown = m_prior.isLumen(i) && value(i) < boneAbove(brightest);
+          if (isKnown || (isStrong && isAmidSoft(cell)))
             m_mark[i] = kLumen;
-          else if (!isBeside(cell, most))
+          else if (!isBeside(cell, most) || isBesideBone(cell, brightest))
             m_mark[i] = kWeak;
         }
     });
@@ -203,6 +272,14 @@ private:
     return is;
   }
 
+  /// Whether a voxel beside bone is lumen where no vessel is wide: brighter than halfway to blood,
+  /// not as bright as bone, and not on its rim.
+  [[nodiscard]] bool isBesideBone(const Cell& cell, float brightest) const {
+    const float level = value(m_cells.index(cell));
+    return m_rim && level > 0.5F * (m_levels.soft + brightest) && level < boneAbove(brightest) &&
+           !m_rim->isOn(cell);
+  }
+
   BrightVoxels collect() {
     BrightVoxels out;
     out.noise = static_cast<double>(m_levels.noise);
@@ -213,6 +290,9 @@ private:
       else if (value(i) > m_half && m_volume.geometry.isImage(i))
         out.bone.push_back(i);
     }
+    out.folded = m_folded;
+    out.rim = m_rim;
+    if (m_rim) out.strength = m_strength;
     out.contrast = static_cast<double>(2 * (m_half - m_levels.soft));
     return out;
   }
@@ -225,6 +305,9 @@ private:
   ZeroedArray<std::uint8_t> m_mark, m_isSoft;
   float m_half;  ///< least level of lumen
   std::optional<float> m_blood;
+  std::shared_ptr<const Volume> m_folded;
+  std::shared_ptr<const ZeroedArray<float>> m_strength;  ///< of the ridges of that
+  std::shared_ptr<const BoneRim> m_rim;                  ///< null if wide vessels are known
 };
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "converters/stages/finding/bone.h"
 #include "converters/stages/finding/bright_voxels.h"
 #include "converters/stages/finding/ends_at_faces.h"
+#include "converters/stages/finding/recentre.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/grid_geometry.h"
 #include "converters/voxels/image_region.h"
@@ -285,6 +286,9 @@ FoundVessels findVessels(const Volume& whole, bool dark, const Prior& prior, Pro
   found.lumen = std::move(bright.indices);
   found.bone = std::move(bright.bone);
   found.isBoneKnown = bright.isBoneKnown;
+  found.continued = continued;
+  found.folded = bright.folded;
+  found.rim = bright.rim;
   for (bool isMore = true; isMore;) {  // each pass takes bone away
     const VoxelSet set(grid, std::move(found.lumen));
     CourseFinder finder(set, progress);
@@ -301,6 +305,10 @@ FoundVessels findVessels(const Volume& whole, bool dark, const Prior& prior, Pro
     found.courses = found.systems.empty() ? finder.courses()
                                           : coursesOf(grid, found.lumen, found.systems, progress);
   }
+  if (bright.strength)
+    for (SeedBranch& course : found.courses)
+      if (course.kind == formats::BranchKind::Vessel)
+        recentre(grid, *bright.strength, course.points);
   toWorld(grid, volume.geometry, found.courses);
   if (!found.bone.empty())
     progress.detail("bone, or other bright tissue without background around it: " +

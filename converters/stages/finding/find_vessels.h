@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/stages/finding/bone_rim.h"
 #include "converters/stages/finding/prior.h"
 #include "converters/voxels/cube_search.h"
 #include "converters/voxels/volume.h"
@@ -24,7 +26,16 @@ struct FoundVessels {
   std::vector<std::uint8_t> systems;
   std::vector<std::size_t> bone;  ///< the same, of bright tissue that is no vessel
   bool isBoneKnown = false;       ///< levels of tissue show it, as in computed tomography
+  /// The volume with its image continued; null if all is image. Kept for `rim`.
+  std::shared_ptr<const Volume> continued;
+  std::shared_ptr<const Volume> folded;  ///< of BrightVoxels
+  std::shared_ptr<const BoneRim> rim;    ///< the same
   std::vector<SeedBranch> courses;
+
+  /// The volume to track the courses in, of that in which they were found.
+  [[nodiscard]] const Volume& tracked(const Volume& whole) const {
+    return folded ? *folded : continued ? *continued : whole;
+  }
 
   /// Whether the voxel around a point, mm, LPS, is one of these.
   [[nodiscard]] bool isLumen(const Eigen::Vector3d& point) const { return isIn(lumen, point); }

@@ -256,6 +256,10 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
   if (isNoVessel)
     inGrid = {[&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); },
               isNoVessel.isByLevel};
+  if (isNoVessel.isRim)
+    inGrid.isRim = [&](const Eigen::Vector3d& point) {
+      return isNoVessel.isRim(frame.toWorld(point));
+    };
   const WallShape shape =
       trackTree(tracking, {points, inGrid, tracking.wallShape()}, tree, progress);
   used.pointSpread = shape.pointSpread;

@@ -28,6 +28,8 @@ struct PlaceTest {
   /// Levels of tissue have shown it, so that courses hold none of it, and an edge beside what is
   /// brighter says nothing.
   bool isByLevel = false;
+  /// Whether a place lies on the rim of what is no vessel, where a track is none; empty: not known.
+  std::function<bool(const Eigen::Vector3d&)> isRim = {};
 
   explicit operator bool() const { return static_cast<bool>(test); }
   bool operator()(const Eigen::Vector3d& place) const { return test(place); }

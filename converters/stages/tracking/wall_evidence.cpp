@@ -38,7 +38,8 @@ constexpr double kClearOf[] = {0.5, 1, 2};  // voxels beyond the wall at which n
 /// Counts of the places around a node.
 struct EdgeCounts {
   int judged = 0, off = 0;
-  double chance = 0;  ///< number of places that would be off if edges lay at random
+  bool isAtRim = false;  ///< the node itself lies on the rim of what is no vessel
+  double chance = 0;     ///< number of places that would be off if edges lay at random
 };
 
 /// One place of a wall whose edge was looked for.
@@ -60,6 +61,9 @@ public:
     std::vector<EdgePlace> places;
     for (std::size_t n = 0; n < branch.nodes.size(); ++n)
       if (isFitted(branch.nodes[n])) look(branch.nodes[n], n, own, places);
+    if (const auto& isRim = m_context.isNoVessel.isRim)
+      for (std::size_t n = 0; n < branch.nodes.size(); ++n)
+        counts[n].isAtRim = isRim(branch.nodes[n].centre);
     std::vector<double> contrasts;
     for (const EdgePlace& place : places)
       if (place.contrast > 0) contrasts.push_back(place.contrast);
@@ -131,14 +135,16 @@ struct Stretch {
   std::size_t first = 0, end = 0;
 };
 
-/// Whether the wall is off along nodes: as often as `share` of chance.
+/// Whether the wall is off along nodes, as often as `share` of chance, or most lie on a rim.
 bool isOff(std::span<const EdgeCounts> counts, double share) {
   double off = 0, chance = 0;
+  std::size_t atRim = 0;
   for (const EdgeCounts& count : counts) {
     off += count.off;
     chance += count.chance;
+    atRim += count.isAtRim ? 1 : 0;
   }
-  return off > share * chance;
+  return off > share * chance || 2 * atRim > counts.size();
 }
 
 /// The nodes within a window around one.
