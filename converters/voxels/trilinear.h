@@ -12,8 +12,8 @@ namespace lumen::convert {
 /// `valueAt(cell)` gives one; beyond the outermost cells, theirs.
 template <class ValueAt>
 double trilinear(const CellBox& cells, const Eigen::Vector3d& position, const ValueAt& valueAt) {
-  const Eigen::Vector3d at = position.cwiseMax(cells.low.cast<double>())
-                                 .cwiseMin(cells.high().cast<double>());
+  const Eigen::Vector3d at =
+      position.cwiseMax(cells.low.cast<double>()).cwiseMin(cells.high().cast<double>());
   const Cell low = at.array().floor().cast<int>().matrix();
   const Eigen::Vector3d share = at - low.cast<double>();
   double sum = 0;
