@@ -189,14 +189,22 @@ TEST_F(CaseFile, IsNotWrittenOverADirectoryOrADevice) {
 }
 
 TEST_F(CaseFile, IsWrittenWithoutTheLeftoversOfWritersThatWereKilled) {
-  put(".lumen-1234-5.lumen", "half");
-  put(".lumen-1234-6.nrrd", "locked");
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    const auto file = PendingFile::beside(path("b"));
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(writer, &status, 0), writer);
+  const std::string left = names().at(0);
+  fs::create_directory(path(".lumen-1234-6"));
+  fs::copy(path(left), path(".lumen-1234-6"));
   put(".lumen-notes", "of somebody else");
-  const int locked = ::open(path(".lumen-1234-6.nrrd").c_str(), O_RDONLY);
+  const int locked = ::open(path(".lumen-1234-6").c_str(), O_RDONLY);
   ASSERT_EQ(::flock(locked, LOCK_EX), 0);
   EXPECT_EQ(codeOf(write("a", "x")), "OK");
   ::close(locked);
-  EXPECT_EQ(names(), (std::vector<std::string>{".lumen-1234-6.nrrd", ".lumen-notes", "a"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{".lumen-1234-6", ".lumen-notes", "a"}));
 }
 
 // Kills a process at a random moment while it writes one of two contents over and over. The
