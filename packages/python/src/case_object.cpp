@@ -232,6 +232,7 @@ void requireValid(const CaseObject& self) {
 
 void addCase(py::module_& module) {
   py::class_<CaseObject, SharedCase> type(module, "Case", "A case in memory, and views of it.");
+  forbidNew(type);
   addTree(type);
   addParts(type);
   addMotion(type);
