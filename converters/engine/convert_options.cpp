@@ -29,6 +29,7 @@ operations::CaseOptions ConvertOptions::caseOptions(FormatKind kind) const {
   options.vessels = track.vessels();
   options.repeats = track.repeats;
   if (kind == FormatKind::Volume) options.chosenLabels = source.mask.chosen();
+  options.isOnlyLabelled = source.mask.isOnlyLabelled;
   options.meshUnit = source.volume.options().unit;
   return options;
 }

@@ -24,6 +24,7 @@ struct MaskArguments {
   InputFile labelTable;               ///< a file of names, or the name of a table; may be empty
   std::vector<InputFile> labelMaps;   ///< volumes of labels beside the input, or folders of them
   std::vector<std::string> roles;     ///< "NAME-OR-NUMBER=ROLE"
+  bool isOnlyLabelled = false;        ///< without vessels on no label of the maps
   /// The volume holds labels.
   [[nodiscard]] bool isGiven() const {
     return isMask || label || !labels.empty() || (!labelTable.empty() && labelMaps.empty());

@@ -268,10 +268,14 @@ void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
           "has a label counts")
       .many()
       .forInputs(kVolumes)
-      .without(kOption.seeds.name)
       .without("labels");
   addLabelTableRows(table, mask);
   table.find("role")->onlyWith("label-map");
+  table
+      .flag("only-labelled", mask.isOnlyLabelled,
+            "Leave out vessels on no label of the maps, but those that lead to one on a label")
+      .forInputs(kVolumes)
+      .onlyWith("label-map");
 }
 
 void addMaskRows(OptionTable& table, MaskArguments& mask) {

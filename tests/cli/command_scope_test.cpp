@@ -24,6 +24,8 @@ track tube.nrrd out/t.lumen.json
   --label-map halves.nii
 track tube.nrrd out/t.lumen.json --label-map halves.nii
   --label-table table.csv --role 1=bone
+track apart.nrrd out/t.lumen.json --label-map one-label.nrrd
+  --only-labelled true
 track two.nrrd out/t.lumen.json
   --seeds two.json
 track apart.nrrd out/t.lumen.json --seeds one.json

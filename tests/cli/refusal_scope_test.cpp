@@ -14,6 +14,8 @@ constexpr const char* kRefusals = R"(track tube.nrrd out/t.lumen --label-table t
   --label-table does nothing without --label-map
 track tube.nrrd out/t.lumen --role 1=bone
   --role does nothing without --label-map
+track tube.nrrd out/t.lumen --only-labelled true
+  --only-labelled does nothing without --label-map
 track tube.nrrd out/t.lumen --label-map labels.nrrd --role 7=bone
   --role: no label map has the label 7
 track tube.nrrd out/t.lumen --label-map labels.nrrd --role 1=bones

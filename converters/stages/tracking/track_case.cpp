@@ -318,8 +318,9 @@ void giveNewLabels(const formats::Case& known, std::vector<SeedBranch>& seeds) {
 }  // namespace
 
 TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                           const TrackOptions& options, Progress& progress) {
-  return newCase(volume, seeds, options, SeedPoints::Clicks, {}, progress);
+                           const TrackOptions& options, Progress& progress,
+                           const PlaceTest& isNoVessel) {
+  return newCase(volume, seeds, options, SeedPoints::Clicks, isNoVessel, progress);
 }
 
 TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
@@ -329,11 +330,12 @@ TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch
 }
 
 AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
-                               const std::vector<SeedBranch>& seeds, Progress& progress) {
+                               const std::vector<SeedBranch>& seeds, Progress& progress,
+                               const PlaceTest& isNoVessel) {
   requireNewLabels(known, seeds);
   TrackedTree tree = makeTrackedTree(known);
   appendParentsFirst(seeds, tree.seeds);
-  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Clicks, {}, progress);
+  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Clicks, isNoVessel, progress);
   for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
     if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));
   requireValid(out.result);
