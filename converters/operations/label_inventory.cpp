@@ -197,6 +197,7 @@ bool isOfVessels(convert::LabelRole role) {
 LabelInventory inventoryOf(const std::vector<LabelPart>& maps, const std::vector<NamingMap>& naming,
                            const formats::Case& value, const convert::VolumeGeometry& geometry,
                            const ImageBesideMaps* image, const Context& context) {
+  if (maps.empty()) return {};
   const CenterlineTree& tree = value.tree;
   const std::vector<BranchLabel> labels = labelsOfBranches(naming, tree);
   const VesselLight light = image ? vesselLight(*image, tree) : VesselLight();

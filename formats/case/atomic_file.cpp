@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <map>
 #include <mutex>
 #include <random>
-#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -134,7 +134,7 @@ bool hasProof(const fs::path& folder) {
 // Hidden files and folders of this process that are not in their place yet.
 struct OwnTemporaries {
   std::mutex mutex;
-  std::set<fs::path> paths;
+  std::map<fs::path, fs::path> targets;  // of the hidden folders
 };
 OwnTemporaries& ownTemporaries() {
   static auto* const own = new OwnTemporaries;  // outlives every writer
@@ -162,7 +162,7 @@ Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string&
       if (error == EEXIST) continue;
       break;
     }
-    HiddenSibling sibling(path, path / ("new" + ending), openForReading(path, O_DIRECTORY));
+    HiddenSibling sibling(path, ending, target, openForReading(path, O_DIRECTORY));
     if (sibling.lock()) return sibling;
     error = errno;
     break;
@@ -256,10 +256,13 @@ const FileCalls& systemCalls() {
   return calls;
 }
 
-HiddenSibling::HiddenSibling(fs::path folder, fs::path path, FileDescriptor descriptor)
-    : m_folder(std::move(folder)), m_path(std::move(path)), m_descriptor(std::move(descriptor)) {
+HiddenSibling::HiddenSibling(fs::path folder, const std::string& ending, const fs::path& target,
+                             FileDescriptor descriptor)
+    : m_folder(std::move(folder)),
+      m_path(m_folder / ("new" + ending)),
+      m_descriptor(std::move(descriptor)) {
   const std::lock_guard lock(ownTemporaries().mutex);
-  ownTemporaries().paths.insert(m_folder);
+  ownTemporaries().targets.emplace(m_folder, target);
 }
 
 HiddenSibling::HiddenSibling(HiddenSibling&& other) noexcept
@@ -282,7 +285,7 @@ void HiddenSibling::remove() {
   std::error_code ignored;
   fs::remove_all(m_folder, ignored);
   const std::lock_guard lock(ownTemporaries().mutex);
-  ownTemporaries().paths.erase(m_folder);
+  ownTemporaries().targets.erase(m_folder);
   m_folder.clear();
 }
 
@@ -378,7 +381,19 @@ bool isTemporary(const fs::path& path) {
 void removeOwnTemporaries() {
   const std::lock_guard lock(ownTemporaries().mutex);
   std::error_code ignored;
-  for (const fs::path& path : ownTemporaries().paths) fs::remove_all(path, ignored);
+  for (const auto& [folder, target] : ownTemporaries().targets) fs::remove_all(folder, ignored);
+}
+
+fs::path placeOf(const fs::path& file) {
+  const std::lock_guard lock(ownTemporaries().mutex);
+  for (const auto& [folder, target] : ownTemporaries().targets) {
+    const auto [stop, at] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    if (stop != folder.end() || at == file.end()) continue;
+    fs::path place = target;
+    for (auto part = std::next(at); part != file.end(); ++part) place /= *part;
+    return place;
+  }
+  return file;
 }
 
 }  // namespace lumen::formats

@@ -25,6 +25,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <sys/types.h>
@@ -59,8 +60,9 @@ Status writeFileAtomically(std::span<const std::byte> bytes, const std::filesyst
 /// A hidden folder that this process holds a lock on and removes at its end.
 class HiddenSibling {
 public:
-  HiddenSibling(std::filesystem::path folder, std::filesystem::path path,
-                FileDescriptor descriptor);
+  /// For a new file or folder that becomes `target`, whose name ends in `ending` meanwhile.
+  HiddenSibling(std::filesystem::path folder, const std::string& ending,
+                const std::filesystem::path& target, FileDescriptor descriptor);
   HiddenSibling(HiddenSibling&& other) noexcept;
   HiddenSibling& operator=(HiddenSibling&&) = delete;
   ~HiddenSibling();
@@ -144,6 +146,10 @@ private:
 
 /// Whether this is the hidden folder of a writer, by its name and by the proof in it.
 bool isTemporary(const std::filesystem::path& path);
+
+/// The place to which an unfinished file of this process will come: the one that a message names;
+/// other paths as they are. Thread-safe.
+std::filesystem::path placeOf(const std::filesystem::path& file);
 
 /// Removes the unfinished files and folders of this process, at its end. Thread-safe.
 void removeOwnTemporaries();

@@ -138,6 +138,7 @@ std::string labelLines(const CountedLabels& labels) {
 }
 
 std::string inventoryLines(const operations::LabelInventory& inventory) {
+  if (inventory.maps.empty()) return {};
   constexpr std::size_t kMostLabels = 20;  // a longer list leaves out labels of which nothing came
   std::string text;
   for (const operations::MappedLabels& map : inventory.maps) {

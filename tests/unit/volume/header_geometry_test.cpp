@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/io/volume/volume_checks.h"
 #include "text_volume.h"
 
 namespace lumen::convert {
@@ -206,6 +207,22 @@ TEST_F(HeaderGeometry, MatricesOfMetaImageAreAxesOneAfterTheOther) {
     EXPECT_EQ(v.geometry.direction.col(0), Vector3d(0, 1, 0)) << name;
     EXPECT_EQ(v.geometry.direction.col(1), Vector3d(-1, 0, 0)) << name;
   }
+}
+
+TEST(FarOrigin, IsMovedByTensOfMetres) {
+  VolumeGeometry geometry;
+  std::vector<std::string> said;
+  geometry.origin = {9999.5, -9999.5, 0};
+  moveFarOrigin(geometry, said);
+  EXPECT_EQ(geometry.origin, Eigen::Vector3d(9999.5, -9999.5, 0));
+  EXPECT_TRUE(said.empty());
+  geometry.origin = {10'000'012.25, -25'000.5, 3};
+  moveFarOrigin(geometry, said);
+  EXPECT_EQ(geometry.origin, Eigen::Vector3d(12.25, -5000.5, 3));
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0],
+            "its origin is far from 0: all positions are stated less (10000000, -20000, 0) mm, as "
+            "floats would round them there");
 }
 
 }  // namespace

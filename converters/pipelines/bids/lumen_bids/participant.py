@@ -119,12 +119,11 @@ def make_one(volume, out, options, program):
         Maker(volume, out, options, program).make(recipe)
         return "made", None
     except Fault as error:
-        # a folder's name may be somebody's: the place in the data set is enough
-        why = str(error).replace(str(volume.file), volume.place)
-        state = {"Source": volume.place, "Why": why, "Code": error.code}
+        state = {"Source": volume.place, "Why": str(error), "Code": error.code}
     except OSError as error:
         state = {"Source": volume.place, "Why": f"{error.filename}: {error.strerror}",
                  "Code": FAILED}
+    state["Why"] = program.without_folders(state["Why"])
     try:
         write_json(state, fault)
     except Fault as error:
