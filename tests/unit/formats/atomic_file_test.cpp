@@ -268,28 +268,6 @@ TEST_F(AtomicOutput, FoldersAndFilesOfAPersonStayWhateverTheirNames) {
   EXPECT_EQ(get(".lumen-2024-backup/old/head.lumen"), "my corrected case");
 }
 
-TEST_F(AtomicOutput, IsNotPutInPlaceOfAnOpenFile) {
-  put(path("log"), "precious line\n");
-  const FileDescriptor open = openForReading(path("log"), 0);
-  const std::string number = std::to_string(open.get());
-  fs::create_symlink("/dev/fd/" + number, path("link"));
-  for (const std::string& name : {"/dev/fd/" + number, "/proc/self/fd/" + number,
-                                  "/proc/thread-self/fd/" + number, path("link").string()}) {
-    const Status done = write(name, "x", systemCalls());
-    EXPECT_EQ(codeOf(done), "IO_NOT_A_FILE") << name;
-  }
-  EXPECT_EQ(get("log"), "precious line\n");
-}
-
-TEST_F(AtomicOutput, IsRefusedForAPipeAndASocketUnderTheNameOfAnOpenFile) {
-  int ends[2];
-  ASSERT_EQ(::pipe(ends), 0);
-  EXPECT_EQ(codeOf(write("/dev/fd/" + std::to_string(ends[1]), "x", systemCalls())),
-            "IO_NOT_A_FILE");
-  ::close(ends[0]);
-  ::close(ends[1]);
-}
-
 TEST_F(AtomicOutput, FilesOfSimilarNamesStay) {
   for (const char* name : {".lumen-7", ".lumen-notes.txt", ".lumenrc"}) put(path(name), "x");
   ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -186,6 +187,24 @@ TEST_F(CaseFile, IsNotWrittenOverADirectoryOrADevice) {
   EXPECT_EQ(codeOf(writeFileAtomically({}, "/dev/null")), "IO_NOT_A_FILE");
   EXPECT_EQ(codeOf(write("absent/a", "x")), "IO_WRITE");
   EXPECT_EQ(names(), std::vector<std::string>{"sub"});
+}
+
+TEST_F(CaseFile, IsNotWrittenInPlaceOfAnOpenFileAPipeOrASocket) {
+  put("log", "precious line\n");
+  const int log = ::open(path("log").c_str(), O_RDWR);
+  int ends[2], sockets[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, sockets), 0);
+  for (const int open : {log, ends[1], sockets[0]}) {
+    const std::string number = std::to_string(open);
+    fs::create_symlink("/dev/fd/" + number, path("link"));
+    for (const fs::path& name : {fs::path("/dev/fd/" + number), fs::path("/proc/self/fd/" + number),
+                                 fs::path("/proc/thread-self/fd/" + number), path("link")})
+      EXPECT_EQ(codeOf(writeFileAtomically({}, name)), "IO_NOT_A_FILE") << name;
+    fs::remove(path("link"));
+  }
+  for (const int open : {log, ends[0], ends[1], sockets[0], sockets[1]}) ::close(open);
+  EXPECT_EQ(get("log"), "precious line\n");
 }
 
 TEST_F(CaseFile, IsWrittenWithoutTheLeftoversOfWritersThatWereKilled) {
