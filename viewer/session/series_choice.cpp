@@ -84,7 +84,6 @@ std::shared_ptr<const DroppedFiles> SeriesChoice::end(std::int64_t batch) {
   if (own == m_batches.end()) refuse("no files of that number have come");
   const std::shared_ptr<const DroppedFiles> files = std::move(own->second.files);
   m_batches.erase(own);
-  m_ended.insert(batch);
   return files;
 }
 

@@ -30,11 +30,11 @@ public:
   /// `name` is a label; `read` gives its bytes, at most `bytes`. Batches have `mostBytes` in all: the
   /// one that has waited longest for a file ends where they have more, or are more than kMostBatches.
   /// Throws Error(Usage) for more than `mostBytes` in a batch, or more than kMostFiles, Conflict for
-  /// a batch that has ended, and as `read`.
+  /// a batch that has ended for others, and as `read`.
   void take(std::int64_t batch, const std::string& name, std::uint64_t bytes,
             std::uint64_t mostBytes, const std::function<std::string()>& read);
   /// The files of that batch, which ends. Throws Error(Usage) if there is none, and Conflict if it
-  /// has ended.
+  /// has ended for others.
   std::shared_ptr<const DroppedFiles> end(std::int64_t batch);
 
   /// Pages choose among these series of `folder` from now on.

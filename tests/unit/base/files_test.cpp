@@ -79,7 +79,7 @@ TEST_F(FilesTest, AFileThatCannotBeMadeIsNamedByItsTarget) {
     writeNewFile("a", path("no/hidden"), "head.png");
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "head.png: cannot write this file");
+    EXPECT_STREQ(error.what(), "head.png: cannot write this file: No such file or directory");
   }
 }
 

@@ -63,7 +63,7 @@ TEST(SeriesChoiceTest, ABatchThatEndedForOthersIsRefusedAndNotCut) {
   EXPECT_THROW(take(2, 1), viewer::Conflict);
   EXPECT_THROW((void)choice.end(2), viewer::Conflict);
   EXPECT_EQ(choice.end(1) != nullptr, true);
-  EXPECT_THROW((void)choice.end(1), viewer::Conflict);
+  EXPECT_THROW((void)choice.end(1), Error);
   EXPECT_THROW(take(4, 101), Error);
   EXPECT_EQ(choice.end(3) != nullptr, true);
 }

@@ -90,12 +90,15 @@ TEST_F(HeaderGeometry, SpacingsThatAreNoDistancesAreRefusedWithTheOption) {
 }
 
 TEST_F(HeaderGeometry, NumbersAreWholeWords) {
-  for (const char* bad : {"1 1 1x", "1 1", "1 1 1 1", "1 1 one", "1 1 0x10", "1 1 1,5", "1 1 1e400",
-                          "1 1 --1", "1 1 +-1"}) {
+  for (const char* bad :
+       {"1 1 1x", "1 1", "1 1 1 1", "1 1 one", "1 1 0x10", "1 1 1,5", "1 1 --1", "1 1 +-1"}) {
     expectRefused(nrrdRefusal({std::string("spacings: ") + bad}),
                   {"3: ", "spacings is", "3 numbers"});
     expectRefused(metaRefusal({std::string("ElementSpacing = ") + bad}), {"3: ", "3 numbers"});
   }
+  const std::vector<std::string> tooLarge = {"3: ", "a spacing of inf", "a positive number"};
+  expectRefused(nrrdRefusal({"spacings: 1 1 1e400"}), tooLarge);
+  expectRefused(metaRefusal({"ElementSpacing = 1 1 1e400"}), tooLarge);
   EXPECT_EQ(nrrd({"spacings: +1 2e0 .5"}).geometry.spacing, Vector3d(1, 2, 0.5));
 }
 
