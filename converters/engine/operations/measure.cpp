@@ -152,7 +152,11 @@ public:
     }
     Json json = measureJson(measured, baseName(m_before));
     json["files"] = Json::array();
-    json["files"] = files.write(measured, json);
+    Json written = files.write(measured, json);
+    // the answer names files as the command does
+    for (std::size_t i = 0; i < m_cases.size(); ++i) json["cases"][i]["case"] = m_cases[i].name();
+    if (!m_before.empty()) json["against"] = m_before.name();
+    json["files"] = std::move(written);
     text += "Lengths in mm, curvatures in 1/mm, volumes in mm3; +- is half of the 95 % interval.\n";
     return {std::move(json), std::move(text), 0, true};
   }
