@@ -4,15 +4,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <map>
-#include <mutex>
-#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -21,6 +17,7 @@
 #endif
 
 #include "formats/case/file_descriptor.h"
+#include "formats/case/hidden_folder.h"
 
 namespace lumen::formats {
 namespace {
@@ -28,20 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxLinks = 40;
-constexpr int kMaxNameTrials = 100;
 constexpr std::size_t kMaxEnding = 16;
 constexpr mode_t kPermissionBits = 07777;
 constexpr mode_t kNewFileMode = 0666;  // less the bits of the process's umask
 constexpr mode_t kNewFolderMode = 0777;
-
-Issue writeError(const fs::path& file, const std::string& what, int code) {
-  return {ErrorCode::IoWrite, std::nullopt,
-          file.string() + ": " + what + ": " + systemErrorText(code)};
-}
-
-fs::path folderOf(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
 
 // Whether a link is one of /proc/self/fd, as /dev/stdout is: it leads to what a process holds open,
 // which has perhaps no name, and which a new file of its name would not change but cut off.
@@ -94,83 +81,6 @@ std::string endingOf(const fs::path& file) {
   return both.size() <= kMaxEnding ? both : last.size() <= kMaxEnding ? last : "";
 }
 
-std::string newHiddenName() {
-  return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-" +
-         std::to_string(std::random_device()());
-}
-
-// The file by which a hidden folder proves to be one of a writer, whatever its name.
-constexpr const char* kProof = ".lumen-temporary";
-constexpr std::string_view kProofText =
-    "lumen writes in this folder, and removes it with all in it: when it is done, or else with the "
-    "next file that it writes beside it.\n";
-
-// A prefix, digits and a hyphen.
-bool isTemporaryName(std::string_view name) {
-  if (!name.starts_with(kTemporaryPrefix)) return false;
-  name.remove_prefix(kTemporaryPrefix.size());
-  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  return digits > 0 && digits < name.size() && name[digits] == '-';
-}
-
-bool writeProof(const fs::path& folder) {
-  const FileDescriptor open(uninterrupted([&] {
-    return ::open((folder / kProof).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-  }));
-  return open.isOpen() && writeAll(std::as_bytes(std::span(kProofText)), open.get());
-}
-
-bool hasProof(const fs::path& folder) {
-  const FileDescriptor open = openForReading(folder / kProof, O_NOFOLLOW);
-  struct stat info {};
-  if (!open.isOpen() || ::fstat(open.get(), &info) != 0 || !S_ISREG(info.st_mode)) return false;
-  std::string text(kProofText.size() + 1, '\0');  // a longer text is another one
-  const ssize_t count =
-      uninterrupted([&] { return ::pread(open.get(), text.data(), text.size(), 0); });
-  return count >= 0 &&
-         std::string_view(text).substr(0, static_cast<std::size_t>(count)) == kProofText;
-}
-
-// Hidden files and folders of this process that are not in their place yet.
-struct OwnTemporaries {
-  std::mutex mutex;
-  std::map<fs::path, fs::path> targets;  // of the hidden folders
-};
-OwnTemporaries& ownTemporaries() {
-  static auto* const own = new OwnTemporaries;  // outlives every writer
-  return *own;
-}
-
-bool tryLock(int descriptor) {
-  return uninterrupted([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == 0;
-}
-
-// Whether no process holds a lock on the folder; its writer would.
-bool isAbandoned(const fs::path& path) {
-  const FileDescriptor open = openForReading(path, O_NOFOLLOW);
-  return open.isOpen() && tryLock(open.get());
-}
-
-// A new hidden folder beside `target`. The lock comes before the proof, without which nobody removes
-// it.
-Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string& ending) {
-  int error = EEXIST;
-  for (int trial = 0; trial < kMaxNameTrials; ++trial) {
-    const fs::path path = target.parent_path() / newHiddenName();
-    if (::mkdir(path.c_str(), kNewFolderMode) != 0) {
-      error = errno;
-      if (error == EEXIST) continue;
-      break;
-    }
-    HiddenSibling sibling(path, ending, target, openForReading(path, O_DIRECTORY));
-    if (sibling.lock()) return sibling;
-    error = errno;
-    break;
-  }
-  return writeError(target, "no file can be made in the folder " + folderOf(target).string(),
-                    error);
-}
-
 // Whether the file system lacks the operation, which is no failure of the disk.
 bool isUnsupported(int code) {
   return code == EINVAL || code == ENOSYS || code == ENOTSUP || code == EOPNOTSUPP;
@@ -198,13 +108,6 @@ bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
   const FileDescriptor open = openForReading(path, flags);
   return open.isOpen() && (!mode || setMode(open.get(), *mode, calls)) &&
          flushOpen(open.get(), calls);
-}
-
-// Removes leftovers of killed writers. Failures are ignored: the next write tries again.
-void removeAbandoned(const fs::path& folder) {
-  std::error_code error, ignored;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (isTemporary(it->path()) && isAbandoned(it->path())) fs::remove_all(it->path(), ignored);
 }
 
 // Makes a rename survive a power cut. A folder that cannot be opened or flushed (some network file
@@ -254,39 +157,6 @@ const FileCalls& systemCalls() {
       [](const char* from, const char* to) { return ::rename(from, to); }, exchangeNames,
       [](int descriptor) { return flushFileSystem(descriptor) ? 0 : -1; }};
   return calls;
-}
-
-HiddenSibling::HiddenSibling(fs::path folder, const std::string& ending, const fs::path& target,
-                             FileDescriptor descriptor)
-    : m_folder(std::move(folder)),
-      m_path(m_folder / ("new" + ending)),
-      m_descriptor(std::move(descriptor)) {
-  const std::lock_guard lock(ownTemporaries().mutex);
-  ownTemporaries().targets.emplace(m_folder, target);
-}
-
-HiddenSibling::HiddenSibling(HiddenSibling&& other) noexcept
-    : m_folder(std::exchange(other.m_folder, {})),
-      m_path(std::move(other.m_path)),
-      m_descriptor(std::move(other.m_descriptor)) {}
-
-HiddenSibling::~HiddenSibling() {
-  remove();
-}
-
-bool HiddenSibling::lock() {
-  if (!m_descriptor.isOpen()) return false;
-  tryLock(m_descriptor.get());  // a file system without locks has no abandoned files either
-  return writeProof(m_folder);
-}
-
-void HiddenSibling::remove() {
-  if (m_folder.empty()) return;
-  std::error_code ignored;
-  fs::remove_all(m_folder, ignored);
-  const std::lock_guard lock(ownTemporaries().mutex);
-  ownTemporaries().targets.erase(m_folder);
-  m_folder.clear();
 }
 
 Status writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
@@ -372,28 +242,6 @@ Status PendingFolder::replace() {
   }
   calls.rename(old.c_str(), path().c_str());  // hidden: if its removal is killed, the next goes on
   return {};
-}
-
-bool isTemporary(const fs::path& path) {
-  return isTemporaryName(path.filename().string()) && hasProof(path);
-}
-
-void removeOwnTemporaries() {
-  const std::lock_guard lock(ownTemporaries().mutex);
-  std::error_code ignored;
-  for (const auto& [folder, target] : ownTemporaries().targets) fs::remove_all(folder, ignored);
-}
-
-fs::path placeOf(const fs::path& file) {
-  const std::lock_guard lock(ownTemporaries().mutex);
-  for (const auto& [folder, target] : ownTemporaries().targets) {
-    const auto [stop, at] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    if (stop != folder.end() || at == file.end()) continue;
-    fs::path place = target;
-    for (auto part = std::next(at); part != file.end(); ++part) place /= *part;
-    return place;
-  }
-  return file;
 }
 
 }  // namespace lumen::formats

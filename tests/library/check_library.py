@@ -209,7 +209,7 @@ def extracting(place):
 
 def leaving(place):
     """Leftovers of a killed `library index` are no fault, and no part of the next revision."""
-    left = place.folder / "lib/.lumen-4711-0"
+    left = place.folder / "lib/.lumen-4711-0000000000"
     left.mkdir()
     (left / "page.html").write_text("half")
     (left / ".lumen-temporary").write_text("lumen writes in this folder, and removes it with all in it: when it is done, or else with the "

@@ -232,7 +232,7 @@ TEST_F(AtomicOutput, OfThisProcessIsRemovedWhenItIsInterrupted) {
 }
 
 TEST_F(AtomicOutput, OfAnotherWriterWithTheSameProcessIdStaysWhenThisOneIsInterrupted) {
-  const std::string other = ".lumen-" + std::to_string(::getpid()) + "-1";
+  const std::string other = ".lumen-" + std::to_string(::getpid()) + "-0000000001";
   leaveFolder(other);
   const FileDescriptor open = openForReading(path(other), 0);
   ASSERT_EQ(::flock(open.get(), LOCK_EX), 0);
@@ -243,26 +243,34 @@ TEST_F(AtomicOutput, OfAnotherWriterWithTheSameProcessIdStaysWhenThisOneIsInterr
 }
 
 TEST_F(AtomicOutput, AbandonedFoldersAreRemovedToo) {
-  leaveFolder(".lumen-1234-0");
-  fs::create_directories(path(".lumen-1234-0/meshes"));
-  put(path(".lumen-1234-0/meshes/wall.obj"), "half");
+  leaveFolder(".lumen-1234-0000000000");
+  fs::create_directories(path(".lumen-1234-0000000000/meshes"));
+  put(path(".lumen-1234-0000000000/meshes/wall.obj"), "half");
+  ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
+  EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, WhatAKillBesideTheProofLeavesIsRemoved) {
+  fs::create_directory(path(".lumen-1234-0000000000"));
   ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
   EXPECT_EQ(names(), Names{"a"});
 }
 
 TEST_F(AtomicOutput, FoldersAndFilesOfAPersonStayWhateverTheirNames) {
-  for (const char* const folder : {".lumen-2024-backup", ".lumen-1234-0", ".lumen-1234-1"})
+  for (const char* const folder :
+       {".lumen-2024-backup", ".lumen-1234-0000000000", ".lumen-1234-0000000001"})
     fs::create_directories(path(folder) / "old");
   put(path(".lumen-2024-backup/old/head.lumen"), "my corrected case");
-  put(path(".lumen-1234-0/.lumen-temporary"), "my notes on it");
-  leaveFolder(".lumen-1234-2");
-  put(path(".lumen-1234-2/.lumen-temporary"), get(".lumen-1234-2/.lumen-temporary") + "and mine");
-  fs::create_symlink(path(".lumen-1234-1"), path(".lumen-1234-3"));
+  put(path(".lumen-1234-0000000000/.lumen-temporary"), "my notes on it");
+  leaveFolder(".lumen-1234-0000000002");
+  put(path(".lumen-1234-0000000002/.lumen-temporary"),
+      get(".lumen-1234-0000000002/.lumen-temporary") + "and mine");
+  fs::create_symlink(path(".lumen-1234-0000000001"), path(".lumen-1234-0000000003"));
   put(path(".lumen-2026-11-29-notes.txt"), "my notes");
-  const Names before = names();
+  fs::create_directory(path(".lumen-2024-1"));
+  Names expected = names();
   ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
   ASSERT_EQ(codeOf(writeFolder("b", "x", PendingFolder::Existing::Refuse)), "OK");
-  Names expected = before;
   expected.insert(expected.end(), {"a", "b"});
   EXPECT_EQ(names(), expected);
   EXPECT_EQ(get(".lumen-2024-backup/old/head.lumen"), "my corrected case");

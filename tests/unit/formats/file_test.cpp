@@ -216,14 +216,14 @@ TEST_F(CaseFile, IsWrittenWithoutTheLeftoversOfWritersThatWereKilled) {
   int status = 0;
   ASSERT_EQ(::waitpid(writer, &status, 0), writer);
   const std::string left = names().at(0);
-  fs::create_directory(path(".lumen-1234-6"));
-  fs::copy(path(left), path(".lumen-1234-6"));
+  fs::create_directory(path(".lumen-1234-0000000006"));
+  fs::copy(path(left), path(".lumen-1234-0000000006"));
   put(".lumen-notes", "of somebody else");
-  const int locked = ::open(path(".lumen-1234-6").c_str(), O_RDONLY);
+  const int locked = ::open(path(".lumen-1234-0000000006").c_str(), O_RDONLY);
   ASSERT_EQ(::flock(locked, LOCK_EX), 0);
   EXPECT_EQ(codeOf(write("a", "x")), "OK");
   ::close(locked);
-  EXPECT_EQ(names(), (std::vector<std::string>{".lumen-1234-6", ".lumen-notes", "a"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{".lumen-1234-0000000006", ".lumen-notes", "a"}));
 }
 
 // Kills a process at a random moment while it writes one of two contents over and over. The

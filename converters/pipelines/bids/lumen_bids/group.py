@@ -68,7 +68,7 @@ def build_library(volumes, out, options, program):
         if options.licence:
             words += ["--licence", options.licence]
         program.run(*words)
-    rows = [(v.derivative(out, *CASE).resolve(), v.case_id, v.name, {}) for v in volumes]
+    rows = [(v.derivative(out, *CASE).relative_to(out).as_posix(), v.case_id, v.name, {}) for v in volumes]
     file = pathlib.Path(out) / "library.csv"
     write_text(list_text(rows, read_statements(options.statements), options.export), file)
     program.run("library", "build", file, library, "--jobs", options.jobs)
