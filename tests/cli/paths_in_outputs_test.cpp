@@ -43,7 +43,7 @@ phantom --tree OUT/a.swc OUT/p.nrrd --truth OUT/pt.lumen.json --seeds OUT/ps.jso
 phantom tube OUT/p.mha --size 32
 picture IN/tube.lumen OUT/p.png
 report IN/tube.lumen OUT/r.html --volume IN/tube.nrrd
-export sofa IN/tube.lumen OUT/x-sofa
+export print IN/tube.lumen OUT/x-print
 export mujoco IN/tube.lumen OUT/x-mujoco
 export simvascular IN/tube.lumen OUT/x-simvascular
 export openfoam IN/tube.lumen OUT/x-openfoam
