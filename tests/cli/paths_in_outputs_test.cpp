@@ -111,7 +111,6 @@ TEST_F(PathsInOutputsTest, NoFileNamesAFolderThatAPersonNamedSLOW) {
   EXPECT_GT(countClean(), 60U);
 }
 
-
 }  // namespace
 
 }  // namespace lumen::test
