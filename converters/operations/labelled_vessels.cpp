@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "converters/base/error.h"
@@ -10,8 +11,10 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/io/volume/write_volume.h"
+#include "converters/stages/trees_from_surfaces/branch_systems.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
+#include "converters/stages/trees_from_surfaces/label_systems.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
@@ -63,6 +66,67 @@ void renameByNodes(const formats::CenterlineTree& tree, std::vector<convert::Tra
   }
 }
 
+/// The role of each label of a mask.
+std::vector<convert::LabelRole> rolesOf(const convert::LabelMask& mask,
+                                        const std::vector<convert::LabelMeaning>& meanings) {
+  std::vector<convert::LabelRole> roles(mask.values.size(), convert::LabelRole::Unknown);
+  for (const convert::LabelMeaning& meaning : meanings) {
+    const auto at = std::lower_bound(mask.values.begin(), mask.values.end(), meaning.value);
+    if (at != mask.values.end() && *at == meaning.value)
+      roles[static_cast<std::size_t>(at - mask.values.begin())] = meaning.role;
+  }
+  return roles;
+}
+
+/// Tree and wall points of all labels of a mask in one, without names.
+formats::Case vesselsOfMask(const convert::LabelMask& mask, const std::string& name,
+                            std::size_t labels, Progress& progress) {
+  progress.begin("surface", 0);
+  convert::LabelSurface surface = convert::makeLabelSurface(mask, progress);
+  progress.end();
+  if (surface.cavities > 0)
+    progress.warn(name + ": " + std::to_string(surface.cavities) +
+                  (surface.cavities == 1 ? " hole" : " holes") + " within the labels filled");
+  convert::MeshCase made =
+      convert::caseOfLumen(convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(),
+                           name, {}, {{"labels", static_cast<std::int64_t>(labels)}}, progress);
+  for (const std::string& note : made.notes) progress.warn(note);
+  return std::move(made.result);
+}
+
+/// The trees of labels that touch and are apart, each part of the labels by its own surface. A part
+/// without a vessel is left out.
+formats::Case vesselsOfParts(const convert::LabelMask& mask, bool isNamed,
+                             std::span<const convert::LabelRole> roles, const std::string& name,
+                             Progress& progress) {
+  const std::vector<std::uint8_t> parts = convert::partsOfLabels(mask, roles, progress);
+  const std::uint8_t last = *std::max_element(parts.begin(), parts.end());
+  std::optional<formats::Case> all;
+  std::string whyNone;
+  for (std::uint8_t part = 0; part <= last; ++part) {
+    std::optional<convert::LabelMask> own;
+    if (last > 0) own = convert::partOfMask(mask, parts, part);
+    const convert::LabelMask& labels = own ? *own : mask;
+    const auto count = static_cast<std::size_t>(std::count(parts.begin(), parts.end(), part));
+    try {
+      formats::Case made = vesselsOfMask(labels, name, count, progress);
+      if (isNamed) convert::nameBranches(labels, made);
+      convert::takeSystems(labels, roles, made);
+      convert::spreadSystems(made);
+      if (all)
+        convert::appendTrees(made, *all);
+      else
+        all = std::move(made);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::InvalidInput || last == 0) throw;
+      whyNone = error.what();
+      progress.warn(whyNone);
+    }
+  }
+  if (!all) throw invalidInput(whyNone);
+  return *std::move(all);
+}
+
 }  // namespace
 
 formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64_t>& chosen,
@@ -79,22 +143,13 @@ formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64
                   ": its voxels differ from their neighbours as grey values do, and are taken as "
                   "labels; expected a segmentation: an image is tracked from " +
                   context.field("seeds"));
-  progress.begin("surface", 0);
-  convert::LabelSurface surface = convert::makeLabelSurface(mask, progress);
-  progress.end();
-  if (surface.cavities > 0)
-    progress.warn(name + ": " + std::to_string(surface.cavities) +
-                  (surface.cavities == 1 ? " hole" : " holes") + " within the labels filled");
-  convert::MeshCase made = convert::caseOfLumen(
-      convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(), name, {},
-      {{"labels", static_cast<std::int64_t>(mask.names.size())}}, progress);
-  for (const std::string& note : made.notes) progress.warn(note);
-  recordAssumptions(made.result.metadata.steps.back(), labels.voxels.assumptions);
+  formats::Case made = vesselsOfParts(mask, mask.names.size() > 1 || !names.empty(),
+                                      rolesOf(mask, labels.meanings), name, progress);
+  recordAssumptions(made.metadata.steps.back(), labels.voxels.assumptions);
   // no wall is known better than to a voxel of the labels
-  std::optional<double>& voxel = made.result.metadata.voxelSize;
+  std::optional<double>& voxel = made.metadata.voxelSize;
   voxel = std::max(voxel.value_or(0), mask.geometry.voxelSize());
-  if (mask.names.size() > 1 || !names.empty()) convert::nameBranches(mask, made.result);
-  return std::move(made.result);
+  return made;
 }
 
 namespace {
@@ -114,6 +169,7 @@ void nameByMap(const LabelPart& map, const convert::VolumeGeometry& geometry,
   useNames(convert::namesOf(map.meanings), mask);
   if (!leaveOutOthers(map.meanings, mask)) return;
   const convert::Naming done = convert::nameBranches(mask, target);
+  convert::takeSystems(mask, rolesOf(mask, map.meanings), target);
   if (done.named == 0) context.progress.warn(name + ": no branch lies on its labels; names stay");
   context.progress.detail(name + ": names " + std::to_string(done.named) + " branches, " +
                           std::to_string(done.bare) + " lie on no label, " +
@@ -125,10 +181,12 @@ void nameByMap(const LabelPart& map, const convert::VolumeGeometry& geometry,
 void nameByMaps(const std::vector<LabelPart>& maps, const convert::VolumeGeometry& geometry,
                 const std::string& named, formats::Case& target,
                 std::vector<convert::TrackEnd>& ends, const Context& context) {
-  // names of the first map are the last ones that branches get
+  if (maps.empty()) return;
+  // names and systems of the first map are the last ones that branches get
   for (auto map = maps.rbegin(); map != maps.rend(); ++map)
     nameByMap(*map, geometry, named, target, context);
-  if (!maps.empty()) renameByNodes(target.tree, ends);
+  convert::spreadSystems(target);
+  renameByNodes(target.tree, ends);
   for (const LabelPart& map : maps)
     target.metadata.steps.push_back(
         {"label-map",

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,12 @@ struct Naming {
 ///   are equal, if that is longer than the branch is wide or is at least half of it; one without keeps its name.
 /// - Branches of one name are "NAME", "NAME-2" and so on in the order of the tree.
 Naming nameBranches(const LabelMask& mask, formats::Case& value);
+
+/// The label of the voxel around a position, mm, LPS, counted from 1; 0 outside.
+std::uint8_t labelAt(const LabelMask& mask, const Eigen::Vector3d& position);
+
+/// "NAME", or "NAME-2" and so on, whichever is free, which is taken then.
+std::string freeName(const std::string& name, std::set<std::string>& taken);
 
 /// The number of labelled voxels whose centres lie in a volume of this geometry.
 std::size_t labelledWithin(const LabelMask& mask, const VolumeGeometry& geometry);
