@@ -24,6 +24,14 @@ std::vector<VesselSystem> readBranchSystems(const Case& value) {
   return branches;
 }
 
+std::vector<VesselSystem> knownBranchSystems(const Case& value) {
+  std::vector<VesselSystem> systems = readBranchSystems(value);
+  if (std::all_of(systems.begin(), systems.end(),
+                  [](VesselSystem system) { return system == VesselSystem::Unknown; }))
+    systems.clear();
+  return systems;
+}
+
 void setNodeSystems(Case& value, const std::vector<VesselSystem>& systems) {
   setNodeWords(value, kSystemExtension, kSystemArray, {systems.begin(), systems.end()});
 }

@@ -41,6 +41,9 @@ std::vector<VesselSystem> readNodeSystems(const Case& value);
 /// One value for each branch of a valid case: the one that most of its nodes have.
 std::vector<VesselSystem> readBranchSystems(const Case& value);
 
+/// The same; empty if all are unknown.
+std::vector<VesselSystem> knownBranchSystems(const Case& value);
+
 /// Replaces the node array of a case by `systems`, one value for each node, and lists its extension;
 /// removes both if all are unknown.
 void setNodeSystems(Case& value, const std::vector<VesselSystem>& systems);
