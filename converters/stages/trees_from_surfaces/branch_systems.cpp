@@ -51,7 +51,9 @@ void spreadSystems(formats::Case& value) {
     return node < 0 ? b : std::size_t{tree.branch[static_cast<std::size_t>(node)]};
   };
   const auto take = [&](std::size_t to, std::size_t from) {
-    if (systems[to] == VesselSystem::Unknown) systems[to] = systems[from];
+    if (systems[to] != VesselSystem::Unknown) return;
+    const bool isTrue = systems[from] == VesselSystem::TrueLumen;
+    systems[to] = isTrue ? VesselSystem::Artery : systems[from];
   };
   for (std::size_t b = 0; b < systems.size(); ++b) take(b, parentOf(b));
   for (std::size_t b = systems.size(); b-- > 0;) take(parentOf(b), b);

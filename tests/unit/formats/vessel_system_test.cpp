@@ -21,56 +21,57 @@ namespace {
 using test::addBeads;
 using test::alongX;
 
-constexpr VesselSystem kNone = VesselSystem::Unknown, kArtery = VesselSystem::Artery,
-                       kVein = VesselSystem::Vein, kTrue = VesselSystem::TrueLumen,
-                       kFalse = VesselSystem::FalseLumen;
-const std::vector<VesselSystem> kMixed = {kArtery, kArtery, kVein, kNone, kFalse, kTrue};
+constexpr VesselSystem kNoSystem = VesselSystem::Unknown, kOfArtery = VesselSystem::Artery,
+                       kOfVein = VesselSystem::Vein, kOfTrueLumen = VesselSystem::TrueLumen,
+                       kOfFalseLumen = VesselSystem::FalseLumen;
+const std::vector<VesselSystem> kSixSystems = {kOfArtery, kOfArtery,     kOfVein,
+                                               kNoSystem, kOfFalseLumen, kOfTrueLumen};
 
 /// Two vessels of three nodes each.
-Case plainCase() {
+Case sixNodes() {
   Case value = test::noBeads();
   addBeads(value, "a", alongX(0, 0.5F, 3), 1);
   addBeads(value, "b", alongX(9, 0.5F, 3), 1);
   return value;
 }
 
-Case mixedCase() {
-  Case value = plainCase();
-  setNodeSystems(value, kMixed);
+Case sixNodesOfSystems() {
+  Case value = sixNodes();
+  setNodeSystems(value, kSixSystems);
   return value;
 }
 
 TEST(VesselSystem, IsUnknownWhereTheCaseDoesNotSay) {
-  EXPECT_EQ(readNodeSystems(plainCase()), std::vector<VesselSystem>(6, kNone));
+  EXPECT_EQ(readNodeSystems(sixNodes()), std::vector<VesselSystem>(6, kNoSystem));
 }
 
 TEST(VesselSystem, IsGivenBackByBothEncodings) {
-  const Case value = mixedCase();
+  const Case value = sixNodesOfSystems();
   const auto binary = decodeCase(encodeBinary(value));
   ASSERT_TRUE(binary);
-  EXPECT_EQ(readNodeSystems(*binary), kMixed);
+  EXPECT_EQ(readNodeSystems(*binary), kSixSystems);
   const std::string text = encodeJson(value);
   const auto decoded = decodeCase(std::as_bytes(std::span(text)));
   ASSERT_TRUE(decoded);
-  EXPECT_EQ(readNodeSystems(*decoded), kMixed);
+  EXPECT_EQ(readNodeSystems(*decoded), kSixSystems);
 }
 
 TEST(VesselSystem, OfABranchIsThatOfMostOfItsNodes) {
   // of three nodes that differ, the lowest value
-  EXPECT_EQ(readBranchSystems(mixedCase()), (std::vector{kArtery, kNone}));
+  EXPECT_EQ(readBranchSystems(sixNodesOfSystems()), (std::vector{kOfArtery, kNoSystem}));
 }
 
 TEST(VesselSystem, LeavesNothingBehindWhereAllAreUnknown) {
-  Case value = mixedCase();
+  Case value = sixNodesOfSystems();
   value.metadata.extensionsRequired = {kSystemExtension};
   EXPECT_TRUE(validate(value));
-  setNodeSystems(value, std::vector<VesselSystem>(6, kNone));
-  EXPECT_EQ(value, plainCase());
+  setNodeSystems(value, std::vector<VesselSystem>(6, kNoSystem));
+  EXPECT_EQ(value, sixNodes());
 }
 
 TEST(VesselSystem, OfArteriesVeinsAndFalseLumensAreApart) {
   const std::vector<std::vector<VesselSystem>> together = {
-      {kArtery, kTrue, kNone}, {kVein, kNone}, {kFalse, kNone}};
+      {kOfArtery, kOfTrueLumen, kNoSystem}, {kOfVein, kNoSystem}, {kOfFalseLumen, kNoSystem}};
   for (std::size_t i = 0; i < kVesselSystemCount; ++i)
     for (std::size_t k = 0; k < kVesselSystemCount; ++k) {
       const auto a = static_cast<VesselSystem>(i), b = static_cast<VesselSystem>(k);
@@ -102,7 +103,7 @@ TEST(VesselSystem, OfNoKnownKindIsRefusedAtItsPlace) {
        {kSystemArray, 2, "", Integers(12)}},
       {"ARRAY_LENGTH", "/nodeArrays/LUMEN_vessel.system", {kSystemArray, 1, "", Integers(5)}}};
   for (const Wrong& wrong : wrongs) {
-    Case value = mixedCase();
+    Case value = sixNodesOfSystems();
     value.nodeArrays = {wrong.array};
     const auto result = validate(value);
     ASSERT_FALSE(result) << wrong.pointer;

@@ -181,7 +181,7 @@ TEST(BranchSystems, SpreadAlongATreeAndNoFarther) {
   spreadSystems(value);
   EXPECT_EQ(
       formats::readBranchSystems(value),
-      (std::vector{VesselSystem::TrueLumen, VesselSystem::TrueLumen, VesselSystem::Artery, kNone}));
+      (std::vector{VesselSystem::TrueLumen, VesselSystem::Artery, VesselSystem::Artery, kNone}));
 }
 
 }  // namespace
