@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Declared in node_words.h and node_origin.h.
 #include "formats/case/node_words.h"
 
 #include <array>
@@ -63,6 +64,22 @@ std::optional<Issue> nodeWordFault(const NodeArray& array, const std::string& pl
       ErrorCode::EnumValue,
       at("/nodeArrays/" + array.name, static_cast<std::size_t>(fault - values->begin())),
       std::to_string(*fault), table->expected);
+}
+
+std::vector<NodeOrigin> readNodeOrigins(const Case& value) {
+  return readNodeWords<NodeOrigin>(value, kOriginArray);
+}
+
+void setNodeOrigins(Case& value, const std::vector<NodeOrigin>& origins) {
+  setNodeWords(value, kOriginExtension, kOriginArray, {origins.begin(), origins.end()});
+}
+
+std::vector<bool> readEditedWalls(const Case& value) {
+  return readNodeWords<bool>(value, kEditedWallArray);
+}
+
+void setEditedWalls(Case& value, const std::vector<bool>& edited) {
+  setNodeWords(value, kEditExtension, kEditedWallArray, {edited.begin(), edited.end()});
 }
 
 }  // namespace lumen::formats

@@ -173,18 +173,13 @@ bool touchSideBySide(const LabelMask& mask, const LabelContact& contact, const P
   return (sections > 1 && opening + 0.5 * voxel <= thinner) || (sections > 2 && opening < thinner);
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> partsOfLabels(const LabelMask& mask, std::span<const LabelRole> roles,
-                                        const Progress& progress) {
-  const std::size_t count = mask.values.size();
-  std::vector<std::uint8_t> parts(count, 0);
-  if (count < 2) return parts;
-  const std::vector<LabelContact> contacts = findContacts(mask, progress);
-  DisjointSets trees(count);
-  std::vector<std::vector<std::uint32_t>> members(count);
-  for (std::uint32_t l = 0; l < count; ++l) members[l] = {l};
-  const auto holdApart = [&](std::uint32_t one, std::uint32_t other) {
+/// Labels that are of one part, as sets.
+DisjointSets joinedLabels(const LabelMask& mask, std::span<const LabelRole> roles,
+                          const std::vector<LabelContact>& contacts, const Progress& progress) {
+  DisjointSets trees(roles.size());
+  std::vector<std::vector<std::uint32_t>> members(roles.size());
+  for (std::uint32_t l = 0; l < roles.size(); ++l) members[l] = {l};
+  const auto areApart = [&](std::uint32_t one, std::uint32_t other) {
     for (const std::uint32_t x : members[one])
       for (const std::uint32_t y : members[other])
         if (formats::areApart(systemOf(roles[x]), systemOf(roles[y]))) return true;
@@ -193,20 +188,31 @@ std::vector<std::uint8_t> partsOfLabels(const LabelMask& mask, std::span<const L
   for (const LabelContact& contact : contacts) {
     const std::uint32_t a = contact.a - 1U, b = contact.b - 1U;
     const std::uint32_t one = trees.find(a), other = trees.find(b);
-    if (one == other || holdApart(one, other)) continue;
+    if (one == other || areApart(one, other)) continue;
     if (isOpenQuestion(roles[a], roles[b]) && touchSideBySide(mask, contact, progress)) continue;
     trees.join(one, other);
     const std::uint32_t whole = trees.find(one), rest = whole == one ? other : one;
     members[whole].insert(members[whole].end(), members[rest].begin(), members[rest].end());
   }
-  // trees that touch lie in unlike parts
-  for (std::uint32_t l = 0; l < count; ++l) {
+  return trees;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> partsOfLabels(const LabelMask& mask, std::span<const LabelRole> roles,
+                                        const Progress& progress) {
+  std::vector<std::uint8_t> parts(roles.size(), 0);
+  if (parts.size() < 2) return parts;
+  const std::vector<LabelContact> contacts = findContacts(mask, progress);
+  DisjointSets trees = joinedLabels(mask, roles, contacts, progress);
+  // sets that touch lie in unlike parts; the name of a set is its first label
+  for (std::uint32_t l = 0; l < parts.size(); ++l) {
     const std::uint32_t tree = trees.find(l);
     if (tree != l) {
       parts[l] = parts[tree];
       continue;
     }
-    std::vector<bool> isTaken(count, false);
+    std::vector<bool> isTaken(parts.size(), false);
     for (const LabelContact& contact : contacts)
       for (const auto& [own, other] : {std::pair{contact.a, contact.b}, {contact.b, contact.a}}) {
         const std::uint32_t beside = trees.find(other - 1U);

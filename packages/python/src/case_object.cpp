@@ -81,12 +81,10 @@ void addTree(py::class_<CaseObject, SharedCase>& type) {
     py::list branches;
     const std::vector<formats::VesselSystem> systems = formats::readBranchSystems(self.value);
     for (const formats::Branch& b : self.value.tree.branches)
-      branches.append(py::make_tuple(b.label, formats::enumName(formats::kBranchKindNames, b.kind),
-                                     b.parentNode, b.firstNode, b.nodeCount,
-                                     formats::enumName(formats::kStopReasonNames, b.stopReason),
-                                     b.meanInlierRate,
-                                     formats::enumName(formats::kVesselSystemNames,
-                                                       systems[py::len(branches)])));
+      branches.append(py::make_tuple(
+          b.label, formats::enumName(formats::kBranchKindNames, b.kind), b.parentNode, b.firstNode,
+          b.nodeCount, formats::enumName(formats::kStopReasonNames, b.stopReason), b.meanInlierRate,
+          formats::enumName(formats::kVesselSystemNames, systems[py::len(branches)])));
     return branches;
   });
 }
