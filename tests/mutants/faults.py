@@ -33,6 +33,12 @@ FAULTS = [
           "lender[node] = lender[queue[head]];", "lender[node] = queue[head];", "field_test"),
     Fault("the plane between two nodes lies on the wrong side of the middle", "formats/field/radical_disc.cpp",
           "0.5 * (1.0 + (ra * ra - rb * rb) / square)", "0.5 * (1.0 - (ra * ra - rb * rb) / square)", "field_test"),
+    Fault("an artery's label is joined to a vein's", "converters/stages/trees_from_surfaces/label_systems.cpp",
+          "if (one == other || areApart(one, other)) continue;", "if (one == other) continue;", "trees_from_surfaces_test",
+          cases="LabelSystems*"),
+    Fault("a void between an artery and a vein is bridged", "converters/stages/editing/joined_ends.cpp",
+          "if (ends[i].tree != ends[j].tree && !graph.areApart(ends[i].node, ends[j].node))",
+          "if (ends[i].tree != ends[j].tree)", "editing_test", cases="SystemsApart*"),
     # libblob
     Fault("a segment downward along z is clipped at the wrong ends", "libblob/src/segment.cpp",
           "if (delta < 0) std::swap(enter, leave);", "if (delta < 0 && i < 2) std::swap(enter, leave);", "blob_test"),
