@@ -11,6 +11,8 @@
 #include "converters/base/vectors.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/editing/selection.h"
+#include "converters/stages/trees_from_surfaces/branch_systems.h"
+#include "converters/stages/trees_from_surfaces/label_systems.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
@@ -51,6 +53,7 @@ NamingMap namingMap(const LabelPart& map, const convert::VolumeGeometry& geometr
                        "; the labels' volume is around " + extentText(made.mask.geometry) +
                        ", expected labels of the volume around " + extentText(geometry));
   useNames(convert::namesOf(map.meanings), made.mask);
+  made.roles = rolesOf(made.mask, map.meanings);
   leaveOutOthers(map.meanings, made.mask);
   return made;
 }
@@ -59,6 +62,7 @@ void nameByMap(const NamingMap& map, formats::Case& target, const Context& conte
   const auto isSet = [](std::uint8_t label) { return label != 0; };
   if (std::none_of(map.mask.label.begin(), map.mask.label.end(), isSet)) return;
   const convert::Naming done = convert::nameBranches(map.mask, target);
+  convert::takeSystems(map.mask, map.roles, target);
   if (done.named == 0)
     context.progress.warn(map.name + ": no branch lies on its labels; names stay");
   context.progress.detail(map.name + ": names " + std::to_string(done.named) + " branches, " +
@@ -72,6 +76,17 @@ void useNames(const convert::LabelNames& names, convert::LabelMask& mask) {
   for (std::size_t i = 0; i < mask.values.size(); ++i)
     if (const auto found = names.find(mask.values[i]); found != names.end())
       mask.names[i] = found->second;
+}
+
+std::vector<convert::LabelRole> rolesOf(const convert::LabelMask& mask,
+                                        const std::vector<convert::LabelMeaning>& meanings) {
+  std::vector<convert::LabelRole> roles(mask.values.size(), convert::LabelRole::Unknown);
+  for (const convert::LabelMeaning& meaning : meanings) {
+    const auto at = std::lower_bound(mask.values.begin(), mask.values.end(), meaning.value);
+    if (at != mask.values.end() && *at == meaning.value)
+      roles[static_cast<std::size_t>(at - mask.values.begin())] = meaning.role;
+  }
+  return roles;
 }
 
 std::vector<NamingMap> namingMaps(const std::vector<LabelPart>& maps,
@@ -94,8 +109,10 @@ std::vector<BranchLabel> labelsOfBranches(const std::vector<NamingMap>& maps,
 }
 
 void nameByMaps(const std::vector<NamingMap>& maps, formats::Case& target, const Context& context) {
-  // names of the first map are the last ones that branches get
+  if (maps.empty()) return;
+  // names and systems of the first map are the last ones that branches get
   for (auto map = maps.rbegin(); map != maps.rend(); ++map) nameByMap(*map, target, context);
+  convert::spreadSystems(target);
 }
 
 void leaveOutUnlabelled(const std::vector<NamingMap>& maps, formats::Case& target,

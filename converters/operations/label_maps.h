@@ -19,6 +19,7 @@ namespace lumen::operations {
 struct NamingMap {
   std::string name;  ///< for messages, printable
   convert::LabelMask mask;
+  std::vector<convert::LabelRole> roles;  ///< of each label of the mask
 };
 
 /// One for each map beside the volume of this geometry, which messages call `named`. Throws
@@ -37,7 +38,7 @@ struct BranchLabel {
 std::vector<BranchLabel> labelsOfBranches(const std::vector<NamingMap>& maps,
                                           const formats::CenterlineTree& tree);
 
-/// Names the branches of a case by the labels on which they lie. Where several maps have a label,
+/// Names the branches of a case by the labels on which they lie, whose roles state their systems. Where several maps have a label,
 /// that of the first counts. Warns of a map on which no branch lies.
 void nameByMaps(const std::vector<NamingMap>& maps, formats::Case& target, const Context& context);
 
@@ -55,5 +56,9 @@ void recordMaps(const std::vector<LabelPart>& maps, formats::Case& target);
 
 /// Gives the labels of a mask names, where they are known.
 void useNames(const convert::LabelNames& names, convert::LabelMask& mask);
+
+/// The role of each label of a mask.
+std::vector<convert::LabelRole> rolesOf(const convert::LabelMask& mask,
+                                        const std::vector<convert::LabelMeaning>& meanings);
 
 }  // namespace lumen::operations

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "converters/base/error.h"
@@ -10,11 +11,66 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/operations/label_maps.h"
+#include "converters/stages/trees_from_surfaces/branch_systems.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
+#include "converters/stages/trees_from_surfaces/label_systems.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
+
+namespace {
+
+/// Tree and wall points of all labels of a mask in one, without names.
+formats::Case vesselsOfMask(const convert::LabelMask& mask, const std::string& name,
+                            std::size_t labels, Progress& progress) {
+  progress.begin("surface", 0);
+  convert::LabelSurface surface = convert::makeLabelSurface(mask, progress);
+  progress.end();
+  if (surface.cavities > 0)
+    progress.warn(name + ": " + std::to_string(surface.cavities) +
+                  (surface.cavities == 1 ? " hole" : " holes") + " within the labels filled");
+  convert::MeshCase made =
+      convert::caseOfLumen(convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(),
+                           name, {}, {{"labels", static_cast<std::int64_t>(labels)}}, progress);
+  for (const std::string& note : made.notes) progress.warn(note);
+  return std::move(made.result);
+}
+
+/// The trees of labels that touch and are apart, each part of the labels by its own surface. A part
+/// without a vessel is left out.
+formats::Case vesselsOfParts(const convert::LabelMask& mask, bool isNamed,
+                             std::span<const convert::LabelRole> roles, const std::string& name,
+                             Progress& progress) {
+  const std::vector<std::uint8_t> parts = convert::partsOfLabels(mask, roles, progress);
+  const std::uint8_t last = *std::max_element(parts.begin(), parts.end());
+  std::optional<formats::Case> all;
+  std::string whyNone;
+  for (std::uint8_t part = 0; part <= last; ++part) {
+    std::optional<convert::LabelMask> own;
+    if (last > 0) own = convert::partOfMask(mask, parts, part);
+    const convert::LabelMask& labels = own ? *own : mask;
+    const auto count = static_cast<std::size_t>(std::count(parts.begin(), parts.end(), part));
+    try {
+      formats::Case made = vesselsOfMask(labels, name, count, progress);
+      if (isNamed) convert::nameBranches(labels, made);
+      convert::takeSystems(labels, roles, made);
+      convert::spreadSystems(made);
+      if (all)
+        convert::appendTrees(made, *all);
+      else
+        all = std::move(made);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::InvalidInput || last == 0) throw;
+      whyNone = error.what();
+      progress.warn(whyNone);
+    }
+  }
+  if (!all) throw invalidInput(whyNone);
+  return *std::move(all);
+}
+
+}  // namespace
 
 formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64_t>& chosen,
                               const Context& context) {
@@ -30,22 +86,13 @@ formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64
                   ": its voxels differ from their neighbours as grey values do, and are taken as "
                   "labels; expected a segmentation: an image is tracked from " +
                   context.field("seeds"));
-  progress.begin("surface", 0);
-  convert::LabelSurface surface = convert::makeLabelSurface(mask, progress);
-  progress.end();
-  if (surface.cavities > 0)
-    progress.warn(name + ": " + std::to_string(surface.cavities) +
-                  (surface.cavities == 1 ? " hole" : " holes") + " within the labels filled");
-  convert::MeshCase made = convert::caseOfLumen(
-      convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(), name, {},
-      {{"labels", static_cast<std::int64_t>(mask.names.size())}}, progress);
-  for (const std::string& note : made.notes) progress.warn(note);
-  recordAssumptions(made.result.metadata.steps.back(), labels.voxels.assumptions);
+  formats::Case made = vesselsOfParts(mask, mask.names.size() > 1 || !names.empty(),
+                                      rolesOf(mask, labels.meanings), name, progress);
+  recordAssumptions(made.metadata.steps.back(), labels.voxels.assumptions);
   // no wall is known better than to a voxel of the labels
-  std::optional<double>& voxel = made.result.metadata.voxelSize;
+  std::optional<double>& voxel = made.metadata.voxelSize;
   voxel = std::max(voxel.value_or(0), mask.geometry.voxelSize());
-  if (mask.names.size() > 1 || !names.empty()) convert::nameBranches(mask, made.result);
-  return std::move(made.result);
+  return made;
 }
 
 }  // namespace lumen::operations

@@ -11,10 +11,12 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/case_seeds.h"
+#include "converters/operations/label_prior.h"
 #include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/vessel_at_click.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
@@ -122,8 +124,11 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   const convert::LumenInVolume lumen{
       [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
       [&](const Eigen::Vector3d& point) { return found.geometry.containsWorld(point); }};
+  setSystemsOf(found, result.result);
   for (const Eigen::Vector3d& place : convert::correctTopology(result.result, lumen))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
+  // names of the maps' labels state the systems of the case
+  formats::setNodeSystems(result.result, {});
   const std::vector<Eigen::Vector3d> inlets =
       convert::furtherInlets(result.result.tree, lumen.isInside);
   convert::beginAt(result.result, inlets);

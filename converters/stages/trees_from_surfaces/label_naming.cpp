@@ -26,13 +26,6 @@ struct Run {
 /// sum (Murray, The physiological principle of minimum work, 1926).
 const double kParentWidth = std::cbrt(2.0);
 
-/// The label at a place; 0 outside.
-std::uint8_t labelAt(const LabelMask& mask, const Vector3d& place) {
-  const Vector3d at = mask.geometry.indexFromWorld(place).array().round();
-  if (!mask.geometry.containsIndex(at)) return 0;
-  return mask.label[mask.geometry.index(at.cast<int>())];
-}
-
 /// Labels of the nodes of a branch, and what they need to be judged.
 class Branches {
 public:
@@ -189,14 +182,19 @@ std::optional<float> meanRate(const formats::CenterlineTree& tree, const formats
   return static_cast<float>(sum / branch.nodeCount);
 }
 
-/// "NAME", or "NAME-2" and so on, whichever is free.
+}  // namespace
+
+std::uint8_t labelAt(const LabelMask& mask, const Vector3d& place) {
+  const Vector3d at = mask.geometry.indexFromWorld(place).array().round();
+  if (!mask.geometry.containsIndex(at)) return 0;
+  return mask.label[mask.geometry.index(at.cast<int>())];
+}
+
 std::string freeName(const std::string& name, std::set<std::string>& taken) {
   std::string free = name;
   for (int i = 2; !taken.insert(free).second; ++i) free = name + "-" + std::to_string(i);
   return free;
 }
-
-}  // namespace
 
 Naming nameBranches(const LabelMask& mask, formats::Case& value) {
   formats::CenterlineTree& tree = value.tree;
