@@ -192,11 +192,11 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
           "each tree]. May be given several times")
       .checkedBy(placeFault)
       .many()
-      .forInputs(kImage | kLabels | kMeshes);
+      .forInputs(kImage | kLabels | kMeshes | kCenterline);
   table
       .flag("only-connected", track.isOnlyConnected,
             "Leave out trees in which no seed and no root lies")
-      .forInputs(kImage | kLabels | kMeshes)
+      .forInputs(kImage | kLabels | kMeshes | kCenterline)
       .onlyWith(kOption.seeds.name)
       .onlyWith("root");
   table

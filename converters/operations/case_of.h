@@ -35,7 +35,7 @@ struct CorrectedCase {
 };
 
 struct CaseOptions {
-  VesselOptions vessels;  ///< of grey voxels; roots and their selection also of labels and meshes
+  VesselOptions vessels;  ///< of grey voxels; roots and their selection also of other sources
   std::uint64_t repeats =
       0;  ///< runs on grey voxels that show how far the result depends on chance
   std::optional<CorrectedCase> corrected;  ///< its corrections are made again, in grey voxels

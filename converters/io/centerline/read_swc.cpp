@@ -18,6 +18,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
+#include "converters/io/centerline/line_graph.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -285,6 +286,7 @@ CenterlineFile parseSwc(std::string_view text, const std::string& name) {
     point.vessel = static_cast<std::int32_t>(file.vessels.size());
     file.vessels.push_back(named->second);
   }
+  if (!file.isOfLumen) attachTrees(file);
   fillRadii(file, shown, "one at some point at least (its sixth column)");
   return file;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "converters/base/number_text.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
+#include "converters/io/centerline/tree_of_lines.h"
 #include "converters/io/vtk/vtk_xml.h"
 #include "formats/container/printable.h"
 
@@ -20,10 +20,16 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kLargestVtp = 1e9;
-constexpr std::size_t kHead = 1024;        // position limit of a comment of write_vtp.cpp
-constexpr std::size_t kMostLines = 10000;  // limit, as every pair of lines is compared
-constexpr std::array<std::string_view, 6> kVtpArrays = {
-    "MaximumInscribedSphereRadius", "Radius", "radius", "CenterlineIds", "TractIds", "Branch"};
+constexpr std::size_t kHead = 1024;  // position limit of a comment of write_vtp.cpp
+// Array of cells by which VMTK's networks are known, whose lines have no direction.
+constexpr const char* kUndirected = "Topology";
+constexpr std::array<std::string_view, 7> kVtpArrays = {"MaximumInscribedSphereRadius",
+                                                        "Radius",
+                                                        "radius",
+                                                        "CenterlineIds",
+                                                        "TractIds",
+                                                        "Branch",
+                                                        kUndirected};
 
 const VtkArray* radiiOf(const VtkPolyData& data) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -74,72 +80,36 @@ CurvePoint pointOf(const VtkPolyData& data, const VtkArray* radii, std::uint32_t
   return point;
 }
 
-// The tree of lines that share points; empty unless the lines determine each point's predecessor.
-std::optional<CenterlineFile> sharedTree(const VtkPolyData& data, const VtkArray* radii,
-                                         const std::string& name) {
-  const std::size_t count = data.position.size();
-  constexpr std::int64_t kUnused = -2;
-  std::vector<std::int64_t> before(count, kUnused);
-  std::vector<std::size_t> uses(count, 0);
-  for (std::size_t line = 0; line < data.lines.size(); ++line)
-    for (std::uint32_t i = data.lines.begin(line); i < data.lines.end[line]; ++i) {
-      const std::uint32_t point = data.lines.point[i];
-      ++uses[point];
-      if (i == data.lines.begin(line)) {
-        if (before[point] == kUnused) before[point] = kNoPoint;
-        continue;
-      }
-      const std::int64_t previous = data.lines.point[i - 1];
-      if (before[point] >= 0 && before[point] != previous) return std::nullopt;
-      before[point] = previous;
-    }
-  // separate lines are joined by their places instead
-  if (std::none_of(uses.begin(), uses.end(), [](std::size_t n) { return n > 1; }))
-    return std::nullopt;
-  const VtkArray* branch = data.pointArray("Branch");
-  if (branch != nullptr && branch->components != 1) branch = nullptr;
-  CenterlineFile file;
+// The points that lines use, checked, with the vessels that the file numbers.
+std::vector<CenterlinePoint> pointsOf(const VtkPolyData& data, const VtkArray* radii,
+                                      const VtkArray* branch, const std::string& name) {
+  std::vector<CenterlinePoint> points(data.position.size());
+  std::vector<bool> isUsed(points.size(), false);
+  for (const std::uint32_t point : data.lines.point) isUsed[point] = true;
   std::map<double, std::int32_t> vessels;
-  std::vector<std::int32_t> place(count, kNoPoint);
-  const auto add = [&](std::size_t i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!isUsed[i]) continue;
     const CurvePoint point = pointOf(data, radii, static_cast<std::uint32_t>(i), name);
-    const std::int32_t parent = before[i] < 0 ? kNoPoint : place[std::size_t(before[i])];
-    std::int32_t vessel = kNoVessel;
+    points[i].position = point.position;
+    points[i].radius = point.radius;
     if (branch != nullptr && std::isfinite(branch->values[i]))
-      vessel = vessels.emplace(branch->values[i], static_cast<std::int32_t>(vessels.size()))
-                   .first->second;
-    place[i] = static_cast<std::int32_t>(file.points.size());
-    file.points.push_back({point.position, point.radius, parent, 0, vessel});
-  };
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t at = i; before[at] != kUnused && place[at] == kNoPoint;) {
-      open.push_back(at);
-      if (before[at] < 0) break;
-      at = static_cast<std::size_t>(before[at]);
-      if (open.size() > count) return std::nullopt;  // a cycle
-    }
-    for (; !open.empty(); open.pop_back()) add(open.back());
+      points[i].vessel =
+          vessels.emplace(branch->values[i], static_cast<std::int32_t>(vessels.size()))
+              .first->second;
   }
-  file.vessels.resize(vessels.size());
-  return file;
+  return points;
 }
 
-CenterlineFile joinedLines(const VtkPolyData& data, const VtkArray* radii,
-                           const std::string& name) {
-  const std::vector<std::vector<std::size_t>> courses = whole(data);
-  if (courses.size() > kMostLines)
-    throw invalidInput(name + ": has " + std::to_string(courses.size()) +
-                       " lines; expected at most 10000, one for each vessel or way to a tip");
-  std::vector<CenterlineCurve> curves;
+LineSet linesOf(const VtkPolyData& data, const std::vector<CenterlinePoint>& points,
+                const std::vector<std::vector<std::size_t>>& courses) {
+  LineSet set{points, {}, data.cellArray(kUndirected) == nullptr};
   for (const auto& course : courses) {
-    CenterlineCurve curve;
-    for (const std::size_t line : course)
-      for (std::uint32_t i = data.lines.begin(line); i < data.lines.end[line]; ++i)
-        curve.points.push_back(pointOf(data, radii, data.lines.point[i], name));
-    if (!curve.points.empty()) curves.push_back(std::move(curve));
+    std::vector<std::int32_t>& line = set.lines.emplace_back();
+    for (const std::size_t cell : course)
+      for (std::uint32_t i = data.lines.begin(cell); i < data.lines.end[cell]; ++i)
+        line.push_back(static_cast<std::int32_t>(data.lines.point[i]));
   }
-  return joinCurves(curves);
+  return set;
 }
 
 }  // namespace
@@ -154,9 +124,15 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
                             : std::string()) +
                        "; expected a centerline");
   const VtkArray* radii = radiiOf(data);
-  std::optional<CenterlineFile> shared = sharedTree(data, radii, shown);
-  CenterlineFile file = shared ? *std::move(shared) : joinedLines(data, radii, shown);
-  if (text.substr(0, kHead).find(kOwnCenterline) != text.npos) {
+  const VtkArray* branch = data.pointArray("Branch");
+  if (branch != nullptr && branch->components != 1) branch = nullptr;
+  const std::vector<CenterlinePoint> points = pointsOf(data, radii, branch, shown);
+  std::vector<std::vector<std::size_t>> cells;
+  for (std::size_t cell = 0; cell < data.lines.size(); ++cell) cells.push_back({cell});
+  const bool isOfLumen = text.substr(0, kHead).find(kOwnCenterline) != text.npos;
+  CenterlineFile file = treeOfLines(linesOf(data, points, cells),
+                                    linesOf(data, points, whole(data)), isOfLumen, shown);
+  if (isOfLumen) {
     file.unit = 1;
     file.axes = CenterlineAxes::Lps;
     file.isOfLumen = true;
