@@ -81,7 +81,8 @@ MadeCase caseWithoutModels(Source source, const CaseOptions& options, const Cont
   if (source.value) {
     made.value = *std::move(source.value);
   } else {
-    made.value = convert::caseOfCenterline(source.centerline.value().file, source.name);
+    made.centerlineFrame = source.centerline.value().frame;
+    made.value = convert::caseOfCenterline(source.centerline->file, source.name);
     applyRoots(made.value, source.name, options.vessels, context);
   }
   return made;

@@ -47,10 +47,11 @@ struct CaseOptions {
 
 struct MadeCase {
   formats::Case value;
-  convert::TrackRemarks remarks;                   ///< of tracking; empty for other sources
-  std::optional<convert::Repetition> repetition;   ///< with `repeats`
-  std::optional<convert::ReplayedEdits> replayed;  ///< with `corrected`
-  std::optional<MeshFrame> meshFrame;              ///< of a mesh
+  convert::TrackRemarks remarks;                      ///< of tracking; empty for other sources
+  std::optional<convert::Repetition> repetition;      ///< with `repeats`
+  std::optional<convert::ReplayedEdits> replayed;     ///< with `corrected`
+  std::optional<MeshFrame> meshFrame;                 ///< of a mesh
+  std::optional<convert::ReadFrame> centerlineFrame;  ///< of a centerline
 };
 
 /// The case of a source: tree and wall points in mm and LPS, and models where the options ask for

@@ -162,15 +162,16 @@ private:
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(reach);
     json["surface"] = surfaceJson(surface, made.value);
-    json["mesh"] = meshFrameJson(made.meshFrame);
+    json["mesh"] = frameJson(made.meshFrame);
+    json["centerline"] = frameJson(made.centerlineFrame);
     json["repeats"] = repetitionJson(made.repetition, made.value);
     json["corrections"] = replayedJson(made.replayed);
     json["label_maps"] = mapsJson(maps);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
-                meshFrameLine(made.meshFrame) + convert::reachLine(reach) +
-                surfaceLines(surface, made.value) + repetitionLines(made.repetition) +
-                mapLines(maps) + endLines(made.remarks)};
+                frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
+                convert::reachLine(reach) + surfaceLines(surface, made.value) +
+                repetitionLines(made.repetition) + mapLines(maps) + endLines(made.remarks)};
   }
 
   InputFile m_input;

@@ -9,12 +9,8 @@
 #include <map>
 #include <queue>
 #include <tuple>
-#include <unordered_set>
 #include <utility>
 
-#include "converters/base/number_text.h"
-#include "converters/base/shown_text.h"
-#include "converters/base/statistics.h"
 #include "converters/geometry/disjoint_sets.h"
 
 namespace lumen::convert {
@@ -25,13 +21,6 @@ using Index = std::int32_t;
 std::size_t at(Index index) {
   return static_cast<std::size_t>(index);
 }
-
-// Away from the root, and towards it.
-constexpr double kAway = 1, kTowards = -1;
-
-// By Murray's law an arm of a fork is no wider than what feeds it, and half of the flow takes this
-// much less radius.
-constexpr double kWider = 1.26;
 
 using Place = std::array<double, 3>;
 
@@ -84,6 +73,9 @@ LineGraph::LineGraph(const LineSet& set)
   findEdges();
   findParts();
   findRuns();
+  for (std::size_t line = 0; line < set.lines.size(); ++line)
+    if (hasLength(set.lines[line]))
+      m_parts[at(m_partOf[at(m_node[at(set.lines[line].front())])])].lines.push_back(line);
   m_hasLinesThroughForks =
       std::any_of(set.lines.begin(), set.lines.end(), [&](const std::vector<Index>& line) {
         return std::any_of(line.begin(), line.end(), [&](const Index& point) {
@@ -103,17 +95,21 @@ LineGraph::Index LineGraph::otherEnd(std::size_t edge, Index node) const {
   return m_edges[edge].a == node ? m_edges[edge].b : m_edges[edge].a;
 }
 
+bool LineGraph::hasLength(const std::vector<Index>& line) const {
+  return std::any_of(line.begin(), line.end(),
+                     [&](Index point) { return m_node[at(point)] != m_node[at(line.front())]; });
+}
+
 void LineGraph::findEdges() {
   std::vector<Edge> found;
   for (const std::vector<Index>& line : m_set.lines) {
-    const std::size_t before = found.size();
+    m_degenerate += hasLength(line) ? 0 : 1;
     for (std::size_t i = 1; i < line.size(); ++i) {
       const Index a = m_node[at(line[i - 1])], b = m_node[at(line[i])];
       if (a == b) continue;
       const double length = distance(a, b);
       found.push_back({std::min(a, b), std::max(a, b), a < b ? length : -length});
     }
-    m_degenerate += found.size() == before ? 1 : 0;
   }
   std::stable_sort(found.begin(), found.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.a, a.b) < std::tie(b.a, b.b);
@@ -172,86 +168,6 @@ void LineGraph::trace(Index from, std::size_t edge, std::vector<bool>& used) {
   m_runs.push_back(std::move(run));
 }
 
-void LineGraph::chooseRoot(Part& part) const {
-  const Index source = m_set.isDirected ? sourceOf(part, kAway) : kNoPoint;
-  part.isAgreed = source != kNoPoint && !feedsWider(part, source);
-  part.root = source;
-  if (part.isAgreed) return;
-  std::vector<Index> candidates = part.ends;
-  const Index sink = m_set.isDirected ? sourceOf(part, kTowards) : kNoPoint;
-  if (sink != kNoPoint) candidates.push_back(sink);
-  if (candidates.empty()) candidates.push_back(m_runs[part.runs.front()].nodes.front());  // a ring
-  part.root = widest(candidates);
-}
-
-// Whether the first run of a part leads to a wider one, and no line runs through a fork: lines of a
-// network, which have no direction. An arm of a fork is no wider than what feeds it.
-bool LineGraph::feedsWider(const Part& part, Index source) const {
-  if (m_hasLinesThroughForks || m_next[at(source)].size() != 1) return false;
-  const auto touches = [&](const Run& run, Index node) {
-    return run.nodes.front() == node || run.nodes.back() == node;
-  };
-  const auto first = std::find_if(part.runs.begin(), part.runs.end(),
-                                  [&](std::size_t run) { return touches(m_runs[run], source); });
-  const Run& feeding = m_runs[*first];
-  const Index fork = feeding.nodes.front() == source ? feeding.nodes.back() : feeding.nodes.front();
-  const double most = kWider * medianRadius(feeding);
-  return std::any_of(part.runs.begin(), part.runs.end(), [&](std::size_t run) {
-    return run != *first && touches(m_runs[run], fork) && medianRadius(m_runs[run]) > most;
-  });
-}
-
-double LineGraph::medianRadius(const Run& run) const {
-  std::vector<double> radii;
-  for (const Index node : run.nodes) radii.push_back(m_points[at(node)].radius);
-  return upperMedian(radii);
-}
-
-// The only node into which no run of a part leads, if all others are reached from it; kNoPoint if
-// there is none. Runs count backwards in the other direction.
-LineGraph::Index LineGraph::sourceOf(const Part& part, double direction) const {
-  std::vector<std::pair<Index, Index>> ways;  // from, to
-  for (const std::size_t r : part.runs) {
-    const Run& run = m_runs[r];
-    const Index first = run.nodes.front(), last = run.nodes.back();
-    if (run.votes * direction >= 0) ways.emplace_back(first, last);
-    if (run.votes * direction <= 0) ways.emplace_back(last, first);
-  }
-  std::sort(ways.begin(), ways.end());
-  std::vector<Index> from, to;
-  for (const auto& [a, b] : ways) {
-    from.push_back(a);
-    to.push_back(b);
-  }
-  std::sort(to.begin(), to.end());
-  Index source = kNoPoint;
-  for (const Index node : from) {
-    if (node == source || std::binary_search(to.begin(), to.end(), node)) continue;
-    if (source != kNoPoint) return kNoPoint;
-    source = node;
-  }
-  if (source == kNoPoint) return kNoPoint;
-  std::unordered_set<Index> reached{source};
-  std::vector<Index> open{source};
-  while (!open.empty()) {
-    const Index node = open.back();
-    open.pop_back();
-    for (auto way = std::lower_bound(ways.begin(), ways.end(), std::pair(node, Index{0}));
-         way != ways.end() && way->first == node; ++way)
-      if (reached.insert(way->second).second) open.push_back(way->second);
-  }
-  const bool isAll =
-      std::all_of(to.begin(), to.end(), [&](Index node) { return reached.count(node) > 0; });
-  return isAll ? source : kNoPoint;
-}
-
-LineGraph::Index LineGraph::widest(const std::vector<Index>& nodes) const {
-  return *std::max_element(nodes.begin(), nodes.end(), [&](Index a, Index b) {
-    const double first = m_points[at(a)].radius, second = m_points[at(b)].radius;
-    return first < second || (first == second && a > b);
-  });
-}
-
 bool LineGraph::agreesWith(const CenterlineFile& tree, bool hasVessels) const {
   std::map<Place, const Part*> open;  // ends of parts whose lines do not agree on a root
   for (const Part& part : m_parts)
@@ -264,7 +180,9 @@ bool LineGraph::agreesWith(const CenterlineFile& tree, bool hasVessels) const {
     const auto end = open.find(placeOf(point));
     if (end != open.end() && placeOf(m_points[at(end->second->root)]) != end->first) return false;
   }
-  return roots <= m_parts.size() && (hasVessels || centerlineChains(tree).size() <= m_runs.size());
+  std::size_t chains = 0;
+  for (const Part& part : m_parts) chains += std::max(part.chains, part.runs.size());
+  return roots <= m_parts.size() && (hasVessels || centerlineChains(tree).size() <= chains);
 }
 
 std::vector<std::array<LineGraph::Index, 2>> LineGraph::edges() const {
@@ -328,18 +246,21 @@ CenterlineFile LineGraph::tree() const {
   const std::vector<Index> roots = attachParts(all, attached);
   const Paths paths = shortestPaths(m_points, all, roots);
   CenterlineFile file;
+  Index vessels = 0;
   std::vector<Index> place(m_points.size(), kNoPoint);
   for (std::size_t n = 0; n < m_points.size(); ++n) {
     if (!std::isfinite(paths.length[n])) continue;
     place[n] = static_cast<Index>(file.points.size());
     file.points.push_back(m_points[n]);
     file.points.back().parent = paths.parent[n];
+    vessels = std::max(vessels, m_points[n].vessel + 1);
   }
   for (CenterlinePoint& point : file.points)
     if (point.parent != kNoPoint) point.parent = place[at(point.parent)];
   for (const auto& [a, b] : all)
     if (paths.parent[at(a)] != b && paths.parent[at(b)] != a)
       file.links.push_back({place[at(a)], place[at(b)]});
+  file.vessels.resize(at(vessels));
   file.remarks = remarks(file.links.size(), attached);
   orderParentsFirst(file);
   return file;
@@ -361,21 +282,6 @@ std::vector<std::string> LineGraph::remarks(std::size_t links, std::size_t attac
   add(links, " edge that closes a loop is kept as a link",
       " edges that close loops are kept as links");
   return sentences;
-}
-
-std::string LineGraph::rootRemark() const {
-  std::string places;
-  std::size_t count = 0;
-  for (const Part& part : m_parts) {
-    if (part.isAgreed) continue;
-    constexpr std::size_t kShown = 3;
-    if (count++ < kShown)
-      places += (places.empty() ? "" : ", ") + vectorText(m_points[at(part.root)].position);
-  }
-  if (count == 0) return {};
-  return std::string(
-             "its lines do not run from one end; the root is taken to be the widest end, ") +
-         places + (count > 3 ? " and others" : "") + " in the file's coordinates";
 }
 
 }  // namespace lumen::convert

@@ -29,8 +29,9 @@ std::vector<std::int32_t> samePlaces(const LineSet& set);
 constexpr std::size_t kMostParts = 10000;
 
 /// The graph of a set of lines. A *part* is connected by points at equal places; a *run* leads from
-/// an end or a fork to the next. The root of a part is the one end from which all of its lines run
-/// away; without one, it is the widest of its open ends, and of the end to which all lines run.
+/// an end or a fork to the next. The root of a part is the place that all of its lines have in common, if
+/// they run through one vessel there, or the one open end from which all run away; without one, it is
+/// the widest open end.
 class LineGraph {
 public:
   /// The set has to outlive the graph.
@@ -63,12 +64,14 @@ private:
     double votes = 0;
   };
   struct Part {
-    std::vector<std::size_t> runs;
+    std::vector<std::size_t> runs, lines;
     std::vector<Index> ends;  ///< open ends, ascending
     Index root = kNoPoint;
-    bool isAgreed = false;  ///< all lines run away from the root
+    bool isAgreed = false;   ///< all lines run away from the root
+    std::size_t chains = 0;  ///< of a tree of its lines, if these may be more than runs
   };
 
+  [[nodiscard]] bool hasLength(const std::vector<Index>& line) const;
   void findEdges();
   void findParts();
   void findRuns();
@@ -76,7 +79,9 @@ private:
   void chooseRoot(Part& part) const;
   [[nodiscard]] bool feedsWider(const Part& part, Index source) const;
   [[nodiscard]] double medianRadius(const Run& run) const;
-  [[nodiscard]] Index sourceOf(const Part& part, double direction) const;
+  [[nodiscard]] bool takeHub(Part& part) const;
+  [[nodiscard]] bool isOneVessel(const std::vector<std::size_t>& lines, Index hub) const;
+  [[nodiscard]] Index sourceOf(const Part& part) const;
   [[nodiscard]] Index widest(const std::vector<Index>& nodes) const;
   [[nodiscard]] double distance(Index a, Index b) const;
   [[nodiscard]] Index otherEnd(std::size_t edge, Index node) const;

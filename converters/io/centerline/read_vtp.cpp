@@ -9,10 +9,13 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/length_unit.h"
 #include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
 #include "converters/io/centerline/tree_of_lines.h"
+#include "converters/io/vtk/vtk_legacy.h"
 #include "converters/io/vtk/vtk_xml.h"
 #include "formats/container/printable.h"
 
@@ -23,13 +26,18 @@ constexpr double kLargestVtp = 1e9;
 constexpr std::size_t kHead = 1024;  // position limit of a comment of write_vtp.cpp
 // Array of cells by which VMTK's networks are known, whose lines have no direction.
 constexpr const char* kUndirected = "Topology";
-constexpr std::array<std::string_view, 7> kVtpArrays = {"MaximumInscribedSphereRadius",
+// Arrays of points by which centerlines of SimVascular are known.
+constexpr const char* kOfSimVascular = "BranchId";
+constexpr const char* kAlsoOfSimVascular = "BifurcationId";
+constexpr std::array<std::string_view, 9> kVtpArrays = {"MaximumInscribedSphereRadius",
                                                         "Radius",
                                                         "radius",
                                                         "CenterlineIds",
                                                         "TractIds",
                                                         "Branch",
-                                                        kUndirected};
+                                                        kUndirected,
+                                                        kOfSimVascular,
+                                                        kAlsoOfSimVascular};
 
 const VtkArray* radiiOf(const VtkPolyData& data) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -112,11 +120,40 @@ LineSet linesOf(const VtkPolyData& data, const std::vector<CenterlinePoint>& poi
   return set;
 }
 
-}  // namespace
+// Unit and axes as the file states them, in field data, in a title or in a comment of lumen.
+void readFrame(const VtkPolyData& data, bool isOfLumen, CenterlineFile& file) {
+  file.isOfLumen = isOfLumen;
+  file.isOfSimVascular =
+      data.pointArray(kOfSimVascular) != nullptr || data.pointArray(kAlsoOfSimVascular) != nullptr;
+  StatedAxes axes = axesIn(data.space);
+  if (axes == StatedAxes::None) axes = axesIn(data.title);
+  if (axes == StatedAxes::Ras) file.axes = CenterlineAxes::Ras;
+  if (axes == StatedAxes::Lps || isOfLumen) file.axes = CenterlineAxes::Lps;
+  if (const auto unit = millimetresPer(data.unit)) file.unit = *unit;
+  if (isOfLumen) file.unit = 1;
+}
 
-CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name) {
-  const std::string shown = formats::printable(name);
-  const VtkPolyData data = parseVtkXml(text, name, kVtpArrays);
+// Lines of a legacy file may name points that it has not, and arrays may be shorter.
+void requireLegacyCounts(const VtkPolyData& data, const std::string& name) {
+  for (const std::uint32_t point : data.lines.point)
+    if (point >= data.position.size())
+      throw invalidInput(name + ": a line has the point " + std::to_string(point) +
+                         "; expected less than " + std::to_string(data.position.size()) +
+                         ", the number of points");
+  const std::size_t cells =
+      data.verts.size() + data.lines.size() + data.polys.size() + data.strips.size();
+  const auto require = [&](const std::vector<VtkArray>& arrays, std::size_t count) {
+    for (const VtkArray& array : arrays)
+      if (array.values.size() != count * array.components)
+        throw invalidInput(name + ": the array " + quotedText(array.name) + " has " +
+                           std::to_string(array.values.size() / array.components) +
+                           " values; expected " + std::to_string(count));
+  };
+  require(data.pointData, data.position.size());
+  require(data.cellData, cells);
+}
+
+CenterlineFile treeOf(const VtkPolyData& data, bool isOfLumen, const std::string& shown) {
   if (data.lines.point.empty())
     throw invalidInput(shown + ": has no lines" +
                        (data.polys.size() > 0
@@ -129,14 +166,9 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
   const std::vector<CenterlinePoint> points = pointsOf(data, radii, branch, shown);
   std::vector<std::vector<std::size_t>> cells;
   for (std::size_t cell = 0; cell < data.lines.size(); ++cell) cells.push_back({cell});
-  const bool isOfLumen = text.substr(0, kHead).find(kOwnCenterline) != text.npos;
   CenterlineFile file = treeOfLines(linesOf(data, points, cells),
                                     linesOf(data, points, whole(data)), isOfLumen, shown);
-  if (isOfLumen) {
-    file.unit = 1;
-    file.axes = CenterlineAxes::Lps;
-    file.isOfLumen = true;
-  }
+  readFrame(data, isOfLumen, file);
   if (radii == nullptr)
     file.remarks.push_back("has no array MaximumInscribedSphereRadius or Radius of its points");
   else
@@ -144,8 +176,27 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
   return file;
 }
 
+}  // namespace
+
+CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name) {
+  const std::string shown = formats::printable(name);
+  const bool isOfLumen = text.substr(0, kHead).find(kOwnCenterline) != text.npos;
+  return treeOf(parseVtkXml(text, name, kVtpArrays), isOfLumen, shown);
+}
+
+CenterlineFile parseVtkCenterline(std::string_view bytes, const std::string& name) {
+  const std::string shown = formats::printable(name);
+  const VtkPolyData data = parseVtkLegacy(bytes, shown, kVtpArrays);
+  requireLegacyCounts(data, shown);
+  return treeOf(data, false, shown);
+}
+
 CenterlineFile readVtpCenterline(const InputFile& file) {
   return parseVtpCenterline(file.read("centerline", kMostText), file.path().string());
+}
+
+CenterlineFile readVtkCenterline(const InputFile& file) {
+  return parseVtkCenterline(file.read("centerline", kMostText), file.path().string());
 }
 
 }  // namespace lumen::convert
