@@ -26,7 +26,7 @@ std::string gltfOf(const convert::TriangleMesh& mesh) {
   const std::size_t positions = bytes.size();
   for (const auto& t : mesh.triangle)
     for (const std::uint32_t i : t) add(i);
-  Json json = {
+  Json scene = {
       {"asset", {{"version", "2.0"}}},
       {"scene", 0},
       {"scenes", Json::array({{{"nodes", {0}}}})},
@@ -47,7 +47,7 @@ std::string gltfOf(const convert::TriangleMesh& mesh) {
            {{{"buffer", 0}, {"byteLength", positions}},
             {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", bytes.size() - positions}}})},
       {"buffers", Json::array({{{"byteLength", bytes.size()}, {"uri", "tube.bin"}}})}};
-  return json.dump() + "\n" + bytes;
+  return scene.dump() + "\n" + bytes;
 }
 
 }  // namespace
@@ -94,10 +94,10 @@ TEST_F(StatedFactsTest, GltfOfPlausibleSizeGetsNoWarningOfIt) {
   const Outcome done = lumen({"info", "tube.gltf", "--json"});
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_FALSE(contains(done.err, "implausible")) << done.err;
-  const Json json = Json::parse(done.out);
-  EXPECT_EQ(json["unit"], "m");
-  EXPECT_EQ(json["unit_from"], "standard");
-  EXPECT_NEAR(json["high_mm"][0].get<double>(), 40, 1e-3);
+  const Json facts = Json::parse(done.out);
+  EXPECT_EQ(facts["unit"], "m");
+  EXPECT_EQ(facts["unit_from"], "standard");
+  EXPECT_NEAR(facts["high_mm"][0].get<double>(), 40, 1e-3);
 }
 
 TEST_F(StatedFactsTest, ACenterlineHasARootThatAPersonStates) {
@@ -177,10 +177,10 @@ TEST_F(StatedFactsTest, FilesOfUsersHaveTheLengthsOfTheirTrees) {
         Known{"7-swc-states-its-unit/nanometres.swc", 74, 77}}) {
     const Outcome done = lumen({"info", (folder / file).string(), "--json"});
     ASSERT_EQ(done.code, 0) << done.err;
-    const Json json = Json::parse(done.out);
-    EXPECT_EQ(json["trees"], 1) << file;
-    EXPECT_GE(json["length_mm"].get<double>(), least) << file;
-    EXPECT_LE(json["length_mm"].get<double>(), most) << file;
+    const Json facts = Json::parse(done.out);
+    EXPECT_EQ(facts["trees"], 1) << file;
+    EXPECT_GE(facts["length_mm"].get<double>(), least) << file;
+    EXPECT_LE(facts["length_mm"].get<double>(), most) << file;
   }
 }
 

@@ -169,16 +169,16 @@ void LineGraph::trace(Index from, std::size_t edge, std::vector<bool>& used) {
 }
 
 bool LineGraph::agreesWith(const CenterlineFile& tree, bool hasVessels) const {
-  std::map<Place, const Part*> open;  // ends of parts whose lines do not agree on a root
-  for (const Part& part : m_parts)
-    if (!part.isAgreed)
-      for (const Index end : part.ends) open.emplace(placeOf(m_points[at(end)]), &part);
+  std::map<Place, Index> nodes;  // of the places of points
+  for (std::size_t i = 0; i < m_points.size(); ++i)
+    if (m_partOf[at(m_node[i])] >= 0) nodes.emplace(placeOf(m_set.points[i]), m_node[i]);
   std::size_t roots = 0;
   for (const CenterlinePoint& point : tree.points) {
     if (point.parent != kNoPoint) continue;
     ++roots;
-    const auto end = open.find(placeOf(point));
-    if (end != open.end() && placeOf(m_points[at(end->second->root)]) != end->first) return false;
+    const auto node = nodes.find(placeOf(point));
+    if (node != nodes.end() && m_parts[at(m_partOf[at(node->second)])].root != node->second)
+      return false;
   }
   std::size_t chains = 0;
   for (const Part& part : m_parts) chains += std::max(part.chains, part.runs.size());

@@ -40,7 +40,7 @@ public:
   [[nodiscard]] std::size_t partCount() const { return m_parts.size(); }
 
   /// Whether a tree has no more trees and, unless the file names vessels, no more chains than the
-  /// graph has parts and runs, and begins at the graph's roots where lines do not agree on one.
+  /// graph has parts and runs, and begins at the roots of parts.
   [[nodiscard]] bool agreesWith(const CenterlineFile& tree, bool hasVessels) const;
 
   /// The lines that run towards their root.

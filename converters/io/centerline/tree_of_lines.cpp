@@ -111,24 +111,40 @@ std::string turnedRemark(const std::vector<bool>& turned) {
                      : " lines run towards the root, and are turned");
 }
 
+[[noreturn]] void refuseNumber(const LineSet& courses, const std::string& name) {
+  throw invalidInput(name + ": has " + std::to_string(courses.lines.size()) +
+                     " lines; expected at most 10000, one for each vessel or way to a tip");
+}
+
+// The trees of lines that do not give the trees of their graph as they are drawn.
+CenterlineFile mended(const LineSet& courses, const LineGraph& graph, const std::string& name) {
+  if (graph.partCount() > kMostParts) refuseNumber(courses, name);
+  const std::vector<bool> turned = graph.turnedLines();
+  const std::string turns = turnedRemark(turned);
+  std::optional<CenterlineFile> file;
+  if (!turns.empty()) {
+    const LineSet straight = withoutTurns(courses, turned);
+    file = treeAsDrawn(straight, straight, &graph);
+  }
+  if (!file) file = graph.tree();
+  for (const std::string& remark : {turns, graph.rootRemark()})
+    if (!remark.empty()) file->remarks.push_back(remark);
+  return *std::move(file);
+}
+
 }  // namespace
 
 CenterlineFile treeOfLines(const LineSet& cells, const LineSet& courses, bool isExact,
                            const std::string& name) {
-  std::optional<LineGraph> graph;
-  if (!isExact) graph.emplace(courses);
-  std::optional<CenterlineFile> file = treeAsDrawn(cells, courses, graph ? &*graph : nullptr);
-  if (file) return *std::move(file);
-  if (!graph || graph->partCount() > kMostParts)
-    throw invalidInput(name + ": has " + std::to_string(courses.lines.size()) +
-                       " lines; expected at most 10000, one for each vessel or way to a tip");
-  const std::vector<bool> turned = graph->turnedLines();
-  const LineSet straight = withoutTurns(courses, turned);
-  const std::string turns = turnedRemark(turned);
-  if (!turns.empty()) file = treeAsDrawn(straight, straight, &*graph);
-  if (!file) file = graph->tree();
-  for (const std::string& remark : {turns, graph->rootRemark()})
-    if (!remark.empty()) file->remarks.push_back(remark);
+  if (isExact) {
+    std::optional<CenterlineFile> own = treeAsDrawn(cells, courses, nullptr);
+    if (!own) refuseNumber(courses, name);
+    return *std::move(own);
+  }
+  const LineGraph graph(courses);
+  std::optional<CenterlineFile> file = treeAsDrawn(cells, courses, &graph);
+  if (!file) file = mended(courses, graph, name);
+  attachTrees(*file);
   return *std::move(file);
 }
 

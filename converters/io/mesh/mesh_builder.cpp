@@ -115,8 +115,7 @@ MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame) {
   builder.file.frameStated = frame.ras || frame.lps;
   builder.file.unitMm = frame.unit;
   builder.file.isTurned = frame.ras;
-  if (frame.ras)
-    builder.file.notes.emplace_back(kTurnedNote);
+  if (frame.ras) builder.file.notes.emplace_back(kTurnedNote);
   return builder.finish(frame.ras);
 }
 

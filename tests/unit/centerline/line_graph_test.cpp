@@ -218,7 +218,7 @@ LineFile twoWays(double off, bool isTurned) {
 }
 
 TEST(LineGraph, LinesToEachTipWithTrunksOfTheirOwnShareTheTrunk) {
-  for (const double off : {0.0, 0.1, 0.2}) {
+  for (const double off : {0.0, 0.05, 0.1}) {
     const CenterlineFile file = read(twoWays(off, false));
     EXPECT_EQ(test::rootsOf(file), std::vector<Vector3d>{kInlet}) << off;
     EXPECT_NEAR(test::lengthOf(file), 50, 1) << off;

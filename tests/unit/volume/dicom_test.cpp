@@ -186,8 +186,10 @@ TEST_F(Dicom, VolumesOfSeveralTimesAreListedAndChosen) {
         slice.before = DicomSlice::text(element[0], element[1], "IS", std::to_string(phase));
         write("p" + std::to_string(phase) + std::to_string(n) + ".dcm", slice.bytes());
       }
-    expectRefused(readRefusal(directory()),
-                  {"3: ", "2 DICOM series", "1: 1.2.3.1, volume 1 of 2 by the " + name, "series"});
+    const std::string listing = readRefusal(directory());
+    EXPECT_NE(listing.find("holds 2 DICOM series; choose one with"), std::string::npos) << listing;
+    EXPECT_NE(listing.find("\n  1: 1.2.3.1, volume 1 of 2 by the " + name), std::string::npos)
+        << listing;
     for (int phase = 1; phase <= 2; ++phase) {
       ReadVolumeOptions options;
       options.series = std::to_string(phase);
