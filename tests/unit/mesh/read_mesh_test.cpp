@@ -354,33 +354,6 @@ TEST(ReadVtp, UnitAndAxesAreThoseOfTheFieldData) {
   EXPECT_EQ(file.mesh.position[1], Eigen::Vector3d(-1, 0, 0));
 }
 
-TEST(ReadVtp, ArraysOfTextsAsVtkWritesThemStateUnitAndAxes) {
-  const auto read = [](const std::string& field) {
-    return parsed(vtpWithField(field), MeshFormat::Vtp);
-  };
-  const std::string begin = "<Array type=\"String\" NumberOfTuples=\"1\" Name=\"";
-  for (const MeshFile& file : {read(begin + "SPACE\" format=\"ascii\">82 65 83 0</Array>" + begin +
-                                    "Unit\" format=\"ascii\">99 109 0</Array>"),
-                               read(begin + "SPACE\" format=\"binary\">BAAAAFJBUwA=</Array>" +
-                                    begin + "Unit\" format=\"binary\">AwAAAGNtAA==</Array>")}) {
-    EXPECT_EQ(file.unitMm, 10);
-    EXPECT_TRUE(file.frameStated);
-    EXPECT_TRUE(file.isTurned);
-    EXPECT_EQ(file.mesh.position[1], Eigen::Vector3d(-1, 0, 0));
-    EXPECT_EQ(file.notes,
-              std::vector<std::string>{"the file states RAS: x and y were negated, to LPS"});
-  }
-}
-
-TEST(ReadVtk, FieldDataStateUnitAndAxes) {
-  const std::string text = kVtkHead +
-                           "FIELD FieldData 2\nSPACE 1 1 string\nRAS\nUnit 1 1 string\num\n" +
-                           kVtkPoints + "POLYGONS 1 4\n3 0 1 2\n";
-  const MeshFile file = parsed(text, MeshFormat::Vtk);
-  EXPECT_TRUE(file.isTurned);
-  EXPECT_EQ(file.unitMm, 1e-3);
-}
-
 TEST(ReadVtp, OtherFieldDataStateNothing) {
   const MeshFile file =
       parsed(vtpWithField(fieldText("Unit", "112 120 0") + fieldText("SPACE", "76") +
