@@ -10,7 +10,7 @@ namespace lumen::engine {
 
 void ConvertOptions::addRows(OptionTable& table) {
   addVolumeRows(table, source.volume);
-  addCenterlineRows(table, source.centerline);
+  addFrameRow(table, source.frame);
   addTrackRows(table, track);
   table
       .file("corrections", corrected,

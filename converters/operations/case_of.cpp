@@ -98,9 +98,13 @@ MadeCase caseWithoutModels(Source source, const CaseOptions& options, const Cont
   if (source.labels) return caseOfLabels(source, options, context);
   if (source.mesh) return caseOfMesh(source, options, context);
   MadeCase made;
-  made.value = source.value
-                   ? *std::move(source.value)
-                   : convert::caseOfCenterline(source.centerline.value().file, source.name);
+  if (source.value) {
+    made.value = *std::move(source.value);
+  } else {
+    made.centerlineFrame = source.centerline.value().frame;
+    made.value = convert::caseOfCenterline(source.centerline->file, source.name);
+    applyRoots(made.value, source.name, options.vessels, context);
+  }
   return made;
 }
 

@@ -36,7 +36,7 @@ struct CorrectedCase {
 };
 
 struct CaseOptions {
-  VesselOptions vessels;  ///< of grey voxels; roots and their selection also of labels and meshes
+  VesselOptions vessels;  ///< of grey voxels; roots and their selection also of other sources
   std::uint64_t repeats =
       0;  ///< runs on grey voxels that show how far the result depends on chance
   std::optional<CorrectedCase> corrected;  ///< its corrections are made again, in grey voxels
@@ -49,11 +49,12 @@ struct CaseOptions {
 
 struct MadeCase {
   formats::Case value;
-  convert::TrackRemarks remarks;                   ///< of tracking; empty for other sources
-  std::optional<convert::Repetition> repetition;   ///< with `repeats`
-  std::optional<convert::ReplayedEdits> replayed;  ///< with `corrected`
-  std::optional<MeshFrame> meshFrame;              ///< of a mesh
-  LabelInventory labels;                           ///< of the maps beside a volume
+  convert::TrackRemarks remarks;                      ///< of tracking; empty for other sources
+  std::optional<convert::Repetition> repetition;      ///< with `repeats`
+  std::optional<convert::ReplayedEdits> replayed;     ///< with `corrected`
+  std::optional<MeshFrame> meshFrame;                 ///< of a mesh
+  std::optional<convert::ReadFrame> centerlineFrame;  ///< of a centerline
+  LabelInventory labels;                              ///< of the maps beside a volume
 };
 
 /// The case of a source: tree and wall points in mm and LPS, and models where the options ask for

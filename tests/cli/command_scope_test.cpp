@@ -61,7 +61,7 @@ info header/tube.nhdr
 info header/vessels-only.scn
   --allow-detached .
 info plain.stl
-  --unit cm
+  --unit cm --frame ras
 info truth.swc
   --unit cm
 info case.lumen

@@ -26,8 +26,10 @@ track tube.nrrd out/t.lumen --only-connected true
   --only-connected does nothing without --seeds or --root
 seeds tube.nrrd out/s.json --step 0.4
   --step: there is no such option
-info truth.swc --frame ras
-  --frame: there is no such option
+info truth.swc --centerline-frame ras
+  --centerline-frame: there is no such option
+info tube.nrrd --frame ras
+  --frame is for meshes or centerlines, and
 info case.lumen --chunks true --from lumen
   --from does nothing with --chunks
 info tracked.lumen --surface true

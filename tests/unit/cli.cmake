@@ -41,6 +41,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/scope_inputs.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/stated_facts_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/surfaces_in_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/tool_test.cpp

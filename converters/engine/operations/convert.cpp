@@ -160,16 +160,18 @@ private:
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(reach);
     json["surface"] = surfaceJson(surface, made.value);
-    json["mesh"] = meshFrameJson(made.meshFrame);
+    json["mesh"] = frameJson(made.meshFrame);
+    json["centerline"] = frameJson(made.centerlineFrame);
     json["repeats"] = repetitionJson(made.repetition, made.value);
     json["corrections"] = replayedJson(made.replayed);
     json["label_maps"] = inventoryJson(made.labels);
     json["unlabelled"] = unlabelledJson(made.labels);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
-                meshFrameLine(made.meshFrame) + convert::reachLine(reach) +
-                surfaceLines(surface, made.value) + repetitionLines(made.repetition) +
-                inventoryLines(made.labels) + endLines(made.remarks)};
+                frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
+                convert::reachLine(reach) + surfaceLines(surface, made.value) +
+                repetitionLines(made.repetition) + inventoryLines(made.labels) +
+                endLines(made.remarks)};
   }
 
   InputFile m_input;
