@@ -25,6 +25,7 @@
 #include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -167,7 +168,8 @@ std::string sentenceOn(const SeedBranch& seed) {
 
 void dropOtherArrays(AddedTracks& out) {
   std::erase_if(out.result.nodeArrays, [&](const formats::NodeArray& array) {
-    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray)
+    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray ||
+        array.name == formats::kSystemArray)
       return false;
     out.droppedArrays.push_back(array.name);
     return true;
