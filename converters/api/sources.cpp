@@ -89,6 +89,7 @@ convert::Volume volumeOf(const lumen_engine_volume& from, const std::string& nam
     geometry.origin[a] = from.affine[a][3];
   }
   convert::checkGeometry(geometry, name);
+  convert::moveFarOrigin(geometry, volume.assumptions);
   volume.voxels = voxelsOf(from, geometry.voxelCount());
   convert::checkVoxels(volume, name);
   return volume;

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "converters/base/error.h"
+#include "formats/case/atomic_file.h"
 #include "formats/case/file_descriptor.h"
 #include "formats/container/printable.h"
 
@@ -65,21 +66,27 @@ void requireAtMost(std::uint64_t most, std::uint64_t size, const fs::path& file,
 }
 
 NewFile::NewFile(const fs::path& file, const fs::path& target)
-    : m_target(target.empty() ? file : target), m_out(file, std::ios::binary) {
-  if (!m_out) refuse();
+    : m_target(target.empty() ? formats::placeOf(file) : target), m_out(file, std::ios::binary) {
+  requireGood();
 }
 
 void NewFile::add(std::string_view bytes) {
+  errno = 0;
   m_out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  requireGood();
 }
 
 void NewFile::close() {
+  errno = 0;
   m_out.close();
-  if (!m_out) refuse();
+  requireGood();
 }
 
-void NewFile::refuse() const {
-  throw failed(nameOf(m_target) + ": cannot write this file");
+void NewFile::requireGood() const {
+  if (m_out) return;
+  const int code = errno;
+  throw failed(nameOf(m_target) + ": cannot write this file" +
+               (code != 0 ? ": " + formats::systemErrorText(code) : ""));
 }
 
 void writeNewFile(std::string_view bytes, const fs::path& file, const fs::path& target) {

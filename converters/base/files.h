@@ -37,7 +37,7 @@ public:
   void close();
 
 private:
-  [[noreturn]] void refuse() const;
+  void requireGood() const;
   std::filesystem::path m_target;
   std::ofstream m_out;
 };

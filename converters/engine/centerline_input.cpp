@@ -8,19 +8,13 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/engine/answers/answer_text.h"
+#include "converters/engine/mesh_input.h"
 #include "converters/engine/scope.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
 
 namespace {
-
-std::string unitText(double unit) {
-  if (unit == 1) return "mm";
-  if (unit == 10) return "cm";
-  if (unit == 1000) return "m";
-  return unit == 1e-3 ? "um" : fixedText(unit, 6) + " mm";
-}
 
 std::size_t branchCount(const convert::CenterlineFile& file) {
   return convert::centerlineChains(file).size();
@@ -34,21 +28,20 @@ std::size_t rootCount(const convert::CenterlineFile& file) {
 
 }  // namespace
 
-void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline) {
-  table.group("Centerline");
+void addFrameRow(OptionTable& table, std::string& frame) {
+  table.group("Mesh or centerline");
   table
-      .add("frame", &centerline.frame, "FRAME",
-           "Axes of a centerline's coordinates, whatever its file states: lps, or ras [lps where "
-           "the "
-           "file does not state them]")
+      .add("frame", &frame, "FRAME",
+           "Axes of the coordinates of a mesh or centerline, whatever its file states: lps, or ras "
+           "[lps where the file does not state them]")
       .among(std::vector<std::string>{"lps", "ras"})
-      .forInputs(kCenterline);
+      .forInputs(kMeshes | kCenterline);
   table.group("");
 }
 
 LoadedCenterline loadCenterline(const InputFile& file, const FileFormat& format,
-                                const VolumeArguments& volume,
-                                const CenterlineArguments& centerline, Progress& progress) {
+                                const VolumeArguments& volume, const std::string& frame,
+                                Progress& progress) {
   LoadedCenterline loaded;
   loaded.file = format.readCenterline(file);
   if (!loaded.file.points.empty() && !(convert::measureExtent(loaded.file).length > 0))
@@ -59,9 +52,9 @@ LoadedCenterline loadCenterline(const InputFile& file, const FileFormat& format,
   convert::CenterlineReading reading;
   reading.unit = volume.options().unit;
   reading.word = optionWord();
-  if (centerline.frame == "ras") reading.axes = convert::CenterlineAxes::Ras;
-  if (centerline.frame == "lps") reading.axes = convert::CenterlineAxes::Lps;
-  loaded.unit = convert::toPatientSpace(loaded.file, reading);
+  if (frame == "ras") reading.axes = convert::CenterlineAxes::Ras;
+  if (frame == "lps") reading.axes = convert::CenterlineAxes::Lps;
+  loaded.frame = convert::toPatientSpace(loaded.file, reading);
   for (const std::string& remark : loaded.file.remarks)
     progress.warn(formats::printable(file.path().string()) + ": " + remark);
   return loaded;
@@ -81,7 +74,8 @@ std::string centerlineInfoText(const LoadedCenterline& centerline) {
                           ? fixedText(extent.median, 3) + " mm (" + fixedText(extent.least, 3) +
                                 " to " + fixedText(extent.most, 3) + ")"
                           : "none");
-  return lines.add("unit", unitText(centerline.unit)).text();
+  lines.add("unit", unitText(centerline.frame));
+  return lines.add("axes", axesText(centerline.frame)).text();
 }
 
 Json centerlineInfoJson(const LoadedCenterline& centerline) {
@@ -99,7 +93,9 @@ Json centerlineInfoJson(const LoadedCenterline& centerline) {
     json["radius_mm"] = {{"median", jsonNumber(extent.median)},
                          {"min", jsonNumber(extent.least)},
                          {"max", jsonNumber(extent.most)}};
-  json["unit_mm"] = jsonNumber(centerline.unit);
+  json["unit_mm"] = jsonNumber(centerline.frame.unit);
+  json["unit_from"] = centerline.frame.unitFrom;
+  json["frame_stated"] = centerline.frame.frameStated;
   return json;
 }
 

@@ -12,21 +12,18 @@
 
 namespace lumen::engine {
 
-struct CenterlineArguments {
-  std::string frame;  ///< empty, lps or ras
-};
-
-void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline);
+/// --frame, which states the axes of a mesh or centerline: empty, lps or ras.
+void addFrameRow(OptionTable& table, std::string& frame);
 
 struct LoadedCenterline {
   convert::CenterlineFile file;  ///< in mm and LPS
-  double unit = 1;               ///< mm: the unit of its lengths in the file
+  convert::ReadFrame frame;      ///< unit and axes that were taken
 };
 
 /// The centerline in `file`. Assumptions become warnings. Throws Error(InvalidInput).
 LoadedCenterline loadCenterline(const InputFile& file, const FileFormat& format,
-                                const VolumeArguments& volume,
-                                const CenterlineArguments& centerline, Progress& progress);
+                                const VolumeArguments& volume, const std::string& frame,
+                                Progress& progress);
 
 /// The facts of `lumen info`.
 std::string centerlineInfoText(const LoadedCenterline& centerline);

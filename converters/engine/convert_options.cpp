@@ -10,7 +10,7 @@ namespace lumen::engine {
 
 void ConvertOptions::addRows(OptionTable& table) {
   addVolumeRows(table, source.volume);
-  addCenterlineRows(table, source.centerline);
+  addFrameRow(table, source.frame);
   addTrackRows(table, track);
   table
       .file("corrections", corrected,
@@ -29,6 +29,7 @@ operations::CaseOptions ConvertOptions::caseOptions(FormatKind kind) const {
   options.vessels = track.vessels();
   options.repeats = track.repeats;
   if (kind == FormatKind::Volume) options.chosenLabels = source.mask.chosen();
+  options.isOnlyLabelled = source.mask.isOnlyLabelled;
   options.meshUnit = source.volume.options().unit;
   return options;
 }

@@ -140,6 +140,8 @@ std::vector<FileFormat> makeTable() {
        .encodeCase = encodeTreeAs<convert::encodeTre>},
       {.name = "centerline.vtp", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtp"},
        .readCenterline = convert::readVtpCenterline, .encodeCase = encodeTreeAs<convert::encodeVtpCenterline>},
+      {.name = "centerline.vtk", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtk"},
+       .readCenterline = convert::readVtkCenterline},
       {.name = "mrk.json", .title = "Slicer curves", .kind = Centerline, .endings = {".mrk.json"},
        .readCenterline = convert::readCurves, .encodeCase = encodeTreeAs<convert::encodeCurves>},
       // volumes
@@ -182,9 +184,11 @@ const FileFormat* findFolder(const InputFile& folder) {
 /// The format of a file whose name may stand for several kinds.
 const FileFormat* findByContent(const InputFile& file) {
   const convert::FileContent content = convert::detectContent(file);
-  const bool isVtk = lowerCase(file.path().extension().string()) == ".vtp";
-  return isVtk && content.kind == convert::ContentKind::Centerline ? findByName("centerline.vtp")
-                                                                   : nullptr;
+  const std::string ending = lowerCase(file.path().extension().string());
+  if (ending == ".vtp" && content.kind == convert::ContentKind::Centerline)
+    return findByName("centerline.vtp");
+  return ending == ".vtk" && convert::holdsLegacyLines(file) ? findByName("centerline.vtk")
+                                                             : nullptr;
 }
 
 const FileFormat* findByEnding(const fs::path& path) {

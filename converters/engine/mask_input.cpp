@@ -76,7 +76,10 @@ operations::LabelPart loadLabelMap(const InputFile& map, const MaskArguments& ar
     throw invalidInput(formats::printable(map.name()) +
                        ": is no volume; expected a volume of labels");
   const convert::LabelTable table = arguments.table(map, progress);
-  return labelPart(readVolumeFile(map, format, {}, progress), map.name(), table);
+  convert::Volume voxels = readVolumeFile(map, format, {}, progress);
+  if (auto settled = convert::settleLabels(voxels, {}))
+    voxels = takeSettled(*std::move(settled), map.name(), progress);
+  return labelPart(std::move(voxels), map.name(), table);
 }
 
 }  // namespace
@@ -88,7 +91,8 @@ std::set<std::int64_t> MaskArguments::chosen() const {
   return values;
 }
 
-convert::LabelTable MaskArguments::table(const InputFile& file, Progress& progress) const {
+convert::LabelTable MaskArguments::table(const InputFile& file, Progress& progress,
+                                         std::int64_t layer) const {
   if (!labels.empty()) return {namedLabels(labels), {}, "the option", {}};
   if (!labelTable.empty()) {
     const std::vector<std::string>& known = convert::builtInLabelTables();
@@ -96,8 +100,15 @@ convert::LabelTable MaskArguments::table(const InputFile& file, Progress& progre
       requireInput(labelTable, "table of labels");
     return convert::readLabelTable(labelTable);
   }
-  convert::LabelTable own = convert::ownNames(file);
+  convert::LabelTable own = convert::ownNames(file, layer);
   return own.names.empty() ? besideTable(file, progress) : own;
+}
+
+convert::Volume takeSettled(convert::SettledLabels settled, const std::string& name,
+                            Progress& progress) {
+  for (const std::string& remark : settled.remarks)
+    progress.warn(formats::printable(name) + ": " + remark);
+  return std::move(settled.voxels);
 }
 
 std::string roleFault(const std::string& text) {

@@ -12,6 +12,7 @@
 #include "converters/base/progress.h"
 #include "converters/io/labels/label_folder.h"
 #include "converters/io/labels/label_meaning.h"
+#include "converters/io/labels/settled_labels.h"
 #include "converters/operations/source.h"
 
 namespace lumen::engine {
@@ -24,6 +25,7 @@ struct MaskArguments {
   InputFile labelTable;               ///< a file of names, or the name of a table; may be empty
   std::vector<InputFile> labelMaps;   ///< volumes of labels beside the input, or folders of them
   std::vector<std::string> roles;     ///< "NAME-OR-NUMBER=ROLE"
+  bool isOnlyLabelled = false;        ///< without vessels on no label of the maps
   /// The volume holds labels.
   [[nodiscard]] bool isGiven() const {
     return isMask || label || !labels.empty() || (!labelTable.empty() && labelMaps.empty());
@@ -32,10 +34,15 @@ struct MaskArguments {
   [[nodiscard]] std::set<std::int64_t> chosen() const;
   /// The table of --labels, or else of --label-table, or else the names that `file`, the volume of
   /// labels, states itself, or else those of a table beside it; without names otherwise. Details
-  /// state a table that was found beside it, and one that cannot be read. Throws Error(Usage) and
-  /// Error(InvalidInput).
-  [[nodiscard]] convert::LabelTable table(const InputFile& file, Progress& progress) const;
+  /// state a table that was found beside it, and one that cannot be read. `layer`: the one of several
+  /// layers of segments that was read. Throws Error(Usage) and Error(InvalidInput).
+  [[nodiscard]] convert::LabelTable table(const InputFile& file, Progress& progress,
+                                          std::int64_t layer = 0) const;
 };
+
+/// The voxels of settled labels; what was settled becomes warnings.
+convert::Volume takeSettled(convert::SettledLabels settled, const std::string& name,
+                            Progress& progress);
 
 /// Why a text is no NAME-OR-NUMBER=ROLE; empty if it is one.
 std::string roleFault(const std::string& text);

@@ -19,17 +19,6 @@ namespace {
 
 constexpr std::size_t kShownRows = 12;
 
-operations::MeshFrame chooseFrame(const MeshInfo& info, const std::string& name,
-                                  const std::string& unit, Progress& progress) {
-  const bool isStated = info.file.frameStated;
-  if (!unit.empty()) return {millimetresByUnit().at(unit), "option", isStated};
-  if (info.file.unitMm > 0) return {info.file.unitMm, "file", isStated};
-  const convert::UnitGuess guess =
-      operations::guessUnitOf(convert::vesselSize(info.report), name,
-                              isOfSimVascular(name, info.file), operationContext(progress));
-  return {guess.millimetres, "guess", isStated};
-}
-
 Json pointJson(const Eigen::Vector3d& point, double scale) {
   return Json::array({jsonNumber(point.x() * scale), jsonNumber(point.y() * scale),
                       jsonNumber(point.z() * scale)});
@@ -56,7 +45,7 @@ std::vector<std::size_t> groupSizes(const convert::MeshFile& file) {
 }
 
 Json componentsJson(const MeshInfo& info) {
-  const double mm = info.frame.unit;
+  const double mm = info.file.scaleFor(info.frame.unit);
   Json list = Json::array();
   for (const convert::MeshComponent& c : info.report.components)
     list.push_back({{"vertices", c.vertices},
@@ -110,7 +99,7 @@ std::string defectsText(const convert::MeshReport& r) {
 }
 
 void addRows(Lines& lines, const MeshInfo& info) {
-  const double mm = info.frame.unit;
+  const double mm = info.file.scaleFor(info.frame.unit);
   std::size_t shown = 0;
   for (const convert::BoundaryLoop& loop : info.report.boundaryLoops) {
     if (++shown > kShownRows) break;
@@ -142,14 +131,19 @@ MeshInfo describeMesh(convert::MeshFile file, const std::string& name, const std
   progress.begin("diagnosing", 0);
   info.report = convert::diagnoseMesh(file.mesh, progress);
   progress.end();
-  info.file = std::move(file);
-  info.frame = chooseFrame(info, name, unit, progress);
+  const bool isSimVascular = isOfSimVascular(name, file);
+  const operations::MeshPart part{std::move(file), isSimVascular};
+  const std::optional<double> stated =
+      unit.empty() ? std::nullopt : std::optional(millimetresByUnit().at(unit));
+  info.frame = operations::meshFrame(part, convert::vesselSize(info.report), name, stated,
+                                     operationContext(progress));
+  info.file = part.file;
   return info;
 }
 
 Json meshInfoJson(const MeshInfo& info) {
   const convert::MeshReport& r = info.report;
-  const double mm = info.frame.unit;
+  const double mm = info.file.scaleFor(info.frame.unit);
   Json json = {{"vertices", r.vertices},
                {"triangles", r.triangles},
                {"closed", r.closed},
@@ -190,7 +184,7 @@ Json meshInfoJson(const MeshInfo& info) {
 
 std::string meshInfoText(const MeshInfo& info) {
   const convert::MeshReport& r = info.report;
-  const double mm = info.frame.unit;
+  const double mm = info.file.scaleFor(info.frame.unit);
   const auto box = [&](Eigen::Index a) {
     return shownNumber(r.low[a] * mm) + " to " + shownNumber(r.high[a] * mm);
   };

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
@@ -25,9 +26,11 @@ convert::CenterlineFile readCenterline(const InputFile& file) {
   if (name.ends_with(".swc")) return convert::readSwc(file);
   if (name.ends_with(".tre")) return convert::readTre(file);
   if (name.ends_with(".vtp")) return convert::readVtpCenterline(file);
-  throw unsupported(formats::printable(file.name()) +
-                    ": the name's ending is not that of a centerline that lumen reads, .vtp, .swc, "
-                    ".tre or .mrk.json");
+  if (name.ends_with(".vtk")) return convert::readVtkCenterline(file);
+  throw unsupported(
+      formats::printable(file.name()) +
+      ": the name's ending is not that of a centerline that lumen reads, .vtp, .vtk, .swc, "
+      ".tre or .mrk.json");
 }
 
 }  // namespace
@@ -38,27 +41,39 @@ std::string unitName(double millimetres) {
   return {};
 }
 
-std::string unitText(const operations::MeshFrame& frame) {
-  return unitName(frame.unit) + (frame.unitFrom == "file" ? ", as the file states"
-                                 : frame.unitFrom == "option"
-                                     ? ", as " + kOption.unit.shown() + " states"
-                                     : ", by its size");
+std::string unitText(const convert::ReadFrame& frame) {
+  const std::string name = unitName(frame.unit);
+  return (name.empty() ? shownNumber(frame.unit) + " mm" : name) +
+         (frame.unitFrom == "file"       ? ", as the file states"
+          : frame.unitFrom == "option"   ? ", as " + kOption.unit.shown() + " states"
+          : frame.unitFrom == "standard" ? ", by the standard of glTF"
+                                         : ", by its size");
 }
 
-std::string axesText(const operations::MeshFrame& frame) {
+std::string axesText(const convert::ReadFrame& frame) {
   return frame.frameStated ? "LPS" : "not stated; taken as LPS";
 }
 
-std::string meshFrameLine(const std::optional<operations::MeshFrame>& frame) {
+std::string frameLine(const char* what, const std::optional<convert::ReadFrame>& frame) {
   if (!frame) return "";
-  return "mesh read    unit " + unitText(*frame) + "; axes " + axesText(*frame) + "\n";
+  return std::string(what) + " read    unit " + unitText(*frame) + "; axes " + axesText(*frame) +
+         "\n";
 }
 
-Json meshFrameJson(const std::optional<operations::MeshFrame>& frame) {
+Json frameJson(const std::optional<convert::ReadFrame>& frame) {
   if (!frame) return nullptr;
   return {{"unit", unitName(frame->unit)},
           {"unit_from", frame->unitFrom},
           {"frame_stated", frame->frameStated}};
+}
+
+void stateAxes(convert::MeshFile& file, const std::string& frame) {
+  if (frame.empty()) return;
+  file.frameStated = true;
+  if ((frame == "ras") == file.isTurned) return;
+  for (Eigen::Vector3d& p : file.mesh.position) p = {-p.x(), -p.y(), p.z()};
+  file.isTurned = !file.isTurned;
+  std::erase(file.notes, convert::kTurnedNote);  // of axes that do not count
 }
 
 bool isOfSimVascular(const InputFile& file, const convert::MeshFile& read) {

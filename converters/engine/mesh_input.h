@@ -26,14 +26,17 @@ struct MeshArguments {
 std::string unitName(double millimetres);
 
 /// "mm, by its size".
-std::string unitText(const operations::MeshFrame& frame);
+std::string unitText(const convert::ReadFrame& frame);
 /// "LPS", or "not stated; taken as LPS".
-std::string axesText(const operations::MeshFrame& frame);
+std::string axesText(const convert::ReadFrame& frame);
 
-/// A line for the answer; empty without a mesh.
-std::string meshFrameLine(const std::optional<operations::MeshFrame>& frame);
-/// The frame as an object; null without a mesh.
-Json meshFrameJson(const std::optional<operations::MeshFrame>& frame);
+/// A line for the answer, about a "mesh" or "centerline"; empty without one.
+std::string frameLine(const char* what, const std::optional<convert::ReadFrame>& frame);
+/// The frame as an object; null without one.
+Json frameJson(const std::optional<convert::ReadFrame>& frame);
+
+/// Turns a mesh to LPS from the axes that a person states, lps or ras, whatever its file states.
+void stateAxes(convert::MeshFile& file, const std::string& frame);
 
 /// Whether the file is a model of SimVascular, which names its faces in an array or beside it.
 bool isOfSimVascular(const InputFile& file, const convert::MeshFile& read);

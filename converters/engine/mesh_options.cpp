@@ -20,7 +20,8 @@ const std::map<std::string, convert::ColorBy> kColorBy = {
     {"none", convert::ColorBy::None},
     {"branch", convert::ColorBy::Branch},
     {"radius", convert::ColorBy::Radius},
-    {"confidence", convert::ColorBy::Confidence}};
+    {"confidence", convert::ColorBy::Confidence},
+    {"system", convert::ColorBy::System}};
 
 const std::map<std::string, convert::Touching> kTouching = {{"share", convert::Touching::Share},
                                                             {"apart", convert::Touching::Apart}};

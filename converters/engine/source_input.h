@@ -17,7 +17,7 @@ namespace lumen::engine {
 /// The user's statements about a file that a case is made of.
 struct SourceArguments {
   VolumeArguments volume;
-  CenterlineArguments centerline;
+  std::string frame;  ///< of a mesh or centerline: lps, ras, or empty
   MeshArguments mesh;
   MaskArguments mask;
 };
@@ -29,9 +29,11 @@ operations::Source loadSource(const InputFile& file, const FileFormat& format,
                               const SourceArguments& arguments, bool isSeeded, Progress& progress);
 
 /// A volume that was read from `file`, with the label map that the arguments name. It holds labels if
-/// these state it, or if there are no seeds for it and its voxels show it. Reasons to doubt voxels
+/// these state it, or if there are no seeds for it and its voxels show it; then it is settled
+/// (settled_labels.h). `layer`: the volume of the file that was read. Reasons to doubt voxels
 /// that seeds lie in become warnings. Throws Error(InvalidInput).
 operations::Source volumeSource(convert::Volume volume, const InputFile& file,
-                                const MaskArguments& mask, bool isSeeded, Progress& progress);
+                                const MaskArguments& mask, bool isSeeded, Progress& progress,
+                                std::int64_t layer = 0);
 
 }  // namespace lumen::engine

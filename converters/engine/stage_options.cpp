@@ -77,7 +77,7 @@ Eigen::Vector3d placeIn(const std::string& text) {
 
 const std::map<std::string, double>& millimetresByUnit() {
   static const std::map<std::string, double> units = {
-      {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
+      {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}, {"nm", 1e-6}};
   return units;
 }
 
@@ -146,7 +146,7 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
       .checkedBy(spacingFault);
   table
       .add(kOption.unit.name, &volume.unit, "UNIT",
-           "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
+           "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m, um or nm, "
            "whatever the file states")
       .among(wordsOf(millimetresByUnit()))
       .forInputs(kFileVolumes | kMeshes | kCenterline);
@@ -181,22 +181,23 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
       .among(wordsOf(kSeedSystems))
       .onlyWith(kOption.seeds.name);
   table
-      .add("seeds-unit", &track.seedsUnit, "UNIT",
-           "Unit of the seeds' positions and radii, whatever their file states: mm, cm, m or um")
+      .add(
+          "seeds-unit", &track.seedsUnit, "UNIT",
+          "Unit of the seeds' positions and radii, whatever their file states: mm, cm, m, um or nm")
       .among(wordsOf(millimetresByUnit()))
       .onlyWith(kOption.seeds.name);
   table
       .add(
-          "root", &track.roots, "X,Y,Z",
+          kOption.root.name, &track.roots, "X,Y,Z",
           "Place near the end of a vessel through which blood comes in, mm, LPS [the widest end of "
           "each tree]. May be given several times")
       .checkedBy(placeFault)
       .many()
-      .forInputs(kImage | kLabels | kMeshes);
+      .forInputs(kImage | kLabels | kMeshes | kCenterline);
   table
       .flag("only-connected", track.isOnlyConnected,
             "Leave out trees in which no seed and no root lies")
-      .forInputs(kImage | kLabels | kMeshes)
+      .forInputs(kImage | kLabels | kMeshes | kCenterline)
       .onlyWith(kOption.seeds.name)
       .onlyWith("root");
   table
@@ -218,9 +219,10 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
 void addMeshRows(OptionTable& table, MeshArguments& mesh) {
   table.group("Surface");
   table.scope(kMeshes);
-  table.file("centerline", mesh.centerline,
-             "Centerline of a mesh: .vtp with VMTK's arrays, .swc, .tre or curves of 3D Slicer "
-             "(.mrk.json, or a folder of them) [found inside of the mesh]");
+  table.file(
+      "centerline", mesh.centerline,
+      "Centerline of a mesh: .vtp or .vtk with VMTK's arrays, .swc, .tre or curves of 3D Slicer "
+      "(.mrk.json, or a folder of them) [found inside of the mesh]");
   table
       .add("centerline-frame", &mesh.centerlineFrame, "FRAME",
            "Axes of --centerline: lps, or ras, whose x and y are negated [as its file states, or "
@@ -229,7 +231,7 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
       .onlyWith("centerline");
   table
       .add("centerline-unit", &mesh.centerlineUnit, "UNIT",
-           "Unit of --centerline: mm, cm, m or um [as its file states, or that of the mesh]")
+           "Unit of --centerline: mm, cm, m, um or nm [as its file states, or that of the mesh]")
       .among(wordsOf(millimetresByUnit()))
       .onlyWith("centerline");
   table
@@ -268,10 +270,14 @@ void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
           "has a label counts")
       .many()
       .forInputs(kVolumes)
-      .without(kOption.seeds.name)
       .without("labels");
   addLabelTableRows(table, mask);
   table.find("role")->onlyWith("label-map");
+  table
+      .flag("only-labelled", mask.isOnlyLabelled,
+            "Leave out vessels on no label of the maps, but those that lead to one on a label")
+      .forInputs(kVolumes)
+      .onlyWith("label-map");
 }
 
 void addMaskRows(OptionTable& table, MaskArguments& mask) {

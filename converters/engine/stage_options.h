@@ -31,7 +31,7 @@ struct VolumeArguments {
   std::vector<int> crop;                    ///< empty, or i0, i1, j0, j1, k0, k1
   std::optional<std::int64_t> volumeIndex;  ///< from 0
   std::string spacing;  ///< empty, or mm of one or three axes, with commas between them
-  std::string unit;     ///< empty, or mm, cm, m or um
+  std::string unit;     ///< empty, or mm, cm, m, um or nm
   std::vector<std::string> allowDetached;
   bool skipFaulty = false;  ///< leave out files of DICOM that cannot be read
   [[nodiscard]] convert::ReadVolumeOptions options() const;

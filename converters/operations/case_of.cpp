@@ -35,32 +35,52 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const ModelOptions
   return scaled.resolved(double{*middle} / kVoxelsOfRadius);
 }
 
+/// Names and selects the vessels of a case by maps.
+void applyMaps(const Source& source, const std::vector<NamingMap>& naming,
+               const CaseOptions& options, MadeCase& made, const Context& context) {
+  nameByMaps(naming, made.value, context);
+  if (options.isOnlyLabelled) leaveOutUnlabelled(naming, made.value, source.name);
+  if (!naming.empty()) renameEnds(made.value.tree, made.remarks.ends);
+  recordMaps(source.maps, made.value);
+}
+
 MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Context& context) {
-  MadeCase made;
+  const convert::Volume& volume = *source.grey;
+  const std::vector<NamingMap> naming = namingMaps(source.maps, volume.geometry, source.name);
   VesselOptions vessels = options.vessels;
-  vessels.prior = priorOf(source.maps, source.grey->geometry, context.progress);
-  convert::TrackResult tracked = trackVessels(*source.grey, source.name, vessels, context);
-  nameByMaps(source.maps, source.grey->geometry, source.name, tracked.result, tracked.ends,
-             context);
+  vessels.prior = priorOf(source.maps, volume.geometry, context.progress);
+  convert::TrackResult tracked = trackVessels(volume, source.name, vessels, context);
+  MadeCase made;
+  made.value = std::move(tracked.result);
+  made.remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
+  applyMaps(source, naming, options, made, context);
+  CaseSelection select;
+  if (options.isOnlyLabelled)
+    select = [&](formats::Case& run, const Context& within) {
+      nameByMaps(naming, run, within);
+      leaveOutUnlabelled(naming, run, source.name);
+    };
   made.repetition =
-      repeatTracks(*source.grey, source.name, vessels, options.repeats, tracked.result, context);
+      repeatTracks(volume, source.name, vessels, options.repeats, select, made.value, context);
   if (options.corrected) {
-    made.replayed = convert::replayEdits(options.corrected->value, tracked.result);
+    made.replayed = convert::replayEdits(options.corrected->value, made.value);
     for (const convert::LeftEdit& left : made.replayed->left)
       context.progress.warn(formats::printable(options.corrected->name) +
                             ": a correction is not made again: " + left.sentence + ": " + left.why);
   }
-  made.value = std::move(tracked.result);
-  made.remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
+  const ImageBesideMaps image{volume, vessels.prior, vessels.track.dark};
+  made.labels = inventoryOf(source.maps, naming, made.value, volume.geometry, &image, context);
   return made;
 }
 
 MadeCase caseOfLabels(const Source& source, const CaseOptions& options, const Context& context) {
+  const convert::VolumeGeometry& geometry = source.labels->voxels.geometry;
+  const std::vector<NamingMap> naming = namingMaps(source.maps, geometry, source.name);
   MadeCase made;
   made.value = labelledVessels(*source.labels, options.chosenLabels, context);
-  nameByMaps(source.maps, source.labels->voxels.geometry, source.name, made.value,
-             made.remarks.ends, context);
+  applyMaps(source, naming, options, made, context);
   applyRoots(made.value, source.name, options.vessels, context);
+  made.labels = inventoryOf(source.maps, naming, made.value, geometry, nullptr, context);
   return made;
 }
 
@@ -78,9 +98,13 @@ MadeCase caseWithoutModels(Source source, const CaseOptions& options, const Cont
   if (source.labels) return caseOfLabels(source, options, context);
   if (source.mesh) return caseOfMesh(source, options, context);
   MadeCase made;
-  made.value = source.value
-                   ? *std::move(source.value)
-                   : convert::caseOfCenterline(source.centerline.value().file, source.name);
+  if (source.value) {
+    made.value = *std::move(source.value);
+  } else {
+    made.centerlineFrame = source.centerline.value().frame;
+    made.value = convert::caseOfCenterline(source.centerline->file, source.name);
+    applyRoots(made.value, source.name, options.vessels, context);
+  }
   return made;
 }
 

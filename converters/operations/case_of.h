@@ -10,6 +10,7 @@
 
 #include "converters/judge/compare/repetition.h"
 #include "converters/operations/context.h"
+#include "converters/operations/label_inventory.h"
 #include "converters/operations/labelled_vessels.h"
 #include "converters/operations/mesh_vessels.h"
 #include "converters/operations/source.h"
@@ -35,11 +36,12 @@ struct CorrectedCase {
 };
 
 struct CaseOptions {
-  VesselOptions vessels;  ///< of grey voxels; roots and their selection also of labels and meshes
+  VesselOptions vessels;  ///< of grey voxels; roots and their selection also of other sources
   std::uint64_t repeats =
       0;  ///< runs on grey voxels that show how far the result depends on chance
   std::optional<CorrectedCase> corrected;  ///< its corrections are made again, in grey voxels
   std::set<std::int64_t> chosenLabels;     ///< labels that are vessels; empty: all but 0
+  bool isOnlyLabelled = false;             ///< without vessels on no label of the maps
   std::optional<double> meshUnit;          ///< mm in one unit of a mesh, whatever its file states
   /// The case gets models by these, unless it has some; empty: it stays as it is.
   std::optional<ModelOptions> models;
@@ -47,10 +49,12 @@ struct CaseOptions {
 
 struct MadeCase {
   formats::Case value;
-  convert::TrackRemarks remarks;                   ///< of tracking; empty for other sources
-  std::optional<convert::Repetition> repetition;   ///< with `repeats`
-  std::optional<convert::ReplayedEdits> replayed;  ///< with `corrected`
-  std::optional<MeshFrame> meshFrame;              ///< of a mesh
+  convert::TrackRemarks remarks;                      ///< of tracking; empty for other sources
+  std::optional<convert::Repetition> repetition;      ///< with `repeats`
+  std::optional<convert::ReplayedEdits> replayed;     ///< with `corrected`
+  std::optional<MeshFrame> meshFrame;                 ///< of a mesh
+  std::optional<convert::ReadFrame> centerlineFrame;  ///< of a centerline
+  LabelInventory labels;                              ///< of the maps beside a volume
 };
 
 /// The case of a source: tree and wall points in mm and LPS, and models where the options ask for

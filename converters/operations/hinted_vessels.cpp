@@ -14,6 +14,7 @@
 #include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"
 #include "converters/io/seeds/case_seeds.h"
+#include "converters/operations/label_maps.h"
 #include "converters/stages/editing/hints.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/selection.h"
@@ -64,21 +65,6 @@ void select(formats::Case& value, std::set<std::string> named, const VesselOptio
   convert::leaveOutBranches(value, convert::unconnectedWith(value.tree, named));
 }
 
-/// Gives the remarks on ends the names that their branches have now, and drops those of branches
-/// that are gone.
-void renameEnds(const formats::Case& value, std::vector<convert::TrackEnd>& ends) {
-  constexpr double kSamePlace = 1e-3;  // mm: positions of a case are floats
-  const formats::CenterlineTree& tree = value.tree;
-  std::erase_if(ends, [&](convert::TrackEnd& end) {
-    for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
-      if ((toEigen(tree.centre[n]) - end.position).norm() < kSamePlace) {
-        end.label = tree.branches[tree.branch[n]].label;
-        return false;
-      }
-    return true;
-  });
-}
-
 std::set<std::string> labelsOf(const std::vector<convert::SeedBranch>& seeds) {
   std::set<std::string> labels;
   for (const convert::SeedBranch& seed : seeds) labels.insert(seed.label);
@@ -95,12 +81,13 @@ void apply(formats::Case& target, const std::string& name, std::set<std::string>
 
 /// Tracks the hints that lie in no vessel into the result.
 void addUnusedHints(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
-                    convert::TrackResult& result, const Context& context) {
+                    const convert::Prior& prior, convert::TrackResult& result,
+                    const Context& context) {
   if (rest.empty()) return;
   const convert::TrackingVolume tracking(volume, result.result, context.progress,
                                          context.fieldWord);
-  convert::AddedTracks added =
-      convert::addTracksFromSeeds(tracking, result.result, rest, context.progress);
+  convert::AddedTracks added = convert::addTracksFromSeeds(
+      tracking, result.result, rest, context.progress, placesOfPrior(prior, volume.geometry));
   result.result = std::move(added.result);
   append(std::move(added.failures), result.failures);
   append(std::move(added.missedPoints), result.missedPoints);
@@ -116,7 +103,7 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   convert::TrackResult result =
       findAndTrackIfAny(volume, options.track, options.prior, whyNone, context);
   if (result.result.tree.nodeCount() == 0) {
-    result = convert::trackFromSeeds(volume, placed.seeds, options.track, progress);
+    result = trackPlaced(volume, placed, options, context);
     reportOnSeeds(volume, options, placed, result, context);
     apply(result.result, name, labelsOf(options.seeds), options, context);
     convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
@@ -126,14 +113,14 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, options.roots);
   append(std::move(hints.missedPoints), result.missedPoints);
   append(std::move(hints.unjoined), result.unjoined);
-  addUnusedHints(volume, hints.rest, result, context);
+  addUnusedHints(volume, hints.rest, options.prior, result, context);
   for (const SeedFailure& unused : hints.unused)
     progress.warn(formats::printable(options.seedsName) + ": seed \"" +
                   formats::printable(unused.label) +
                   "\" names no vessel of its own: " + unused.reason);
   reportOnSeeds(volume, options, placed, result, context);
   select(result.result, labelsOf(placed.seeds), options);
-  renameEnds(result.result, result.ends);
+  renameEnds(result.result.tree, result.ends);
   convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
   return result;
 }
@@ -148,7 +135,7 @@ convert::TrackResult trackVessels(const convert::Volume& volume, const std::stri
       isSeeded ? placeAndTrack(volume, options, context)
                : findAndTrack(volume, name, options.track, options.prior, context);
   apply(result.result, name, labelsOf(options.seeds), options, context);
-  renameEnds(result.result, result.ends);
+  renameEnds(result.result.tree, result.ends);
   return result;
 }
 
@@ -186,7 +173,8 @@ convert::Volume withNoise(const convert::Volume& volume, double deviation, Rando
 std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
                                                 const std::string& name,
                                                 const VesselOptions& options, std::uint64_t repeats,
-                                                formats::Case& judged, const Context& context) {
+                                                const CaseSelection& select, formats::Case& judged,
+                                                const Context& context) {
   if (repeats == 0) return std::nullopt;
   std::vector<formats::Case> runs;
   Progress& progress = context.progress;
@@ -204,9 +192,11 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
       const convert::Volume noisy =
           withNoise(image, kNoiseShare * noise, Random(other.track.seed, kNoiseStream));
       runs.push_back(trackVessels(noisy, name, other, context.within(quiet)).result);
+      if (select) select(runs.back(), context.within(quiet));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;
-      runs.emplace_back();  // it finds nothing
+      runs.resize(run);  // it finds nothing
+      runs.back() = {};
     }
     progress.advance();
   }

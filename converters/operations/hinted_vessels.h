@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -24,13 +25,17 @@ namespace lumen::operations {
 convert::TrackResult trackVessels(const convert::Volume& volume, const std::string& name,
                                   const VesselOptions& options, const Context& context);
 
+/// Leaves out vessels of a case that are not wanted; throws Error(Failed) if none is left.
+using CaseSelection = std::function<void(formats::Case&, const Context&)>;
+
 /// Tracks as trackVessels() does `repeats` times, with other random numbers and with clicks that are
 /// moved by a tenth of a voxel, and states how much of `judged` these runs find again; its nodes get
-/// that as LUMEN_repeat.share. Empty without repeats.
+/// that as LUMEN_repeat.share. `select` may be empty. Empty without repeats.
 std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
                                                 const std::string& name,
                                                 const VesselOptions& options, std::uint64_t repeats,
-                                                formats::Case& judged, const Context& context);
+                                                const CaseSelection& select, formats::Case& judged,
+                                                const Context& context);
 
 /// Roots and selection of the options for a case without seeds, whose source is called `name`.
 void applyRoots(formats::Case& target, const std::string& name, const VesselOptions& options,

@@ -2,6 +2,7 @@
 #include "converters/operations/label_prior.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -9,6 +10,9 @@
 
 #include <Eigen/Core>
 #include <tbb/parallel_for.h>
+
+#include "converters/base/vectors.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::operations {
 namespace {
@@ -72,7 +76,36 @@ void forEachStatement(const LabelPart& map, const convert::VolumeGeometry& geome
       map.voxels.voxels);
 }
 
+formats::VesselSystem systemAt(const convert::FoundVessels& found, const Eigen::Vector3d& point) {
+  const convert::CellBox cells = found.geometry.cells();
+  const auto cell = cells.nearest(found.geometry.indexFromWorld(point));
+  if (!cell) return formats::VesselSystem::Unknown;
+  const auto at = std::lower_bound(found.lumen.begin(), found.lumen.end(), cells.index(*cell));
+  if (at == found.lumen.end() || *at != cells.index(*cell)) return formats::VesselSystem::Unknown;
+  const std::uint8_t system = found.systems[static_cast<std::size_t>(at - found.lumen.begin())];
+  return system == kArterial     ? formats::VesselSystem::Artery
+         : system == kVenous     ? formats::VesselSystem::Vein
+         : system == kFalseLumen ? formats::VesselSystem::FalseLumen
+                                 : formats::VesselSystem::Unknown;
+}
+
 }  // namespace
+
+void setSystemsOf(const convert::FoundVessels& found, formats::Case& value) {
+  if (found.systems.empty()) return;
+  const formats::CenterlineTree& tree = value.tree;
+  std::vector<formats::VesselSystem> systems;
+  for (const formats::Branch& branch : tree.branches) {
+    std::array<std::size_t, formats::kVesselSystemCount> count{};
+    for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n)
+      ++count[static_cast<std::size_t>(systemAt(found, toEigen(tree.centre[n])))];
+    count[0] = 0;
+    const auto most = std::max_element(count.begin(), count.end());
+    systems.insert(systems.end(), branch.nodeCount,
+                   static_cast<formats::VesselSystem>(most - count.begin()));
+  }
+  formats::setNodeSystems(value, systems);
+}
 
 convert::Prior priorOf(const std::vector<LabelPart>& maps, const convert::VolumeGeometry& geometry,
                        const Progress& progress) {

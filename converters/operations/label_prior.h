@@ -6,7 +6,9 @@
 
 #include "converters/base/progress.h"
 #include "converters/operations/source.h"
+#include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/finding/prior.h"
+#include "formats/case/case.h"
 
 namespace lumen::operations {
 
@@ -18,5 +20,9 @@ namespace lumen::operations {
 /// no map says anything. Throws Error(Cancelled).
 convert::Prior priorOf(const std::vector<LabelPart>& maps, const convert::VolumeGeometry& geometry,
                        const Progress& progress);
+
+/// Gives each branch of a case the system of the lumen that most of its nodes lie in; those of the
+/// prior's first system are arteries. Changes nothing if a prior stated none.
+void setSystemsOf(const convert::FoundVessels& found, formats::Case& value);
 
 }  // namespace lumen::operations

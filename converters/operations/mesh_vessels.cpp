@@ -30,17 +30,6 @@ convert::GivenCenterline inPatientSpace(const CenterlinePart& centerline, double
   return given;
 }
 
-/// The unit of the mesh and its axes; warns as guessUnitOf().
-MeshFrame chooseFrame(const MeshPart& part, const convert::TriangleMesh& mesh,
-                      const std::string& name, const std::optional<double>& unit,
-                      const Context& context) {
-  if (unit) return {*unit, "option", part.file.frameStated};
-  if (part.file.unitMm > 0) return {part.file.unitMm, "file", part.file.frameStated};
-  const convert::UnitGuess guess =
-      guessUnitOf(convert::vesselSize(mesh), name, part.isOfSimVascular, context);
-  return {guess.millimetres, "guess", part.file.frameStated};
-}
-
 /// Begins trees at the openings through which blood comes in besides the widest one.
 void beginAtFurtherInlets(convert::MeshCase& made, Progress& progress) {
   constexpr double kBeyondRadii = 3;  // behind an opening, within these multiples of its radius
@@ -74,6 +63,21 @@ convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const std::strin
   return guess;
 }
 
+MeshFrame meshFrame(const MeshPart& part, const convert::VesselSize& size, const std::string& name,
+                    const std::optional<double>& unit, const Context& context) {
+  const convert::MeshFile& file = part.file;
+  if (unit) return {*unit, "option", file.frameStated};
+  if (file.standardMm > 0) {
+    const std::string warning =
+        convert::standardWarning(size, file.standardMm, "glTF", context.fieldWord);
+    if (!warning.empty()) context.progress.warn(formats::printable(name) + ": " + warning);
+    return {file.standardMm, "standard", file.frameStated};
+  }
+  if (file.unitMm > 0) return {file.unitMm, "file", file.frameStated};
+  const convert::UnitGuess guess = guessUnitOf(size, name, part.isOfSimVascular, context);
+  return {guess.millimetres, "guess", file.frameStated};
+}
+
 formats::Case meshVessels(const Source& source, const std::optional<double>& unit, MeshFrame& frame,
                           const Context& context) {
   const std::string name = formats::printable(source.name);
@@ -84,12 +88,13 @@ formats::Case meshVessels(const Source& source, const std::optional<double>& uni
   progress.end();
   for (const std::string& note : part.file.notes) progress.warn(name + ": " + note);
   if (!repaired.repairs.empty()) progress.warn(name + ": repaired: " + listed(repaired.repairs));
-  frame = chooseFrame(part, repaired.mesh, source.name, unit, context);
-  for (Eigen::Vector3d& p : repaired.mesh.position) p *= frame.unit;
+  frame = meshFrame(part, convert::vesselSize(repaired.mesh), source.name, unit, context);
+  const double scale = part.file.scaleFor(frame.unit);
+  for (Eigen::Vector3d& p : repaired.mesh.position) p *= scale;
   std::optional<convert::GivenCenterline> centerline;
-  if (source.centerline) centerline = inPatientSpace(*source.centerline, frame.unit);
-  convert::MeshCase made = convert::caseOfMesh(std::move(repaired.mesh), name, centerline,
-                                               {{"unit", frame.unit}}, progress);
+  if (source.centerline) centerline = inPatientSpace(*source.centerline, scale);
+  convert::MeshCase made =
+      convert::caseOfMesh(std::move(repaired.mesh), name, centerline, {{"unit", scale}}, progress);
   for (const std::string& note : made.notes) progress.warn(note);
   beginAtFurtherInlets(made, progress);
   return std::move(made.result);

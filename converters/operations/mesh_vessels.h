@@ -5,24 +5,26 @@
 #include <optional>
 #include <string>
 
+#include "converters/geometry/unit_guess.h"
 #include "converters/operations/context.h"
 #include "converters/operations/source.h"
-#include "converters/stages/repair/unit_guess.h"
 #include "formats/case/case.h"
 
 namespace lumen::operations {
 
 /// Unit and axes that were taken for a mesh.
-struct MeshFrame {
-  double unit = 1;           ///< mm in one unit of the mesh: 1, 10, 1000 or 1e-3
-  std::string unitFrom;      ///< "option", "file" or "guess"
-  bool frameStated = false;  ///< the file names its axes
-};
+using MeshFrame = convert::ReadFrame;
 
 /// The unit of a mesh of this size, called `name`, whose file states none. Warns where another unit
 /// is plausible, too, where it is not mm, and where none is plausible.
 convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const std::string& name,
                                bool isOfSimVascular, const Context& context);
+
+/// The unit of a mesh of this size, in its own unit, and its axes: as the option `unit`, mm, else its
+/// file, else the standard of its format states it, else by its size. Warns as guessUnitOf(), and of a
+/// size that is not possible by a standard.
+MeshFrame meshFrame(const MeshPart& part, const convert::VesselSize& size, const std::string& name,
+                    const std::optional<double>& unit, const Context& context);
 
 /// Tree and wall points of the mesh of a source, along its centerline if it has one; mm, LPS.
 /// `unit`: mm in one unit of the mesh, whatever its file states. Sets `frame`. Repairs and

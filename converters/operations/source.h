@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/geometry/unit_guess.h"
 #include "converters/io/centerline/centerline_file.h"
 #include "converters/io/labels/label_meaning.h"
 #include "converters/io/mesh/read_mesh.h"
@@ -32,7 +33,8 @@ struct MeshPart {
 /// A centerline: points with radii and parents, in its own unit and axes.
 struct CenterlinePart {
   convert::CenterlineFile file;
-  std::string name;  ///< for messages
+  std::string name;            ///< for messages
+  convert::ReadFrame frame{};  ///< unit and axes that were taken, where `file` is in mm and LPS
 };
 
 /// One input, as aligned parts in one patient space. These sets of parts make a case:

@@ -11,10 +11,12 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/case_seeds.h"
+#include "converters/operations/label_prior.h"
 #include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/vessel_at_click.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
@@ -69,6 +71,16 @@ void reportRefused(convert::TrackRemarks& remarks, Progress& progress) {
   remarks.failures.clear();
 }
 
+/// Seeds that the prior kept from starting get that as the reason.
+void explainByPrior(const std::vector<convert::SeedBranch>& seeds,
+                    const convert::PlaceTest& isNoVessel, convert::TrackRemarks& remarks) {
+  if (!isNoVessel) return;
+  for (convert::SeedFailure& failure : remarks.failures)
+    for (const convert::SeedBranch& seed : seeds)
+      if (seed.label == failure.label && isNoVessel(seed.points.front().position))
+        failure.reason = "a label map states that it lies in no vessel";
+}
+
 /// The places of bone; empty where none was found, so that edges are not examined for it. `found`
 /// must outlive it.
 convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
@@ -116,8 +128,11 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
   const convert::LumenInVolume lumen{
       [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
       [&](const Eigen::Vector3d& point) { return found.geometry.containsWorld(point); }};
+  setSystemsOf(found, result.result);
   for (const Eigen::Vector3d& place : convert::correctTopology(result.result, lumen))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
+  // names of the maps' labels state the systems of the case
+  formats::setNodeSystems(result.result, {});
   const std::vector<Eigen::Vector3d> inlets =
       convert::furtherInlets(result.result.tree, lumen.isInside);
   convert::beginAt(result.result, inlets);
@@ -176,11 +191,28 @@ void reportOnSeeds(const convert::Volume& volume, const VesselOptions& options,
             std::back_inserter(result.missedPoints));
 }
 
+convert::PlaceTest placesOfPrior(const convert::Prior& prior,
+                                 const convert::VolumeGeometry& geometry) {
+  if (prior.systems.empty()) return {};
+  return {[&](const Eigen::Vector3d& place) {
+    const auto cell = geometry.cells().nearest(geometry.indexFromWorld(place));
+    return cell && prior.isNoVessel(geometry.index(*cell));
+  }};
+}
+
+convert::TrackResult trackPlaced(const convert::Volume& volume, const convert::PlacedSeeds& placed,
+                                 const VesselOptions& options, const Context& context) {
+  const convert::PlaceTest isNoVessel = placesOfPrior(options.prior, volume.geometry);
+  convert::TrackResult result =
+      convert::trackFromSeeds(volume, placed.seeds, options.track, context.progress, isNoVessel);
+  explainByPrior(placed.seeds, isNoVessel, result);
+  return result;
+}
+
 convert::TrackResult placeAndTrack(const convert::Volume& volume, const VesselOptions& options,
                                    const Context& context) {
   convert::PlacedSeeds placed = placedSeeds(volume, options, context);
-  convert::TrackResult result =
-      convert::trackFromSeeds(volume, placed.seeds, options.track, context.progress);
+  convert::TrackResult result = trackPlaced(volume, placed, options, context);
   reportOnSeeds(volume, options, placed, result, context);
   convert::setSeeds(result.result, convert::markTracked(placed.seeds, result.failures));
   return result;

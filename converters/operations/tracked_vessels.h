@@ -52,6 +52,14 @@ convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
 convert::PlacedSeeds placedSeeds(const convert::Volume& volume, const VesselOptions& options,
                                  const Context& context);
 
+/// The places that a prior states to be no vessel; empty if it states none. The test keeps both.
+convert::PlaceTest placesOfPrior(const convert::Prior& prior,
+                                 const convert::VolumeGeometry& geometry);
+
+/// Tracks seeds that are placed, outside of what the prior states to be no vessel.
+convert::TrackResult trackPlaced(const convert::Volume& volume, const convert::PlacedSeeds& placed,
+                                 const VesselOptions& options, const Context& context);
+
 /// Warns of seeds that started no track or did not get all that they state. Throws Error(Failed) if
 /// all failed, or most and there is a reason to doubt them. Moves the failures to place seeds to
 /// those of the result.

@@ -4,19 +4,20 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <mutex>
-#include <random>
-#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <linux/magic.h>
+#include <sys/vfs.h>
+#endif
 
 #include "formats/case/file_descriptor.h"
+#include "formats/case/hidden_folder.h"
 
 namespace lumen::formats {
 namespace {
@@ -24,15 +25,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxLinks = 40;
-constexpr int kMaxNameTrials = 100;
 constexpr std::size_t kMaxEnding = 16;
 constexpr mode_t kPermissionBits = 07777;
 constexpr mode_t kNewFileMode = 0666;  // less the bits of the process's umask
 constexpr mode_t kNewFolderMode = 0777;
 
-Issue writeError(const fs::path& file, const std::string& what, int code) {
-  return {ErrorCode::IoWrite, std::nullopt,
-          file.string() + ": " + what + ": " + systemErrorText(code)};
+// Whether a link is one of /proc/self/fd, as /dev/stdout is: it leads to what a process holds open,
+// which has perhaps no name, and which a new file of its name would not change but cut off.
+bool isOpenFile(const fs::path& link) {
+#ifdef __linux__
+  struct statfs info {};
+  return ::statfs(folderOf(link).c_str(), &info) == 0 && info.f_type == PROC_SUPER_MAGIC &&
+         link.parent_path().filename() == "fd";
+#else
+  return link.parent_path() == "/dev/fd";
+#endif
 }
 
 // The file that `file` leads to through symbolic links, whether it exists or not.
@@ -40,6 +47,10 @@ Expected<fs::path> followLinks(fs::path file) {
   std::error_code error;
   for (int i = 0; i < kMaxLinks; ++i) {
     if (!fs::is_symlink(fs::symlink_status(file, error))) return file;
+    if (isOpenFile(file))
+      return Issue{
+          ErrorCode::IoNotAFile, std::nullopt,
+          file.string() + ": is an open file of a process, not a regular file with a name"};
     const fs::path target = fs::read_symlink(file, error);
     if (error) return writeError(file, "cannot follow the link", error.value());
     file = file.parent_path() / target;  // an absolute target replaces the whole path
@@ -63,68 +74,11 @@ Expected<std::optional<mode_t>> existingMode(const fs::path& target) {
   return std::optional<mode_t>{info.st_mode & kPermissionBits};
 }
 
-fs::path folderOf(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 // The ending of a name, such as ".nii.gz" of "head.nii.gz": writers choose their format by it.
 std::string endingOf(const fs::path& file) {
   const std::string last = file.extension().string();
   const std::string both = file.stem().extension().string() + last;
   return both.size() <= kMaxEnding ? both : last.size() <= kMaxEnding ? last : "";
-}
-
-std::string newHiddenName(const std::string& ending) {
-  return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-" +
-         std::to_string(std::random_device()()) + ending;
-}
-
-// Hidden files and folders of this process that are not in their place yet.
-struct OwnTemporaries {
-  std::mutex mutex;
-  std::set<fs::path> paths;
-};
-OwnTemporaries& ownTemporaries() {
-  static auto* const own = new OwnTemporaries;  // outlives every writer
-  return *own;
-}
-
-bool tryLock(int descriptor) {
-  return uninterrupted([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == 0;
-}
-
-// Whether no process holds a lock on the file or folder; its writer would.
-bool isAbandoned(const fs::path& path) {
-  const FileDescriptor open = openForReading(path, O_NOFOLLOW);
-  return open.isOpen() && tryLock(open.get());
-}
-
-// Whether the new file is still there: its lock may have come too late, after its removal.
-bool stillExists(int descriptor) {
-  struct stat info {};
-  return ::fstat(descriptor, &info) == 0 && info.st_nlink > 0;
-}
-
-// A new file or folder beside `target`. `make` opens it at an unused path, or returns -1 with errno
-// set.
-template <class Make>
-Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string& ending,
-                                      Make make) {
-  int error = EEXIST;
-  for (int trial = 0; trial < kMaxNameTrials; ++trial) {
-    const fs::path path = target.parent_path() / newHiddenName(ending);
-    FileDescriptor open(uninterrupted([&] { return make(path); }));
-    if (!open.isOpen()) {
-      error = errno;
-      if (error == EEXIST) continue;
-      break;
-    }
-    tryLock(open.get());  // a file system without locks has no abandoned files either
-    HiddenSibling sibling(path, std::move(open));
-    if (stillExists(sibling.descriptor())) return sibling;
-  }
-  return writeError(target, "no file can be made in the folder " + folderOf(target).string(),
-                    error);
 }
 
 // Whether the file system lacks the operation, which is no failure of the disk.
@@ -154,14 +108,6 @@ bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
   const FileDescriptor open = openForReading(path, flags);
   return open.isOpen() && (!mode || setMode(open.get(), *mode, calls)) &&
          flushOpen(open.get(), calls);
-}
-
-// Removes leftovers of killed writers. Failures are ignored: the next write tries again.
-void removeAbandoned(const fs::path& folder) {
-  std::error_code error, ignored;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (isTemporaryName(it->path().filename().string()) && isAbandoned(it->path()))
-      fs::remove_all(it->path(), ignored);
 }
 
 // Makes a rename survive a power cut. A folder that cannot be opened or flushed (some network file
@@ -213,27 +159,6 @@ const FileCalls& systemCalls() {
   return calls;
 }
 
-HiddenSibling::HiddenSibling(fs::path path, FileDescriptor descriptor)
-    : m_path(std::move(path)), m_descriptor(std::move(descriptor)) {
-  const std::lock_guard lock(ownTemporaries().mutex);
-  ownTemporaries().paths.insert(m_path);
-}
-
-HiddenSibling::HiddenSibling(HiddenSibling&& other) noexcept
-    : m_path(std::exchange(other.m_path, {})), m_descriptor(std::move(other.m_descriptor)) {}
-
-HiddenSibling::~HiddenSibling() {
-  std::error_code ignored;
-  if (!m_path.empty()) fs::remove_all(m_path, ignored);
-  release();
-}
-
-void HiddenSibling::release() {
-  const std::lock_guard lock(ownTemporaries().mutex);
-  ownTemporaries().paths.erase(m_path);
-  m_path.clear();
-}
-
 Status writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
                            const FileCalls& calls) {
   auto pending = PendingFile::beside(file, calls);
@@ -247,18 +172,20 @@ Expected<PendingFile> PendingFile::beside(const fs::path& file, const FileCalls&
   if (!target) return target.error();
   const auto mode = existingMode(*target);
   if (!mode) return mode.error();
-  auto sibling = hiddenSibling(*target, endingOf(*target), [](const fs::path& path) {
-    return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-  });
+  auto sibling = hiddenSibling(*target, endingOf(*target));
   if (!sibling) return sibling.error();
-  return PendingFile(*std::move(sibling), *target, *mode, calls);
+  FileDescriptor open(uninterrupted([&] {
+    return ::open(sibling->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+  }));
+  if (!open.isOpen()) return writeError(*target, "cannot write", errno);
+  return PendingFile(*std::move(sibling), std::move(open), *target, *mode, calls);
 }
 
 Status PendingFile::commit() {
   if (!flushPath(path(), 0, m_calls, m_mode)) return writeError(m_target, "cannot write", errno);
   if (m_calls.get().rename(path().c_str(), m_target.c_str()) != 0)
     return writeError(m_target, "cannot replace the file", errno);
-  m_sibling.release();
+  m_sibling.remove();
   finish(m_target, m_calls);
   return {};
 }
@@ -273,32 +200,30 @@ Expected<PendingFolder> PendingFolder::beside(const fs::path& folder, Existing e
     return writeError(*target, "cannot become a folder", ENOTDIR);
   if (fs::exists(status) && existing == Existing::Refuse && !fs::is_empty(*target, error))
     return writeError(*target, "cannot be replaced", ENOTEMPTY);
-  auto sibling = hiddenSibling(*target, "", [](const fs::path& path) {
-    if (::mkdir(path.c_str(), kNewFolderMode) != 0) return -1;
-    return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  });
+  auto sibling = hiddenSibling(*target, "");
   if (!sibling) return sibling.error();
+  if (::mkdir(sibling->path().c_str(), kNewFolderMode) != 0)
+    return writeError(*target, "cannot write", errno);
   return PendingFolder(*std::move(sibling), *target, existing, calls);
 }
 
 Status PendingFolder::commit(Flush how) {
   const auto flush = how == Flush::Each ? flushFolder : flushAtOnce;
   if (!flush(path(), m_calls)) return writeError(m_target, "cannot write", errno);
-  if (m_calls.get().rename(path().c_str(), m_target.c_str()) == 0) {
-    m_sibling.release();
-  } else {
+  if (m_calls.get().rename(path().c_str(), m_target.c_str()) != 0) {
     const bool isFull = errno == ENOTEMPTY || errno == EEXIST;
     if (!isFull || m_existing == Existing::Refuse)
       return writeError(m_target, "cannot be put in place", errno);
     if (auto replaced = replace(); !replaced) return replaced;
   }
+  m_sibling.remove();
   finish(m_target, m_calls);
   return {};
 }
 
 Status PendingFolder::replace() {
   const FileCalls& calls = m_calls;
-  // the sibling is the old folder from here on, and goes with this object
+  // the old folder takes the place of the new one, and is removed with it
   if (calls.exchange(path().c_str(), m_target.c_str()) == 0) return {};
   if (!isUnsupported(errno)) return writeError(m_target, "cannot replace the folder", errno);
   const std::string old = m_target.string() + ".lumen-old";
@@ -317,20 +242,6 @@ Status PendingFolder::replace() {
   }
   calls.rename(old.c_str(), path().c_str());  // hidden: if its removal is killed, the next goes on
   return {};
-}
-
-bool isTemporaryName(std::string_view name) {
-  // a prefix, digits and a hyphen: a user's own file of a similar name is not temporary
-  if (!name.starts_with(kTemporaryPrefix)) return false;
-  name.remove_prefix(kTemporaryPrefix.size());
-  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  return digits > 0 && digits < name.size() && name[digits] == '-';
-}
-
-void removeOwnTemporaries() {
-  const std::lock_guard lock(ownTemporaries().mutex);
-  std::error_code ignored;
-  for (const fs::path& path : ownTemporaries().paths) fs::remove_all(path, ignored);
 }
 
 }  // namespace lumen::formats

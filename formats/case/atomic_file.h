@@ -2,10 +2,12 @@
 // Files and folders that appear whole under their name, or not at all: a writer fills a hidden
 // sibling, flushes it to disk, and renames it.
 //
-// A writer that ends or throws removes what it began. One that is killed cannot, so every hidden
-// name begins with kTemporaryPrefix, and the writer holds a lock (flock) on it for as long as it
-// lives. The next write into that folder removes hidden siblings without a lock; an interrupted
-// process, which still holds its own locks, removes those that it made. The process id in a name is
+// A writer that ends or throws removes what it began. One that is killed cannot. So the new file or
+// folder lies in a hidden folder, whose name begins with kTemporaryPrefix, and which a file in it
+// proves to be a writer's: a user's own folder of such a name is never touched. The writer holds a
+// lock (flock) on it for as long as it lives. The next write into that folder removes hidden siblings
+// without a lock; an interrupted process, which still holds its own locks, removes those that it made.
+// The process id in a name is
 // for people alone: a folder may be shared by machines and containers that do not see each other's
 // processes, and have the same ids. Files without a name
 // (O_TMPFILE) would leave nothing either, but neither libraries that write by name nor folders can
@@ -23,6 +25,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <sys/types.h>
@@ -32,8 +35,7 @@
 
 namespace lumen::formats {
 
-/// Prefix of hidden names. The process id, a hyphen, random digits, and the ending of a target file
-/// follow.
+/// Prefix of hidden names. The process id, a hyphen and random digits follow.
 inline constexpr std::string_view kTemporaryPrefix = ".lumen-";
 
 /// The system calls that make a file appear, as their manual pages have them. Tests pass others, to
@@ -51,24 +53,28 @@ const FileCalls& systemCalls();
 /// Writes `bytes` to a new file beside `file`, flushes it to disk and renames it over `file`. The
 /// old file is untouched unless every step succeeds; its permissions are kept, and a new file gets
 /// those of any newly created one. A symbolic link is followed, so the file that it leads to is
-/// replaced. A directory or device is refused: IO_NOT_A_FILE; anything else that fails: IO_WRITE.
+/// replaced. A directory, a device and an open file of a process (/dev/stdout) are refused: IO_NOT_A_FILE; anything else that fails: IO_WRITE.
 Status writeFileAtomically(std::span<const std::byte> bytes, const std::filesystem::path& file,
                            const FileCalls& calls = systemCalls());
 
-/// A hidden, empty file or folder that this process holds a lock on and removes at its end.
+/// A hidden folder that this process holds a lock on and removes at its end.
 class HiddenSibling {
 public:
-  HiddenSibling(std::filesystem::path path, FileDescriptor descriptor);
+  /// For a new file or folder that becomes `target`, whose name ends in `ending` meanwhile.
+  HiddenSibling(std::filesystem::path folder, const std::string& ending,
+                const std::filesystem::path& target, FileDescriptor descriptor);
   HiddenSibling(HiddenSibling&& other) noexcept;
   HiddenSibling& operator=(HiddenSibling&&) = delete;
   ~HiddenSibling();
+  /// Place in it for the new file or folder, which is not there yet.
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
-  [[nodiscard]] int descriptor() const { return m_descriptor.get(); }
-  /// Keeps the file or folder, which has another name now.
-  void release();
+  /// Takes the lock and writes the proof; false with errno set if that fails.
+  bool lock();
+  /// Removes the folder with all in it.
+  void remove();
 
 private:
-  std::filesystem::path m_path;
+  std::filesystem::path m_folder, m_path;
   FileDescriptor m_descriptor;
 };
 
@@ -81,16 +87,21 @@ public:
   /// Path to write to: an empty file, whose name ends like that of its target (".nii.gz").
   [[nodiscard]] const std::filesystem::path& path() const { return m_sibling.path(); }
   /// Descriptor of the empty file, for writing.
-  [[nodiscard]] int descriptor() const { return m_sibling.descriptor(); }
+  [[nodiscard]] int descriptor() const { return m_file.get(); }
   /// Flushes the complete file and puts it in its place. Called once only.
   Status commit();
 
 private:
-  PendingFile(HiddenSibling sibling, std::filesystem::path target, std::optional<mode_t> mode,
-              const FileCalls& calls)
-      : m_sibling(std::move(sibling)), m_target(std::move(target)), m_mode(mode), m_calls(calls) {}
+  PendingFile(HiddenSibling sibling, FileDescriptor file, std::filesystem::path target,
+              std::optional<mode_t> mode, const FileCalls& calls)
+      : m_sibling(std::move(sibling)),
+        m_file(std::move(file)),
+        m_target(std::move(target)),
+        m_mode(mode),
+        m_calls(calls) {}
 
   HiddenSibling m_sibling;
+  FileDescriptor m_file;
   std::filesystem::path m_target;
   std::optional<mode_t> m_mode;
   std::reference_wrapper<const FileCalls> m_calls;
@@ -133,8 +144,12 @@ private:
   std::reference_wrapper<const FileCalls> m_calls;
 };
 
-/// Whether this is the name of a file or folder that a writer has not put in its place.
-bool isTemporaryName(std::string_view name);
+/// Whether this is the hidden folder of a writer, by its name and by the proof in it.
+bool isTemporary(const std::filesystem::path& path);
+
+/// The place to which an unfinished file of this process will come: the one that a message names;
+/// other paths as they are. Thread-safe.
+std::filesystem::path placeOf(const std::filesystem::path& file);
 
 /// Removes the unfinished files and folders of this process, at its end. Thread-safe.
 void removeOwnTemporaries();

@@ -4,12 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "formats/case/case.h"
-#include "formats/container/issue.h"
 
 namespace lumen::formats {
 
@@ -23,10 +20,6 @@ constexpr std::size_t kNodeOriginCount = 3;
 
 constexpr const char* kOriginExtension = "LUMEN_node";
 constexpr const char* kOriginArray = "LUMEN_node.origin";
-
-/// The first fault of a node array LUMEN_node.origin: its components, its type, or a value. `place`
-/// is the place of its description. Empty if there is none, and for any other array.
-std::optional<Issue> originFault(const NodeArray& array, const std::string& place);
 
 /// One value for each node of a valid case; all are measured if the case has no such array.
 std::vector<NodeOrigin> readNodeOrigins(const Case& value);

@@ -7,6 +7,8 @@
 
 #include "formats/case/metadata_json.h"
 #include "formats/case/node_origin.h"
+#include "formats/case/node_words.h"
+#include "formats/case/vessel_system.h"
 #include "formats/view/limits.h"
 #include "formats/view/model_rules.h"
 #include "formats/view/text_rules.h"
@@ -139,7 +141,8 @@ void checkExtensions(const Metadata& metadata, IssueList& issues) {
       issues.add(pointerIssue(ErrorCode::ExtensionUnlisted, at(required, i),
                               "the extension " + name + " is not in extensionsUsed",
                               {{"found", name}}));
-    else if (name != kOriginExtension && isExtensionName(metadata.extensionsRequired[i]))
+    else if (name != kOriginExtension && name != kSystemExtension &&
+             isExtensionName(metadata.extensionsRequired[i]))
       // this reader has no other extension
       issues.add(pointerIssue(ErrorCode::ExtensionRequired, at(required, i),
                               "the extension " + name +
@@ -194,7 +197,7 @@ void checkNodeArrays(const Case& value, IssueList& issues) {
                             kMaxComponents));
     else
       checkArrayValues(array, value.tree.nodeCount(), issues);
-    if (std::optional<Issue> fault = originFault(array, place)) issues.add(std::move(*fault));
+    if (std::optional<Issue> fault = nodeWordFault(array, place)) issues.add(std::move(*fault));
   }
 }
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 INF, VERSION, CRITICAL = math.inf, [1, 2], "META NCEN NDIR NRAD NHEI NPAR NBRA BREC BLAB LINK".split()
 GROUPS = ("NINL",), ("NARR",), ("MOVE",), ("POFF", "PPOS"), ("MKER", "MOFF", "MCEN", "MWID")
 KNOWN, KERNELS, KINDS = CRITICAL + list(sum(GROUPS, ())), ["cauchy", "gaussian", "quartic", "soft-object"], ["vessel", "aneurysm"]
+WORDS = {"LUMEN_node": ("LUMEN_node.origin", 3), "LUMEN_vessel": ("LUMEN_vessel.system", 5)}  # and the sizes of their tables
 STOPS = "unknown no-valid-cylinder turned-back left-volume met-branch end-of-seeds step-limit".split()
 ARRAYS = [word.split(":") for word in (  # part of the case, key, chunk, components, type
     "tree:centre:NCEN:3:f tree:direction:NDIR:3:f tree:radius:NRAD:1:f tree:height:NHEI:1:f tree:parent:NPAR:1:i tree:branch:NBRA:1:I "
@@ -110,7 +111,7 @@ def check_case(m, lacking=()):
     axes, used, needed, described = (m["metadata"].get(k, ()) for k in ("source", "extensionsUsed", "extensionsRequired", "nodeArrays"))
     for i in range(9 if axes else 0): need("/metadata/source/direction", SOURCE_DIRECTION=math.isclose(  # axes times axes
         sum(axes["direction"][k + i // 3] * axes["direction"][k + i % 3] for k in (0, 3, 6)), i % 4 == 0, rel_tol=0, abs_tol=1e-4))
-    need("/metadata/extensionsRequired", EXTENSION_UNLISTED=set(needed) <= set(used), EXTENSION_REQUIRED=set(needed) <= {"LUMEN_node"})
+    need("/metadata/extensionsRequired", EXTENSION_UNLISTED=set(needed) <= set(used), EXTENSION_REQUIRED=set(needed) <= set(WORDS))
     need("/metadata/nodeArrays", NODE_ARRAY_NAME=len(arrays := {a["name"]: a for a in described}) == len(described),
          EXTENSION_UNLISTED=all(name.split(".")[0] in used for name in arrays))
     need("/nodeArrays", JSON_KEY_UNKNOWN=set(values) <= set(arrays), JSON_KEY_MISSING=set(values) >= set(arrays) or "NARR" in lacking)
@@ -119,10 +120,11 @@ def check_case(m, lacking=()):
         need(f"/nodeArrays/{name}", ARRAY_LENGTH=len(array) == n * a["components"],
              JSON_TYPE=a["type"] == "f32" or all(type(x) is int for x in array))
         need(f"/nodeArrays/{name}", NUMBER_RANGE=a["type"] == "f32" or all(low <= x <= high for x in array))
-        origins, of = name == "LUMEN_node.origin", f"/metadata/nodeArrays/{described.index(a)}"
-        need(f"{of}/components", NODE_ARRAY_COMPONENTS=not origins or a["components"] == 1)
-        need(f"{of}/type", ENUM_VALUE=not origins or a["type"] == "u32")
-        for i, x in enumerate(array if origins else ()): need(f"/nodeArrays/{name}/{i}", ENUM_VALUE=x <= 2)
+        words, of = WORDS.get(name.split(".")[0], ("", 0)), f"/metadata/nodeArrays/{described.index(a)}"
+        words = words[1] if words[0] == name else 0  # values of its table; 0: any
+        need(f"{of}/components", NODE_ARRAY_COMPONENTS=not words or a["components"] == 1)
+        need(f"{of}/type", ENUM_VALUE=not words or a["type"] == "u32")
+        for i, x in enumerate(array if words else ()): need(f"/nodeArrays/{name}/{i}", ENUM_VALUE=x < words)
         if a["type"] == "f32": array[:] = [real(x, True, f"/nodeArrays/{name}/{i}") for i, x in enumerate(array)]
     for part, items in (("points", "position"), ("models", "centre")):
         offset, count = (g := m.get(part, {"offset": [0] * (n + 1), items: ()}))["offset"], len(g[items])

@@ -24,6 +24,8 @@ track tube.nrrd out/t.lumen.json
   --label-map halves.nii
 track tube.nrrd out/t.lumen.json --label-map halves.nii
   --label-table table.csv --role 1=bone
+track apart.nrrd out/t.lumen.json --label-map one-label.nrrd
+  --only-labelled true
 track two.nrrd out/t.lumen.json
   --seeds two.json
 track apart.nrrd out/t.lumen.json --seeds one.json
@@ -59,7 +61,7 @@ info header/tube.nhdr
 info header/vessels-only.scn
   --allow-detached .
 info plain.stl
-  --unit cm
+  --unit cm --frame ras
 info truth.swc
   --unit cm
 info case.lumen

@@ -46,7 +46,15 @@ TEST_F(InterruptTest, TheEndOfTheTerminalCountsAsAnInterrupt) {
 
 TEST_F(InterruptTest, AKilledRunLeavesNothingThatTheNextOneDoesNotRemove) {
   EXPECT_EQ(lumenWithSignal(kEndlessTrack, SIGKILL).code, 1000 + SIGKILL);
-  write(".lumen-1-0.lumen", "half of what a killed run wrote");
+  // what a run that is killed while it writes leaves
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    const auto pending = formats::PendingFile::beside(path("tube.lumen"));
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(writer, &status, 0), writer);
+  ASSERT_EQ(entries().size(), 4U);
   ASSERT_EQ(lumen({"phantom", "tube", "tube.nrrd", "--size", "32"}).code, 0);
   EXPECT_EQ(entries(), (Names{"seeds.json", "truth.lumen", "tube.nrrd"}));
 }

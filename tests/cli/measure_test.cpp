@@ -55,6 +55,23 @@ TEST_F(MeasureTest, WritesAFolderOfTablesOneTableOrJson) {
   EXPECT_EQ(file["cases"], Json::parse(lumen({"measure", "tube.lumen", "--json"}).out)["cases"]);
 }
 
+TEST_F(MeasureTest, TablesNameCasesWithoutTheirFolders) {
+  for (const char* const folder : {"Smith^John", "Doe^Jane"}) {
+    std::filesystem::create_directory(path(folder));
+    write(std::string(folder) + "/tube.lumen", read("tube.lumen"));
+  }
+  const std::string first = path("Smith^John/tube.lumen"), second = path("Doe^Jane/tube.lumen");
+  ASSERT_EQ(lumen({"measure", first, second, "--out", "both.csv"}).code, 0);
+  const auto rows = convert::csvRows(read("both.csv"), "both.csv");
+  EXPECT_EQ(rows[1].cells[0], "tube.lumen");
+  EXPECT_EQ(rows.back().cells[0], "tube.lumen (2)");
+  ASSERT_EQ(lumen({"measure", first, "--against", second, "--out", "one.json"}).code, 0);
+  EXPECT_EQ(Json::parse(read("one.json"))["against"], "tube.lumen");
+  for (const char* const file : {"both.csv", "one.json"})
+    for (const char* const name : {"Smith", "Doe"})
+      EXPECT_EQ(read(file).find(name), std::string::npos) << file;
+}
+
 TEST_F(MeasureTest, StationsFollowTheStep) {
   const auto stations = [&](const std::string& step) {
     const Outcome made = lumen({"measure", "tube.lumen", "--step", step, "--json"});

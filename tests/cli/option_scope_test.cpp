@@ -30,7 +30,8 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = [
        {"seeds-frame", "seeds-unit", "seeds-only", "axes", "min-trials", "max-trials",
         "random-seed", "step", "look-ahead", "branch-offset", "max-nodes"})
     companions[name] = {"seeds", "seeds.json"};
-  companions["role"] = {"label-map", "halves.nii"};
+  for (const char* const name : {"role", "only-labelled"})
+    companions[name] = {"label-map", "halves.nii"};
   for (const char* const name : {"centerline-frame", "centerline-unit"})
     companions[name] = {"centerline", "truth.swc"};
   return companions;
@@ -56,6 +57,8 @@ label-map labels.nrrd --mask true
 label-table halves.nii --mask true
 role tube.nrrd
 role labels.nrrd --mask true
+only-labelled apart.nrrd --label-map one-label.nrrd
+only-labelled apart-labels.nrrd --mask true --label-map one-label.nrrd
 volume-index times.nii
 series series
 allow-detached header/tube.nhdr

@@ -6,6 +6,7 @@
 
 #include "formats/case/case_file.h"
 #include "formats/case/node_origin.h"
+#include "formats/case/vessel_system.h"
 #include "tests/cli/run_lumen.h"
 #include "tests/unit/formats/beads.h"
 
@@ -200,6 +201,22 @@ TEST_F(ReachableTest, TheOriginsOfNodesSurviveBothEncodingsAndAFit) {
     ASSERT_TRUE(found) << file;
     EXPECT_EQ(formats::readNodeOrigins(*found), origins) << file;
   }
+}
+
+TEST_F(ReachableTest, SystemsAreShownWhereACaseStatesThemAndSurviveATrim) {
+  formats::Case value = closedCase();
+  put("plain.lumen", value);
+  EXPECT_FALSE(contains(lumen({"info", "plain.lumen"}).out, "system"));
+  EXPECT_FALSE(contains(lumen({"info", "plain.lumen", "--json"}).out, "\"system\""));
+  setNodeSystems(value, std::vector<formats::VesselSystem>(value.tree.nodeCount(),
+                                                           formats::VesselSystem::FalseLumen));
+  put("stated.lumen", value);
+  const Outcome told = lumen({"info", "stated.lumen"});
+  EXPECT_TRUE(contains(told.out, "false-lumen")) << told.out;
+  EXPECT_TRUE(
+      contains(lumen({"info", "stated.lumen", "--json"}).out, "\"system\": \"false-lumen\""));
+  ASSERT_EQ(lumen({"trim", "stated.lumen", "trimmed.lumen", "--min-length", "0.1"}).code, 0);
+  EXPECT_TRUE(contains(lumen({"info", "trimmed.lumen"}).out, "false-lumen"));
 }
 
 TEST_F(ReachableTest, AFitOpensWhatItClosed) {

@@ -14,6 +14,8 @@ constexpr const char* kRefusals = R"(track tube.nrrd out/t.lumen --label-table t
   --label-table does nothing without --label-map
 track tube.nrrd out/t.lumen --role 1=bone
   --role does nothing without --label-map
+track tube.nrrd out/t.lumen --only-labelled true
+  --only-labelled does nothing without --label-map
 track tube.nrrd out/t.lumen --label-map labels.nrrd --role 7=bone
   --role: no label map has the label 7
 track tube.nrrd out/t.lumen --label-map labels.nrrd --role 1=bones
@@ -24,8 +26,10 @@ track tube.nrrd out/t.lumen --only-connected true
   --only-connected does nothing without --seeds or --root
 seeds tube.nrrd out/s.json --step 0.4
   --step: there is no such option
-info truth.swc --frame ras
-  --frame: there is no such option
+info truth.swc --centerline-frame ras
+  --centerline-frame: there is no such option
+info tube.nrrd --frame ras
+  --frame is for meshes or centerlines, and
 info case.lumen --chunks true --from lumen
   --from does nothing with --chunks
 info tracked.lumen --surface true

@@ -146,7 +146,7 @@ constexpr const char* kSamples = R"(convert
   --point-spread 0.1 --smoothing 0.17 --even-blur false --max-nodes 1000 --random-seed 2
   --repeat 1 --corrections corrected.lumen.json --centerline truth.swc --centerline-frame ras
   --centerline-unit cm --mesh Arteries --mask true --label 1 --labels 1=artery
-  --label-map halves.nii --label-table table.csv --role 1=bone --kernel gaussian --kernel-parameter 0.3
+  --label-map halves.nii --label-table table.csv --role 1=bone --only-labelled true --kernel gaussian --kernel-parameter 0.3
   --cohesion-weight 1e-4 --curvature-weight 1e-2 --cohesion-scale 3 --max-subdivisions 2
   --neighbourhood 1 --seam-sweeps 1 --seam-weight 32 --iso-level 0.15 --accuracy 0.5
   --max-distance 30 --min-width 0.03 --edge 0.4r --extend 2r --thickness 0.2r --touching apart
@@ -238,6 +238,8 @@ void ScopeTest::makeVolumes() const {
   make({"check", "tube.nrrd", "case.lumen", "--mask", "whole.nii"});
   make({"convert", "apart.nrrd", "apart.lumen"});
   make({"check", "apart.nrrd", "apart.lumen", "--mask", "apart-labels.nrrd"});
+  make({"convert", "apart.nrrd", "one.lumen", "--seeds", "one.json", "--seeds-only"});
+  make({"check", "apart.nrrd", "one.lumen", "--mask", "one-label.nrrd"});
   write("halves.nii", withTwoHalves(read("whole.nii")));
 }
 

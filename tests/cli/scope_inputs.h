@@ -46,6 +46,7 @@ struct Effect {
 /// | tracked.lumen, case.lumen, tree.lumen | its case with points, with models too, without both |
 /// | moving-case.lumen.json, moving-tracked.lumen.json | case.lumen and tracked.lumen with a motion |
 /// | two.nrrd, two.json, two.lumen | two vessels that touch, and clicks on them |
+/// | one-label.nrrd | one of the vessels of apart.nrrd as a label |
 /// | apart.nrrd, apart.lumen, apart-labels.nrrd, apart.stl | two vessels that are apart, in two trees |
 /// | apart.json, one.json | clicks on both of them, and on one |
 /// | series | a folder of DICOM: the tube as series 1, the other two vessels as series 2 |

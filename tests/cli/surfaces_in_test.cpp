@@ -228,6 +228,54 @@ TEST_F(LabelsInTest, AnswersStateTheRolesOfLabelsAndTheirSources) {
   EXPECT_EQ(branch(), "rib_left_1");
 }
 
+TEST_F(LabelsInTest, TheAnswerIsAnInventoryOfLabels) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
+  ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);
+  write("table.csv", "value,name,role\n1,ica,artery\n");
+  std::vector<std::string> line = {"convert",     "tube.nrrd",      "named.lumen",
+                                   "--label-map", "labels.nrrd",    "--label-table",
+                                   "table.csv",   "--only-labelled"};
+  const Outcome text = lumen(line);
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_TRUE(contains(text.out, "label 1     ica: artery (table.csv), ")) << text.out;
+  EXPECT_TRUE(contains(text.out, " mm) mm") || contains(text.out, ") mm, 9") ||
+              contains(text.out, ") mm, 100"))
+      << text.out;
+  EXPECT_FALSE(contains(text.out, "no label")) << text.out;
+  line.emplace_back("--json");
+  const Json answer = Json::parse(lumen(line).out);
+  const Json& label = answer["label_maps"][0]["labels"][0];
+  EXPECT_EQ(label["branches"], Json::array({"ica"}));
+  EXPECT_GT(label["held_share"], 0.9);
+  EXPECT_GT(label["length_mm"], 5);
+  EXPECT_LE(label["least_radius_mm"], label["greatest_radius_mm"]);
+  EXPECT_EQ(answer["unlabelled"]["branches"], Json::array());
+  // a label of no vessel takes the vessel away, and says how much
+  line.insert(line.end(), {"--role", "1=bone"});
+  const Outcome none = lumen(line);
+  EXPECT_EQ(none.code, 1) << none.err;
+}
+
+TEST_F(LabelsInTest, SeedsGetTheNamesAndThePriorOfMaps) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
+  ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);
+  write("table.csv", "value,name,role\n1,ica,artery\n");
+  for (const bool isOnly : {false, true}) {
+    std::vector<std::string> line = {"convert",     "tube.nrrd",     "named.lumen",
+                                     "--seeds",     "seeds.json",    "--label-map",
+                                     "labels.nrrd", "--label-table", "table.csv"};
+    if (isOnly) line.emplace_back("--seeds-only");
+    const Outcome done = lumen(line);
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(formats::readCaseFile(path("named.lumen"))->tree.branches[0].label, "ica");
+    line.insert(line.end(), {"--role", "1=bone"});
+    const Outcome refused = lumen(line);
+    EXPECT_EQ(refused.code, 1) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "a label map states that it lies in no vessel"))
+        << refused.err;
+  }
+}
+
 TEST_F(LabelsInTest, LabelMapsThatCannotBeAreMistakes) {
   ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
   ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);
@@ -243,8 +291,6 @@ TEST_F(LabelsInTest, LabelMapsThatCannotBeAreMistakes) {
                        "twice.csv: line 2: names the label 1 twice"));
   EXPECT_TRUE(contains(refusal({"--label-table", "topcow"}, 2),
                        "--label-table does nothing without --label-map"));
-  EXPECT_TRUE(contains(refusal({"--label-map", "labels.nrrd", "--seeds", "seeds.json"}, 2),
-                       "exclude one another"));
   EXPECT_TRUE(contains(refusal({"--label-map", "truth.lumen"}, 3), "expected a volume of labels"));
   // the labels of another place
   std::string text = read("labels.nrrd");

@@ -87,7 +87,12 @@ void vtpLines(std::span<const std::byte> input) {
   check([&] { return convert::parseVtpCenterline(textOf(input), "a.vtp"); }, false);
 }
 
-constexpr Target kTargets[] = {{"swc", swc}, {"tre", tre}, {"vtp_lines", vtpLines}};
+void vtkLines(std::span<const std::byte> input) {
+  check([&] { return convert::parseVtkCenterline(textOf(input), "a.vtk"); }, false);
+}
+
+constexpr Target kTargets[] = {
+    {"swc", swc}, {"tre", tre}, {"vtp_lines", vtpLines}, {"vtk_lines", vtkLines}};
 
 }  // namespace
 

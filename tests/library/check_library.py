@@ -209,9 +209,11 @@ def extracting(place):
 
 def leaving(place):
     """Leftovers of a killed `library index` are no fault, and no part of the next revision."""
-    left = place.folder / "lib/.lumen-4711-0"
+    left = place.folder / "lib/.lumen-4711-0000000000"
     left.mkdir()
     (left / "page.html").write_text("half")
+    (left / ".lumen-temporary").write_text("lumen writes in this folder, and removes it with all in it: when it is done, or else with the "
+                                           "next file that it writes beside it.\n")
     place.run("library", "check", "lib")
     place.add("--id", "after-a-kill")
     expect(not left.exists(), "what a killed writer left is in the next revision")

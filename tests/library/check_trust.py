@@ -130,13 +130,15 @@ def remembered(maker, library):
     both = [subprocess.Popen([maker.program, "library", *map(str, words[:-1]), maker.folder / "both.json"],
                              stdout=subprocess.DEVNULL) for _ in range(2)]
     expect("two at once", [p.wait() for p in both], [0, 0])
-    # a revision is known once its signature is trusted, even if its files are not whole
+    # a revision that is not whole was not verified, so the whole one before it still is
     broken, late = maker.folder / "broken", maker.folder / "late.json"
     shutil.copytree(library, broken)
     (broken / "data/a/case.lumen").unlink()
     expect("a newer one with a file missing", answer(maker, "verify", broken, "--key", maker.public, "--state", late)[0], 3)
-    code, told = answer(maker, *older, "--state", late)
-    expect("the older one after it", [f["number"] for f in told["faults"]], [764])
+    expect("memory of it", json.loads(late.read_text())["libraries"] if late.exists() else {}, {})
+    expect("the older one after it", answer(maker, *older, "--state", late)[0], 0)
+    expect("the newer one, whole", answer(maker, "verify", library, "--key", maker.public, "--state", late)[0], 0)
+    expect("the older one after that", [f["number"] for f in answer(maker, *older, "--state", late)[1]["faults"]], [764])
 
 
 def resumed(maker, library):

@@ -32,6 +32,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/motion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/option_scope_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/paths_in_outputs_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/pushed_tool.cpp
@@ -40,6 +41,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/scope_inputs.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/stated_facts_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/surfaces_in_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/tool_test.cpp

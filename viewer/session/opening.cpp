@@ -57,9 +57,10 @@ convert::MeshFile meshOf(const Opening& opening, const engine::VolumeArguments& 
   const engine::FileFormat& format = engine::inputFormat(opening.file, "");
   convert::MeshFile mesh =
       engine::loadMesh(opening.file, format, {{}, arguments.allowDetached}, progress).file;
-  const double unit = arguments.options().unit.value_or(mesh.unitMm);
-  if (unit > 0)
-    for (Eigen::Vector3d& p : mesh.mesh.position) p *= unit;
+  const std::optional<double> stated = arguments.options().unit;
+  const double scale = stated ? mesh.scaleFor(*stated) : mesh.unitMm;
+  if (scale > 0)
+    for (Eigen::Vector3d& p : mesh.mesh.position) p *= scale;
   mesh.unitMm = 1;
   return mesh;
 }

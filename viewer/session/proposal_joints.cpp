@@ -10,6 +10,7 @@
 #include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
+#include "formats/case/vessel_system.h"
 #include "viewer/session/proposals.h"
 
 namespace lumen::viewer {
@@ -52,7 +53,8 @@ Case readyToGrow(const Case& known, std::vector<std::string>& dropped) {
   Case out = known;
   if (!out.points) out.points.emplace().offset.assign(known.tree.nodeCount() + 1, 0);
   std::erase_if(out.nodeArrays, [&](const formats::NodeArray& array) {
-    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray)
+    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray ||
+        array.name == formats::kSystemArray)
       return false;
     dropped.push_back(array.name);
     return true;

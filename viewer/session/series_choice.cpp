@@ -27,6 +27,10 @@ Json seriesJson(const convert::DicomSeries& series) {
           {"fault", isSound ? Json(nullptr) : Json(printable(series.fault))}};
 }
 
+[[noreturn]] void refuseEnded() {
+  throw Conflict("files of another page have come meanwhile; drop these again");
+}
+
 }  // namespace
 
 std::string seriesLabel(const convert::DicomSeries& series, std::size_t number) {
@@ -36,33 +40,51 @@ std::string seriesLabel(const convert::DicomSeries& series, std::size_t number) 
 
 void SeriesChoice::take(std::int64_t batch, const std::string& name, std::uint64_t bytes,
                         std::uint64_t mostBytes, const std::function<std::string()>& read) {
-  std::shared_ptr<DroppedFiles> files;
   {
     const std::lock_guard lock(m_mutex);
-    if (batch != m_batchNumber || !m_batch) {
-      m_batch = std::make_shared<DroppedFiles>();
-      m_batchNumber = batch;
-      m_files = 0;
-      m_bytes = 0;
-    }
-    if (m_files == kMostFiles)
+    if (m_ended.contains(batch)) refuseEnded();
+    Batch& own = m_batches[batch];
+    own.last = ++m_taken;
+    if (!own.files) own.files = std::make_shared<DroppedFiles>();
+    if (own.count == kMostFiles)
       refuse("a series is chosen among at most " + std::to_string(kMostFiles) + " files");
-    if (bytes > mostBytes || m_bytes > mostBytes - bytes)
+    if (bytes > mostBytes || own.bytes > mostBytes - bytes)
       refuse("files of DICOM may have " + std::to_string(mostBytes) +
              " bytes in all; name their folder on the command line");
-    ++m_files;
-    m_bytes += bytes;
-    files = m_batch;
+    makeRoom(bytes, mostBytes);
+    ++own.count;
+    own.bytes += bytes;
   }
   std::string body = read();
   const std::lock_guard lock(m_mutex);
-  if (files == m_batch) files->add(name, std::move(body));
+  const auto own = m_batches.find(batch);
+  if (own == m_batches.end()) refuseEnded();
+  own->second.files->add(name, std::move(body));
+}
+
+void SeriesChoice::makeRoom(std::uint64_t bytes, std::uint64_t mostBytes) {
+  const auto isFull = [&] {
+    std::uint64_t sum = bytes;
+    for (const auto& [number, one] : m_batches) sum += one.bytes;
+    return m_batches.size() > kMostBatches || sum > mostBytes;
+  };
+  while (isFull() && m_batches.size() > 1) {
+    const auto quietest = std::min_element(
+        m_batches.begin(), m_batches.end(),
+        [](const auto& a, const auto& b) { return a.second.last < b.second.last; });
+    m_ended.insert(quietest->first);
+    m_batches.erase(quietest);
+  }
 }
 
 std::shared_ptr<const DroppedFiles> SeriesChoice::end(std::int64_t batch) {
   const std::lock_guard lock(m_mutex);
-  if (!m_batch || batch != m_batchNumber) refuse("no files of that number have come");
-  return std::exchange(m_batch, nullptr);
+  if (m_ended.contains(batch)) refuseEnded();
+  const auto own = m_batches.find(batch);
+  if (own == m_batches.end()) refuse("no files of that number have come");
+  const std::shared_ptr<const DroppedFiles> files = std::move(own->second.files);
+  m_batches.erase(own);
+  return files;
 }
 
 void SeriesChoice::offer(Opening folder, convert::DicomListing listing) {

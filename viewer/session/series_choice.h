@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include "converters/io/volume/dicom/dicom_series.h"
@@ -22,13 +24,17 @@ namespace lumen::viewer {
 class SeriesChoice {
 public:
   static constexpr std::size_t kMostFiles = 20000;  ///< limit: of one batch
+  static constexpr std::size_t kMostBatches = 8;    ///< limit: of pages that send at one time
 
-  /// Takes one more file of the batch with that number; another number begins a new batch. `name` is
-  /// a label; `read` gives its bytes, at most `bytes`. Throws Error(Usage) for more than `mostBytes`
-  /// in a batch, or more than kMostFiles, and as `read`.
+  /// Takes one more file of the batch with that number; another number begins a new batch beside it.
+  /// `name` is a label; `read` gives its bytes, at most `bytes`. Batches have `mostBytes` in all: the
+  /// one that has waited longest for a file ends where they have more, or are more than kMostBatches.
+  /// Throws Error(Usage) for more than `mostBytes` in a batch, or more than kMostFiles, Conflict for
+  /// a batch that has ended for others, and as `read`.
   void take(std::int64_t batch, const std::string& name, std::uint64_t bytes,
             std::uint64_t mostBytes, const std::function<std::string()>& read);
-  /// The files of that batch, which ends. Throws Error(Usage) if there is none.
+  /// The files of that batch, which ends. Throws Error(Usage) if there is none, and Conflict if it
+  /// has ended for others.
   std::shared_ptr<const DroppedFiles> end(std::int64_t batch);
 
   /// Pages choose among these series of `folder` from now on.
@@ -45,11 +51,19 @@ public:
   [[nodiscard]] Tagged picture(std::size_t index) const;
 
 private:
+  /// Files that a page has sent.
+  struct Batch {
+    std::shared_ptr<DroppedFiles> files;
+    std::size_t count = 0;
+    std::uint64_t bytes = 0, last = 0;  ///< `last`: the number of its last file among all
+  };
+  /// Ends batches but that of the last file until `bytes` more fit.
+  void makeRoom(std::uint64_t bytes, std::uint64_t mostBytes);
+
   mutable std::mutex m_mutex;  ///< guards all that follow
-  std::shared_ptr<DroppedFiles> m_batch;
-  std::int64_t m_batchNumber = -1;
-  std::size_t m_files = 0;
-  std::uint64_t m_bytes = 0, m_revision = 0;
+  std::map<std::int64_t, Batch> m_batches;
+  std::set<std::int64_t> m_ended;
+  std::uint64_t m_taken = 0, m_revision = 0;
   Opening m_folder{"", {}};  ///< without a name: there is none
   convert::DicomListing m_listing;
 };

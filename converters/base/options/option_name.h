@@ -28,6 +28,7 @@ struct OptionNames {
   OptionName crop{"crop"};
   OptionName volume{"volume"};
   // seeds and tracking
+  OptionName root{"root"};
   OptionName seeds{"seeds"};
   OptionName dark{"dark"};
   // pictures, and meshes that are written

@@ -15,6 +15,7 @@
 #include "converters/draw/picture/trace.h"
 #include "converters/io/mesh/vertex_streams.h"
 #include "converters/judge/check/check.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
@@ -61,8 +62,33 @@ Legend makeLegend(const ColorScale& scale) {
   return legend;
 }
 
+/// The systems that a case has, each with its colour.
+Legend makeSystemLegend(const std::vector<formats::VesselSystem>& systems,
+                        const ColorScale& scale) {
+  Legend legend;
+  legend.title = "system";
+  SurfaceMesh steps;
+  for (std::size_t i = 0; i < formats::kVesselSystemCount; ++i) {
+    const auto system = static_cast<formats::VesselSystem>(i);
+    if (std::find(systems.begin(), systems.end(), system) == systems.end()) continue;
+    legend.values.emplace_back(formats::kVesselSystemNames[i]);
+    steps.branch.push_back(static_cast<std::uint32_t>(steps.systems.size()));
+    steps.systems.push_back(system);
+  }
+  for (const Light& c : computeLight(steps, scale))
+    legend.colours.push_back({encodeSrgb(c[0]), encodeSrgb(c[1]), encodeSrgb(c[2])});
+  return legend;
+}
+
 /// Colours of a mesh with a vertex at each node.
-Colours computeColours(const formats::CenterlineTree& tree, ColorBy by) {
+Colours computeColours(const formats::Case& source, ColorBy by) {
+  const formats::CenterlineTree& tree = source.tree;
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(source);
+  if (by == ColorBy::None && !systems.empty()) by = ColorBy::System;
+  if (by == ColorBy::System && systems.empty())
+    throw invalidInput(kOption.colour.shown() +
+                       " system: the case states no system of its vessels, which comes with a "
+                       "label map; expected vessel, branch or radius");
   if (by == ColorBy::None)
     return {{tree.nodeCount(), Light(kVessel[0], kVessel[1], kVessel[2])}, {}};
   if (by == ColorBy::Confidence && tree.inlierRate.empty())
@@ -74,7 +100,9 @@ Colours computeColours(const formats::CenterlineTree& tree, ColorBy by) {
   nodes.radius = tree.radius;
   nodes.branch = tree.branch;
   nodes.confidence = tree.inlierRate;
+  nodes.systems = systems;
   const ColorScale scale = measureColorScale(nodes, by);
+  if (by == ColorBy::System) return {computeLight(nodes, scale), makeSystemLegend(systems, scale)};
   return {computeLight(nodes, scale), by == ColorBy::Branch ? Legend{} : makeLegend(scale)};
 }
 
@@ -117,7 +145,7 @@ Picture CasePainter::background(const PictureOptions& options, const Camera& cam
 
 Picture CasePainter::draw(const PictureOptions& options, Progress& progress) const {
   const formats::CenterlineTree& tree = m_source.tree;
-  const Colours colours = computeColours(tree, options.colour);
+  const Colours colours = computeColours(m_source, options.colour);
   const Framing framing = makeFraming(options);
   const Camera camera = cameraFor(tree, framing);
   const Camera fine = camera.scaled(kSamples);

@@ -18,7 +18,8 @@ namespace lumen::convert {
 
 struct PictureOptions {
   View view = View::Best;
-  ColorBy colour = ColorBy::None;  ///< none: all vessels have that of a vessel
+  /// None: all vessels have that of a vessel, or that of their system where the case states systems.
+  ColorBy colour = ColorBy::None;
   int width = 1000, height = 800;  ///< pixels, each 16 or more
   double turn = 0;        ///< radians about the picture's upright axis: from in front to the left
   bool allTurns = false;  ///< scale and centre are those that hold the vessels at any turn

@@ -79,9 +79,14 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink) {
 
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink) {
   const int scale = letterScale(picture), margin = 8 * scale;
-  int least = -kLetterWidth * scale;  // width of the values, with a letter's room between two
-  for (const std::string& value : legend.values)
+  const auto count = static_cast<int>(legend.values.size());
+  const bool isNamed = legend.values.size() == legend.colours.size();  // a name below each colour
+  int least = -kLetterWidth * scale, widest = 0;  // with a letter's room between two values
+  for (const std::string& value : legend.values) {
     least += textWidth(value, scale) + kLetterWidth * scale;
+    widest = std::max(widest, textWidth(value, scale) + kLetterWidth * scale);
+  }
+  if (isNamed) least = count * widest;
   const int length = std::max({picture.width / 4, textWidth(legend.title, scale), least});
   const int x0 = picture.width - margin - length;
   const int bottom = picture.height - 4 * scale, values = bottom - kLetterHeight * scale;
@@ -93,9 +98,8 @@ void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink) {
   }
   picture.text(x0, title, scale, legend.title, ink);
   for (std::size_t i = 0; i < legend.values.size(); ++i) {
-    const int width = textWidth(legend.values[i], scale);
-    const int room = length - width,
-              steps = std::max(1, static_cast<int>(legend.values.size()) - 1);
+    const int room = isNamed ? length : length - textWidth(legend.values[i], scale);
+    const int steps = isNamed ? count : std::max(1, count - 1);
     picture.text(x0 + room * static_cast<int>(i) / steps, values, scale, legend.values[i], ink);
   }
 }

@@ -71,24 +71,35 @@ Markup branchSection(const ReportFacts& facts) {
   if (tree.branches.empty())
     return section("branches", "Vessels", paragraph("This case has no vessels."));
   const std::vector<std::size_t> numbers = branchNumbers(tree);
-  convert::Table table("branch-table", {{"no."},
-                                        {"vessel", false},
-                                        {"kind", false},
-                                        {"from"},
-                                        {"nodes"},
-                                        {"length mm"},
-                                        {"radius mm"},
-                                        {"least"},
-                                        {"greatest"},
-                                        {"confidence"},
-                                        {"why tracking stopped", false}});
+  const bool hasSystems = !facts.info.branches.front().system.empty();
+  std::vector<convert::Column> columns = {{"no."},
+                                          {"vessel", false},
+                                          {"kind", false},
+                                          {"from"},
+                                          {"nodes"},
+                                          {"length mm"},
+                                          {"radius mm"},
+                                          {"least"},
+                                          {"greatest"},
+                                          {"confidence"},
+                                          {"why tracking stopped", false}};
+  if (hasSystems) columns.insert(columns.begin() + 3, {"system", false});
+  convert::Table table("branch-table", columns);
   for (const std::uint32_t b : convert::inTreeOrder(tree)) {
     const BranchInfo& info = facts.info.branches[b];
-    table.row({text(std::to_string(numbers[b])), name(info.label), text(info.kind),
-               text(parentText(tree, tree.branches[b], numbers)), text(std::to_string(info.nodes)),
-               text(fixedText(info.length, 1)), text(fixedText(info.radius.mean, 2)),
-               text(fixedText(info.radius.min, 2)), text(fixedText(info.radius.max, 2)),
-               text(fixedText(info.inlierRate, 2)), text(stopText(info.stopReason))});
+    std::vector<Markup> cells = {text(std::to_string(numbers[b])),
+                                 name(info.label),
+                                 text(info.kind),
+                                 text(parentText(tree, tree.branches[b], numbers)),
+                                 text(std::to_string(info.nodes)),
+                                 text(fixedText(info.length, 1)),
+                                 text(fixedText(info.radius.mean, 2)),
+                                 text(fixedText(info.radius.min, 2)),
+                                 text(fixedText(info.radius.max, 2)),
+                                 text(fixedText(info.inlierRate, 2)),
+                                 text(stopText(info.stopReason))};
+    if (hasSystems) cells.insert(cells.begin() + 3, text(info.system));
+    table.row(cells);
   }
   Markup content = paragraph(
       "Each vessel stands before those that leave it. From: the number of the vessel that it "

@@ -43,6 +43,7 @@ Json branchJson(const convert::BranchInfo& branch) {
   json["radius_mm"] = branch.nodes > 0 ? radiusJson(branch.radius) : Json(nullptr);
   json["stop_reason"] = branch.stopReason;
   json["inlier_rate"] = branch.inlierRate ? jsonNumber(*branch.inlierRate) : Json(nullptr);
+  if (!branch.system.empty()) json["system"] = branch.system;
   return json;
 }
 
@@ -54,6 +55,11 @@ std::string branchTable(const convert::CaseInfo& info) {
     rows.push_back({b.label, b.kind, std::to_string(b.nodes), fixedText(b.length, 1),
                     fixedText(b.radius.mean, 3), fixedText(b.radius.min, 3),
                     fixedText(b.radius.max, 3), fixedText(b.inlierRate, 2), b.stopReason});
+  for (std::size_t b = 0; b < info.branches.size(); ++b)
+    if (const std::string& system = info.branches[b].system; !system.empty())
+      rows[b + 1].insert(rows[b + 1].begin() + 2, system);
+  if (rows.size() > 1 && rows[1].size() > rows[0].size())
+    rows[0].insert(rows[0].begin() + 2, "system");
   return alignColumns(rows);
 }
 

@@ -9,6 +9,7 @@
 
 #include "converters/engine/answers/answer_text.h"
 #include "converters/io/labels/label_meaning.h"
+#include "converters/operations/label_inventory.h"
 #include "converters/operations/source.h"
 
 namespace lumen::engine {
@@ -16,22 +17,19 @@ namespace lumen::engine {
 /// The labels that voxels have, each with the number of them.
 using CountedLabels = std::vector<std::pair<convert::LabelMeaning, std::size_t>>;
 
-struct LabelledMap {
-  std::string name;
-  CountedLabels labels;
-};
-
 CountedLabels describeLabels(const operations::LabelPart& map);
-std::vector<LabelledMap> describeMaps(const std::vector<operations::LabelPart>& maps);
 
 /// value, name, role, from, voxels of each label.
 Json labelsJson(const CountedLabels& labels);
-/// name and labels of each map.
-Json mapsJson(const std::vector<LabelledMap>& maps);
+/// name and labels of each map, with what the case has of each label.
+Json inventoryJson(const operations::LabelInventory& inventory);
+/// The branches on no label and their length; null without maps.
+Json unlabelledJson(const operations::LabelInventory& inventory);
 
 /// A line for each label: its value, name, role, the sources of both, and the number of its voxels.
 std::string labelLines(const CountedLabels& labels);
-/// The same of all maps, each under its name; empty without any.
-std::string mapLines(const std::vector<LabelledMap>& maps);
+/// Lines for each map: the vessels by its labels, with what was found of each; those that were not
+/// found, and labels of no vessel as bright as vessels. Empty without any.
+std::string inventoryLines(const operations::LabelInventory& inventory);
 
 }  // namespace lumen::engine

@@ -88,13 +88,12 @@ public:
         isCase ? loadCase(from, to, contents, context) : loadNew(from, options, contents, context);
     if (!isCase || contents.input == kUnfittedCase)
       options.models = m_options.modelOptions(source, *context.table, context.progress);
-    const std::vector<LabelledMap> maps = describeMaps(source.maps);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
     context.progress.check();
     const std::optional<convert::Reach> reach = convert::measureReach(made.value, context.progress);
     convert::warnOfClosed(reach, context.progress);
-    return report(made, reach, maps,
+    return report(made, reach,
                   to.writeCase(made.value, m_output, m_options.output, context.progress));
   }
 
@@ -157,20 +156,22 @@ private:
 
   [[nodiscard]] Answer report(const operations::MadeCase& made,
                               const std::optional<convert::Reach>& reach,
-                              const std::vector<LabelledMap>& maps,
                               const std::optional<convert::SurfaceReport>& surface) const {
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(reach);
     json["surface"] = surfaceJson(surface, made.value);
-    json["mesh"] = meshFrameJson(made.meshFrame);
+    json["mesh"] = frameJson(made.meshFrame);
+    json["centerline"] = frameJson(made.centerlineFrame);
     json["repeats"] = repetitionJson(made.repetition, made.value);
     json["corrections"] = replayedJson(made.replayed);
-    json["label_maps"] = mapsJson(maps);
+    json["label_maps"] = inventoryJson(made.labels);
+    json["unlabelled"] = unlabelledJson(made.labels);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
-                meshFrameLine(made.meshFrame) + convert::reachLine(reach) +
-                surfaceLines(surface, made.value) + repetitionLines(made.repetition) +
-                mapLines(maps) + endLines(made.remarks)};
+                frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
+                convert::reachLine(reach) + surfaceLines(surface, made.value) +
+                repetitionLines(made.repetition) + inventoryLines(made.labels) +
+                endLines(made.remarks)};
   }
 
   InputFile m_input;

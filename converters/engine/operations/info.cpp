@@ -48,6 +48,7 @@ public:
             "and overlaps, and its warnings. It takes as long as the mesh: seconds for most cases")
         .forInputs(kFittedCase);
     addVolumeRows(table, m_volume);
+    addFrameRow(table, m_frame);
     table.group("Labels");
     addLabelTableRows(table, m_labels);
     for (const char* const option : {"label-table", "role"})
@@ -84,7 +85,8 @@ public:
       return {meshInfoJson(info), meshInfoText(info), 0, true};
     }
     if (from.kind == FormatKind::Centerline) {
-      const LoadedCenterline loaded = loadCenterline(m_input, from, m_volume, {}, context.progress);
+      const LoadedCenterline loaded =
+          loadCenterline(m_input, from, m_volume, m_frame, context.progress);
       return {centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true};
     }
     return describeWithSurface(from.readCase(m_input), context);
@@ -92,8 +94,11 @@ public:
 
 private:
   [[nodiscard]] convert::MeshFile readMesh(const FileFormat& from) const {
-    return from.readScene != nullptr ? from.readScene(m_input, {{}, m_volume.allowDetached})
-                                     : from.readMesh(m_input);
+    convert::MeshFile file = from.readScene != nullptr
+                                 ? from.readScene(m_input, {{}, m_volume.allowDetached})
+                                 : from.readMesh(m_input);
+    stateAxes(file, m_frame);
+    return file;
   }
 
   [[nodiscard]] VolumeInfo describe(const FileFormat& from, Progress& progress) const {
@@ -101,8 +106,12 @@ private:
     convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     VolumeInfo info = describeVolume(from.readVolumeHeader(m_input, m_volume.options(), progress),
                                      volume, progress);
-    if (convert::holdsLabels(volume))
-      info.values->labels = describeLabelled(std::move(volume), m_labels.table(m_input, progress));
+    std::optional<convert::SettledLabels> settled = convert::settleLabels(volume, {});
+    if (!convert::holdsLabels(settled ? settled->voxels : volume)) return info;
+    if (settled) volume = takeSettled(*std::move(settled), m_input.name(), progress);
+    const std::int64_t layer = m_volume.volumeIndex.value_or(0);
+    info.values->labels =
+        describeLabelled(std::move(volume), m_labels.table(m_input, progress, layer));
     return info;
   }
 
@@ -146,6 +155,7 @@ private:
   bool m_voxels = false;
   bool m_surface = false;
   VolumeArguments m_volume;
+  std::string m_frame;
   MaskArguments m_labels;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen measure: the geometry of cases as tables.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -32,6 +33,21 @@ MeasureOutput outputOf(const std::string& name) {
   if (lower.ends_with(".csv")) return MeasureOutput::Csv;
   if (lower.ends_with(".json")) return MeasureOutput::Json;
   return MeasureOutput::Folder;
+}
+
+/// The name of a file without its folders, which may be a person's.
+std::string baseName(const InputFile& file) {
+  return std::filesystem::path(file.name()).filename().string();
+}
+
+/// The name of a case in tables: that of its file, with a number where another has it already.
+std::string tableName(const InputFile& file, const std::vector<convert::MeasuredCase>& others) {
+  const std::string name = baseName(file);
+  std::string free = name;
+  const auto isTaken = [&](const convert::MeasuredCase& other) { return other.name == free; };
+  for (int i = 2; std::any_of(others.begin(), others.end(), isTaken); ++i)
+    free = name + " (" + std::to_string(i) + ")";
+  return free;
 }
 
 /// The tables on disk, under the name of --out.
@@ -126,7 +142,7 @@ public:
       const formats::Case source =
           atTime(readCase(file), m_time, file.name(), *context.table, context.progress);
       const operations::CaseMeasures measures = measure(file.name(), source, context);
-      measured.push_back({file.name(), measures.tables});
+      measured.push_back({tableName(file, measured), measures.tables});
       text += measureText(file.name(), source, measures);
       if (m_before.empty()) continue;
       const auto changes = changesOf(source, measures, context);
@@ -134,9 +150,13 @@ public:
       auto& tables = measured.back().tables;
       tables.insert(tables.end(), changes.begin(), changes.end());
     }
-    Json json = measureJson(measured, m_before.name());
+    Json json = measureJson(measured, baseName(m_before));
     json["files"] = Json::array();
-    json["files"] = files.write(measured, json);
+    Json written = files.write(measured, json);
+    // the answer names files as the command does
+    for (std::size_t i = 0; i < m_cases.size(); ++i) json["cases"][i]["case"] = m_cases[i].name();
+    if (!m_before.empty()) json["against"] = m_before.name();
+    json["files"] = std::move(written);
     text += "Lengths in mm, curvatures in 1/mm, volumes in mm3; +- is half of the 95 % interval.\n";
     return {std::move(json), std::move(text), 0, true};
   }

@@ -36,7 +36,8 @@ const std::map<std::string, View> kViews = {
 const std::map<std::string, ColorBy> kColours = {{"vessel", ColorBy::None},
                                                  {"branch", ColorBy::Branch},
                                                  {"radius", ColorBy::Radius},
-                                                 {"confidence", ColorBy::Confidence}};
+                                                 {"confidence", ColorBy::Confidence},
+                                                 {"system", ColorBy::System}};
 constexpr int kLeastPixels = 16, kMostPixels = 4096;  // across and down: 1.6 GB of samples
 constexpr int kMostFrames = 360;                      // one for each degree
 
@@ -120,7 +121,9 @@ public:
     table.choice("view", picture.view, kViews,
                  "From which side of the patient; best: along the direction in which the "
                  "vessels extend least");
-    table.choice(kOption.colour.name, picture.colour, kColours, "Quantity that the colours show")
+    table
+        .choice(kOption.colour.name, picture.colour, kColours,
+                "Quantity that the colours show; vessel: the system where the case states one")
         .alsoCalled("color");
     table
         .add(

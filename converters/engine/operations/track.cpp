@@ -56,23 +56,25 @@ public:
     options.vessels = m_track.vessels();
     if (!m_track.seeds.empty()) options.vessels.seeds = loadSeeds(m_track);
     options.repeats = m_track.repeats;
+    options.isOnlyLabelled = m_labels.isOnlyLabelled;
     requireWritable(m_output, convert::ContentKind::Case);
 
     operations::Source source;
     source.name = m_input.name();
     source.grey = loadVolume(m_input, from, m_volume, context.progress);
     source.maps = loadLabelMaps(m_labels, context.progress);
-    const std::vector<LabelledMap> maps = describeMaps(source.maps);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
     to.writeCase(made.value, m_output, {}, context.progress);
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(std::nullopt);
     json["repeats"] = repetitionJson(made.repetition, made.value);
-    json["label_maps"] = mapsJson(maps);
+    json["label_maps"] = inventoryJson(made.labels);
+    json["unlabelled"] = unlabelledJson(made.labels);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + convert::reachLine(std::nullopt) +
-                repetitionLines(made.repetition) + mapLines(maps) + endLines(made.remarks)};
+                repetitionLines(made.repetition) + inventoryLines(made.labels) +
+                endLines(made.remarks)};
   }
 
 private:

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/number_text.h"
 #include "converters/base/run_program.h"
 #include "converters/base/vectors.h"
@@ -75,9 +76,7 @@ void writeComplex(const SurfaceMesh& surface, const std::filesystem::path& path)
     text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) +
             "\n";
   text += "0\n0\n";
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file.flush()) throw failed("a temporary file cannot be written");
+  writeNewFile(text, path, "temporary file for TetGen, in the folder of TMPDIR");
 }
 
 /// Rows of numbers behind a header that counts them; false if the file is something else.

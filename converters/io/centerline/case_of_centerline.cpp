@@ -200,7 +200,7 @@ private:
 
   [[nodiscard]] Sample sampleAt(std::int32_t index) const {
     const CenterlinePoint& point = m_file.points[std::size_t(index)];
-    if (!(point.radius > 0))
+    if (!(static_cast<float>(point.radius) > 0))  // as the case holds it
       throw invalidInput(m_name +
                          ": its points have no radii; expected a centerline with radii, "
                          "such as VMTK's MaximumInscribedSphereRadius");

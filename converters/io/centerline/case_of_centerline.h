@@ -6,6 +6,7 @@
 #include <string>
 
 #include "converters/base/field_word.h"
+#include "converters/geometry/unit_guess.h"
 #include "converters/io/centerline/centerline_file.h"
 #include "formats/case/case.h"
 
@@ -27,13 +28,10 @@ struct CenterlineExtent {
 /// Extent in the file's unit. The file has points.
 CenterlineExtent measureExtent(const CenterlineFile& file);
 
-/// The unit, mm, in which the lengths of the file are plausible for vessels: millimetres if
-/// possible, else micrometres or metres.
-double plausibleUnit(const CenterlineFile& file);
-
 /// Brings positions and radii to mm in LPS, by `reading`, else by the file's own statement, else by
-/// plausibleUnit() and LPS; a remark reports a guessed unit. Returns the unit, mm.
-double toPatientSpace(CenterlineFile& file, const CenterlineReading& reading);
+/// the size of the vessels (unit_guess.h) and as LPS; remarks report a guessed unit that may be wrong,
+/// and axes that are turned. Returns the unit and where it comes from.
+ReadFrame toPatientSpace(CenterlineFile& file, const CenterlineReading& reading);
 
 /// A tree of nodes whose origin is `given`, without wall points: fit() creates them from the radii.
 /// `file` is in mm and LPS. One branch for each chain, labelled as its vessel, else b000, b001 and

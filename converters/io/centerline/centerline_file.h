@@ -36,6 +36,7 @@ struct CenterlineFile {
   double unit = 0;                                 ///< mm; 0: the file states none
   CenterlineAxes axes = CenterlineAxes::Unknown;   ///< axes as stated by the file
   bool isOfLumen = false;                          ///< points are the nodes of a case
+  bool isOfSimVascular = false;                    ///< lengths are cm, if that is plausible
   std::vector<std::string> remarks;                ///< assumptions and omissions, sentences
 
   [[nodiscard]] std::size_t radiiMissing() const;

@@ -49,16 +49,19 @@ CenterlineFile parseTre(std::string_view text, const std::string& name);
 /// Reads a file of at most 64 MiB as parseTre() does.
 CenterlineFile readTre(const InputFile& file);
 
-// Reader of centerlines of VMTK and others as lines of VTK (`.vtp`).
+// Reader of centerlines of VMTK and others as lines of VTK (`.vtp`, and `.vtk` of the legacy format).
 
-/// The lines of a file as one tree (join_curves.h): lines from a root to every tip share their
+/// The lines of a file as trees (tree_of_lines.h): lines from a root to every tip share their
 /// trunk, by their points or their course; tracts cut by vmtkbranchextractor (CenterlineIds,
 /// TractIds) are joined first. Radii are those of MaximumInscribedSphereRadius, or Radius; without
-/// either all are 0. The file states no unit and no axes, except in a comment of lumen's own files.
-/// Throws Error(InvalidInput) with `name`, the finding and the expectation.
+/// either all are 0. Field data Unit and SPACE, the title of a legacy file and a comment of lumen's own
+/// files state unit and axes; BranchId and BifurcationId are SimVascular's. Throws Error(InvalidInput) with `name`, the finding and the expectation.
 CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name);
 
-/// Reads a file of at most 64 MiB as parseVtpCenterline() does.
+CenterlineFile parseVtkCenterline(std::string_view bytes, const std::string& name);
+
+/// Each reads a file of at most 64 MiB as the parser of its format does.
 CenterlineFile readVtpCenterline(const InputFile& file);
+CenterlineFile readVtkCenterline(const InputFile& file);
 
 }  // namespace lumen::convert

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Units and axes of centerlines; declared in case_of_centerline.h.
 #include <algorithm>
-#include <array>
+#include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "converters/io/centerline/case_of_centerline.h"
-#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
 
-// Bounds of a plausible vessel tree in millimetres: no vessel is wider than the first (the widest
-// aneurysms of an aorta are 70 mm in radius), and no body longer than the second. A tree below the
-// third is stated in metres: a whole vessel tree of 2 mm would be a mouse's glomerulus.
-constexpr double kWidestRadius = 75, kLongestBody = 2500, kShortestTree = 2;
-
-constexpr std::array<std::pair<double, const char*>, 4> kUnitNames = {
-    {{1e-3, "micrometres"}, {1, "millimetres"}, {10, "centimetres"}, {1000, "metres"}}};
-
-const char* unitName(double unit) {
-  for (const auto& [value, name] : kUnitNames)
-    if (value == unit) return name;
-  return "units";
+// The size by which vessels are known, in the file's unit: as of tubes around the segments.
+VesselSize sizeOf(const CenterlineFile& file) {
+  double area = 0, volume = 0;
+  for (const CenterlinePoint& point : file.points) {
+    if (point.parent == kNoPoint) continue;
+    const CenterlinePoint& before = file.points[static_cast<std::size_t>(point.parent)];
+    const double length = (point.position - before.position).norm();
+    const double radius = 0.5 * (point.radius + before.radius);
+    area += radius * length;
+    volume += radius * radius * length;
+  }
+  return {area > 0 ? volume / area : std::numeric_limits<double>::quiet_NaN(),
+          measureExtent(file).diagonal};
 }
 
 }  // namespace
@@ -48,36 +49,30 @@ CenterlineExtent measureExtent(const CenterlineFile& file) {
   return extent;
 }
 
-double plausibleUnit(const CenterlineFile& file) {
-  const CenterlineExtent extent = measureExtent(file);
-  if (extent.most > kWidestRadius || extent.diagonal > kLongestBody) return 1e-3;
-  return extent.diagonal < kShortestTree ? 1000 : 1;
-}
-
-double toPatientSpace(CenterlineFile& file, const CenterlineReading& reading) {
-  if (file.points.empty()) return 1;
-  double unit = reading.unit.value_or(file.unit);
-  if (unit == 0) {
-    unit = plausibleUnit(file);
-    const CenterlineExtent extent = measureExtent(file);
-    if (unit != 1)
-      file.remarks.push_back(std::string("lengths are taken as ") + unitName(unit) +
-                             ": as millimetres the tree would "
-                             "be " +
-                             formats::shortText(static_cast<float>(extent.diagonal)) +
-                             " mm long with radii of up to " +
-                             formats::shortText(static_cast<float>(extent.most)) + " mm; " +
-                             reading.word("unit") + " states another");
+ReadFrame toPatientSpace(CenterlineFile& file, const CenterlineReading& reading) {
+  if (file.points.empty()) return {};
+  ReadFrame frame{reading.unit.value_or(file.unit), reading.unit ? "option" : "file",
+                  reading.axes.has_value() || file.axes != CenterlineAxes::Unknown};
+  if (frame.unit == 0) {
+    const VesselSize size = sizeOf(file);
+    const UnitGuess guess = guessUnit(size, file.isOfSimVascular);
+    frame.unit = guess.millimetres;
+    frame.unitFrom = "guess";
+    std::string warning = unitWarning(guess, size, file.isOfSimVascular, reading.word);
+    if (!warning.empty()) file.remarks.push_back(std::move(warning));
   }
+  const double unit = frame.unit;
   const CenterlineAxes axes = reading.axes.value_or(file.axes);
   for (CenterlinePoint& point : file.points) {
     point.position *= unit;
     point.radius *= unit;
     if (axes == CenterlineAxes::Ras) point.position.head<2>() *= -1;
   }
+  if (axes == CenterlineAxes::Ras && !reading.axes)
+    file.remarks.emplace_back("the file states RAS: x and y were negated, to LPS");
   file.unit = 1;
   file.axes = CenterlineAxes::Lps;
-  return unit;
+  return frame;
 }
 
 }  // namespace lumen::convert

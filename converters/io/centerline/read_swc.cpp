@@ -18,6 +18,8 @@
 #include "converters/base/shown_text.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
+#include "converters/io/centerline/line_graph.h"
+#include "converters/io/centerline/swc_comments.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -61,6 +63,7 @@ public:
   double unit = 0;
   CenterlineAxes axes = CenterlineAxes::Unknown;
   bool isOfLumen = false;
+  SwcComments comments;
 
   [[noreturn]] void refuse(const std::string& what) const { refuseAt(m_number, what); }
   [[noreturn]] void refuseAt(std::size_t number, const std::string& what) const {
@@ -82,6 +85,7 @@ private:
   }
 
   void readComment(std::string_view text) {
+    comments.read(text);
     if (text.find("NeuroMorpho") != text.npos) unit = kMillimetresOfMicrometre;
     if (text.find(kOwnCenterline) != text.npos) {
       unit = 1;
@@ -117,8 +121,7 @@ private:
 
   [[nodiscard]] double parseNumber(std::string_view text, std::size_t column) const {
     const auto value = parsedNumber(text);
-    if (!value || !(std::abs(*value) <= kLargestLength * 10))
-      refuse(found(text, column) + "; expected a number");
+    if (!value || std::isnan(*value)) refuse(found(text, column) + "; expected a number");
     return *value;
   }
 
@@ -284,6 +287,10 @@ CenterlineFile parseSwc(std::string_view text, const std::string& name) {
     if (named == parser.vessels().end()) continue;
     point.vessel = static_cast<std::int32_t>(file.vessels.size());
     file.vessels.push_back(named->second);
+  }
+  if (!file.isOfLumen) {
+    parser.comments.apply(file);
+    attachTrees(file);
   }
   fillRadii(file, shown, "one at some point at least (its sixth column)");
   return file;

@@ -4,15 +4,18 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/length_unit.h"
 #include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
+#include "converters/io/centerline/tree_of_lines.h"
+#include "converters/io/vtk/vtk_legacy.h"
 #include "converters/io/vtk/vtk_xml.h"
 #include "formats/container/printable.h"
 
@@ -20,10 +23,21 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kLargestVtp = 1e9;
-constexpr std::size_t kHead = 1024;        // position limit of a comment of write_vtp.cpp
-constexpr std::size_t kMostLines = 10000;  // limit, as every pair of lines is compared
-constexpr std::array<std::string_view, 6> kVtpArrays = {
-    "MaximumInscribedSphereRadius", "Radius", "radius", "CenterlineIds", "TractIds", "Branch"};
+constexpr std::size_t kHead = 1024;  // position limit of a comment of write_vtp.cpp
+// Array of cells by which VMTK's networks are known, whose lines have no direction.
+constexpr const char* kUndirected = "Topology";
+// Arrays of points by which centerlines of SimVascular are known.
+constexpr const char* kOfSimVascular = "BranchId";
+constexpr const char* kAlsoOfSimVascular = "BifurcationId";
+constexpr std::array<std::string_view, 9> kVtpArrays = {"MaximumInscribedSphereRadius",
+                                                        "Radius",
+                                                        "radius",
+                                                        "CenterlineIds",
+                                                        "TractIds",
+                                                        "Branch",
+                                                        kUndirected,
+                                                        kOfSimVascular,
+                                                        kAlsoOfSimVascular};
 
 const VtkArray* radiiOf(const VtkPolyData& data) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -74,79 +88,72 @@ CurvePoint pointOf(const VtkPolyData& data, const VtkArray* radii, std::uint32_t
   return point;
 }
 
-// The tree of lines that share points; empty unless the lines determine each point's predecessor.
-std::optional<CenterlineFile> sharedTree(const VtkPolyData& data, const VtkArray* radii,
-                                         const std::string& name) {
-  const std::size_t count = data.position.size();
-  constexpr std::int64_t kUnused = -2;
-  std::vector<std::int64_t> before(count, kUnused);
-  std::vector<std::size_t> uses(count, 0);
-  for (std::size_t line = 0; line < data.lines.size(); ++line)
-    for (std::uint32_t i = data.lines.begin(line); i < data.lines.end[line]; ++i) {
-      const std::uint32_t point = data.lines.point[i];
-      ++uses[point];
-      if (i == data.lines.begin(line)) {
-        if (before[point] == kUnused) before[point] = kNoPoint;
-        continue;
-      }
-      const std::int64_t previous = data.lines.point[i - 1];
-      if (before[point] >= 0 && before[point] != previous) return std::nullopt;
-      before[point] = previous;
-    }
-  // separate lines are joined by their places instead
-  if (std::none_of(uses.begin(), uses.end(), [](std::size_t n) { return n > 1; }))
-    return std::nullopt;
-  const VtkArray* branch = data.pointArray("Branch");
-  if (branch != nullptr && branch->components != 1) branch = nullptr;
-  CenterlineFile file;
+// The points that lines use, checked, with the vessels that the file numbers.
+std::vector<CenterlinePoint> pointsOf(const VtkPolyData& data, const VtkArray* radii,
+                                      const VtkArray* branch, const std::string& name) {
+  std::vector<CenterlinePoint> points(data.position.size());
+  std::vector<bool> isUsed(points.size(), false);
+  for (const std::uint32_t point : data.lines.point) isUsed[point] = true;
   std::map<double, std::int32_t> vessels;
-  std::vector<std::int32_t> place(count, kNoPoint);
-  const auto add = [&](std::size_t i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!isUsed[i]) continue;
     const CurvePoint point = pointOf(data, radii, static_cast<std::uint32_t>(i), name);
-    const std::int32_t parent = before[i] < 0 ? kNoPoint : place[std::size_t(before[i])];
-    std::int32_t vessel = kNoVessel;
+    points[i].position = point.position;
+    points[i].radius = point.radius;
     if (branch != nullptr && std::isfinite(branch->values[i]))
-      vessel = vessels.emplace(branch->values[i], static_cast<std::int32_t>(vessels.size()))
-                   .first->second;
-    place[i] = static_cast<std::int32_t>(file.points.size());
-    file.points.push_back({point.position, point.radius, parent, 0, vessel});
-  };
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t at = i; before[at] != kUnused && place[at] == kNoPoint;) {
-      open.push_back(at);
-      if (before[at] < 0) break;
-      at = static_cast<std::size_t>(before[at]);
-      if (open.size() > count) return std::nullopt;  // a cycle
-    }
-    for (; !open.empty(); open.pop_back()) add(open.back());
+      points[i].vessel =
+          vessels.emplace(branch->values[i], static_cast<std::int32_t>(vessels.size()))
+              .first->second;
   }
-  file.vessels.resize(vessels.size());
-  return file;
+  return points;
 }
 
-CenterlineFile joinedLines(const VtkPolyData& data, const VtkArray* radii,
-                           const std::string& name) {
-  const std::vector<std::vector<std::size_t>> courses = whole(data);
-  if (courses.size() > kMostLines)
-    throw invalidInput(name + ": has " + std::to_string(courses.size()) +
-                       " lines; expected at most 10000, one for each vessel or way to a tip");
-  std::vector<CenterlineCurve> curves;
+LineSet linesOf(const VtkPolyData& data, const std::vector<CenterlinePoint>& points,
+                const std::vector<std::vector<std::size_t>>& courses) {
+  LineSet set{points, {}, data.cellArray(kUndirected) == nullptr};
   for (const auto& course : courses) {
-    CenterlineCurve curve;
-    for (const std::size_t line : course)
-      for (std::uint32_t i = data.lines.begin(line); i < data.lines.end[line]; ++i)
-        curve.points.push_back(pointOf(data, radii, data.lines.point[i], name));
-    if (!curve.points.empty()) curves.push_back(std::move(curve));
+    std::vector<std::int32_t>& line = set.lines.emplace_back();
+    for (const std::size_t cell : course)
+      for (std::uint32_t i = data.lines.begin(cell); i < data.lines.end[cell]; ++i)
+        line.push_back(static_cast<std::int32_t>(data.lines.point[i]));
   }
-  return joinCurves(curves);
+  return set;
 }
 
-}  // namespace
+// Unit and axes as the file states them, in field data, in a title or in a comment of lumen.
+void readFrame(const VtkPolyData& data, bool isOfLumen, CenterlineFile& file) {
+  file.isOfLumen = isOfLumen;
+  file.isOfSimVascular =
+      data.pointArray(kOfSimVascular) != nullptr || data.pointArray(kAlsoOfSimVascular) != nullptr;
+  StatedAxes axes = axesIn(data.space);
+  if (axes == StatedAxes::None) axes = axesIn(data.title);
+  if (axes == StatedAxes::Ras) file.axes = CenterlineAxes::Ras;
+  if (axes == StatedAxes::Lps || isOfLumen) file.axes = CenterlineAxes::Lps;
+  if (const auto unit = millimetresPer(data.unit)) file.unit = *unit;
+  if (isOfLumen) file.unit = 1;
+}
 
-CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name) {
-  const std::string shown = formats::printable(name);
-  const VtkPolyData data = parseVtkXml(text, name, kVtpArrays);
+// Lines of a legacy file may name points that it has not, and arrays may be shorter.
+void requireLegacyCounts(const VtkPolyData& data, const std::string& name) {
+  for (const std::uint32_t point : data.lines.point)
+    if (point >= data.position.size())
+      throw invalidInput(name + ": a line has the point " + std::to_string(point) +
+                         "; expected less than " + std::to_string(data.position.size()) +
+                         ", the number of points");
+  const std::size_t cells =
+      data.verts.size() + data.lines.size() + data.polys.size() + data.strips.size();
+  const auto require = [&](const std::vector<VtkArray>& arrays, std::size_t count) {
+    for (const VtkArray& array : arrays)
+      if (array.values.size() != count * array.components)
+        throw invalidInput(name + ": the array " + quotedText(array.name) + " has " +
+                           std::to_string(array.values.size() / array.components) +
+                           " values; expected " + std::to_string(count));
+  };
+  require(data.pointData, data.position.size());
+  require(data.cellData, cells);
+}
+
+CenterlineFile treeOf(const VtkPolyData& data, bool isOfLumen, const std::string& shown) {
   if (data.lines.point.empty())
     throw invalidInput(shown + ": has no lines" +
                        (data.polys.size() > 0
@@ -154,13 +161,14 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
                             : std::string()) +
                        "; expected a centerline");
   const VtkArray* radii = radiiOf(data);
-  std::optional<CenterlineFile> shared = sharedTree(data, radii, shown);
-  CenterlineFile file = shared ? *std::move(shared) : joinedLines(data, radii, shown);
-  if (text.substr(0, kHead).find(kOwnCenterline) != text.npos) {
-    file.unit = 1;
-    file.axes = CenterlineAxes::Lps;
-    file.isOfLumen = true;
-  }
+  const VtkArray* branch = data.pointArray("Branch");
+  if (branch != nullptr && branch->components != 1) branch = nullptr;
+  const std::vector<CenterlinePoint> points = pointsOf(data, radii, branch, shown);
+  std::vector<std::vector<std::size_t>> cells;
+  for (std::size_t cell = 0; cell < data.lines.size(); ++cell) cells.push_back({cell});
+  CenterlineFile file = treeOfLines(linesOf(data, points, cells),
+                                    linesOf(data, points, whole(data)), isOfLumen, shown);
+  readFrame(data, isOfLumen, file);
   if (radii == nullptr)
     file.remarks.push_back("has no array MaximumInscribedSphereRadius or Radius of its points");
   else
@@ -168,8 +176,27 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
   return file;
 }
 
+}  // namespace
+
+CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name) {
+  const std::string shown = formats::printable(name);
+  const bool isOfLumen = text.substr(0, kHead).find(kOwnCenterline) != text.npos;
+  return treeOf(parseVtkXml(text, name, kVtpArrays), isOfLumen, shown);
+}
+
+CenterlineFile parseVtkCenterline(std::string_view bytes, const std::string& name) {
+  const std::string shown = formats::printable(name);
+  const VtkPolyData data = parseVtkLegacy(bytes, shown, kVtpArrays);
+  requireLegacyCounts(data, shown);
+  return treeOf(data, false, shown);
+}
+
 CenterlineFile readVtpCenterline(const InputFile& file) {
   return parseVtpCenterline(file.read("centerline", kMostText), file.path().string());
+}
+
+CenterlineFile readVtkCenterline(const InputFile& file) {
+  return parseVtkCenterline(file.read("centerline", kMostText), file.path().string());
 }
 
 }  // namespace lumen::convert

@@ -185,4 +185,42 @@ std::string notA(ContentKind wanted, const InputFile& file) {
   return content.sentence() + ", not " + nounFor(wanted) + adviceFor(content.kind);
 }
 
+namespace {
+
+/// Whether a keyword at the beginning of a line announces cells, and not none of them.
+bool announces(std::string_view text, std::string_view keyword) {
+  for (std::size_t at = text.find(keyword); at != text.npos; at = text.find(keyword, at + 1)) {
+    const std::string_view count = text.substr(at + keyword.size());
+    const std::size_t digit = count.find_first_not_of(' ');
+    const bool isOfLine = at > 0 && (text[at - 1] == '\n' || text[at - 1] == '\r');
+    if (isOfLine && digit != count.npos && count[digit] >= '1' && count[digit] <= '9') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool holdsLegacyLines(const InputFile& file) {
+  if (!readBeginning(file).starts_with("# vtk DataFile")) return false;
+  constexpr std::size_t kPart = std::size_t{4} << 20, kOverlap = 64;
+  bool hasLines = false, hasSurface = false;
+  try {
+    const std::unique_ptr<std::istream> stream = file.open();
+    std::string text;
+    do {
+      const std::size_t kept = text.size() < kOverlap ? text.size() : kOverlap;
+      text.erase(0, text.size() - kept);
+      text.resize(kept + kPart);
+      stream->read(text.data() + kept, static_cast<std::streamsize>(kPart));
+      text.resize(kept + static_cast<std::size_t>(stream->gcount()));
+      hasLines = hasLines || announces(text, "LINES ");
+      hasSurface =
+          hasSurface || announces(text, "POLYGONS ") || announces(text, "TRIANGLE_STRIPS ");
+    } while (*stream && !hasSurface);
+  } catch (const Error&) {
+    return false;
+  }
+  return hasLines && !hasSurface;
+}
+
 }  // namespace lumen::convert

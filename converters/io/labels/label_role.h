@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/case/vessel_system.h"
+
 namespace lumen::convert {
 
 enum class LabelRole : std::uint8_t {
@@ -44,6 +46,23 @@ constexpr bool isOtherLumen(LabelRole role) {
 }
 constexpr bool isNotVessel(LabelRole role) {
   return role >= LabelRole::Bone && role <= LabelRole::Organ;
+}
+
+/// The system of the vessels of a role; unknown for those that may be of either, and for an aneurysm,
+/// which is of the vessel that it hangs on.
+constexpr formats::VesselSystem systemOf(LabelRole role) {
+  switch (role) {
+    case LabelRole::Artery:
+      return formats::VesselSystem::Artery;
+    case LabelRole::Vein:
+      return formats::VesselSystem::Vein;
+    case LabelRole::TrueLumen:
+      return formats::VesselSystem::TrueLumen;
+    case LabelRole::FalseLumen:
+      return formats::VesselSystem::FalseLumen;
+    default:
+      return formats::VesselSystem::Unknown;
+  }
 }
 
 /// The words of a name in small letters with _ between them, by which names are compared:

@@ -55,9 +55,9 @@ const std::vector<std::string>& builtInLabelTables();
 LabelTable readLabelTable(const InputFile& file);
 
 /// The names that the header of `file` itself states; without names if it states none. Segments of
-/// other layers than the first are passed over. Throws Error(InvalidInput) as readLabelTable()
+/// other layers than `layer` are passed over. Throws Error(InvalidInput) as readLabelTable()
 /// does.
-LabelTable ownNames(const InputFile& file);
+LabelTable ownNames(const InputFile& file, std::int64_t layer = 0);
 
 /// The tables that lie beside a map on this disk: NAME.tsv beside NAME.nii.gz whose name ends in
 /// `dseg`, `dseg.tsv`, and `dataset.json`, also beside the folder labelsTr or labelsTs of the map.

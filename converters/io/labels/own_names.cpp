@@ -58,10 +58,10 @@ std::string terminologyIn(const std::string& tags) {
   return tags.substr(from, tags.find('|', from) - from);
 }
 
-LabelTable namesOfSegments(HeaderLines& lines, const InputFile& file) {
+LabelTable namesOfSegments(HeaderLines& lines, const InputFile& file, std::int64_t layer) {
   LabelTable table;
   for (const auto& [number, segment] : segmentsOf(lines)) {
-    if (segment.value.empty() || segment.layer != "0") continue;
+    if (segment.value.empty() || segment.layer != std::to_string(layer)) continue;
     addLabelName(formats::printable(file.path().string()) + ": Segment" + number + ": ",
                  segment.value, segment.name, table.names);
     const LabelRole role = roleOfName(typeOf(terminologyIn(segment.tags)));
@@ -105,13 +105,13 @@ LabelNames namesOfWorkbench(std::string_view xml) {
 
 }  // namespace
 
-LabelTable ownNames(const InputFile& file) {
+LabelTable ownNames(const InputFile& file, std::int64_t layer) {
   if (!file.isInMemory() && !fs::is_regular_file(file.path())) return {};
   HeaderLines lines(file);
   std::string line;
   LabelTable table;
   if (lines.next(line) && line.starts_with("NRRD")) {
-    table = namesOfSegments(lines, file);
+    table = namesOfSegments(lines, file, layer);
   } else {
     table.names = namesOfWorkbench(niftiExtensions(file));
   }

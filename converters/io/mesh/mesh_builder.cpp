@@ -106,14 +106,16 @@ void StatedFrame::look(std::string_view comment) {
   const auto has = [&](std::string_view words) { return comment.find(words) != comment.npos; };
   if (has("SPACE=RAS")) ras = true;
   if (has("SPACE=LPS")) lps = true;
-  if (has("mm, LPS") || has("mm, SPACE=LPS") || has("millimetres, LPS")) lps = millimetres = true;
+  if (!has("mm, LPS") && !has("mm, SPACE=LPS") && !has("millimetres, LPS")) return;
+  lps = true;
+  unit = 1;
 }
 
 MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame) {
   builder.file.frameStated = frame.ras || frame.lps;
-  if (frame.millimetres) builder.file.unitMm = 1;
-  if (frame.ras)
-    builder.file.notes.emplace_back("the file states RAS: x and y were negated, to LPS");
+  builder.file.unitMm = frame.unit;
+  builder.file.isTurned = frame.ras;
+  if (frame.ras) builder.file.notes.emplace_back(kTurnedNote);
   return builder.finish(frame.ras);
 }
 

@@ -78,10 +78,12 @@ private:
   std::vector<std::uint32_t> m_table;  // hash table of shared points: index plus one; 0 is free
 };
 
-/// Reads axes and unit from a comment of a file: SPACE=LPS or SPACE=RAS as 3D Slicer writes it, and
-/// lumen's own words.
+/// Axes and unit as a file states them.
 struct StatedFrame {
-  bool ras = false, lps = false, millimetres = false;
+  bool ras = false, lps = false;
+  double unit = 0;  ///< mm; 0: not stated
+
+  /// Reads them from a comment: SPACE=LPS or SPACE=RAS as 3D Slicer writes it, and lumen's own words.
   void look(std::string_view comment);
 };
 

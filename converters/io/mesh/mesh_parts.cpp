@@ -149,6 +149,13 @@ std::vector<std::string> distinct(const std::vector<std::string>& names,
   return words;
 }
 
+std::vector<std::string> systemNames(const SurfaceMesh& surface) {
+  std::vector<std::string> names;
+  for (const formats::VesselSystem system : surface.systems)
+    names.emplace_back(formats::kVesselSystemNames[static_cast<std::size_t>(system)]);
+  return names;
+}
+
 std::vector<std::string> plainGroupNames(const std::vector<FaceGroup>& groups) {
   std::vector<std::string> names;
   names.reserve(groups.size());

@@ -44,6 +44,9 @@ std::string openFoamWord(const std::string& name);
 std::vector<std::string> distinct(const std::vector<std::string>& names,
                                   std::string (*rule)(const std::string&));
 
+/// The names of the systems of a surface's branches; none if none is known.
+std::vector<std::string> systemNames(const SurfaceMesh& surface);
+
 /// The names of groups, in their order.
 std::vector<std::string> plainGroupNames(const std::vector<FaceGroup>& groups);
 

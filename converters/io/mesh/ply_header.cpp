@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "converters/base/shown_text.h"
-#include "converters/io/mesh/text_cursor.h"
+#include "converters/io/vtk/text_cursor.h"
 
 namespace lumen::convert {
 namespace {

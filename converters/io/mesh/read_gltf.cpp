@@ -135,6 +135,7 @@ public:
     }
     m_builder.file.unitMm = 1;
     m_builder.file.frameStated = true;
+    if (!m_isOurs) m_builder.file.standardMm = 1000;
     if (!m_isOurs)
       m_builder.file.notes.emplace_back("taken as metres with +Y up, by the standard of glTF");
     return m_builder.finish();

@@ -4,12 +4,9 @@
 // read.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -17,10 +14,14 @@
 
 #include "converters/base/input_file.h"
 #include "converters/geometry/mesh_measures.h"
+#include "converters/io/vtk/stored_number.h"
 
 namespace lumen::convert {
 
 // Triangle mesh as stored in a file of another program.
+
+/// The note on a file that states RAS.
+constexpr const char* kTurnedNote = "the file states RAS: x and y were negated, to LPS";
 
 /// A mesh as stored in its file: nothing is repaired, and triangles may have any orientation.
 struct MeshFile {
@@ -31,9 +32,17 @@ struct MeshFile {
   std::vector<std::string> groups;   ///< names of sets of triangles in the file
   std::vector<std::uint32_t> group;  ///< index into `groups` of each triangle; empty: no groups
   double unitMm = 0;                 ///< mm in one unit of `mesh`; 0: the file states none
-  bool frameStated = false;          ///< the file names its axes
+  double standardMm = 0;  ///< mm in one unit of the file by its format's standard, if `mesh` is in
+                          ///< mm by it alone; else 0
+  bool frameStated = false;  ///< the file names its axes
+  bool isTurned = false;     ///< x and y were negated, as the file states RAS
   /// Assumptions and omissions of the reader, one printable sentence each.
   std::vector<std::string> notes;
+
+  /// Factor of `mesh` that makes it mm, if `unit` mm are one unit of the file.
+  [[nodiscard]] double scaleFor(double unit) const {
+    return standardMm > 0 ? unit / standardMm : unit;
+  }
 };
 
 // glTF 2.0 (Khronos), GLB or text.
@@ -71,7 +80,7 @@ MeshFile parseStl(std::string_view bytes, const std::string& name);
 MeshFile parseVtp(std::string_view bytes, const std::string& name);
 
 /// The polygons, strips and groups of a legacy file, versions 1 to 5, ASCII or binary. A file whose
-/// title has SPACE=RAS, as 3D Slicer writes it, is turned to LPS.
+/// title or field data state RAS, as 3D Slicer writes it, is turned to LPS.
 MeshFile parseVtk(std::string_view bytes, const std::string& name);
 
 // Decoder of one mesh from a Draco bit stream. Draco's headers stay behind this file.
@@ -87,20 +96,6 @@ struct DecodedDraco {
 /// byte, a density that no coded surface reaches.
 DecodedDraco decodeDracoMesh(std::string_view bytes, std::uint32_t position, std::size_t points,
                              std::size_t triangles);
-
-// Binary numbers of mesh files.
-
-enum class Endian : bool { Little, Big };
-
-/// The number of type T at `bytes`, at any alignment.
-template <class T>
-T loadNumber(const char* bytes, Endian endian) {
-  static_assert(std::endian::native == std::endian::little);
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), bytes, sizeof(T));
-  if (endian == Endian::Big) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<T>(raw);
-}
 
 enum class MeshFormat : std::uint8_t { Stl, Obj, Ply, Gltf, Vtp, Vtk };
 

@@ -9,7 +9,7 @@
 
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/read_mesh.h"
-#include "converters/io/mesh/text_cursor.h"
+#include "converters/io/vtk/text_cursor.h"
 
 namespace lumen::convert {
 namespace {

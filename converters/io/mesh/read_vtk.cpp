@@ -7,16 +7,17 @@
 #include <string>
 #include <string_view>
 
+#include "converters/base/length_unit.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/read_mesh.h"
-#include "converters/io/mesh/vtk_legacy.h"
+#include "converters/io/vtk/vtk_legacy.h"
 #include "converters/io/vtk/vtk_poly_data.h"
 #include "converters/io/vtk/vtk_xml.h"
 
 namespace lumen::convert {
 namespace {
 
-constexpr const char* kFaceId = "ModelFaceID";
+constexpr std::string_view kFaceId = "ModelFaceID";
 
 /// The name of the group of a cell: its number, if that is a whole number.
 std::string groupName(const VtkArray* ids, std::size_t cell) {
@@ -24,6 +25,18 @@ std::string groupName(const VtkArray* ids, std::size_t cell) {
   const double id = ids->values[cell];
   if (id != std::floor(id) || std::abs(id) > 1e9) return {};
   return std::to_string(static_cast<std::int64_t>(id));
+}
+
+/// Unit and axes by field data, or by a legacy file's title.
+StatedFrame frameOf(const VtkPolyData& data) {
+  StatedFrame frame;
+  frame.look(data.title);
+  if (const StatedAxes axes = axesIn(data.space); axes != StatedAxes::None) {
+    frame.ras = axes == StatedAxes::Ras;
+    frame.lps = axes == StatedAxes::Lps;
+  }
+  if (const auto unit = millimetresPer(data.unit)) frame.unit = *unit;
+  return frame;
 }
 
 MeshFile makeMesh(const VtkPolyData& data, const StatedFrame& frame, MeshBuilder& builder) {
@@ -62,16 +75,14 @@ MeshFile makeMesh(const VtkPolyData& data, const StatedFrame& frame, MeshBuilder
 
 MeshFile parseVtp(std::string_view bytes, const std::string& name) {
   MeshBuilder builder(name);
-  const std::array<std::string_view, 1> wanted = {kFaceId};
-  const VtkPolyData data = parseVtkXml(bytes, name, wanted);
-  return makeMesh(data, {data.space == "RAS", data.space == "LPS", data.unit == "mm"}, builder);
+  const VtkPolyData data = parseVtkXml(bytes, name, std::array{kFaceId});
+  return makeMesh(data, frameOf(data), builder);
 }
 
 MeshFile parseVtk(std::string_view bytes, const std::string& name) {
   MeshBuilder builder(name);
-  StatedFrame frame;
-  const VtkPolyData data = parseVtkLegacy(bytes, name, kFaceId, frame);
-  return makeMesh(data, frame, builder);
+  const VtkPolyData data = parseVtkLegacy(bytes, name, std::array{kFaceId});
+  return makeMesh(data, frameOf(data), builder);
 }
 
 }  // namespace lumen::convert

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/geometry/mesh_measures.h"
+#include "formats/case/vessel_system.h"
 #include "formats/view/float3.h"
 
 namespace lumen::convert {
@@ -42,6 +43,8 @@ struct SurfaceMesh {
   std::vector<std::uint32_t> group;  ///< group of each triangle: index into `groups`
   std::vector<FaceGroup> groups;
   std::vector<std::string> labels;  ///< labels of the case's branches
+  /// Systems of vessels of these; empty if none is known.
+  std::vector<formats::VesselSystem> systems;
 };
 
 }  // namespace lumen::convert

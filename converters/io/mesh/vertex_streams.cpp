@@ -29,6 +29,9 @@ constexpr std::array<Rgb, 17> kViridis = {{
 constexpr std::array<Rgb, 7> kHues = {{
     {230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0},
     {204, 121, 167}}};
+// The same for systems of vessels, in the order of their values.
+constexpr std::array<Rgb, formats::kVesselSystemCount> kSystemHues = {{
+    {153, 153, 153}, {213, 94, 0}, {0, 114, 178}, {230, 159, 0}, {204, 121, 167}}};
 // clang-format on
 
 /// IEC 61966-2-1: from sRGB, 0 .. 255, to linear light.
@@ -59,8 +62,7 @@ double shareOf(double value, const ColorScale& scale) {
   return field::repeatableLog(value / low) / field::repeatableLog(high / low);
 }
 
-Color hue(std::uint32_t branch) {
-  const Rgb& rgb = kHues[branch % kHues.size()];
+Color hue(const Rgb& rgb) {
   return {linear(rgb[0]), linear(rgb[1]), linear(rgb[2]), 65535};
 }
 
@@ -71,6 +73,10 @@ ColorScale measureColorScale(const SurfaceMesh& surface, ColorBy by) {
     throw invalidInput(
         "color confidence: the case has no inlier rates, which come with tracking; expected branch "
         "or radius");
+  if (by == ColorBy::System && surface.systems.empty() && !surface.position.empty())
+    throw invalidInput(
+        "color system: the case states no system of its vessels, which comes with a label map; "
+        "expected branch or radius");
   if (by != ColorBy::Radius || surface.radius.empty()) return {by, 0, 1};
   const auto [low, high] = std::minmax_element(surface.radius.begin(), surface.radius.end());
   return {by, *low, *high};
@@ -80,8 +86,12 @@ std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& sc
   std::vector<Color> colors;
   colors.reserve(surface.position.size());
   if (scale.by == ColorBy::Branch)
-    for (const std::uint32_t branch : surface.branch) colors.push_back(hue(branch));
-  if (scale.by == ColorBy::Branch || scale.by == ColorBy::None) return colors;
+    for (const std::uint32_t branch : surface.branch)
+      colors.push_back(hue(kHues[branch % kHues.size()]));
+  if (scale.by == ColorBy::System)
+    for (const std::uint32_t branch : surface.branch)
+      colors.push_back(hue(kSystemHues[static_cast<std::size_t>(surface.systems[branch])]));
+  if (!hasRange(scale.by)) return colors;
   const std::span<const float> values =
       scale.by == ColorBy::Radius ? surface.radius : surface.confidence;
   for (const float value : values) colors.push_back(viridis(shareOf(double{value}, scale)));
@@ -89,6 +99,9 @@ std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& sc
 }
 
 const char* colorMapName(ColorBy by) {
+  if (by == ColorBy::System)
+    return "Okabe-Ito: artery vermilion, vein blue, true-lumen orange, false-lumen purple; unknown "
+           "grey";
   return by == ColorBy::Branch ? "Okabe-Ito without black, by index modulo 7" : "viridis";
 }
 

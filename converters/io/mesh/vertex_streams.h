@@ -18,6 +18,11 @@ namespace lumen::convert {
 
 // Vertex colours that show a value.
 
+/// The colours stand for numbers of a range.
+constexpr bool hasRange(ColorBy by) {
+  return by == ColorBy::Radius || by == ColorBy::Confidence;
+}
+
 /// Red, green, blue and opacity in linear light; 65535 stands for 1.
 using Color = std::array<std::uint16_t, 4>;
 
@@ -32,8 +37,8 @@ struct ColorScale {
 ColorScale measureColorScale(const SurfaceMesh& surface, ColorBy by);
 
 /// The colour of each vertex: viridis, from dark blue to yellow, for confidence, and for the
-/// logarithm of the radius; one of seven hues for a branch, repeated after every seventh. All
-/// colours are distinguishable with any kind of colour vision.
+/// logarithm of the radius; one of seven hues for a branch, repeated after every seventh; one for
+/// each system of vessels. All colours are distinguishable with any kind of colour vision.
 std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& scale);
 
 /// The name of the colour scheme that vertexColors() applies.

@@ -71,6 +71,7 @@ json meshExtras(const SurfaceMesh& surface, const std::vector<VertexStream>& str
       {"_BRANCH", "index into branches"},
       {"_CONFIDENCE", "0 to 1"}};
   json extras = {{"branches", surface.labels}};
+  if (!surface.systems.empty()) extras["systems"] = systemNames(surface);
   for (const VertexStream& stream : streams)
     if (const auto found = meanings.find(stream.name); found != meanings.end())
       extras["attributes"][stream.name] = found->second;
@@ -80,7 +81,8 @@ json meshExtras(const SurfaceMesh& surface, const std::vector<VertexStream>& str
   if (scale.by == ColorBy::Radius)
     color.update({{"by", "radius"}, {"unit", "mm"}, {"scale", "logarithmic"}});
   if (scale.by == ColorBy::Confidence) color["by"] = "confidence";
-  if (scale.by != ColorBy::Branch) color["range"] = {scale.low, scale.high};
+  if (scale.by == ColorBy::System) color["by"] = "system";
+  if (hasRange(scale.by)) color["range"] = {scale.low, scale.high};
   extras["color"] = std::move(color);
   return extras;
 }

@@ -13,7 +13,7 @@
 namespace lumen::convert {
 
 enum class MeshPer : std::uint8_t { Whole, Branch };
-enum class ColorBy : std::uint8_t { None, Branch, Radius, Confidence };
+enum class ColorBy : std::uint8_t { None, Branch, Radius, Confidence, System };
 
 /// Options of mesh formats; each format reads only its own.
 struct WriteMeshOptions {

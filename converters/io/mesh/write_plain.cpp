@@ -111,6 +111,9 @@ std::string plyHeader(const SurfaceMesh& surface) {
     out += "comment group " + std::to_string(g + 1) + " " + groups[g] + "\n";
   for (std::size_t b = 0; b < labels.size(); ++b)
     out += "comment branch " + std::to_string(b) + " " + labels[b] + "\n";
+  const std::vector<std::string> systems = systemNames(surface);
+  for (std::size_t b = 0; b < systems.size(); ++b)
+    out += "comment system " + std::to_string(b) + " " + systems[b] + "\n";
   out += "element vertex " + std::to_string(surface.position.size()) + "\n";
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "radius"})
     out += std::string("property float ") + name + "\n";

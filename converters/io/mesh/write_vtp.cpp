@@ -17,6 +17,7 @@ std::string fieldData(const SurfaceMesh& surface, const std::string& unit) {
   for (const FaceGroup& group : surface.groups) kinds.emplace_back(faceKindName(group.kind));
   return "<FieldData>\n" + textArray("GroupNames", plainGroupNames(surface.groups)) +
          textArray("GroupKinds", kinds) + textArray("BranchLabels", surface.labels) +
+         (surface.systems.empty() ? "" : textArray("BranchSystems", systemNames(surface))) +
          textArray("Unit", {unit}) + textArray("SPACE", {"LPS"}) +
          textArray("Generator", {"lumen " LUMEN_VERSION}) + "</FieldData>\n";
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/length_unit.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/read_volume_options.h"
@@ -18,27 +19,6 @@
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {
-
-// Names of length units in headers.
-
-/// Millimetres of the unit `name`, such as "mm", "Metres" or "um"; empty if it is unknown.
-inline std::optional<double> millimetresPer(const std::string& name) {
-  static const std::map<std::string, double> known = {
-      {"mm", 1},           {"millimeter", 1},   {"millimetre", 1},    {"cm", 10},
-      {"centimeter", 10},  {"centimetre", 10},  {"dm", 100},          {"m", 1000},
-      {"meter", 1000},     {"metre", 1000},     {"um", 1e-3},         {"\xc2\xb5m", 1e-3},
-      {"\xce\xbcm", 1e-3}, {"micron", 1e-3},    {"micrometer", 1e-3}, {"micrometre", 1e-3},
-      {"nm", 1e-6},        {"nanometer", 1e-6}, {"nanometre", 1e-6},  {"in", 25.4},
-      {"inch", 25.4}};
-  std::string word = lowerCase(trimmed(name));
-  auto found = known.find(word);
-  if (found == known.end() && word.size() > 4 && word.back() == 's') {
-    word.pop_back();
-    found = known.find(word);
-  }
-  if (found == known.end()) return {};
-  return found->second;
-}
 
 // Conversion of a header's lengths to millimetres, with the user's statements: equal for every
 // format.
@@ -50,6 +30,9 @@ struct StatedGeometry {
   std::optional<double> unit;  ///< mm of the file's unit; empty: the header states none
   std::string unitNote;  ///< the assumption where `unit` is empty; empty: it goes without saying
   std::string placedBy;  ///< of several transforms the one that counts; empty: there is one
+  /// Voxels of one volume that lie together, where an axis of several volumes comes before axes of
+  /// space; 0: all do.
+  std::uint64_t together = 0;
 };
 
 /// The geometry in mm: spacing and unit are those of the options, else of the header, else 1 mm. An
@@ -90,7 +73,8 @@ void chooseVoxels(const std::filesystem::path& path, const std::vector<std::int6
 // Placement of the axes of an NRRD file in space.
 
 /// The geometry of a header with these `sizes`, one for each of its axes; axes of a voxel's
-/// components or of time are dropped if they have one entry. An unknown unit appends a sentence to
+/// components or of time are dropped if they have one entry. An axis of several entries that are
+/// volumes (time, a list, and, if the options choose one of them, a vector) may stand anywhere. An unknown unit appends a sentence to
 /// `assumptions`. Throws Error(InvalidInput) unless three axes with consistent fields remain.
 StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int64_t>& sizes,
                             const ReadVolumeOptions& options,

@@ -39,11 +39,12 @@ const Vector3d kLpsFromRas(-1, -1, 1);
 
 // NIfTI-1's codes of units and of a scanner's transform.
 constexpr int kMetres = 1, kMillimetres = 2, kMicrometres = 3;
-constexpr std::int16_t kScannerTransform = 1;
+constexpr std::int16_t kScannerTransform = 1, kAlignedTransform = 2;
 
 /// A transform of the header in RAS and the file's unit; a fault, if it is invalid.
 struct Transform {
   bool stated = false;
+  bool isSheared = false;  ///< axes are lengths along directions that are not orthogonal
   std::string fault;
   const char* remedy =
       "expected a place in space; write its transform again, by the tool it is from";
@@ -69,6 +70,7 @@ Transform sformOf(const NiftiHeader& header) {
   } else if (!(sform.axes.colwise().norm().minCoeff() > 0)) {
     sform.fault = "its sform has an axis without a length";
   } else if (!(skew <= kOrthogonal)) {
+    sform.isSheared = true;
     sform.fault = "its axes' directions (sform) are not orthogonal";
     sform.remedy = "resample the volume to an orthogonal grid first";
   }
@@ -126,11 +128,27 @@ void reportDisagreement(const Transform& used, const char* name, const Transform
                         " is right, remove the " + name + " (set its code to 0)");
 }
 
+/// Refuses a grid that the sform shears, as a gantry tilt does, and that the qform, which cannot, places
+/// elsewhere. The sform of an atlas is another space than the scanner's, and counts for nothing here.
+void refuseShear(const Transform& sform, const Transform& qform, const NiftiHeader& header,
+                 const std::filesystem::path& path) {
+  if (!sform.isSheared || !qform.usable() || header.sformCode > kAlignedTransform) return;
+  const double apart = distanceOf(qform, sform, header);
+  const double voxel = toEigen(header.pixdim).minCoeff();
+  if (!(apart > kAgree * voxel)) return;
+  throw invalidInput(path.string() + ": " + sform.fault +
+                     ", as by a gantry tilt, and its qform (code " +
+                     std::to_string(header.qformCode) + ") places voxels up to " +
+                     numberText(apart / voxel, 3) + " voxels elsewhere; " + sform.remedy +
+                     ", or remove the sform (set its code to 0) if the qform is right");
+}
+
 /// The transform that places the voxels, or null if none is stated.
 const Transform* chosenTransform(const Transform& sform, const Transform& qform,
                                  const NiftiHeader& header, const std::filesystem::path& path,
                                  std::vector<std::string>& assumptions) {
   if (!sform.stated && !qform.stated) return nullptr;
+  refuseShear(sform, qform, header, path);
   const bool prefersS = sform.stated && (!qform.stated || header.sformCode >= header.qformCode);
   const Transform& first = prefersS ? sform : qform;
   const Transform& second = prefersS ? qform : sform;

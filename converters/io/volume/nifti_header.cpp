@@ -156,6 +156,8 @@ std::size_t offsetOf(const Fields& fields, const fs::path& path) {
 void readScaling(const Fields& fields, NiftiHeader& header, const fs::path& path) {
   header.slope = fields.get<float>(112);
   header.intercept = fields.get<float>(116);
+  header.isSlopeMissing = std::isnan(header.slope);
+  if (header.isSlopeMissing) header.slope = header.intercept = 0;
   if (!std::isfinite(header.slope))
     refuse(path, "scl_slope is " + longNumber(static_cast<double>(header.slope)),
            "a number, 0 where values are not scaled");

@@ -31,6 +31,7 @@ struct NiftiHeader {
   std::array<float, 3> pixdim{};   ///< spacings in the file's unit, unchecked
   float handedness = 1;            ///< qfac, pixdim[0], unchecked
   float slope = 0, intercept = 0;  ///< finite; a slope of 0 means no scaling
+  bool isSlopeMissing = false;     ///< the slope is not a number (NaN), which stands for no scaling
   int unitCode = 0;  ///< unit of lengths: 1 m, 2 mm, 3 um, 0 unknown; others are undefined
   int qformCode = 0, sformCode = 0;              ///< 0: the transform is not stated
   std::array<float, 3> quaternion{}, qOffset{};  ///< unchecked

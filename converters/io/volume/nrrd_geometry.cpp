@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
@@ -32,6 +33,7 @@ struct Axis {
   std::size_t number = 0;  ///< in the header, from 0
   std::int64_t size = 0;
   std::optional<Vector3d> direction;  ///< in the header's space and unit
+  bool isOfVolumes = false;           ///< its kind is no axis of space
 };
 
 /// Coordinate system that the field "space" states.
@@ -109,15 +111,27 @@ std::vector<std::optional<Vector3d>> readVectors(const TextHeader& header, const
     for (const double value : values)
       if (!none && !std::isfinite(value)) throw refused();
     vectors.emplace_back();
-    if (!none) vectors.back() = Vector3d(values[0], values[1], values[2]);
-    if (!none && dimension == 4 && values[3] != 0 && field != "space origin") throw refused();
+    const Vector3d vector(values[0], values[1], values[2]);
+    const bool isOfTime = dimension == 4 && field != "space origin" && values[3] != 0;
+    if (isOfTime && !vector.isZero(0)) throw refused();  // space that moves with time
+    if (!none && !isOfTime) vectors.back() = vector;
     at = end + 1;
   }
   return vectors;
 }
 
+/// Kinds of axes whose entries are volumes, and of those that are volumes to whoever chooses one.
+constexpr std::array<std::string_view, 2> kVolumeKinds = {"list", "time"};
+constexpr std::array<std::string_view, 3> kVectorKinds = {"vector", "point", "covariant-vector"};
+
+template <std::size_t count>
+bool isKind(const std::string& kind, const std::array<std::string_view, count>& kinds) {
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
 /// The axes without the axes of a voxel's components.
-std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::int64_t>& sizes) {
+std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::int64_t>& sizes,
+                             const ReadVolumeOptions& options) {
   const std::vector<std::string> kinds = splitWords(header.text("kinds"));
   if (!kinds.empty() && kinds.size() != sizes.size())
     throw header.refusal("kinds", std::to_string(sizes.size()) + " kinds");
@@ -126,19 +140,29 @@ std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::in
     const std::string kind = kinds.empty() ? "???" : lowerCase(kinds[a]);
     const bool domain =
         kind == "domain" || kind == "space" || kind == "time" || kind == "???" || kind == "none";
-    if (domain) axes.push_back({a, sizes[a], {}});
-    if (!domain && sizes[a] != 1)
-      throw invalidInput(header.path().string() + ": each voxel has " + std::to_string(sizes[a]) +
-                         " components (" + formats::printable(kind) + "); expected one number");
+    const bool isVector = isKind(kind, kVectorKinds);
+    const bool isOfVolumes =
+        isKind(kind, kVolumeKinds) || (isVector && options.volumeIndex.has_value());
+    if (domain || (isOfVolumes && sizes[a] != 1)) axes.push_back({a, sizes[a], {}, isOfVolumes});
+    if (!domain && !isOfVolumes && sizes[a] != 1)
+      throw invalidInput(
+          header.path().string() + ": each voxel has " + std::to_string(sizes[a]) +
+          " components (" + formats::printable(kind) + "); expected one number" +
+          (isVector ? ", or a choice of one with " + options.word("volume-index") : std::string()));
   }
   return axes;
 }
 
-/// The three axes of the volume. Further axes of one entry are dropped: those without a direction
-/// first, then the slowest. Axes of several entries behind those three count volumes.
+/// The three axes of the volume. Further axes are dropped: those of one entry without a direction
+/// first, those of volumes, others without a direction where axes have some, then the slowest.
 std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::int64_t>& sizes,
-                              const Space& space) {
-  std::vector<Axis> axes = domainAxes(header, sizes);
+                              const Space& space, const ReadVolumeOptions& options) {
+  std::vector<Axis> axes = domainAxes(header, sizes, options);
+  const auto dropExtra = [&](const auto& isDropped) {
+    std::size_t extra = axes.size() > 3 ? axes.size() - 3 : 0;
+    std::erase_if(axes,
+                  [&](const Axis& axis) { return isDropped(axis) && extra > 0 && extra-- > 0; });
+  };
   if (header.has("space directions")) {
     if (space.dimension == 0)
       throw invalidInput(header.path().string() +
@@ -148,14 +172,37 @@ std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::i
     if (vectors.size() != sizes.size())
       throw header.refusal("space directions", std::to_string(sizes.size()) + " vectors");
     for (Axis& axis : axes) axis.direction = vectors[axis.number];
-    std::size_t extra = axes.size() > 3 ? axes.size() - 3 : 0;
-    std::erase_if(axes, [&](const Axis& axis) {
-      return !axis.direction && axis.size == 1 && extra > 0 && extra-- > 0;
-    });
+    dropExtra([](const Axis& axis) { return !axis.direction && axis.size == 1; });
   }
+  dropExtra([](const Axis& axis) { return axis.isOfVolumes && !axis.direction; });
+  if (header.has("space directions")) dropExtra([](const Axis& axis) { return !axis.direction; });
   while (axes.size() > 3 && (axes.back().size == 1 || !axes.back().direction)) axes.pop_back();
   if (axes.size() == 3) return axes;
   refuseDimensions(header.path(), static_cast<unsigned>(axes.size()), joinedNumbers(sizes, " x "));
+}
+
+/// Voxels of one volume that lie together: those before the first axis of several entries that is
+/// none of the volume's `axes`; 0 if such axes come last. Refuses such axes in two places.
+std::uint64_t togetherOf(const TextHeader& header, const std::vector<std::int64_t>& sizes,
+                         const std::vector<Axis>& axes) {
+  std::uint64_t before = 1;
+  std::size_t changes = 0;  // between axes of the volume and others
+  std::uint64_t together = 0;
+  bool wasOther = false;
+  for (std::size_t a = 0; a < sizes.size(); ++a) {
+    if (sizes[a] == 1) continue;
+    const bool isOther =
+        std::none_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.number == a; });
+    if (isOther && !wasOther) together = before;
+    if (a > 0) changes += isOther != wasOther ? 1 : 0;
+    wasOther = isOther;
+    before *= static_cast<std::uint64_t>(sizes[a]);
+  }
+  const bool isLast = wasOther || together == 0;
+  if (changes > 2 || (isLast && changes > 1))
+    refuseDimensions(header.path(), static_cast<unsigned>(sizes.size()),
+                     joinedNumbers(sizes, " x "));
+  return isLast ? 0 : together;
 }
 
 /// The mm of the units that `field` quotes for the `numbers`; NaN for an unknown unit.
@@ -276,10 +323,11 @@ StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int
                             const ReadVolumeOptions& options,
                             std::vector<std::string>& assumptions) {
   const Space space = readSpace(header, assumptions);
-  std::vector<Axis> axes = spatialAxes(header, sizes, space);
+  std::vector<Axis> axes = spatialAxes(header, sizes, space, options);
   StatedGeometry stated;
   (void)volumeSize(header.path(), sizes);  // only checks
   stated.geometry.size = volumeSize(header.path(), {axes[0].size, axes[1].size, axes[2].size});
+  stated.together = togetherOf(header, sizes, axes);
   stated.geometry.spacing.setConstant(kNaN);
   settleSpacings(header, axes, sizes.size(), options, stated);
   const bool oriented = std::any_of(axes.begin(), axes.end(),

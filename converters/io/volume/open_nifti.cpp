@@ -103,6 +103,9 @@ OpenVolume openNifti(const InputFile& file, const ReadVolumeOptions& options,
   ImageHeader image;
   image.voxels = storedVoxels(file, header, whole.packing, options);
   image.encoding = whole.packing == Packing::Deflate ? "gzip" : "raw";
+  if (header.isSlopeMissing)
+    image.assumptions.emplace_back(
+        "its scl_slope is not a number (NaN), so its values are taken as they are stored");
   image.stated = niftiGeometry(header, options, path, image.assumptions);
   OpenVolume open = openImage(std::move(image), options, path);
   checkExtensions(*bytes, header, path);

@@ -14,6 +14,7 @@
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/text_header.h"
 #include "converters/io/volume/volume_checks.h"
+#include "formats/container/printable.h"
 
 namespace lumen::convert {
 namespace {
@@ -55,7 +56,10 @@ void setField(TextHeader& header, const std::string& line) {
   if (colon == std::string::npos)
     throw invalidInput(header.path().string() + ": its header has the line " + quotedText(line) +
                        "; expected a field, a colon and a value");
-  if (line.compare(colon, 2, ":=") == 0) return;  // a key and value of the user
+  if (line.compare(colon, 2, ":=") == 0) {
+    header.notes.push_back(line);
+    return;
+  }
   const std::string name = fieldName(lowerCase(trimmed(line.substr(0, colon))));
   header.set(name, trimmed(line.substr(colon + 1)));
 }
@@ -210,6 +214,32 @@ void setFiles(const TextHeader& header, const std::vector<std::int64_t>& sizes,
     voxels.files.emplace_back(file);
 }
 
+/// Refuses a segmentation of several layers of which none is chosen, and names their segments.
+void requireLayer(const TextHeader& header, const ReadVolumeOptions& options,
+                  std::uint64_t volumes) {
+  if (volumes < 2 || options.volumeIndex) return;
+  std::map<std::string, std::string> layers, names;  // by the number of the segment
+  for (const std::string& note : header.notes) {
+    const std::size_t underscore = note.find('_'), equals = note.find(":=");
+    if (!note.starts_with("Segment") || underscore > equals) continue;
+    const std::string number = note.substr(0, underscore);
+    const std::string key = note.substr(underscore + 1, equals - underscore - 1);
+    if (key == "Layer") layers[number] = trimmed(note.substr(equals + 2));
+    if (key == "Name") names[number] = trimmed(note.substr(equals + 2));
+  }
+  std::map<std::string, std::string> segments;  // by layer
+  for (const auto& [number, layer] : layers)
+    segments[layer] += (segments[layer].empty() ? "" : ", ") + names[number];
+  if (segments.empty()) return;
+  std::string text;
+  for (const auto& [layer, of] : segments)
+    text +=
+        (text.empty() ? "" : "; ") + formats::printable(layer) + " with " + formats::printable(of);
+  throw invalidInput(header.path().string() + ": holds " + std::to_string(volumes) +
+                     " layers of segments (" + text + "); expected a choice of one with " +
+                     options.word("volume-index"));
+}
+
 OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
                     const Progress& progress) {
   progress.check();
@@ -225,7 +255,17 @@ OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
   const std::int64_t dimension = fields.integers("dimension", 1, 1, kMaxDimension)[0];
   const auto sizes = fields.integers("sizes", static_cast<std::size_t>(dimension), 1, kMaxInt);
   header.stated = nrrdGeometry(fields, sizes, options, header.assumptions);
+  std::uint64_t entries = 1;
+  for (const std::int64_t size : sizes) entries *= static_cast<std::uint64_t>(size);
+  requireLayer(fields, options, entries / header.stated.geometry.voxelCount());
   chooseVoxels(path, sizes, options, voxels, header.stated.geometry.voxelCount());
+  if (header.stated.together > 0 && voxels.count > header.stated.geometry.voxelCount()) {
+    const std::uint64_t volume = header.stated.geometry.voxelCount();
+    voxels.together = header.stated.together;
+    voxels.volumes = voxels.count / volume;
+    voxels.volume = voxels.first / volume;
+    voxels.first = 0;
+  }
   voxels.lineSkip = static_cast<std::uint64_t>(
       fields.integer("line skip", 0, std::numeric_limits<std::int64_t>::max(), 0));
   // text has no bytes to count from its end

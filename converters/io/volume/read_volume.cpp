@@ -83,7 +83,9 @@ OpenVolume open(const InputFile& file, const VolumeFormat& format, const ReadVol
                 const Progress& progress) {
   checkPlace(file, format, options);
   progress.check();
-  return format.open(file, options, progress);
+  OpenVolume opened = format.open(file, options, progress);
+  moveFarOrigin(opened.header.geometry, opened.header.assumptions);
+  return opened;
 }
 
 }  // namespace

@@ -50,12 +50,15 @@ public:
       : m_stored(stored), m_progress(progress), m_assumptions(assumptions) {}
 
   Voxels read() {
-    m_voxels.reserve(m_stored.wantedCount());
+    m_voxels.reserve(m_stored.wantedCount() +
+                     (m_stored.together > 0 ? kBlockBytes / sizeof(From) : 0));
     const std::uint64_t each = m_stored.count / m_stored.files.size();
-    const std::uint64_t end = m_stored.first + m_stored.wantedCount();
+    const std::uint64_t end =
+        m_stored.together > 0 ? m_stored.count : m_stored.first + m_stored.wantedCount();
     for (std::uint64_t f = 0; f < m_stored.files.size(); ++f) {
       const std::uint64_t from = std::max(m_stored.first, f * each),
                           to = std::min(end, (f + 1) * each);
+      m_before = f * each;
       if (from < to) readFile(m_stored.files[f], from - f * each, to - f * each);
     }
     return std::move(m_voxels);
@@ -72,7 +75,7 @@ private:
       const std::uint64_t end = done < from ? from : to;
       const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, end - done));
       const std::size_t got = done < from ? packed->read(m_block.data(), wanted * sizeof(From))
-                                          : readBlock(*packed, wanted);
+                                          : readWanted(*packed, wanted, m_before + done);
       done += got / sizeof(From);
       if (got < wanted * sizeof(From)) refuseTruncated(file.path(), done * sizeof(From), bytes);
     }
@@ -80,6 +83,20 @@ private:
       m_assumptions.push_back(
           "the data in " + formats::printable(file.path().filename().string()) +
           " goes on after the voxels that the header announces; the rest is not read");
+  }
+
+  /// Appends those of up to `count` voxels, of which the first is the `place`th of all files, that
+  /// belong to the wanted volume. Returns the number of bytes read.
+  std::size_t readWanted(PackedFile& packed, std::size_t count, std::uint64_t place) {
+    const std::size_t before = m_voxels.size();
+    const std::size_t got = readBlock(packed, count);
+    if (m_stored.together == 0) return got;
+    std::size_t kept = before;
+    for (std::size_t i = 0; i < got / sizeof(From); ++i)
+      if ((place + i) / m_stored.together % m_stored.volumes == m_stored.volume)
+        m_voxels[kept++] = m_voxels[before + i];
+    m_voxels.resize(kept);
+    return got;
   }
 
   /// Appends up to `wanted` voxels, and returns the number of bytes read.
@@ -132,6 +149,7 @@ private:
   const Progress& m_progress;
   std::vector<std::string>& m_assumptions;
   std::vector<To> m_voxels;
+  std::uint64_t m_before = 0;  // voxels in the files before the current one
   std::array<std::byte, kBlockBytes> m_block{};
 };
 

@@ -61,6 +61,9 @@ struct StoredVoxels {
   std::uint64_t count = 0;              ///< voxels in all files
   std::uint64_t first = 0;              ///< index of the first wanted voxel
   std::optional<std::uint64_t> wanted;  ///< number of wanted voxels; empty: all
+  /// Interleaved volumes: `together` voxels of one, then as many of the next, and `first` is 0. 0: the
+  /// wanted voxels follow one another.
+  std::uint64_t together = 0, volumes = 1, volume = 0;
   PixelType type = PixelType::UInt8;
   bool bigEndian = false;
   Packing packing = Packing::Raw;

@@ -65,6 +65,7 @@ public:
   [[nodiscard]] const std::filesystem::path& path() const { return m_file.path(); }
 
   std::uint64_t size = 0;          ///< bytes up to the data
+  std::vector<std::string> notes;  ///< keys and values of the user, "KEY:=VALUE"
   std::vector<std::string> files;  ///< lines after a field that announces a list of files
 
 private:

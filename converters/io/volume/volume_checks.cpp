@@ -94,6 +94,16 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
   }
 }
 
+void moveFarOrigin(VolumeGeometry& geometry, std::vector<std::string>& assumptions) {
+  constexpr double kFar = 1e4;  // mm
+  const Eigen::Vector3d move =
+      geometry.origin.unaryExpr([](double at) { return kFar * std::trunc(at / kFar); });
+  if (move.isZero(0)) return;
+  geometry.origin -= move;
+  assumptions.push_back("its origin is far from 0: all positions are stated less " +
+                        vectorText(move, kHeaderDigits) + " mm, as floats would round them there");
+}
+
 void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value,
                         const FieldWord& word) {
   if (std::isfinite(value) && value > 0) return;

@@ -28,14 +28,18 @@ struct VtkArray {
   std::vector<double> values;  ///< tuple after tuple; may hold non-finite values
 };
 
+// Names of field data that state unit and axes, as lumen and 3D Slicer write them, in a few bytes.
+constexpr std::string_view kVtkUnit = "Unit", kVtkSpace = "SPACE";
+constexpr std::size_t kLongestVtkText = 32;
+
 /// Lengths and axes are the file's; `unit` and `space` hold its words for them, empty if it has
-/// none. Values may be infinite or NaN. Values of cells are in the order verts, lines, polys,
+/// none, `title` that of a legacy file. Values may be infinite or NaN. Values of cells are in the order verts, lines, polys,
 /// strips.
 struct VtkPolyData {
   std::vector<Eigen::Vector3d> position;
   VtkCells verts, lines, polys, strips;
   std::vector<VtkArray> pointData, cellData;
-  std::string unit, space;
+  std::string unit, space, title;
 
   [[nodiscard]] const VtkArray* pointArray(std::string_view name) const;
   [[nodiscard]] const VtkArray* cellArray(std::string_view name) const;

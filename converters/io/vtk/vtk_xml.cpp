@@ -43,10 +43,6 @@ constexpr int kDeepest = 16;  // limit; the format itself is five levels deep
 constexpr std::uint32_t kMostComponents = 64;
 constexpr std::uint32_t kMostIndices = std::numeric_limits<std::uint32_t>::max();
 
-// Unit and axes as lumen and 3D Slicer write them, texts of a few bytes.
-constexpr std::string_view kUnit = "Unit", kSpace = "SPACE";
-constexpr std::uint64_t kLongestText = 16;
-
 enum Section {
   kPoints,
   kPointData,
@@ -61,7 +57,7 @@ enum Section {
 constexpr std::array<const char*, 8> kSectionNames = {
     "Points", "PointData", "CellData", "Verts", "Lines", "Polys", "Strips", "FieldData"};
 
-// A <DataArray> as described by its tag.
+// A <DataArray>, or an <Array> of texts, as described by its tag.
 struct Element {
   Section section = kNoSection;
   std::string name, type;
@@ -109,6 +105,8 @@ private:
     if (name == "Piece") return beginPiece(attributes);
     if (name == "AppendedData") return beginAppended(attributes);
     if (name == "DataArray") return beginArray(attributes);
+    // texts as VTK writes them
+    if (name == "Array" && m_section == kFieldData) return beginArray(attributes);
     for (std::size_t s = 0; s < kSectionNames.size(); ++s)
       if (name == kSectionNames[s]) beginSection(static_cast<Section>(s));
   }
@@ -120,7 +118,7 @@ private:
 
   void end(std::string_view name) override {
     --m_depth;
-    if (name == "DataArray" && m_isOpen) {
+    if ((name == "DataArray" || name == "Array") && m_isOpen) {
       m_isOpen = false;
       Element& element = elements().back();
       // keys may follow the data within the element
@@ -178,7 +176,7 @@ private:
     element.section = m_section;
     element.name = attribute(attributes, "Name");
     if (isField && (attribute(attributes, "type") != "String" ||
-                    (element.name != kUnit && element.name != kSpace)))
+                    (element.name != kVtkUnit && element.name != kVtkSpace)))
       return;
     const bool isData = m_section == kPointData || m_section == kCellData;
     if (isData && std::find(m_wanted.begin(), m_wanted.end(), element.name) == m_wanted.end())
@@ -253,8 +251,8 @@ public:
     addArrays(kPointData, m_result.pointData);
     addArrays(kCellData, m_result.cellData);
     for (const Element& element : m_document.field)
-      (element.name == kUnit ? m_result.unit : m_result.space) =
-          decodeVtkText(encoded(element), m_document.packing, kLongestText);
+      (element.name == kVtkUnit ? m_result.unit : m_result.space) =
+          decodeVtkText(encoded(element), m_document.packing, kLongestVtkText);
     return std::move(m_result);
   }
 

@@ -6,6 +6,7 @@
 #include "converters/base/error.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/topology.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
@@ -50,6 +51,9 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   info.reach = measureReach(value, progress);
   for (const auto& branch : value.tree.branches)
     info.branches.push_back(describeBranch(value.tree, branch));
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(value);
+  for (std::size_t b = 0; b < systems.size(); ++b)
+    info.branches[b].system = formats::kVesselSystemNames[static_cast<std::size_t>(systems[b])];
   info.metadata = value.metadata;
   return info;
 }

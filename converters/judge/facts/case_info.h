@@ -24,6 +24,7 @@ struct BranchInfo {
   RadiusRange radius;
   std::string stopReason;  ///< such as no-valid-cylinder
   std::optional<float> inlierRate;
+  std::string system;  ///< such as artery; empty if the case states none
 };
 
 struct MotionInfo {

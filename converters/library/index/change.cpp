@@ -87,7 +87,7 @@ void linkAll(const fs::path& from, const fs::path& to,
   for (const auto& entry : fs::directory_iterator(from, error)) {
     const std::string name = entry.path().filename().string();
     const fs::path target = to / name;
-    if (formats::isTemporaryName(name) || (skips && skips(name))) continue;
+    if (formats::isTemporary(entry.path()) || (skips && skips(name))) continue;
     const fs::file_status status = entry.symlink_status();
     if (fs::is_directory(status)) {
       makeFolderLike(entry.path(), target);

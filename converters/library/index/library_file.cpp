@@ -129,6 +129,8 @@ LibraryFile readLibrary(const std::string& text, const fs::path& file) {
 LibraryFile openLibrary(const fs::path& folder) {
   const fs::path file = folder / kLibraryFile;
   std::error_code error;
+  if (!fs::exists(folder, error))
+    throw invalidInput(formats::printable(folder.string()) + ": there is no such library");
   if (!fs::is_regular_file(fs::symlink_status(file, error)))
     throw invalidInput(formats::printable(folder.string()) + ": found no " + kLibraryFile +
                        " in it, expected a library, which lumen library init makes");

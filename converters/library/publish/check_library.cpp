@@ -66,7 +66,7 @@ void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultLi
       "", [&](const PlainEntry& entry) { entries.emplace(entry.name, entry.status.st_mode); });
   for (const auto& [name, mode] : entries) {
     const bool isFile = S_ISREG(mode), isFolder = S_ISDIR(mode);
-    if (isOfOneRevision(name) || (formats::isTemporaryName(name) && (isFile || isFolder)))
+    if (isOfOneRevision(name) || formats::isTemporary(folder.path() / name))
       root.files.insert(name);
     if (isOfOneRevision(name) && !(name == kSiteFolder ? isFolder : isFile))
       faults.add({FaultCode::FileKind, "", name, kindText(mode),

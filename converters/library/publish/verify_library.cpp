@@ -85,10 +85,10 @@ void checkSignature(const PlainFolder& folder, const std::string& text,
   verdict.check.faults.add({code, "", file, answer.found, answer.expected});
 }
 
-/// Refuses a revision that is older than one seen, or another of its number or history; remembers
-/// it otherwise.
+/// Refuses a revision that is older than one that was verified, or another of its number or history.
+/// Remembers one without any fault.
 void checkRevision(const LibraryFile& library, const std::string& digest, const fs::path& state,
-                   LibraryVerdict& verdict) {
+                   bool isSound, LibraryVerdict& verdict) {
   VerifiedRevisions known(state);
   const auto before = known.of(library.id);
   verdict.knownRevision = before ? before->revision : 0;
@@ -108,7 +108,7 @@ void checkRevision(const LibraryFile& library, const std::string& digest, const 
     return refuse(FaultCode::RevisionOther,
                   number + " that follows " + library.previous.value_or("nothing"),
                   "one that follows " + before->sha256 + ", " + at + ": that was verified before");
-  if (!before || before->revision != library.revision)
+  if (isSound && (!before || before->revision != library.revision))
     known.remember(library.id, {library.revision, digest});
 }
 
@@ -168,10 +168,16 @@ LibraryVerdict verifyLibrary(const PlainFolder& folder, const VerifyOptions& opt
     verdict.check.faults.add({FaultCode::LibraryFile, "", kLibraryFile, error.what(), ""});
     return verdict;
   }
-  if (!options.state.empty())
-    checkRevision(*verdict.check.library, sha256(*text), options.state, verdict);
-  if (verdict.check.faults.empty())
-    verdict.check = checkLibrary(folder, *text, {options.mostFaults, {}}, progress);
+  const LibraryFile library = *verdict.check.library;
+  const auto checkAge = [&](bool isSound) {
+    if (!options.state.empty())
+      checkRevision(library, sha256(*text), options.state, isSound, verdict);
+  };
+  checkAge(false);
+  if (!verdict.check.faults.empty()) return verdict;
+  verdict.check = checkLibrary(folder, *text, {options.mostFaults, {}}, progress);
+  // another process may have verified a later revision in the meantime
+  if (verdict.isTrusted()) checkAge(true);
   return verdict;
 }
 

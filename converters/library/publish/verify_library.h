@@ -64,8 +64,7 @@ struct LibraryVerdict {
   [[nodiscard]] bool isTrusted() const { return check.faults.counts().errors == 0; }
 };
 
-/// Verifies a library. A revision is remembered as soon as its signature is trusted, whatever its
-/// files are like: from then on it is known that there is one. Throws as verifySignature(),
+/// Verifies a library. A revision is remembered if it has no error. Throws as verifySignature(),
 /// VerifiedRevisions and checkLibrary().
 LibraryVerdict verifyLibrary(const PlainFolder& folder, const VerifyOptions& options,
                              Progress& progress);

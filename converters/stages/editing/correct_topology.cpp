@@ -47,7 +47,9 @@ public:
       : m_case(target), m_around(around), m_edited(target), m_graph(m_edited) {}
 
   std::vector<Vector3d> correct() {
-    m_graph.orient(m_graph.formerRoots());
+    std::vector<std::uint32_t> before = m_graph.formerRoots();
+    for (const std::uint32_t node : m_graph.cutBetweenSystems()) before.push_back(node);
+    m_graph.orient(before);
     const std::vector<Match> joined = chosen(matches(findEnds(m_graph.chains())));
     join(joined);
     std::vector<Vector3d> places = joinOverlappingEnds(m_graph);
@@ -115,6 +117,7 @@ private:
 
   /// Cost of one vessel through two ends; empty if they are none.
   [[nodiscard]] std::optional<double> joinCost(const VesselEnd& a, const VesselEnd& b) const {
+    if (m_graph.areApart(a.node, b.node)) return std::nullopt;
     const Vector3d gap = b.position - a.position;
     const double length = gap.norm(), wide = a.radius + b.radius;
     double reach = kArmEndRadii * wide;  // beyond, the arms of both ends show nothing

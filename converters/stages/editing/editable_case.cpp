@@ -49,9 +49,11 @@ EditableCase::EditableCase(const Case& value) : links(value.tree.links), m_case(
   const formats::CenterlineTree& tree = value.tree;
   const auto origins = formats::readNodeOrigins(value);
   const auto edited = formats::readEditedWalls(value);
+  const auto systems = formats::readNodeSystems(value);
   for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
     nodes.push_back({i, tree.centre[i], tree.direction[i], tree.radius[i], tree.height[i],
-                     tree.inlierRate.empty() ? 0 : tree.inlierRate[i], origins[i], edited[i]});
+                     tree.inlierRate.empty() ? 0 : tree.inlierRate[i], origins[i], edited[i],
+                     systems[i]});
   for (const formats::Branch& branch : tree.branches) {
     EditableBranch made{branch, kNoNode, {}};
     if (branch.parentNode != formats::kNoParent)
@@ -199,7 +201,9 @@ void EditableCase::writeArrays(const Layout& layout, Case& out, Change& change) 
   const bool hasNew =
       std::find(layout.before.begin(), layout.before.end(), kNewNode) != layout.before.end();
   for (const formats::NodeArray& array : m_case.nodeArrays) {
-    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray) continue;
+    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray ||
+        array.name == formats::kSystemArray)
+      continue;
     if (hasNew) {
       change.droppedArrays.push_back(array.name);
       continue;
@@ -214,12 +218,15 @@ void EditableCase::writeArrays(const Layout& layout, Case& out, Change& change) 
   }
   std::vector<formats::NodeOrigin> origins;
   std::vector<bool> edited;
+  std::vector<formats::VesselSystem> systems;
   for (const std::uint32_t node : layout.nodes) {
     origins.push_back(nodes[node].origin);
     edited.push_back(nodes[node].isEdited);
+    systems.push_back(nodes[node].system);
   }
   formats::setNodeOrigins(out, origins);
   formats::setEditedWalls(out, edited);
+  formats::setNodeSystems(out, systems);
 }
 
 void EditableCase::writeMotion(const Layout& layout, Case& out, Change& change) const {

@@ -11,6 +11,7 @@
 #include "converters/stages/editing/selection.h"
 #include "formats/case/case.h"
 #include "formats/case/node_origin.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
@@ -23,6 +24,7 @@ struct EditableNode {
   float radius = 0, height = 0, inlierRate = 0;
   formats::NodeOrigin origin = formats::NodeOrigin::Measured;
   bool isEdited = false;  ///< its wall was changed by hand
+  formats::VesselSystem system = formats::VesselSystem::Unknown;
 };
 
 struct EditableBranch {

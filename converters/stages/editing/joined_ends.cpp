@@ -66,11 +66,11 @@ std::optional<double> costAcross(const FreeEnd& a, const FreeEnd& b) {
 }
 
 /// Pairs of ends of two trees that may be one vessel, the surest first.
-std::vector<Facing> facingPairs(const std::vector<FreeEnd>& ends) {
+std::vector<Facing> facingPairs(const NodeGraph& graph, const std::vector<FreeEnd>& ends) {
   std::vector<Facing> found;
   for (std::size_t i = 0; i < ends.size(); ++i)
     for (std::size_t j = i + 1; j < ends.size(); ++j)
-      if (ends[i].tree != ends[j].tree)
+      if (ends[i].tree != ends[j].tree && !graph.areApart(ends[i].node, ends[j].node))
         if (const auto cost = costAcross(ends[i], ends[j])) found.push_back({i, j, *cost});
   std::stable_sort(found.begin(), found.end(),
                    [](const Facing& x, const Facing& y) { return x.cost < y.cost; });
@@ -84,7 +84,7 @@ std::vector<Vector3d> joinAcrossVoids(NodeGraph& graph) {
   std::vector<bool> isUsed(ends.size(), false);
   DisjointSets trees(ends.empty() ? 0 : ends.back().tree + 1);
   std::vector<Vector3d> places;
-  for (const auto& [i, j, cost] : facingPairs(ends)) {
+  for (const auto& [i, j, cost] : facingPairs(graph, ends)) {
     if (isUsed[i] || isUsed[j] || trees.find(ends[i].tree) == trees.find(ends[j].tree)) continue;
     isUsed[i] = isUsed[j] = true;
     trees.join(ends[i].tree, ends[j].tree);
@@ -115,6 +115,7 @@ std::optional<std::uint32_t> nodeAhead(const NodeGraph& graph, std::uint32_t end
   double least = std::numeric_limits<double>::infinity();
   std::optional<std::uint32_t> best;
   for (const std::uint32_t node : nodes) {
+    if (graph.areApart(end, node)) continue;
     const Vector3d gap = graph.position(node) - from;
     const double length = gap.norm(), wide = graph.radius(end) + graph.radius(node);
     const double toWall = length - graph.radius(node);
@@ -186,6 +187,7 @@ std::size_t countWithin(const NodeGraph& graph, const Tip& tip, const Tip& other
 }
 
 std::optional<Overlap> overlapOf(const NodeGraph& graph, const Tip& a, const Tip& b) {
+  if (graph.areApart(a.nodes.front(), b.nodes.front())) return std::nullopt;
   if (a.outward.dot(b.outward) > -kFacingCosine) return std::nullopt;
   if (std::max(a.radius, b.radius) > kLikeRadii * std::min(a.radius, b.radius)) return std::nullopt;
   const bool isOneVessel =

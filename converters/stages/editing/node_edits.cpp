@@ -40,6 +40,7 @@ EditableNode between(const EditableNode& a, const EditableNode& b) {
   node.height = 0.5F * (a.height + b.height);
   node.inlierRate = 0.5F * (a.inlierRate + b.inlierRate);
   node.isEdited = a.isEdited && b.isEdited;
+  node.system = a.system;
   return node;
 }
 

@@ -42,6 +42,27 @@ std::vector<std::uint32_t> NodeGraph::formerRoots() const {
   return roots;
 }
 
+std::vector<std::uint32_t> NodeGraph::cutBetweenSystems() {
+  std::vector<std::uint32_t> roots;
+  for (EditableBranch& branch : m_edited.branches) {
+    if (branch.parent == kNoNode || !areApart(branch.parent, branch.nodes.front())) continue;
+    if (branch.record.kind == BranchKind::Vessel) {
+      cut(branch.parent, branch.nodes.front());
+      const auto isBridge = [&](std::uint32_t node) {
+        return m_edited.nodes[node].origin == formats::NodeOrigin::Bridged &&
+               m_neighbours[node].size() == 1 && !isLinked(node) && !hasAneurysm(node);
+      };
+      std::size_t first = 0;
+      for (; isBridge(branch.nodes[first]); ++first)
+        drop(std::span(branch.nodes).subspan(first, 1));
+      roots.push_back(branch.nodes[first]);
+    }
+    branch.parent = kNoNode;
+  }
+  std::erase_if(m_edited.links, [&](const auto& link) { return areApart(link[0], link[1]); });
+  return roots;
+}
+
 void NodeGraph::orient(const std::vector<std::uint32_t>& roots) {
   m_order.clear();
   m_parent.assign(m_neighbours.size(), kNoNode);

@@ -64,6 +64,10 @@ public:
   [[nodiscard]] std::vector<std::uint32_t> stretchAround(std::uint32_t node) const;
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t node) const;
   [[nodiscard]] double radius(std::uint32_t node) const;  ///< mm
+  /// Whether the systems of two nodes are never joined.
+  [[nodiscard]] bool areApart(std::uint32_t a, std::uint32_t b) const {
+    return formats::areApart(m_edited.nodes[a].system, m_edited.nodes[b].system);
+  }
   /// Whether more than one vessel leads on from a node.
   [[nodiscard]] bool isFork(std::uint32_t node) const { return m_neighbours[node].size() > 2; }
   /// Radii of a vessel just before and behind two of its nodes, mm; empty if they are not of one.
@@ -79,6 +83,9 @@ public:
   /// Joins two nodes by a bridge, or by a link behind a bridge if they are connected already.
   void join(std::uint32_t a, std::uint32_t b);
   void connect(std::uint32_t a, std::uint32_t b);
+  /// Cuts edges and links between nodes that are apart, and drops the bridges that lead to them.
+  /// Returns the nodes at which trees of their own begin.
+  [[nodiscard]] std::vector<std::uint32_t> cutBetweenSystems();
   void cut(std::uint32_t a, std::uint32_t b);
   void link(std::uint32_t a, std::uint32_t b) { m_edited.links.push_back({a, b}); }
   /// Whether a link holds a node.

@@ -37,6 +37,7 @@ std::vector<EditableNode> bridge(const EditableNode& from, const EditableNode& t
   for (double n = 1; n < count; ++n) {
     EditableNode node;
     node.origin = NodeOrigin::Bridged;
+    node.system = to.system;
     node.centre = toVec3f(start + n / count * chord);
     node.direction = toVec3f(chord.normalized());
     node.radius = static_cast<float>(first + (last - first) * n / count);

@@ -241,4 +241,9 @@ MeshReport diagnoseMesh(const TriangleMesh& mesh, const Progress& progress) {
   return Diagnosis(mesh).make(progress);
 }
 
+VesselSize vesselSize(const MeshReport& report) {
+  return {report.area > 0 ? 2 * std::abs(report.volume) / report.area : 0,
+          (report.high - report.low).norm()};
+}
+
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/geometry/mesh_measures.h"
+#include "converters/geometry/unit_guess.h"
 #include "converters/stages/repair/repair.h"
 
 namespace lumen::convert {
@@ -47,5 +48,7 @@ struct MeshReport {
 /// Topology, measures and faults of a mesh. Equal points count as one (see duplicatePoints), so
 /// that a soup of triangles is judged as the surface that it is. Throws Error(Cancelled).
 MeshReport diagnoseMesh(const TriangleMesh& mesh, const Progress& progress);
+
+VesselSize vesselSize(const MeshReport& report);
 
 }  // namespace lumen::convert

@@ -17,6 +17,7 @@
 #include "formats/case/case_field.h"
 #include "formats/case/motion.h"
 #include "formats/case/topology.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
@@ -89,6 +90,7 @@ SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& fiel
   result.group = surface.group;
   result.groups = surface.groups;
   for (const formats::Branch& branch : tree.branches) result.labels.push_back(branch.label);
+  result.systems = formats::knownBranchSystems(field.source());
   result.position.resize(position.size());
   result.normal.resize(position.size());
   result.radius.resize(position.size());

@@ -25,6 +25,7 @@
 #include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -167,7 +168,8 @@ std::string sentenceOn(const SeedBranch& seed) {
 
 void dropOtherArrays(AddedTracks& out) {
   std::erase_if(out.result.nodeArrays, [&](const formats::NodeArray& array) {
-    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray)
+    if (array.name == formats::kOriginArray || array.name == formats::kEditedWallArray ||
+        array.name == formats::kSystemArray)
       return false;
     out.droppedArrays.push_back(array.name);
     return true;
@@ -322,8 +324,9 @@ void giveNewLabels(const formats::Case& known, std::vector<SeedBranch>& seeds) {
 }  // namespace
 
 TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                           const TrackOptions& options, Progress& progress) {
-  return newCase(volume, seeds, options, SeedPoints::Clicks, {}, progress);
+                           const TrackOptions& options, Progress& progress,
+                           const PlaceTest& isNoVessel) {
+  return newCase(volume, seeds, options, SeedPoints::Clicks, isNoVessel, progress);
 }
 
 TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
@@ -333,11 +336,12 @@ TrackResult trackAlongCourses(const Volume& volume, const std::vector<SeedBranch
 }
 
 AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
-                               const std::vector<SeedBranch>& seeds, Progress& progress) {
+                               const std::vector<SeedBranch>& seeds, Progress& progress,
+                               const PlaceTest& isNoVessel) {
   requireNewLabels(known, seeds);
   TrackedTree tree = makeTrackedTree(known);
   appendParentsFirst(seeds, tree.seeds);
-  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Clicks, {}, progress);
+  AddedTracks out = intoCase(volume, known, tree, SeedPoints::Clicks, isNoVessel, progress);
   for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
     if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));
   requireValid(out.result);

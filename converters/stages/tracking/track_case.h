@@ -25,11 +25,13 @@ struct TrackResult : TrackRemarks {
   formats::Case result;  ///< tree and wall points; the metadata lack the fit only
 };
 
-/// Tracks every seed. The result does not depend on the number of threads. Throws
+/// Tracks every seed. No node is put where `isNoVessel`. The result does not depend on the number of
+/// threads. Throws
 /// Error(InvalidInput) for options out of range and for voxels with one edge over 1000 times as
 /// long as another, and Error(Cancelled).
 TrackResult trackFromSeeds(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                           const TrackOptions& options, Progress& progress);
+                           const TrackOptions& options, Progress& progress,
+                           const PlaceTest& isNoVessel = {});
 
 /// The courses in the lumen that remains outside of vessels, given as balls along them in the frame
 /// of gridGeometry().
@@ -59,11 +61,12 @@ struct AddedTracks : TrackRemarks {
 /// track ends where it meets one, a click in one starts nothing, and a new vessel is joined to its
 /// parent through the lumen. `parent` of a seed is the label of a branch of the case or of another
 /// seed; a seed without one is joined to the vessel that it runs into. An aneurysm is a chain of
-/// clicks with radii. The "edit" step of the result lists the tracked seeds. The result does not
-/// depend on the number of threads. Throws Error(InvalidInput) if a seed has the label of a branch
+/// clicks with radii. No node is put where `isNoVessel`. The "edit" step of the result lists the
+/// tracked seeds. The result does not depend on the number of threads. Throws Error(InvalidInput) if a seed has the label of a branch
 /// or of another seed, or an unknown parent, and Error(Cancelled).
 AddedTracks addTracksFromSeeds(const TrackingVolume& volume, const formats::Case& known,
-                               const std::vector<SeedBranch>& seeds, Progress& progress);
+                               const std::vector<SeedBranch>& seeds, Progress& progress,
+                               const PlaceTest& isNoVessel = {});
 
 /// Adds the vessels along courses, as trackAlongCourses() fits them, to a case as
 /// addTracksFromSeeds() does: the stretches that the case does not have. New vessels are named

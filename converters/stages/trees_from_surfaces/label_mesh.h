@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,11 +63,30 @@ struct Naming {
 /// - Nodes within the ball of the node from which a branch leaves its parent do not count, unless all
 ///   are.
 /// - A branch with stretches of several labels, each longer than it is wide there, is divided where one
-///   follows the other; nodes without a label belong to the stretch before them, or after.
+///   follows the other; nodes without a label belong to the stretch before them, or after. At an end
+///   of the branch they are a branch of their own if they are another vessel than the stretch: longer
+///   than they are wide, and wider than the parent of two such vessels, or, at its beginning, longer
+///   than the stretch.
 /// - A branch has the name of the label with the greatest length along it, the lower value of two that
 ///   are equal, if that is longer than the branch is wide or is at least half of it; one without keeps its name.
 /// - Branches of one name are "NAME", "NAME-2" and so on in the order of the tree.
 Naming nameBranches(const LabelMask& mask, formats::Case& value);
+
+/// The label after which nameBranches() names a branch, by its place counted from 1, 0 for none; and
+/// the nodes [first, end) from the first to the last with any label, none if both are equal.
+struct NamedStretch {
+  std::uint8_t label = 0;
+  std::uint32_t first = 0, end = 0;
+};
+
+/// One for each branch, which is not divided.
+std::vector<NamedStretch> labelsAlong(const LabelMask& mask, const formats::CenterlineTree& tree);
+
+/// The label of the voxel around a position, mm, LPS, counted from 1; 0 outside.
+std::uint8_t labelAt(const LabelMask& mask, const Eigen::Vector3d& position);
+
+/// "NAME", or "NAME-2" and so on, whichever is free, which is taken then.
+std::string freeName(const std::string& name, std::set<std::string>& taken);
 
 /// The number of labelled voxels whose centres lie in a volume of this geometry.
 std::size_t labelledWithin(const LabelMask& mask, const VolumeGeometry& geometry);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declared in label_mesh.h.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,12 +22,9 @@ struct Run {
   std::uint32_t first = 0, end = 0;
 };
 
-/// The label at a place; 0 outside.
-std::uint8_t labelAt(const LabelMask& mask, const Vector3d& place) {
-  const Vector3d at = mask.geometry.indexFromWorld(place).array().round();
-  if (!mask.geometry.containsIndex(at)) return 0;
-  return mask.label[mask.geometry.index(at.cast<int>())];
-}
+/// Width of a vessel over that of one of two equal ones that it divides into, whose cubes have its
+/// sum (Murray, The physiological principle of minimum work, 1926).
+const double kParentWidth = std::cbrt(2.0);
 
 /// Labels of the nodes of a branch, and what they need to be judged.
 class Branches {
@@ -38,6 +36,7 @@ public:
   }
 
   /// The stretches of a branch that deserve a name each; one that covers it if there are none, or one.
+  /// An end of the branch that is on no label, and another vessel than the one before it, is one.
   [[nodiscard]] std::vector<Run> stretches(const formats::Branch& branch) const {
     std::vector<Run> runs = findRuns(branch);
     while (runs.size() > 1) {
@@ -48,6 +47,8 @@ public:
       if (length(*shortest) > width(*shortest)) break;
       absorb(runs, static_cast<std::size_t>(shortest - runs.begin()));
     }
+    divideTail(runs);
+    divideHead(runs);
     return runs;
   }
 
@@ -60,6 +61,15 @@ public:
     const double whole = length({0, from, run.end});
     const bool isEnough = *most > 0 && (*most > width({0, from, run.end}) || 2 * *most >= whole);
     return isEnough ? static_cast<std::uint8_t>(most - lengths.begin()) : std::uint8_t{0};
+  }
+
+  /// The part of a run without the nodes on no label at its ends, and without those in the parent's
+  /// ball; empty if no node is left.
+  [[nodiscard]] Run labelledPart(const Run& run) const {
+    Run part{run.label, firstOwn(run), run.end};
+    while (part.first < part.end && m_label[part.first] == 0) ++part.first;
+    while (part.first < part.end && m_label[part.end - 1] == 0) --part.end;
+    return part;
   }
 
 private:
@@ -82,6 +92,33 @@ private:
     for (std::uint32_t n = run.first; n < run.end; ++n)
       sum += 2 * static_cast<double>(m_tree.radius[n]);
     return sum / (run.end - run.first);
+  }
+
+  /// An end on no label is another vessel than the labelled part beside it if it is longer than it is
+  /// wide, and wider than a vessel whose half the part is.
+  [[nodiscard]] bool isWiderVessel(const Run& end, const Run& part) const {
+    return end.first < end.end && length(end) > width(end) && length(part) > width(part) &&
+           width(end) > kParentWidth * width(part);
+  }
+
+  void divideTail(std::vector<Run>& runs) const {
+    const Run part = labelledPart(runs.back());
+    const Run tail{0, part.end, runs.back().end};
+    if (part.first == part.end || !isWiderVessel(tail, part)) return;
+    runs.back().end = tail.first;
+    runs.push_back(tail);
+  }
+  /// A vessel that is labelled runs on from where its label ends, and does not begin long before it.
+  void divideHead(std::vector<Run>& runs) const {
+    const Run part = labelledPart(runs.front());
+    const Run head{0, firstOwn(runs.front()), part.first};
+    if (part.first == part.end || head.first == head.end) return;
+    const bool isLonger =
+        length(head) > width(head) && length(part) > width(part) && length(head) > length(part);
+    if (!isLonger && !isWiderVessel(head, part)) return;
+    const Run before{0, runs.front().first, head.end};
+    runs.front().first = head.end;
+    runs.insert(runs.begin(), before);
   }
 
   /// The first node outside of the parent's ball; the first of all if there is none.
@@ -145,14 +182,19 @@ std::optional<float> meanRate(const formats::CenterlineTree& tree, const formats
   return static_cast<float>(sum / branch.nodeCount);
 }
 
-/// "NAME", or "NAME-2" and so on, whichever is free.
+}  // namespace
+
+std::uint8_t labelAt(const LabelMask& mask, const Vector3d& place) {
+  const Vector3d at = mask.geometry.indexFromWorld(place).array().round();
+  if (!mask.geometry.containsIndex(at)) return 0;
+  return mask.label[mask.geometry.index(at.cast<int>())];
+}
+
 std::string freeName(const std::string& name, std::set<std::string>& taken) {
   std::string free = name;
   for (int i = 2; !taken.insert(free).second; ++i) free = name + "-" + std::to_string(i);
   return free;
 }
-
-}  // namespace
 
 Naming nameBranches(const LabelMask& mask, formats::Case& value) {
   formats::CenterlineTree& tree = value.tree;
@@ -192,6 +234,17 @@ Naming nameBranches(const LabelMask& mask, formats::Case& value) {
     ++(wanted[b].empty() ? done.bare : done.named);
   }
   return done;
+}
+
+std::vector<NamedStretch> labelsAlong(const LabelMask& mask, const formats::CenterlineTree& tree) {
+  const Branches labelled(mask, tree);
+  std::vector<NamedStretch> stretches;
+  for (const formats::Branch& branch : tree.branches) {
+    const Run whole{0, branch.firstNode, branch.firstNode + branch.nodeCount};
+    const Run part = labelled.labelledPart(whole);
+    stretches.push_back({labelled.chooseLabel(whole, mask.names.size()), part.first, part.end});
+  }
+  return stretches;
 }
 
 std::size_t labelledWithin(const LabelMask& mask, const VolumeGeometry& geometry) {

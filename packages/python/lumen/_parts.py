@@ -19,6 +19,7 @@ class Branch(NamedTuple):
     node_count: int
     stop_reason: str                   #: reason why tracking ended: "unknown", "left-volume"...
     mean_inlier_rate: Optional[float]  #: in [0, 1]
+    system: str = "unknown"            #: or "artery", "vein", "true-lumen", "false-lumen"
 
     @property
     def nodes(self) -> slice:

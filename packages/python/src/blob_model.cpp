@@ -34,7 +34,7 @@ struct CloseModel {
 };
 
 /// A model of libblob, which any number of threads may query.
-struct ModelObject {
+struct ModelObject : MadeByInit {
   std::unique_ptr<blob_model, CloseModel> model;
   blob_model_info info{};
 };
@@ -173,7 +173,7 @@ std::unique_ptr<Approaches> capsules(const ModelObject& self, const py::object& 
 
 std::unique_ptr<CursorObject> locate(const ModelObject& self, const py::object& points) {
   const PackedPoints packed(points, "points");
-  auto cursor = std::make_unique<CursorObject>(packed.count());
+  auto cursor = makeObject<CursorObject>(packed.count());
   const py::gil_scoped_release released;
   packed.forBlocks([&](std::size_t begin, std::size_t count, const double(*at)[3]) {
     for (std::size_t i = 0; i < count; ++i)
@@ -186,6 +186,7 @@ std::unique_ptr<CursorObject> locate(const ModelObject& self, const py::object& 
 template <class Record, class... Fields>
 void addColumns(py::class_<Records<Record>>& type,
                 const std::pair<const char*, Fields Record::*>&... fields) {
+  forbidNew(type);
   type.def("__len__", [](const Records<Record>& self) { return self.count; });
   (type.def_property_readonly(
        fields.first,
@@ -238,9 +239,9 @@ void addAnswers(py::module_& module) {
 
 void addCursor(py::module_& module) {
   py::class_<CursorObject>(module, "Cursor")
-      .def(py::init<std::size_t>(), py::arg("count"))
+      .def(py::init(&makeObject<CursorObject, std::size_t>), py::arg("count"))
       .def("__len__", [](const CursorObject& self) { return self.nodes.size(); })
-      .def("copy", [](const CursorObject& self) { return CursorObject(self); })
+      .def("copy", [](const CursorObject& self) { return makeObject<CursorObject>(self); })
       .def_property_readonly("node", [](const py::object& self) {
         auto& nodes = self.cast<CursorObject&>().nodes;
         return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(nodes.size()), nodes.data(),
@@ -282,9 +283,12 @@ using Words = py::array_t<std::uint32_t, py::array::c_style | py::array::forceca
 
 /// Models as the words of one buffer (blob_device.h). Raises ValueError without a model and for
 /// models of 16 GiB or more, MemoryError without memory.
-Words packed(const std::vector<SharedModel>& models) {
+Words packed(const std::vector<const ModelObject*>& models) {
   std::vector<const blob_model*> pointers;
-  for (const SharedModel& model : models) pointers.push_back(model->model.get());
+  for (const ModelObject* const model : models) {
+    if (model == nullptr) throw py::type_error("models: found None");
+    pointers.push_back(model->model.get());
+  }
   const auto pack = [&](std::uint32_t* words, std::size_t room) {
     return released(
         [&] { return blob_device_pack(pointers.data(), pointers.size(), words, room); });

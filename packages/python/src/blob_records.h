@@ -14,6 +14,7 @@
 #include <pybind11/numpy.h>
 
 #include "blob.h"
+#include "packages/python/src/made_by_init.h"
 
 namespace lumen::python {
 
@@ -92,7 +93,7 @@ struct Records {
 };
 
 /// Tool points and their nodes, which queries move.
-struct CursorObject {
+struct CursorObject : MadeByInit {
   explicit CursorObject(std::size_t count) : nodes(count, BLOB_NOWHERE) {}
   std::vector<std::uint32_t> nodes;
 };

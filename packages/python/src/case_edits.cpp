@@ -35,8 +35,9 @@ py::array_t<std::uint32_t> arrayOf(const std::vector<std::uint32_t>& numbers) {
   return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
-/// The corrected copy, and its change: sentence, indices before, stale nodes, dropped arrays.
+/// The corrected copy of a valid case, and its change: sentence, indices before, stale nodes, dropped arrays.
 py::tuple edited(const CaseObject& self, const std::function<Change(Case&)>& edit) {
+  requireValid(self);
   Case value;
   Change change;
   std::optional<Error> failure;
@@ -113,6 +114,11 @@ void addWallEdits(py::module_& module) {
 /// Fits the models of the given nodes again, with the options of the case's last fit.
 SharedCase refitted(const CaseObject& self, const std::vector<std::uint32_t>& nodes,
                     const py::object& report, int threads) {
+  requireValid(self);
+  for (const std::uint32_t node : nodes)
+    if (node >= self.value.tree.nodeCount())
+      throw py::index_error("node: found " + std::to_string(node) + ", expected one below " +
+                            std::to_string(self.value.tree.nodeCount()));
   const SharedCase result = released([&] { return sharedCase(self.value); });
   runWatched({report, threads}, [&](Progress& progress) {
     convert::refit(result->value, nodes, convert::recordedFitOptions(result->value), progress);

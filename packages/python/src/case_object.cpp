@@ -16,6 +16,7 @@
 #include "formats/case/case_file.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/metadata_json.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 #include "packages/python/src/array_views.h"
 #include "packages/python/src/python_error.h"
@@ -78,11 +79,12 @@ void addTree(py::class_<CaseObject, SharedCase>& type) {
   addArray(type, "links", &Tree::links);
   type.def_property_readonly("branches", [](const CaseObject& self) {
     py::list branches;
+    const std::vector<formats::VesselSystem> systems = formats::readBranchSystems(self.value);
     for (const formats::Branch& b : self.value.tree.branches)
-      branches.append(py::make_tuple(b.label, formats::enumName(formats::kBranchKindNames, b.kind),
-                                     b.parentNode, b.firstNode, b.nodeCount,
-                                     formats::enumName(formats::kStopReasonNames, b.stopReason),
-                                     b.meanInlierRate));
+      branches.append(py::make_tuple(
+          b.label, formats::enumName(formats::kBranchKindNames, b.kind), b.parentNode, b.firstNode,
+          b.nodeCount, formats::enumName(formats::kStopReasonNames, b.stopReason), b.meanInlierRate,
+          formats::enumName(formats::kVesselSystemNames, systems[py::len(branches)])));
     return branches;
   });
 }
@@ -232,6 +234,7 @@ void requireValid(const CaseObject& self) {
 
 void addCase(py::module_& module) {
   py::class_<CaseObject, SharedCase> type(module, "Case", "A case in memory, and views of it.");
+  forbidNew(type);
   addTree(type);
   addParts(type);
   addMotion(type);

@@ -12,6 +12,7 @@
 #include <pybind11/pybind11.h>
 
 #include "formats/case/case.h"
+#include "packages/python/src/made_by_init.h"
 
 namespace lumen::python {
 

@@ -16,6 +16,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/tracking_input.h"
 #include "packages/python/src/engine_calls.h"
+#include "packages/python/src/made_by_init.h"
 #include "packages/python/src/python_error.h"
 #include "packages/python/src/watched_work.h"
 
@@ -125,8 +126,9 @@ GivenVolume::GivenVolume(const py::tuple& parts) : type(parts[1].cast<std::strin
 void addVolumes(py::module_& module) {
   module.def("read_volume", &readVolume);
   module.def("write_volume", &writeVolume);
-  py::class_<Volume, std::shared_ptr<Volume>>(module, "Voxels")
-      .def_property_readonly("array", &voxelsOf)
+  py::class_<Volume, std::shared_ptr<Volume>> type(module, "Voxels");
+  forbidNew(type);
+  type.def_property_readonly("array", &voxelsOf)
       .def_property_readonly("spacing",
                              [](const Volume& self) { return tupleOf(self.geometry.spacing); })
       .def_property_readonly("origin",

@@ -69,6 +69,15 @@ class ViewsTest(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "expected one of"):
             self.case.branch("nobody")
 
+    def test_branches_have_the_system_of_their_nodes(self):
+        self.assertEqual({branch.system for branch in self.case.branches}, {"unknown"})
+        document = json.loads(self.case.to_bytes(json=True))
+        document["metadata"]["extensionsUsed"] = ["LUMEN_vessel"]
+        document["metadata"]["nodeArrays"] = [{"name": "LUMEN_vessel.system", "type": "u32", "components": 1}]
+        document["nodeArrays"] = {"LUMEN_vessel.system": len(self.case.tree) * [2]}
+        stated = lumen.Case.from_bytes(json.dumps(document).encode())
+        self.assertEqual({branch.system for branch in stated.branches}, {"vein"})
+
     def test_metadata_state_the_steps(self):
         names = [step["name"] for step in self.case.metadata["steps"]]
         self.assertEqual(names[-1], "fit")

@@ -140,6 +140,29 @@ class ArgumentsTest(FaultsTest):
 
 
 class ClassesTest(FaultsTest):
+    def test_corrections_of_a_case_with_bad_arrays_raise(self):
+        whole = sample().case
+        for array, value in (("parent", 10**9), ("branch", 4 * 10**9)):
+            for correct in (lambda e: e.root(0), lambda e: e.widen(5, 2.0, 10.0), lambda e: e.delete_node(3), lambda e: e.refit([3]),
+                            lambda e: e.push(3, (0, 0, 0), (1, 0, 0), 1.0), lambda e: e.delete(0), lambda e: e.rename(0, "other")):
+                case = whole.copy()
+                getattr(case.tree, array)[:] = value
+                with self.assertRaises(lumen.Error):
+                    correct(case.edit)
+        with self.assertRaises(IndexError):
+            whole.edit.refit([10**6])
+
+    def test_objects_whose_init_did_not_run_are_refused(self):
+        blob, points = lumen.blob, np.zeros((2, 3))
+        model = blob.Model(sample().case)
+        unmade, cursor = blob.Model.__new__(blob.Model), blob.Cursor.__new__(blob.Cursor)
+        for use in (lambda: unmade.query(points), lambda: len(unmade), lambda: unmade.bounds, lambda: unmade.cursor(points),
+                    lambda: blob.pack([model, unmade]), lambda: blob.pack([None]), lambda: model.query(points, cursor),
+                    lambda: cursor.node, lambda: len(cursor), lambda: model.query(points, out=blob.Answer.__new__(blob.Answer)),
+                    lambda: blob.Hits.__new__(blob.Hits).t, lambda: lumen._lumen.Case.__new__(lumen._lumen.Case).branches):
+            with self.assertRaises((TypeError, ValueError)):
+                use()
+
     def test_a_fault_of_a_value_is_an_error_of_lumen_and_of_python(self):
         calls = ((lumen.Volume, (np.zeros((2, 2)),)), (lumen.Volume.of_affine, (GREY, np.eye(3))), (lumen.convert, ([1, 2],)),
                  (lumen.Case, (3,)), (lumen.Volume(GREY).like, (np.zeros(2),)))

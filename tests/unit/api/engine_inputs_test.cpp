@@ -79,9 +79,38 @@ TEST_F(EngineApi, SeedsAmongTheInputsCountAsGiven) {
   EXPECT_EQ(m_status, LUMEN_ENGINE_OK) << fault.message;
   load("fork.nii.gz", niftiOfFork(), alone.get());
   EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "\"seeds-only\" does nothing without inputs.seeds"));
-  inputs.label_map = inputs.main;
+}
+
+/// The fork as the label 7.
+convert::Volume labelledFork() {
+  convert::Volume labels = fork().volume;
+  auto& voxels = std::get<std::vector<std::int16_t>>(labels.voxels);
+  const std::int16_t most = *std::max_element(voxels.begin(), voxels.end());
+  for (std::int16_t& voxel : voxels) voxel = voxel > most / 2 ? 7 : 0;
+  return labels;
+}
+
+TEST_F(EngineApi, AMapBesideSeedsNamesTheirVessels) {
+  const std::string seeds = convert::encodeSeeds(fork().seeds, "fork.json");
+  const std::string map =
+      convert::encodeVolume(labelledFork(), convert::VolumeFormat::Nrrd, true, "map.nrrd");
+  const std::string table = R"({"7": "basilar"})";
+  lumen_engine_inputs inputs{};
+  inputs.main = fileOf("fork.nii.gz", niftiOfFork());
+  inputs.seeds = fileOf("fork.json", seeds);
+  inputs.label_map = fileOf("map.nrrd", map);
+  inputs.label_table = fileOf("names.json", table);
+  const Made made = caseOf(load(inputs));
+  ASSERT_EQ(m_status, LUMEN_ENGINE_OK) << fault.message;
+  ASSERT_GT(lumen_engine_branch_count(made.get()), 0U);
+  EXPECT_EQ(std::string_view(lumen_engine_branch_name(made.get(), 0)).find("basilar"), 0U)
+      << lumen_engine_branch_name(made.get(), 0);
+  const std::string surface = encoded(made, "stl");
+  inputs = {};
+  inputs.main = fileOf("fork.stl", surface);
+  inputs.label_map = fileOf("map.nrrd", map);
   load(inputs);
-  EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "inputs.label_map"));
+  EXPECT_TRUE(failsWith(LUMEN_ENGINE_USAGE, "inputs.label_map is for volumes"));
 }
 
 TEST_F(EngineApi, TakesACenterlineBesideASurface) {
@@ -102,10 +131,7 @@ TEST_F(EngineApi, TakesACenterlineBesideASurface) {
 }
 
 TEST_F(EngineApi, NamesLabelsByATable) {
-  convert::Volume labels = fork().volume;
-  auto& voxels = std::get<std::vector<std::int16_t>>(labels.voxels);
-  const std::int16_t most = *std::max_element(voxels.begin(), voxels.end());
-  for (std::int16_t& voxel : voxels) voxel = voxel > most / 2 ? 7 : 0;
+  const convert::Volume labels = labelledFork();
   const lumen_engine_volume array = arrayOf(labels);
   const std::string table = R"({"7": "basilar"})";
   lumen_engine_inputs inputs{};

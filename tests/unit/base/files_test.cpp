@@ -11,6 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/run_program.h"
 #include "converters/base/sha256.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen {
 
@@ -78,7 +79,7 @@ TEST_F(FilesTest, AFileThatCannotBeMadeIsNamedByItsTarget) {
     writeNewFile("a", path("no/hidden"), "head.png");
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "head.png: cannot write this file");
+    EXPECT_STREQ(error.what(), "head.png: cannot write this file: No such file or directory");
   }
 }
 
@@ -129,6 +130,31 @@ TEST_F(FileDigestTest, IsThatOfTheBytesWhateverTheirNumber) {
     const FileDigest found = digestOfFile(written(text));
     EXPECT_EQ(found.bytes, size);
     EXPECT_EQ(found.sha256, digest(text));
+  }
+}
+
+TEST_F(FileDigestTest, AFullDiscIsTheCauseThatAMessageStates) {
+  try {
+    writeNewFile(std::string(1 << 20, 'x'), "/dev/full", "scene.py");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "scene.py: cannot write this file: No space left on device");
+  }
+}
+
+TEST_F(FileDigestTest, MessagesNameThePlaceToWhichAFileOfAnUnfinishedFolderComes) {
+  const auto pending =
+      formats::PendingFolder::beside(folder() / "scene", formats::PendingFolder::Existing::Refuse);
+  ASSERT_TRUE(pending);
+  EXPECT_EQ(formats::placeOf(pending->path() / "meshes" / "wall.obj"),
+            folder() / "scene" / "meshes" / "wall.obj");
+  EXPECT_EQ(formats::placeOf(folder() / "other"), folder() / "other");
+  try {
+    writeNewFile("x", pending->path() / "none" / "scene.py");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), (folder() / "scene/none/scene.py").string() +
+                                             ": cannot write this file: No such file or directory");
   }
 }
 

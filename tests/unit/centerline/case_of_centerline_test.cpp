@@ -95,7 +95,7 @@ TEST(CaseOfCenterline, VesselsThatAreTooLongForTheirRadiiAreRefused) {
 TEST(PatientSpace, UnitsAreGuessedWhereMillimetresAreNoVessels) {
   const auto unitOf = [](const std::string& swc) {
     CenterlineFile file = parseSwc(swc, "t.swc");
-    const double unit = toPatientSpace(file, {});
+    const double unit = toPatientSpace(file, {}).unit;
     EXPECT_EQ(file.remarks.size(), unit == 1 ? 0U : 1U);
     return unit;
   };
@@ -118,7 +118,7 @@ TEST(PatientSpace, NeuroMorphoIsInMicrometresAndItsSomaOnePoint) {
   EXPECT_EQ(file.points.size(), 3U);
   EXPECT_EQ(file.remarks.size(), 3U);  // the unit, the soma, the radius that is missing
   EXPECT_EQ(file.points[2].radius, 1);
-  EXPECT_EQ(toPatientSpace(file, {}), 1e-3);
+  EXPECT_EQ(toPatientSpace(file, {}).unit, 1e-3);
   EXPECT_NEAR(file.points[2].position.x(), 0.019, 1e-12);
 }
 

@@ -71,7 +71,7 @@ std::multiset<std::pair<std::string, std::uint32_t>> branchesOf(const Centerline
 }
 
 void expectSame(CenterlineFile file, bool named) {
-  EXPECT_EQ(toPatientSpace(file, {}), 1);
+  EXPECT_EQ(toPatientSpace(file, {}).unit, 1);
   EXPECT_TRUE(file.remarks.empty());
   const CenterlineTree tree = exampleTree(), back = caseOfCenterline(file, "x").tree;
   EXPECT_EQ(nodesOf(back), nodesOf(tree));

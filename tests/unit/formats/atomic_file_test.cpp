@@ -70,6 +70,12 @@ protected:
     return pending->commit();
   }
 
+  /// A folder of this name as a killed writer leaves it.
+  void leaveFolder(const std::string& name) const {
+    const auto pending = PendingFolder::beside(path("never"), PendingFolder::Existing::Refuse);
+    fs::copy(pending->path().parent_path(), path(name), fs::copy_options::recursive);
+  }
+
 private:
   fs::path m_directory;
 };
@@ -178,9 +184,11 @@ TEST_F(AtomicOutput, GivesLibrariesAHiddenNameWithTheEndingOfTheTarget) {
   const auto pending = PendingFile::beside(path("head.v2.nii.gz"));
   ASSERT_TRUE(pending);
   const std::string name = pending->path().filename().string();
-  EXPECT_TRUE(name.starts_with(".lumen-" + std::to_string(::getpid()) + "-")) << name;
   EXPECT_TRUE(name.ends_with(".nii.gz")) << name;
-  EXPECT_EQ(pending->path().parent_path(), path("head.v2.nii.gz").parent_path());
+  const fs::path hidden = pending->path().parent_path();
+  EXPECT_TRUE(hidden.filename().string().starts_with(".lumen-" + std::to_string(::getpid()) + "-"))
+      << hidden;
+  EXPECT_EQ(hidden.parent_path(), path("head.v2.nii.gz").parent_path());
 }
 
 TEST_F(AtomicOutput, IsFlushedThoughALibraryWroteItByName) {
@@ -224,8 +232,8 @@ TEST_F(AtomicOutput, OfThisProcessIsRemovedWhenItIsInterrupted) {
 }
 
 TEST_F(AtomicOutput, OfAnotherWriterWithTheSameProcessIdStaysWhenThisOneIsInterrupted) {
-  const std::string other = ".lumen-" + std::to_string(::getpid()) + "-1.nrrd";
-  put(path(other), "of another container");
+  const std::string other = ".lumen-" + std::to_string(::getpid()) + "-0000000001";
+  leaveFolder(other);
   const FileDescriptor open = openForReading(path(other), 0);
   ASSERT_EQ(::flock(open.get(), LOCK_EX), 0);
   const auto file = PendingFile::beside(path("a"));
@@ -235,10 +243,37 @@ TEST_F(AtomicOutput, OfAnotherWriterWithTheSameProcessIdStaysWhenThisOneIsInterr
 }
 
 TEST_F(AtomicOutput, AbandonedFoldersAreRemovedToo) {
-  fs::create_directories(path(".lumen-1234-0/meshes"));
-  put(path(".lumen-1234-0/meshes/wall.obj"), "half");
+  leaveFolder(".lumen-1234-0000000000");
+  fs::create_directories(path(".lumen-1234-0000000000/meshes"));
+  put(path(".lumen-1234-0000000000/meshes/wall.obj"), "half");
   ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
   EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, WhatAKillBesideTheProofLeavesIsRemoved) {
+  fs::create_directory(path(".lumen-1234-0000000000"));
+  ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
+  EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, FoldersAndFilesOfAPersonStayWhateverTheirNames) {
+  for (const char* const folder :
+       {".lumen-2024-backup", ".lumen-1234-0000000000", ".lumen-1234-0000000001"})
+    fs::create_directories(path(folder) / "old");
+  put(path(".lumen-2024-backup/old/head.lumen"), "my corrected case");
+  put(path(".lumen-1234-0000000000/.lumen-temporary"), "my notes on it");
+  leaveFolder(".lumen-1234-0000000002");
+  put(path(".lumen-1234-0000000002/.lumen-temporary"),
+      get(".lumen-1234-0000000002/.lumen-temporary") + "and mine");
+  fs::create_symlink(path(".lumen-1234-0000000001"), path(".lumen-1234-0000000003"));
+  put(path(".lumen-2026-11-29-notes.txt"), "my notes");
+  fs::create_directory(path(".lumen-2024-1"));
+  Names expected = names();
+  ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
+  ASSERT_EQ(codeOf(writeFolder("b", "x", PendingFolder::Existing::Refuse)), "OK");
+  expected.insert(expected.end(), {"a", "b"});
+  EXPECT_EQ(names(), expected);
+  EXPECT_EQ(get(".lumen-2024-backup/old/head.lumen"), "my corrected case");
 }
 
 TEST_F(AtomicOutput, FilesOfSimilarNamesStay) {
@@ -291,12 +326,14 @@ TEST_F(AtomicOutput, HidesTheReplacedFolderBeforeItIsRemoved) {
   FileCalls calls = systemCalls();
   calls.exchange = [](const char*, const char*) { return refuse(EINVAL); };
   calls.rename = [&targets](const char* from, const char* to) {
-    targets.push_back(fs::path(to).filename().string());
+    const fs::path target(to);
+    const std::string above = target.parent_path().filename().string();
+    targets.push_back(above.starts_with(".lumen-") ? above : target.filename().string());
     return systemCalls().rename(from, to);
   };
   ASSERT_EQ(codeOf(writeFolder("scene", "new", PendingFolder::Existing::Replace, calls)), "OK");
   ASSERT_EQ(targets.size(), 4u);  // a name that is taken, the old away, the new in place, hidden
-  EXPECT_TRUE(isTemporaryName(targets.back())) << targets.back();
+  EXPECT_TRUE(targets.back().starts_with(".lumen-")) << targets.back();
 }
 
 TEST_F(AtomicOutput, NamesTheOldFolderThatAnInterruptedReplacementLeft) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -188,15 +189,41 @@ TEST_F(CaseFile, IsNotWrittenOverADirectoryOrADevice) {
   EXPECT_EQ(names(), std::vector<std::string>{"sub"});
 }
 
+TEST_F(CaseFile, IsNotWrittenInPlaceOfAnOpenFileAPipeOrASocket) {
+  put("log", "precious line\n");
+  const int log = ::open(path("log").c_str(), O_RDWR);
+  int ends[2], sockets[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, sockets), 0);
+  for (const int open : {log, ends[1], sockets[0]}) {
+    const std::string number = std::to_string(open);
+    fs::create_symlink("/dev/fd/" + number, path("link"));
+    for (const fs::path& name : {fs::path("/dev/fd/" + number), fs::path("/proc/self/fd/" + number),
+                                 fs::path("/proc/thread-self/fd/" + number), path("link")})
+      EXPECT_EQ(codeOf(writeFileAtomically({}, name)), "IO_NOT_A_FILE") << name;
+    fs::remove(path("link"));
+  }
+  for (const int open : {log, ends[0], ends[1], sockets[0], sockets[1]}) ::close(open);
+  EXPECT_EQ(get("log"), "precious line\n");
+}
+
 TEST_F(CaseFile, IsWrittenWithoutTheLeftoversOfWritersThatWereKilled) {
-  put(".lumen-1234-5.lumen", "half");
-  put(".lumen-1234-6.nrrd", "locked");
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    const auto file = PendingFile::beside(path("b"));
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(writer, &status, 0), writer);
+  const std::string left = names().at(0);
+  fs::create_directory(path(".lumen-1234-0000000006"));
+  fs::copy(path(left), path(".lumen-1234-0000000006"));
   put(".lumen-notes", "of somebody else");
-  const int locked = ::open(path(".lumen-1234-6.nrrd").c_str(), O_RDONLY);
+  const int locked = ::open(path(".lumen-1234-0000000006").c_str(), O_RDONLY);
   ASSERT_EQ(::flock(locked, LOCK_EX), 0);
   EXPECT_EQ(codeOf(write("a", "x")), "OK");
   ::close(locked);
-  EXPECT_EQ(names(), (std::vector<std::string>{".lumen-1234-6.nrrd", ".lumen-notes", "a"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{".lumen-1234-0000000006", ".lumen-notes", "a"}));
 }
 
 // Kills a process at a random moment while it writes one of two contents over and over. The

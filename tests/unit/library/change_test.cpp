@@ -64,12 +64,18 @@ TEST_F(ChangeTest, FilesThatANewVersionLacksAreReportedAsGone) {
 }
 
 TEST_F(ChangeTest, LeftoversOfAKilledWriterDoNotComeAlong) {
-  files().write("lib/.lumen-4711-0/page.html", "half");
-  files().write("lib/.lumen-4711-1.html", "half");
+  fs::path left;
+  {
+    const auto pending = formats::PendingFile::beside(folder() / "page.html");
+    ASSERT_TRUE(pending);
+    left = pending->path().parent_path();
+    fs::copy(left, folder() / ".lumen-4711-0000000000", fs::copy_options::recursive);
+  }
+  files().write("lib/.lumen-4711-0000000001/page.html", "somebody's");
   files().write("lib/.lumenrc", "somebody's");
   add("a");
-  EXPECT_FALSE(fs::exists(folder() / ".lumen-4711-0"));
-  EXPECT_FALSE(fs::exists(folder() / ".lumen-4711-1.html"));
+  EXPECT_FALSE(fs::exists(folder() / ".lumen-4711-0000000000"));
+  EXPECT_TRUE(fs::exists(folder() / ".lumen-4711-0000000001/page.html"));
   EXPECT_TRUE(fs::exists(folder() / ".lumenrc"));
 }
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/stages/repair/unit_guess.h"
+#include "converters/geometry/unit_guess.h"
 #include "mesh_shapes.h"
 
 namespace lumen::test {
@@ -121,7 +121,9 @@ TEST(UnitGuess, AnAortaIsToldInMillimetresCentimetresAndMetres) {
   EXPECT_EQ(guessUnit(vesselSize(scaled(aorta, 0.001))).unit, "m");
   // vessels of 1.5 mm in cm: too thin for mm
   EXPECT_EQ(guessUnit(vesselSize(scaled(openTube(1.5, 90), 0.1))).unit, "cm");
-  EXPECT_FALSE(guessUnit(vesselSize(scaled(aorta, 1e6))).plausible);
+  EXPECT_EQ(guessUnit(vesselSize(scaled(aorta, 1e3))).unit, "um");
+  EXPECT_EQ(guessUnit(vesselSize(scaled(aorta, 1e6))).unit, "nm");
+  EXPECT_FALSE(guessUnit(vesselSize(scaled(aorta, 1e10))).plausible);
 }
 
 TEST(UnitGuess, AModelOfSimVascularIsInCentimetresIfItHasTheSizeOfVesselsThen) {

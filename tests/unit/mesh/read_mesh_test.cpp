@@ -230,6 +230,8 @@ TEST(ReadGltf, MetresWithYUpBecomeLpsMillimetres) {
   EXPECT_EQ(file.mesh.position[1], Eigen::Vector3d(1000, 0, 0));
   EXPECT_EQ(file.mesh.position[2], Eigen::Vector3d(0, 0, 1000));
   EXPECT_EQ(file.unitMm, 1);
+  EXPECT_EQ(file.standardMm, 1000);
+  EXPECT_EQ(file.scaleFor(1), 1e-3);  // --unit mm: its numbers are mm
   EXPECT_TRUE(file.frameStated);
   EXPECT_EQ(file.groups, std::vector<std::string>{"m"});
 }
@@ -354,7 +356,7 @@ TEST(ReadVtp, UnitAndAxesAreThoseOfTheFieldData) {
 
 TEST(ReadVtp, OtherFieldDataStateNothing) {
   const MeshFile file =
-      parsed(vtpWithField(fieldText("Unit", "99 109 0") + fieldText("SPACE", "76") +
+      parsed(vtpWithField(fieldText("Unit", "112 120 0") + fieldText("SPACE", "76") +
                           fieldText("Note", "no numbers")),
              MeshFormat::Vtp);
   EXPECT_EQ(file.unitMm, 0);

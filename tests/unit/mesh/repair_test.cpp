@@ -11,9 +11,9 @@
 
 #include "converters/base/error.h"
 #include "converters/geometry/mesh_edges.h"
+#include "converters/geometry/unit_guess.h"
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/repair/mesh_report.h"
-#include "converters/stages/repair/unit_guess.h"
 #include "mesh_shapes.h"
 
 namespace lumen::test {

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "capped_tube.h"
+#include "converters/base/error.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/vertex_streams.h"
 #include "open_mesh.h"
@@ -57,6 +58,23 @@ std::vector<std::string> splitLines(const std::string& text, const std::string& 
   for (std::string line; std::getline(stream, line);)
     if (line.starts_with(start)) lines.push_back(line.substr(start.size()));
   return lines;
+}
+
+TEST(Systems, AreStatedWhereTheyAreKnown) {
+  SurfaceMesh surface = cappedTube({"a", "b"});
+  const auto texts = [&] { return std::vector{encodePly(surface), encodeVtp(surface)}; };
+  for (const std::string& text : texts()) {
+    EXPECT_EQ(text.find("comment system"), std::string::npos);
+    EXPECT_EQ(text.find("BranchSystems"), std::string::npos);
+  }
+  EXPECT_THROW((void)measureColorScale(surface, ColorBy::System), Error);
+  surface.systems = {formats::VesselSystem::Vein, formats::VesselSystem::Unknown};
+  EXPECT_EQ(splitLines(texts()[0], "comment system "),
+            (std::vector<std::string>{"0 vein", "1 unknown"}));
+  EXPECT_NE(texts()[1].find("BranchSystems"), std::string::npos);
+  const auto colors = vertexColors(surface, measureColorScale(surface, ColorBy::System));
+  ASSERT_EQ(colors.size(), surface.position.size());
+  EXPECT_GT(colors[0][2], colors[0][0]);  // blue
 }
 
 TEST(Obj, ReadsBackWithItsNormals) {

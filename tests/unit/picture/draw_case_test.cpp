@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "converters/base/error.h"
 #include "converters/draw/picture/marks.h"
+#include "formats/case/vessel_system.h"
 #include "straight_vessels.h"
 
 namespace lumen::convert {
@@ -83,6 +85,28 @@ TEST(DrawCase, OneNodeIsEnough) {
   const Picture picture = drawCase(value, small(), nullptr, progress);
   const Rgb middle = picture.pixels[80 * 200 + 100];
   EXPECT_GT(middle[0], 2 * middle[1]);
+}
+
+TEST(DrawCase, SystemsHaveTheirOwnHuesWithoutAnOption) {
+  formats::Case value = twoVessels();
+  PictureOptions options = small();
+  Progress progress;
+  const Picture plain = drawCase(value, options, nullptr, progress);
+  options.colour = ColorBy::System;
+  EXPECT_NE(refusal(value, options).find("states no system"), std::string::npos);
+  std::vector<formats::VesselSystem> systems;
+  for (const std::uint32_t branch : value.tree.branch)
+    systems.push_back(branch == 0 ? formats::VesselSystem::Artery : formats::VesselSystem::Vein);
+  formats::setNodeSystems(value, systems);
+  const auto countBlue = [](const Picture& picture) {
+    return std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                         [](const Rgb& p) { return p[2] > p[0] + 60; });
+  };
+  const Picture stated = drawCase(value, options, nullptr, progress);
+  options.colour = ColorBy::None;
+  EXPECT_EQ(drawCase(value, options, nullptr, progress).pixels, stated.pixels);
+  EXPECT_EQ(countBlue(plain), 0);
+  EXPECT_GT(countBlue(stated), 500);
 }
 
 TEST(DrawCase, BranchesHaveTheirOwnHues) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -215,6 +216,18 @@ std::string refusalOf(const ClosedSurfaceOptions& options) {
     return error.what();
   }
   return "";
+}
+
+TEST(ClosedSurface, RefusesAGapWiderThanTheWidestVessel) {
+  Progress silent;
+  const formats::Case source = test::tubeCase(20);
+  ClosedSurfaceOptions options;
+  for (const double gap : {1e6, -1.0, std::nan("")}) {
+    options.gap = gap;
+    EXPECT_THROW(closedSurface(source, options, silent), Error) << gap;
+  }
+  options.gap = 2 * double{*std::max_element(source.tree.radius.begin(), source.tree.radius.end())};
+  EXPECT_NO_THROW(closedSurface(source, options, silent));
 }
 
 EdgeLength inMm(double length) {

@@ -11,6 +11,7 @@
 #include "converters/stages/tracking/track_case.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
+#include "formats/case/vessel_system.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {
@@ -134,6 +135,19 @@ TEST(TrackFurther, GivesNewNodesNoModelsAndDropsArraysThatItCannotContinue) {
   const AddedTracks out = further(t.volume, t.known, {childSeed()});
   EXPECT_EQ(out.result.models->offset.size(), out.result.tree.nodeCount() + 1);
   EXPECT_EQ(out.droppedArrays, std::vector<std::string>{"ACME_flow.speed"});
+  expectKept(t.known, out.result);
+}
+
+TEST(TrackFurther, KeepsSystemsAndGivesNewVesselsNone) {
+  Tee t;
+  const std::size_t n = t.known.tree.nodeCount();
+  formats::setNodeSystems(t.known,
+                          std::vector<formats::VesselSystem>(n, formats::VesselSystem::Vein));
+  const AddedTracks out = further(t.volume, t.known, {childSeed()});
+  EXPECT_TRUE(out.droppedArrays.empty());
+  expectChildOfTrunk(out);
+  EXPECT_EQ(formats::readBranchSystems(out.result),
+            (std::vector{formats::VesselSystem::Vein, formats::VesselSystem::Unknown}));
   expectKept(t.known, out.result);
 }
 

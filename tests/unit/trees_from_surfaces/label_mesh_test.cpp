@@ -14,34 +14,15 @@
 #include "converters/geometry/mesh_measures.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
+#include "tests/unit/trees_from_surfaces/drawn_labels.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
 
-/// 40 x 32 x 32 voxels in which `label` says what is where, mm from the first voxel's centre.
-template <class Label>
-Volume drawn(const Vector3d& spacing, Label label) {
-  Volume volume;
-  volume.geometry.size = {40, 32, 32};
-  volume.geometry.spacing = spacing;
-  volume.geometry.origin = Vector3d(5, -7, 9);
-  volume.geometry.direction = Eigen::AngleAxisd(0.4, Vector3d(1, 2, 3).normalized()).matrix();
-  std::vector<std::uint8_t> voxels;
-  for (int k = 0; k < 32; ++k)
-    for (int j = 0; j < 32; ++j)
-      for (int i = 0; i < 40; ++i)
-        voxels.push_back(static_cast<std::uint8_t>(label(spacing.cwiseProduct(Vector3d(i, j, k)))));
-  volume.voxels = std::move(voxels);
-  return volume;
-}
-
-/// mm from a segment.
-double away(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (p - a - t * (b - a)).norm();
-}
+using test::away;
+using test::drawn;
 
 TEST(LabelMesh, GreyValuesAreToldFromLabels) {
   const auto grey = [](const Vector3d& p) {

@@ -93,6 +93,46 @@ TEST(LabelNaming, BranchesOnNoLabelKeepTheirNames) {
   EXPECT_EQ(done.bare, 1U);
 }
 
+/// A branch of 40 mm with a label along 20 <= x < 30, whose other nodes have the given radii.
+Labels namesBeside(float before, float behind, int from = 20) {
+  formats::Case value;
+  addBranch(value, "found", 0, 39, 1);
+  for (std::size_t x = 0; x < 40; ++x) {
+    if (static_cast<int>(x) < from) value.tree.radius[x] = before;
+    if (x >= 30) value.tree.radius[x] = behind;
+  }
+  (void)nameBranches(maskAlong([&](int x) { return x >= from && x < 30 ? 1 : 0; }), value);
+  return labelsOf(value);
+}
+
+TEST(LabelNaming, AVesselGoesOnBeyondItsLabel) {
+  EXPECT_EQ(namesBeside(1, 1, 16), (Labels{"found", "a"}));  // 16 mm before 14
+  EXPECT_EQ(namesBeside(1, 1, 14), (Labels{"a"}));
+  EXPECT_EQ(namesBeside(1, 1.25F, 14), (Labels{"a"}));
+}
+
+TEST(LabelNaming, AWiderVesselWithoutALabelIsNotCalledByTheOneThatLeavesIt) {
+  EXPECT_EQ(namesBeside(3, 1), (Labels{"found", "a"}));
+  EXPECT_EQ(namesBeside(1.27F, 1, 14), (Labels{"found", "a"}));
+  EXPECT_EQ(namesBeside(1.25F, 1, 14), (Labels{"a"}));
+  EXPECT_EQ(namesBeside(1, 1.27F, 14), (Labels{"a", "found"}));
+  EXPECT_EQ(namesBeside(1, 6, 14), (Labels{"a"}));  // no longer than it is wide
+}
+
+TEST(LabelNaming, TheLabelOfABranchIsKnownWithoutDividingIt) {
+  formats::Case value;
+  addBranch(value, "found", 0, 30, 1);
+  addBranch(value, "bare", 31, 39, 1);
+  const std::vector<NamedStretch> along =
+      labelsAlong(maskAlong([](int x) { return x >= 5 && x < 20 ? 2 : 0; }), value.tree);
+  ASSERT_EQ(along.size(), 2U);
+  EXPECT_EQ(along[0].label, 2);
+  EXPECT_EQ(along[0].first, 5U);
+  EXPECT_EQ(along[0].end, 20U);
+  EXPECT_EQ(along[1].label, 0);
+  EXPECT_EQ(along[1].first, along[1].end);
+}
+
 TEST(LabelNaming, TheLumenOfTheParentGivesNoName) {
   formats::Case value;
   addBranch(value, "parent", 0, 10, 4);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "formats/case/vessel_system.h"
 #include "served.h"
 #include "viewer/session/proposal_joints.h"
 
@@ -325,6 +326,21 @@ TEST(Proposals, ALinkOutlivesAcceptanceOneByOne) {
   EXPECT_EQ(second.value->tree.links[0], (std::array<std::uint32_t, 2>{last, other + 1}));
   EXPECT_EQ(second.firstNewNode, 8U);
   EXPECT_EQ(second.document.proposals, nullptr);
+}
+
+TEST(Proposals, SystemsOfTheCaseStayAndThoseOfAcceptedVesselsAreUnknown) {
+  using formats::VesselSystem;
+  formats::Case known = twoVessels(), found;
+  known.models.reset();
+  formats::setNodeSystems(known, std::vector(known.tree.nodeCount(), VesselSystem::Vein));
+  addVessel(found, "found", straightPath({40, 0, 0}, {1, 0, 0}, 10), 0.5, 1.0);
+  viewer::Document document;
+  document.value = std::make_shared<const formats::Case>(known);
+  document.proposals = viewer::proposalsBehind(found, 0);
+  const viewer::Acceptance accepted = viewer::accepted(document, {true});
+  EXPECT_TRUE(accepted.droppedArrays.empty());
+  EXPECT_EQ(formats::readBranchSystems(*accepted.value),
+            (std::vector{VesselSystem::Vein, VesselSystem::Vein, VesselSystem::Unknown}));
 }
 
 TEST(Proposals, HalfOfTheNodesInAVesselOfTheCaseAreNotTooMany) {

@@ -2,6 +2,7 @@
 // Series of DICOM: dropped file by file, or a folder that was named.
 #include "../volume/dicom_fixture.h"
 #include "served.h"
+#include "viewer/session/series_choice.h"
 
 namespace lumen::test {
 
@@ -34,6 +35,38 @@ protected:
       ASSERT_EQ(send(batch, "IM" + std::to_string(n), files[n]), 200);
   }
 };
+
+TEST_F(SeriesTest, PagesThatSendAtOneTimeDoNotCutEachOther) {
+  serve({});
+  const std::vector<std::string> first = slices("1.2.1", "Angio"), other = slices("1.2.2", "Mask");
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    ASSERT_EQ(send(111, "IM" + std::to_string(n), first[n]), 200);
+    ASSERT_EQ(send(222, "IM" + std::to_string(n), other[n]), 200);
+  }
+  performAll({{"op", "list_series"}, {"batch", 111}});
+  EXPECT_EQ(state()["title"], "Angio");
+  EXPECT_EQ(ReadPack(get("volume").body).json["size"], (Json{4, 3, 4}));
+  performAll({{"op", "list_series"}, {"batch", 222}});
+  EXPECT_EQ(state()["title"], "Mask");
+  EXPECT_EQ(ReadPack(get("volume").body).json["size"], (Json{4, 3, 4}));
+}
+
+TEST(SeriesChoiceTest, ABatchThatEndedForOthersIsRefusedAndNotCut) {
+  viewer::SeriesChoice choice;
+  const auto take = [&](std::int64_t batch, std::uint64_t bytes) {
+    choice.take(batch, "IM", bytes, 100, [] { return std::string("x"); });
+  };
+  take(1, 40);
+  take(2, 40);
+  take(1, 20);  // now 2 waits longest
+  take(3, 30);
+  EXPECT_THROW(take(2, 1), viewer::Conflict);
+  EXPECT_THROW((void)choice.end(2), viewer::Conflict);
+  EXPECT_EQ(choice.end(1) != nullptr, true);
+  EXPECT_THROW((void)choice.end(1), Error);
+  EXPECT_THROW(take(4, 101), Error);
+  EXPECT_EQ(choice.end(3) != nullptr, true);
+}
 
 TEST_F(SeriesTest, DroppedFilesAreListedAndOneSeriesIsOpened) {
   const NoTemporaryFolder none;

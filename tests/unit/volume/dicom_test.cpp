@@ -153,10 +153,74 @@ TEST_F(Dicom, MissingSliceIsRefused) {
   expectRefused(readRefusal(directory()), {"3: ", "4 mm apart", "regular stack"});
 }
 
-TEST_F(Dicom, TwoImagesAtOnePositionAreRefused) {
+TEST_F(Dicom, DifferentImagesAtOnePositionAreRefused) {
+  writeSeries("a", {}, 3);
+  DicomSlice other;
+  other.first = 7;
+  other.position = "-5\\7\\12";
+  write("b.dcm", other.bytes());
+  expectRefused(readRefusal(directory()), {"3: ", "0 mm apart", "one image for each position"});
+}
+
+TEST_F(Dicom, CopiesOfSlicesAreLeftOut) {
   writeSeries("a", {}, 3);
   writeSeries("b", {}, 3);
-  expectRefused(readRefusal(directory()), {"3: ", "0 mm apart", "one image for each position"});
+  const Volume volume = readQuietly(directory());
+  EXPECT_EQ(volume.geometry.size[2], 3);
+  EXPECT_EQ(volume.geometry.spacing[2], 2);
+  ASSERT_EQ(volume.assumptions.size(), 1U);
+  expectRefused(volume.assumptions[0], {"3 files with the position", "left out"});
+}
+
+// Two times of one place in one series; the volumes differ in their first value.
+TEST_F(Dicom, VolumesOfSeveralTimesAreListedAndChosen) {
+  for (const auto& [element, name] : std::vector<std::pair<std::array<int, 2>, std::string>>{
+           {{0x20, 0x12}, "acquisition number (0020,0012)"},
+           {{0x20, 0x100}, "temporal position (0020,0100)"},
+           {{0x8, 0x32}, "acquisition time (0008,0032)"}}) {
+    for (int phase = 1; phase <= 2; ++phase)
+      for (int n = 0; n < 3; ++n) {
+        DicomSlice slice;
+        slice.first = 1000 * phase + 100 * n;
+        slice.position = "0\\0\\" + std::to_string(n);
+        slice.before = DicomSlice::text(element[0], element[1], "IS", std::to_string(phase));
+        write("p" + std::to_string(phase) + std::to_string(n) + ".dcm", slice.bytes());
+      }
+    const std::string listing = readRefusal(directory());
+    EXPECT_NE(listing.find("holds 2 DICOM series; choose one with"), std::string::npos) << listing;
+    EXPECT_NE(listing.find("\n  1: 1.2.3.1, volume 1 of 2 by the " + name), std::string::npos)
+        << listing;
+    for (int phase = 1; phase <= 2; ++phase) {
+      ReadVolumeOptions options;
+      options.series = std::to_string(phase);
+      const Volume volume = readQuietly(directory(), options);
+      EXPECT_EQ(volume.geometry.size[2], 3);
+      EXPECT_EQ(std::get<2>(volume.voxels)[0], 1000 * phase);
+    }
+  }
+}
+
+TEST_F(Dicom, RoundedPositionsAreARegularStackOfTheirMeanDistance) {
+  const auto writeAt = [&](const std::vector<std::string>& places) {
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      DicomSlice slice;
+      slice.first = static_cast<int>(n);
+      slice.position = "0\\0\\" + places[n];
+      write("s" + std::to_string(n) + ".dcm", slice.bytes());
+    }
+  };
+  // 0.35 mm apart
+  writeAt({"0", "0.4", "0.7", "1.1", "1.4", "1.8", "2.1", "2.5", "2.8"});
+  const Volume volume = readQuietly(directory());
+  EXPECT_NEAR(volume.geometry.spacing[2], 0.35, 1e-12);
+  ASSERT_EQ(volume.assumptions.size(), 1U);
+  expectRefused(volume.assumptions[0], {"0.3 to 0.4 mm apart", "0.35 mm, is used"});
+  // halves are rounded up or down, as floats fall
+  writeAt({"26", "26.4", "26.7", "27", "27.4", "27.8", "28.1", "28.4", "28.8"});
+  EXPECT_NEAR(readQuietly(directory()).geometry.spacing[2], 0.35, 1e-12);
+  // one is missing
+  writeAt({"0", "0.4", "0.7", "1.4", "1.8", "2.1", "2.5", "2.8", "3.2"});
+  expectRefused(readRefusal(directory()), {"3: ", "regular stack"});
 }
 
 TEST_F(Dicom, SingleSliceIsRefused) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/io/volume/volume_checks.h"
 #include "text_volume.h"
 
 namespace lumen::convert {
@@ -89,12 +90,15 @@ TEST_F(HeaderGeometry, SpacingsThatAreNoDistancesAreRefusedWithTheOption) {
 }
 
 TEST_F(HeaderGeometry, NumbersAreWholeWords) {
-  for (const char* bad : {"1 1 1x", "1 1", "1 1 1 1", "1 1 one", "1 1 0x10", "1 1 1,5", "1 1 1e400",
-                          "1 1 --1", "1 1 +-1"}) {
+  for (const char* bad :
+       {"1 1 1x", "1 1", "1 1 1 1", "1 1 one", "1 1 0x10", "1 1 1,5", "1 1 --1", "1 1 +-1"}) {
     expectRefused(nrrdRefusal({std::string("spacings: ") + bad}),
                   {"3: ", "spacings is", "3 numbers"});
     expectRefused(metaRefusal({std::string("ElementSpacing = ") + bad}), {"3: ", "3 numbers"});
   }
+  const std::vector<std::string> tooLarge = {"3: ", "a spacing of inf", "a positive number"};
+  expectRefused(nrrdRefusal({"spacings: 1 1 1e400"}), tooLarge);
+  expectRefused(metaRefusal({"ElementSpacing = 1 1 1e400"}), tooLarge);
   EXPECT_EQ(nrrd({"spacings: +1 2e0 .5"}).geometry.spacing, Vector3d(1, 2, 0.5));
 }
 
@@ -200,12 +204,107 @@ TEST_F(HeaderGeometry, AxesOfOneComponentOrOneTimeAreDropped) {
   }
 }
 
+const std::string kAxesOfOne = "(1,0,0) (0,1,0) (0,0,1)";
+
+// Two volumes of eight bytes, one after the other and in turns, as programs write them.
+TEST_F(HeaderGeometry, OneOfSeveralVolumesIsChosenWhereverTheirAxisIs) {
+  const std::string ordered = "abcdefghABCDEFGH", turns = "aAbBcCdDeEfFgGhH",
+                    pairs = "abABcdCDefEFghGH";
+  const std::vector<std::pair<Lines, std::string>> files = {
+      {{"sizes: 2 2 2 2", "space dimension: 4", "kinds: domain domain domain domain",
+        "space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0) (0,0,0,1)", "space origin: (1,2,3,0)"},
+       ordered},
+      {{"sizes: 2 2 2 2", "space: left-posterior-superior-time",
+        "space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0) (0,0,0,0.5)", "space origin: (1,2,3,0)"},
+       ordered},
+      {{"sizes: 2 2 2 2", "space: LPS", "kinds: domain domain domain list",
+        "space directions: " + kAxesOfOne + " none", "space origin: (1,2,3)"},
+       ordered},
+      {{"sizes: 2 2 2 2", "space: LPS", "kinds: list domain domain domain",
+        "space directions: none " + kAxesOfOne, "space origin: (1,2,3)"},
+       turns},
+      {{"sizes: 2 2 2 2", "space: LPS", "kinds: time domain domain domain",
+        "space directions: none " + kAxesOfOne, "space origin: (1,2,3)"},
+       turns},
+      {{"sizes: 2 2 2 2", "space: LPS", "kinds: vector domain domain domain",
+        "space directions: none " + kAxesOfOne, "space origin: (1,2,3)"},
+       turns},
+      {{"sizes: 2 2 2 2", "space: LPS", "kinds: domain list domain domain",
+        "space directions: (1,0,0) none (0,1,0) (0,0,1)", "space origin: (1,2,3)"},
+       pairs},
+      {{"sizes: 1 2 2 2 2", "space: LPS", "kinds: list time domain domain domain",
+        "space directions: none none " + kAxesOfOne, "space origin: (1,2,3)"},
+       turns},
+      {{"sizes: 2 2 2 2", "kinds: list space space space", "spacings: nan 1 1 1"}, turns}};
+  for (const auto& [lines, written] : files) {
+    const std::string data = written;
+    Lines all = lines;
+    all.push_back(lines[0].starts_with("sizes: 1") ? "dimension: 5" : "dimension: 4");
+    for (int index = 0; index < 2; ++index) {
+      ReadVolumeOptions options;
+      options.volumeIndex = index;
+      const Volume v = nrrd(all, data, options);
+      EXPECT_EQ(textOf(v), index == 0 ? "abcdefgh" : "ABCDEFGH") << lines[1];
+      EXPECT_EQ(v.geometry.size, (std::array{2, 2, 2}));
+      EXPECT_EQ(v.geometry.spacing, Vector3d(1, 1, 1));
+    }
+    expectRefused(refusal([&] { (void)nrrd(all, data); }), {"3: ", "volume-index"});
+  }
+}
+
+TEST_F(HeaderGeometry, SpaceThatMovesWithTimeAndVolumesInTwoPlacesAreRefused) {
+  ReadVolumeOptions options;
+  options.volumeIndex = 1;
+  const auto refused = [&](Lines lines, std::size_t bytes) {
+    return refusal([&] { (void)nrrd(lines, std::string(bytes, 'a'), options); });
+  };
+  expectRefused(refused({"dimension: 4", "sizes: 2 2 2 2", "space dimension: 4",
+                         "space directions: (1,0,0,0.5) (0,1,0,0) (0,0,1,0) (0,0,0,1)"},
+                        16),
+                {"3: ", "space directions"});
+  expectRefused(refused({"dimension: 5", "sizes: 2 2 2 2 2", "space: LPS",
+                         "kinds: list domain domain domain time",
+                         "space directions: none " + kAxesOfOne + " none"},
+                        32),
+                {"3: ", "5-D"});
+}
+
+TEST_F(HeaderGeometry, LayersOfSegmentsAreNamedWhereNoneIsChosen) {
+  const Lines lines = {"dimension: 4",
+                       "sizes: 2 2 2 2",
+                       "space: LPS",
+                       "kinds: list domain domain domain",
+                       "space directions: none " + kAxesOfOne,
+                       "Segment0_Name:=trunk",
+                       "Segment0_Layer:=0",
+                       "Segment1_Name:=arms",
+                       "Segment1_Layer:=1"};
+  expectRefused(refusal([&] { (void)nrrd(lines, "aAbBcCdDeEfFgGhH"); }),
+                {"3: ", "2 layers of segments (0 with trunk; 1 with arms)", "volume-index"});
+}
+
 TEST_F(HeaderGeometry, MatricesOfMetaImageAreAxesOneAfterTheOther) {
   for (const char* name : {"TransformMatrix", "Rotation", "Orientation"}) {
     const Volume v = meta({std::string(name) + " = 0 1 0 -1 0 0 0 0 1"});
     EXPECT_EQ(v.geometry.direction.col(0), Vector3d(0, 1, 0)) << name;
     EXPECT_EQ(v.geometry.direction.col(1), Vector3d(-1, 0, 0)) << name;
   }
+}
+
+TEST(FarOrigin, IsMovedByTensOfMetres) {
+  VolumeGeometry geometry;
+  std::vector<std::string> said;
+  geometry.origin = {9999.5, -9999.5, 0};
+  moveFarOrigin(geometry, said);
+  EXPECT_EQ(geometry.origin, Eigen::Vector3d(9999.5, -9999.5, 0));
+  EXPECT_TRUE(said.empty());
+  geometry.origin = {10'000'012.25, -25'000.5, 3};
+  moveFarOrigin(geometry, said);
+  EXPECT_EQ(geometry.origin, Eigen::Vector3d(12.25, -5000.5, 3));
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0],
+            "its origin is far from 0: all positions are stated less (10000000, -20000, 0) mm, as "
+            "floats would round them there");
 }
 
 }  // namespace

@@ -113,7 +113,10 @@ TEST_F(HostileNifti, APairOfFilesIsUnsupported) {
 
 TEST_F(HostileNifti, ScalingThatIsNoNumberIsRefused) {
   for (const float bad : {kNan, kInf, -kInf}) {
-    expectRefusal(HeaderBytes().put(112, bad), {"scl_slope is", "0 where"});
+    if (std::isinf(bad))
+      expectRefusal(HeaderBytes().put(112, bad), {"scl_slope is", "0 where"});
+    else  // no scaling, as by other readers
+      expectAssumption(HeaderBytes().put(112, bad), {"scl_slope", "NaN"});
     expectRefusal(HeaderBytes().put(112, 2.0F).put(116, bad), {"scl_inter is", "0 where"});
     expectAssumption(HeaderBytes().put(116, bad), {});  // a slope of 0: not scaled
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // NIfTI files made by hand: what the libraries for it would get wrong or hide.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -133,14 +135,49 @@ TEST_F(Nifti, TheHeaderNamesTheTransformThatPlacesTheVoxels) {
   EXPECT_EQ(placedBy(0, 0), "no transform");
 }
 
-TEST_F(Nifti, AShearedSformGivesWayToTheQform) {
-  std::string text = bothTransforms(1, 1);
-  const float shear = 0.01F;
-  std::memcpy(text.data() + 284, &shear, 4);
-  EXPECT_NEAR(readQuietly(write("v.nii", text)).geometry.direction(1, 0), -1, 1e-6);
-  const std::int16_t none = 0;
-  std::memcpy(text.data() + 252, &none, 2);
-  expectRefused(readRefusal(write("v.nii", text)), {"3: ", "v.nii", "not orthogonal"});
+constexpr std::array<std::int16_t, 6> kCodes = {0, 1, 2, 3, 4, 5};
+
+/// bothTransforms() with the sform of a stack under a gantry tilt.
+std::string sheared(std::int16_t qform, std::int16_t sform, float shear) {
+  std::string text = bothTransforms(qform, sform);
+  std::memcpy(text.data() + 284, &shear, sizeof(shear));
+  return text;
+}
+
+TEST_F(Nifti, AShearThatTheQformCannotHoldIsRefusedWhateverTheCodes) {
+  for (const std::int16_t qform : kCodes)
+    for (const std::int16_t sform : {kCodes[1], kCodes[2]})
+      for (const float shear : {0.01F, 0.27F, -0.27F})
+        expectRefused(readRefusal(write("v.nii", sheared(qform, sform, shear))),
+                      {"3: ", "v.nii", "sform", "not orthogonal", "resample"});
+}
+
+TEST_F(Nifti, AShearedSformOfAnAtlasGivesWayToTheQform) {
+  for (const std::int16_t sform : {kCodes[3], kCodes[4], kCodes[5]})
+    EXPECT_NEAR(readQuietly(write("v.nii", sheared(1, sform, 0.01F))).geometry.direction(1, 0), -1,
+                1e-6);
+}
+
+TEST_F(Nifti, AShearWithinHalfAVoxelGivesWayToTheQform) {
+  std::string text = sheared(1, 1, 0.01F);
+  const float straight = 0;
+  std::memcpy(text.data() + 264, &straight, sizeof(straight));  // the qform has no turn either
+  text[123] = 2;                                                // mm
+  const auto v = readQuietly(write("v.nii", text));
+  EXPECT_NEAR(v.geometry.direction(0, 0), -1, 1e-6);
+  ASSERT_EQ(v.assumptions.size(), 1U);
+  expectRefused(v.assumptions[0], {"sform", "not orthogonal", "qform is used"});
+}
+
+TEST_F(Nifti, ASlopeThatIsNotANumberMeansNoScaling) {
+  MadeNiftiHeader h = header(4, 16);
+  h.slope = h.intercept = std::numeric_limits<float>::quiet_NaN();
+  std::string text = h.text();
+  text[123] = 2;  // mm
+  const auto v = readQuietly(write("v.nii", text + bytes<std::int16_t>({0, 1, 2, 3, 4, 5, 6, 7})));
+  EXPECT_EQ(std::get<1>(v.voxels)[7], 7);
+  ASSERT_EQ(v.assumptions.size(), 1U);
+  EXPECT_NE(v.assumptions[0].find("scl_slope"), std::string::npos);
 }
 
 TEST_F(Nifti, WithoutATransformTheAxesAreTheVolumesOwn) {

@@ -23,6 +23,7 @@
 #include "formats/case/enum_names.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"
+#include "formats/case/vessel_system.h"
 #include "formats/field/pose.h"
 #include "viewer/session/packs/pack.h"
 
@@ -30,7 +31,9 @@ namespace lumen::viewer {
 
 namespace {
 
-Json branchesJson(const formats::CenterlineTree& tree) {
+Json branchesJson(const formats::Case& value) {
+  const formats::CenterlineTree& tree = value.tree;
+  const std::vector<formats::VesselSystem> systems = formats::readBranchSystems(value);
   Json list = Json::array();
   for (const formats::Branch& branch : tree.branches) {
     const auto mean = branch.meanInlierRate;
@@ -42,7 +45,8 @@ Json branchesJson(const formats::CenterlineTree& tree) {
          {"node_count", branch.nodeCount},
          {"stop_reason", formats::enumName(formats::kStopReasonNames, branch.stopReason)},
          {"confidence", mean ? engine::jsonNumber(*mean) : Json(nullptr)},
-         {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))}});
+         {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))},
+         {"system", formats::kVesselSystemNames[static_cast<std::size_t>(systems[list.size()])]}});
   }
   return list;
 }
@@ -136,7 +140,7 @@ std::string casePack(const formats::Case& value, bool withPoints, Progress& prog
     pack.add("point", std::span(value.points->position));
   }
   addMotion(pack, value.motion);
-  pack.set("branches", branchesJson(value.tree));
+  pack.set("branches", branchesJson(value));
   const auto& voxel = value.metadata.voxelSize;
   pack.set("voxel_size_mm", voxel ? engine::jsonNumber(*voxel) : Json(nullptr));
   pack.set("has_models", value.models.has_value());

@@ -20,6 +20,7 @@
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/surface/closing/closed_surface.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -170,13 +171,17 @@ private:
   std::vector<ExportFile> m_files;
 };
 
-std::string branchTable(const formats::CenterlineTree& tree) {
+std::string branchTable(const formats::Case& value) {
+  const formats::CenterlineTree& tree = value.tree;
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(value);
   Json list = Json::array();
   for (std::size_t b = 0; b < tree.branches.size(); ++b)
     list.push_back(
         {{"value", b + 1},
          {"label", tree.branches[b].label},
          {"kind", tree.branches[b].kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel"}});
+  for (std::size_t b = 0; b < systems.size(); ++b)
+    list[b]["system"] = formats::kVesselSystemNames[static_cast<std::size_t>(systems[b])];
   return Json{{"branches", std::move(list)}}.dump(2, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }
@@ -195,7 +200,7 @@ ExportResult exportGrid(const ExportInput& input, const GridOptions& options) {
     result.others.push_back({"NAME.distance.*, NAME.branch.*",
                              "of each branch: distances, and in which branch a sample is"});
   result.files.push_back(
-      {"branches.json", branchTable(input.source.tree), "which number is which branch", ""});
+      {"branches.json", branchTable(input.source), "which number is which branch", ""});
   result.losses = gridLosses(plans.front().lattice, input.source.tree);
   result.ends = findEnds(input.source.tree);
   result.start = options.perBranch

@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/io/volume/dicom/dicom_phases.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -123,6 +124,7 @@ DicomFolder scanDicomFolder(const InputFile& folder, const Progress& progress) {
     else
       found.others.push_back(file);
   }
+  dividePhases(found, progress);
   return found;
 }
 
@@ -133,7 +135,8 @@ DicomChoice findDicomSeries(const InputFile& folder, const ReadVolumeOptions& op
   DicomChoice choice;
   const std::set<fs::path> folders = foldersOf(found.series[uid], folder);
   for (const DicomScan& scan : found.faulty) {
-    const bool isOfOther = !scan.series.empty() && scan.series != uid;
+    const bool isOfOther =
+        !scan.series.empty() && scan.series != uid && !uid.starts_with(scan.series + ", volume ");
     if (isOfOther || (scan.series.empty() && !folders.contains(placeOf(scan.file, folder))))
       continue;
     if (!options.skipFaulty) throw *scan.fault;
@@ -143,6 +146,7 @@ DicomChoice findDicomSeries(const InputFile& folder, const ReadVolumeOptions& op
         printable(scan.file.path().filename().string()) +
         " is left out: " + (fault.starts_with(before) ? fault.substr(before.size()) : fault));
   }
+  for (const std::string& remark : found.remarks[uid]) choice.assumptions.push_back(remark);
   choice.images = std::move(found.series[uid]);
   return choice;
 }

@@ -16,7 +16,9 @@ namespace lumen::convert {
 /// The files of a folder and of all folders below it, in the order of their paths. Links to folders
 /// and hidden folders are passed over.
 struct DicomFolder {
-  std::map<std::string, std::vector<DicomImage>> series;  ///< by instance UID
+  /// By instance UID, and what divides several volumes of one series (dicom_phases.h).
+  std::map<std::string, std::vector<DicomImage>> series;
+  std::map<std::string, std::vector<std::string>> remarks;  ///< of series, a sentence each
   std::vector<DicomScan> faulty;
   std::vector<InputFile> others;  ///< files that are no DICOM images
 };
@@ -31,7 +33,7 @@ struct DicomChoice {
   std::vector<std::string> assumptions;  ///< files that were left out (`skipFaulty`)
 };
 
-/// The series that the options name (its instance UID, or its number in the listing, from 1; empty:
+/// The series that the options name (its instance UID, the name of one of its volumes, or its number in the listing, from 1; empty:
 /// the only one). Throws Error(InvalidInput) if there is no such series or several (the message
 /// lists them); the fault of a file that belongs to the series, or that names none and lies in
 /// a folder of the series, unless the options leave such files out; Error(Cancelled).

@@ -77,7 +77,10 @@ struct Content {
     const auto has = [&](const auto& tags) {
       return std::find(tags.begin(), tags.end(), tag) != tags.end();
     };
-    if (path.empty()) return has(kTop) ? &top : nullptr;
+    const bool isPhase =
+        std::any_of(kPhaseElements.begin(), kPhaseElements.end(),
+                    [&](const DicomPhaseElement& element) { return element.tag == tag; });
+    if (path.empty()) return has(kTop) || isPhase ? &top : nullptr;
     if (path.size() != 2 || !has(kGroup)) return nullptr;
     if (path[0] == kShared) return &shared;
     if (path[0] != kPerFrame || item >= kMaxFrames) return nullptr;
@@ -318,6 +321,8 @@ void fillImage(DicomImage& image, const Content& content, const Syntax& syntax) 
   image.description = reader.text(kDescription);
   image.modality = reader.text(kModality);
   image.pixels = content.pixels;
+  for (std::size_t e = 0; e < kPhaseElements.size(); ++e)
+    image.phases[e] = reader.text(kPhaseElements[e].tag);
   readFormat(reader, image);
   checkGrey(image);
   if (syntax.how.bigEndian && image.bitsAllocated == 8 && image.pixels.vr != std::array{'O', 'B'})

@@ -29,6 +29,20 @@ struct DicomPlane {
   std::optional<double> slope, intercept;  ///< finite; the slope is not 0
 };
 
+/// An element that may tell volumes of one place in one series apart.
+struct DicomPhaseElement {
+  DicomTag tag;
+  const char* name;
+  bool isTime = false;  ///< a time of day, which no message states
+};
+inline constexpr std::array<DicomPhaseElement, 6> kPhaseElements = {
+    {{0x00200100, "temporal position (0020,0100)"},
+     {0x00181060, "trigger time (0018,1060)"},
+     {0x00200012, "acquisition number (0020,0012)"},
+     {0x00180086, "echo number (0018,0086)"},
+     {0x00080032, "acquisition time (0008,0032)", true},
+     {0x00080033, "content time (0008,0033)", true}}};
+
 struct DicomImage {
   InputFile file{""};
   std::string series, description;  ///< instance UID, text
@@ -43,6 +57,7 @@ struct DicomImage {
   DicomPlane plane;                              ///< properties of all frames
   std::vector<DicomPlane> perFrame;  ///< properties of single frames, at least the first
   DicomElement pixels;
+  std::array<std::string, kPhaseElements.size()> phases;  ///< values of these; empty: not stated
 
   [[nodiscard]] std::size_t frameBytes() const { return columns * rows * bitsAllocated / 8; }
 };

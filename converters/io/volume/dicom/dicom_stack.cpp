@@ -24,6 +24,10 @@ using Eigen::Vector3d;
 
 // Share of the mean distance within which distances between slices of a regular grid agree.
 constexpr double kGapTolerance = 0.02;
+// Share of the mean distance by which rounded positions may lie off a regular grid.
+constexpr double kRoundedTolerance = 0.1;
+// The same where the decimals of positions explain more; a missing slice takes half.
+constexpr double kMostRounded = 0.25;
 // Lean of a stack from its first to its last slice, at most this share of a pixel.
 constexpr double kShearTolerance = 0.5;
 // Tolerance of slices of one grid in pixel spacing, mm, and in the axes' directions.
@@ -76,22 +80,67 @@ void checkSameGrid(const DicomFrame& slice, const DicomFrame& first, const fs::p
                      "expected parallel slices of one grid");
 }
 
+/// The coarsest decimal place, mm, of which all coordinates of positions are multiples, from 1 mm to
+/// 0.001 mm; 0: of none.
+double decimalOf(const std::vector<DicomFrame>& slices) {
+  constexpr double kExact = 1e-6;  // of the place
+  for (const double decimal : {1.0, 0.1, 0.01, 0.001}) {
+    const bool isAll = std::all_of(slices.begin(), slices.end(), [&](const DicomFrame& slice) {
+      const Eigen::Array3d places = slice.plane.position->array() / decimal;
+      return ((places - places.round()).abs() <= kExact * (1 + places.abs())).all();
+    });
+    if (isAll) return decimal;
+  }
+  return 0;
+}
+
+/// Whether slices that are sorted by position lie on a regular grid up to the rounding of their
+/// positions: within a tenth of their distance, or within the rounding of their decimals. A slice that
+/// is missing moves others by half a distance.
+bool isRounded(const std::vector<DicomFrame>& slices, double mean) {
+  double least = 0, most = 0;
+  for (std::size_t n = 0; n < slices.size(); ++n) {
+    const double off = slices[n].position - slices.front().position - static_cast<double>(n) * mean;
+    least = std::min(least, off);
+    most = std::max(most, off);
+  }
+  // along a normal that is no axis the rounding of three coordinates adds up
+  const double decimals = std::sqrt(3.0) / 2 * decimalOf(slices);
+  const double allowed =
+      std::max(kRoundedTolerance * mean, std::min(decimals, kMostRounded * mean));
+  return mean > 0 && 0.5 * (most - least) <= allowed;
+}
+
 /// Distance between slices that are sorted by position, mm.
-double sliceSpacing(const std::vector<DicomFrame>& slices, const fs::path& path) {
+double sliceSpacing(const std::vector<DicomFrame>& slices, const fs::path& path,
+                    std::vector<std::string>& assumptions) {
   std::vector<double> gaps;
   for (std::size_t n = 1; n < slices.size(); ++n)
     gaps.push_back(slices[n].position - slices[n - 1].position);
   std::vector<double> sorted = gaps;
   std::sort(sorted.begin(), sorted.end());
   const double usual = sorted[sorted.size() / 2];
+  const double mean =
+      (slices.back().position - slices.front().position) / static_cast<double>(gaps.size());
+  const auto isUsual = [&](double gap) {
+    return gap > 0 && std::abs(gap - usual) <= kGapTolerance * usual;
+  };
+  if (!std::all_of(gaps.begin(), gaps.end(), isUsual) && sorted.front() > 0 &&
+      isRounded(slices, mean)) {
+    assumptions.push_back("its slices are " + shownNumber(sorted.front()) + " to " +
+                          shownNumber(sorted.back()) +
+                          " mm apart, as positions that are rounded; their mean distance, " +
+                          shownNumber(mean) + " mm, is used");
+    return mean;
+  }
   for (std::size_t n = 0; n < gaps.size(); ++n) {
-    if (gaps[n] > 0 && std::abs(gaps[n] - usual) <= kGapTolerance * usual) continue;
+    if (isUsual(gaps[n])) continue;
     throw invalidInput(path.string() + ": slices " + slices[n].name() + " and " +
                        slices[n + 1].name() + " are " + shownNumber(gaps[n]) +
                        " mm apart, where most are " + shownNumber(usual) +
                        " mm; expected a regular stack with one image for each position");
   }
-  return (slices.back().position - slices.front().position) / static_cast<double>(gaps.size());
+  return mean;
 }
 
 void checkUpright(const std::vector<DicomFrame>& slices, const Matrix3d& direction,
@@ -106,7 +155,7 @@ void checkUpright(const std::vector<DicomFrame>& slices, const Matrix3d& directi
 
 /// Sorts slices with positions; returns their geometry.
 VolumeGeometry stackPlaced(std::vector<DicomFrame>& slices, const ReadVolumeOptions& options,
-                           const fs::path& path) {
+                           const fs::path& path, std::vector<std::string>& assumptions) {
   VolumeGeometry geometry;
   geometry.direction = directionOf(*slices[0].plane.orientation);
   for (DicomFrame& slice : slices) {
@@ -118,7 +167,7 @@ VolumeGeometry stackPlaced(std::vector<DicomFrame>& slices, const ReadVolumeOpti
     return a.position < b.position;
   });
   geometry.spacing = pixelSpacing(slices[0], options);
-  geometry.spacing[2] = sliceSpacing(slices, path);
+  geometry.spacing[2] = sliceSpacing(slices, path, assumptions);
   checkUpright(slices, geometry.direction, options.spacing.value_or(geometry.spacing), path);
   geometry.origin = *slices[0].plane.position;
   return geometry;
@@ -187,7 +236,7 @@ DicomStack stackOf(DicomChoice choice, const ReadVolumeOptions& options, const f
   const bool placed = stack.images.size() > 1 || (!perFrame.empty() && perFrame[1].position);
   if (placed) checkPlaced(stack.slices[0]);
   StatedGeometry stated;
-  stated.geometry = placed ? stackPlaced(stack.slices, options, path)
+  stated.geometry = placed ? stackPlaced(stack.slices, options, path, stack.assumptions)
                            : stackFrames(stack.slices, options, stack.assumptions);
   stated.geometry.size = {static_cast<int>(stack.images[0].columns),
                           static_cast<int>(stack.images[0].rows),

@@ -62,15 +62,16 @@ def without_prefix(labels, prefix):
 
 def run(options):
     root, out = pathlib.Path(options.bids_dir), pathlib.Path(options.out)
+    labels = [pathlib.Path(folder) for folder in options.labels]
     volumes = find_volumes(root, options.suffix, without_prefix(options.participant_label, "sub-"),
-                           without_prefix(options.session_label, "ses-"),
-                           [pathlib.Path(folder) for folder in options.labels])
+                           without_prefix(options.session_label, "ses-"), labels)
     if out.resolve() == root.resolve():
         raise Fault(f"{out}: is the data set itself, expected another folder", USAGE)
     group.read_statements(options.statements)
     if options.level == "list":
         return group.write_volume_list(volumes, out, options)
-    program = Program(options.lumen, options.threads)
+    stated = [pathlib.Path(file).parent for file in (options.config, options.statements) if file]
+    program = Program(options.lumen, options.threads, [root, out, *labels, *stated])
     describe_dataset(out, root, program.version)
     level = participant if options.level == "participant" else group
     return level.run(volumes, out, options, program)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """Angiograms and label maps of a BIDS data set, by the names of their files."""
-import csv
 import dataclasses
 import pathlib
 import re
@@ -140,14 +139,14 @@ def refuse_equal_ids(volumes):
                         f"as that of {other.file} does")
 
 
-def label_names(label_map):
-    """{"1": "BA"} of the table beside a label map (NAME_dseg.tsv), or None where there is none."""
-    name = next(label_map.name[:-len(e)] for e in ENDINGS if label_map.name.endswith(e))
-    table = label_map.with_name(name + ".tsv")
-    if not table.is_file():
-        return None
-    with open(table, encoding="utf-8", newline="") as text:
-        rows = csv.DictReader(text, delimiter="\t")
-        if not {"index", "name"} <= set(rows.fieldnames or ()):
-            raise Fault(f"{table}: found columns {rows.fieldnames}, expected index and name")
-        return {row["index"]: row["name"] for row in rows}
+def label_table(label_map):
+    """The table of names and roles of a label map, or None: the one with most entities of the map in the nearest
+    folder of its data set, from its own folder up (BIDS, inheritance principle)."""
+    own = set(label_map.name.split(".")[0].split("_"))
+    for folder in label_map.parents:
+        tables = [file for file in sorted(folder.glob(f"*{LABEL_MAP}.tsv")) if set(file.stem.split("_")) <= own]
+        if tables:
+            return max(tables, key=lambda file: file.stem.count("_"))
+        if (folder / "dataset_description.json").exists():
+            return None
+    return None

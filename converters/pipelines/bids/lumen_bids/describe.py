@@ -7,7 +7,7 @@ from .files import read_json, write_json, write_text
 BIDS_VERSION = "1.8.0"
 # files of derivatives for which BIDS has no name yet
 IGNORED = ("*_desc-*", "library/", "measures.*", "quality.html", "volumes.csv", "library.csv",
-           "labels/", "logs/")
+           "logs/")
 
 
 def describe_dataset(out, root, version):

@@ -5,7 +5,7 @@ import io
 import json
 import pathlib
 
-from .dataset import label_names
+from .dataset import label_table
 from .describe import measure_columns
 from .errors import FAILED, Fault
 from .files import read_json, write_json, write_text
@@ -51,11 +51,8 @@ def write_volume_list(volumes, out, options):
         own = {}
         if volume.labels:
             own["--label-map"] = str(volume.labels.resolve())
-            names = label_names(volume.labels)
-            if names is not None:
-                table = pathlib.Path(out).resolve() / "labels" / f"{volume.name}.json"
-                write_json(names, table)
-                own["--label-table"] = str(table)
+            if table := label_table(volume.labels):
+                own["--label-table"] = str(table.resolve())
         rows.append((volume.file.resolve(), volume.case_id, volume.name, own))
     file = pathlib.Path(out) / "volumes.csv"
     write_text(list_text(rows, read_statements(options.statements), options.export), file)
@@ -71,7 +68,7 @@ def build_library(volumes, out, options, program):
         if options.licence:
             words += ["--licence", options.licence]
         program.run(*words)
-    rows = [(v.derivative(out, *CASE).resolve(), v.case_id, v.name, {}) for v in volumes]
+    rows = [(v.derivative(out, *CASE).relative_to(out).as_posix(), v.case_id, v.name, {}) for v in volumes]
     file = pathlib.Path(out) / "library.csv"
     write_text(list_text(rows, read_statements(options.statements), options.export), file)
     program.run("library", "build", file, library, "--jobs", options.jobs)

@@ -9,7 +9,7 @@ import pathlib
 import sys
 import tempfile
 
-from .dataset import label_names
+from .dataset import label_table
 from .describe import case_sidecar, measure_columns
 from .errors import FAILED, INVALID_INPUT, Fault
 from .files import digest, digest_of, write_json, write_text
@@ -26,11 +26,12 @@ class Recipe:
     """All that the derivatives of a volume come from, as digests."""
 
     def __init__(self, volume, options, program):
+        table = label_table(volume.labels) if volume.labels else None
         self.parts = {
             "Lumen": program.version,
             "Volume": digest(volume.file),
             "LabelMap": digest(volume.labels) if volume.labels else None,
-            "LabelNames": label_names(volume.labels) if volume.labels else None,
+            "LabelTable": digest(table) if table else None,
             "Options": digest(options.config) if options.config else None,
             "Exports": sorted(options.export)}
         self.digest = digest_of(self.parts)
@@ -82,15 +83,11 @@ class Maker:
         words = ["convert", self.volume.file, self.file(CASE)]
         if self.options.config:
             words += ["--config", self.options.config]
-        with tempfile.TemporaryDirectory() as folder:
-            if self.volume.labels:
-                words += ["--label-map", self.volume.labels]
-                names = label_names(self.volume.labels)
-                if names is not None:
-                    table = pathlib.Path(folder) / "names.json"
-                    table.write_text(json.dumps(names), encoding="utf-8")
-                    words += ["--label-table", table]
-            self.lumen(*words)
+        if self.volume.labels:
+            words += ["--label-map", self.volume.labels]
+            if table := label_table(self.volume.labels):
+                words += ["--label-table", table]
+        self.lumen(*words)
 
     def export(self, target):
         folder = self.volume.derivative(self.out, target, "")
@@ -122,12 +119,11 @@ def make_one(volume, out, options, program):
         Maker(volume, out, options, program).make(recipe)
         return "made", None
     except Fault as error:
-        # a folder's name may be somebody's: the place in the data set is enough
-        why = str(error).replace(str(volume.file), volume.place)
-        state = {"Source": volume.place, "Why": why, "Code": error.code}
+        state = {"Source": volume.place, "Why": str(error), "Code": error.code}
     except OSError as error:
         state = {"Source": volume.place, "Why": f"{error.filename}: {error.strerror}",
                  "Code": FAILED}
+    state["Why"] = program.without_folders(state["Why"])
     try:
         write_json(state, fault)
     except Fault as error:

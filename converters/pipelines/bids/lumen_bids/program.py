@@ -27,8 +27,9 @@ def find_program(stated):
 class Program:
     """Runs lumen and keeps its messages."""
 
-    def __init__(self, stated=None, threads=0):
+    def __init__(self, stated=None, threads=0, folders=()):
         self.path = find_program(stated)
+        self.folders = folders  # whose names no message keeps
         self.threads = threads
         self.version = json.loads(self.run("--version", "--json"))["version"]
 
@@ -42,10 +43,17 @@ class Program:
                               errors="replace", check=False)
         if log is not None and done.stderr:
             with open(log, "a", encoding="utf-8") as out:
-                out.write(done.stderr)
+                out.write(self.without_folders(done.stderr))
         if done.returncode:
-            raise Fault(reason(done), done.returncode if done.returncode > 0 else FAILED)
+            raise Fault(self.without_folders(reason(done)), done.returncode if done.returncode > 0 else FAILED)
         return done.stdout
+
+    def without_folders(self, text):
+        """A message in which files have their place in the folders: a folder's name may be somebody's."""
+        names = {str(name) for folder in self.folders for name in (folder, folder.resolve())}
+        for name in sorted(names - {".", "/"}, key=len, reverse=True):
+            text = text.replace(f"{name}/", "").replace(name, ".")
+        return text
 
 
 def reason(done):

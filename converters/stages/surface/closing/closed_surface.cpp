@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/closing/cut_ends.h"
 #include "converters/stages/surface/closing/end_planes.h"
@@ -39,6 +40,17 @@ constexpr std::size_t kMostCrossings = 1'000'000;
 // Edges of the preview's lattice in radii: twice the others, they take a quarter of the time, and a
 // vessel still has six sides or more.
 constexpr double kQuickShare = 2.0;
+
+/// A gap is drawn from the lumens of both vessels, so one wider than the widest leaves nothing.
+/// Surfaces around it take a time that grows with its cube.
+void requireGap(const formats::Case& source, const ClosedSurfaceOptions& options) {
+  const auto& radius = source.tree.radius;
+  const double widest = 2 * double{*std::max_element(radius.begin(), radius.end())};
+  if (options.gap && !(*options.gap >= 0 && *options.gap <= widest))
+    throw Error(ErrorKind::Usage, "gap: found " + shownNumber(*options.gap) +
+                                      " mm, expected at most " + shownNumber(widest) +
+                                      " mm, the diameter of the widest vessel");
+}
 
 double chooseGap(const formats::Case& source, const ClosedSurfaceOptions& options) {
   if (options.gap) return *options.gap;
@@ -266,6 +278,7 @@ ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOpti
   if (options.thickness && (options.open || !options.extend.empty()))
     throw Error(ErrorKind::Usage,
                 "thickness gives a closed wall; it goes with neither open nor extend");
+  requireGap(source, options);
   requireFewTriangles(source.tree, edgeOf(options), options.thickness);
   return ClosedSurfaceMaker(source, options, progress).run();
 }

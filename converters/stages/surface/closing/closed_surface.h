@@ -22,7 +22,8 @@ namespace lumen::convert {
 
 struct ClosedSurfaceOptions {
   /// Gap between touching vessels, mm; nothing: a tenth of the voxel size, or where the case has
-  /// none, a twentieth of the least radius.
+  /// none, a twentieth of the least radius. closedSurface() throws Error(Usage) for a gap wider than
+  /// the widest vessel.
   std::optional<double> gap;
   EdgeLength edge;
   bool open = false;                ///< flat ends are left out

@@ -19,6 +19,7 @@
 #include "converters/stages/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"
 #include "formats/case/topology.h"
+#include "formats/case/vessel_system.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {
@@ -318,6 +319,7 @@ Patches join(const Source& source, std::vector<NodePatch>& parts, Progress& prog
     result.surface.groups.push_back({branch.label, FaceKind::Wall});
     result.surface.labels.push_back(branch.label);
   }
+  result.surface.systems = formats::knownBranchSystems(source.value);
   result.losses.resize(tree.branches.size());
   for (std::uint32_t node = 0; node < parts.size(); ++node) {
     progress.check();

@@ -6,6 +6,7 @@
 
 #include "converters/base/vectors.h"
 #include "formats/case/node_origin.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 namespace {
@@ -136,6 +137,7 @@ void appendTracks(const TrackedTree& tree, formats::Case& target) {
     firstNode[i] = static_cast<std::int32_t>(target.tree.branches[i].firstNode);
   std::vector<formats::NodeOrigin> origins = formats::readNodeOrigins(target);
   std::vector<bool> edited = formats::readEditedWalls(target);
+  std::vector<formats::VesselSystem> systems = formats::readNodeSystems(target);
   for (const std::size_t i : parentsFirst(tree)) {
     firstNode[i] = static_cast<std::int32_t>(target.tree.nodeCount());
     appendBranch(tree.seeds[i], tree.branches[i], firstNode, target);
@@ -144,6 +146,8 @@ void appendTracks(const TrackedTree& tree, formats::Case& target) {
   setNodeOrigins(target, origins);
   edited.resize(target.tree.nodeCount(), false);
   setEditedWalls(target, edited);
+  systems.resize(target.tree.nodeCount(), formats::VesselSystem::Unknown);
+  setNodeSystems(target, systems);
 }
 
 formats::Case caseOfTracks(const TrackedTree& tree) {

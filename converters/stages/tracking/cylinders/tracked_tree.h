@@ -33,7 +33,8 @@ TrackedTree makeTrackedTree(const formats::Case& vesselCase);
 
 /// Appends the new branches that have nodes, with their points, to a case that has points: in the
 /// seeds' order, but every parent, which has nodes, before its children. The known branches are
-/// those of the case. Arrays of rates and of origins are continued; new nodes have no models.
+/// those of the case. Arrays of rates, of origins and of systems, which are unknown for new nodes, are
+/// continued; new nodes have no models.
 void appendTracks(const TrackedTree& tree, formats::Case& target);
 
 /// A case of the tree's branches alone.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { branchColour, fromHex, mapColour, toHex, usualRange } from "./colour";
+import { branchColour, fromHex, kSystems, mapColour, systemColour, toHex, usualRange } from "./colour";
 
 describe("colours", () => {
   it("comeBackFromHex", () => {
@@ -57,5 +57,18 @@ describe("usualRange", () => {
   });
   it("isSymmetricIfAsked", () => {
     expect(usualRange([-1, 0, 3], true)).toEqual([-3, 3]);
+  });
+
+  it("gives systems hues of their own, and unknown ones none", () => {
+    expect(systemColour("unknown", 3)).toBeNull();
+    expect(systemColour(undefined, 3)).toBeNull();
+    const [artery, vein] = ["artery", "vein"].map(name => systemColour(name, 1)!);
+    expect(artery[0]).toBeGreaterThan(artery[2] + 0.3); // red
+    expect(vein[2]).toBeGreaterThan(vein[0] + 0.3); // blue
+    for (const [i, a] of kSystems.slice(1).entries())
+      for (const b of kSystems.slice(i + 2))
+        expect(
+          Math.hypot(...[0, 1, 2].map(k => systemColour(a, 2)![k] - systemColour(b, 2)![k])),
+        ).toBeGreaterThan(0.2);
   });
 });

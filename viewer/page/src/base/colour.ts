@@ -34,6 +34,21 @@ export function branchColour(index: number): Rgb {
   return fromOklch(kLightness[index % kLightness.length], kChroma, kFirst + kAngle * index);
 }
 
+/** Systems of vessels, by their numbers in files. */
+export const kSystems = ["unknown", "artery", "vein", "true-lumen", "false-lumen"];
+const kSystemHues: Record<string, number> = {
+  artery: 0.5,
+  vein: 4.55,
+  "true-lumen": 1.75,
+  "false-lumen": 5.6,
+};
+
+/** The colour of a branch of a system: of one hue, in the lightnesses of branches. Null for an unknown system. */
+export function systemColour(system: string | undefined, index: number): Rgb | null {
+  if (system === undefined || !Object.hasOwn(kSystemHues, system)) return null;
+  return fromOklch(kLightness[index % kLightness.length], kChroma, kSystemHues[system]);
+}
+
 export const toHex = (c: Rgb): string =>
   `#${c
     .map(x =>

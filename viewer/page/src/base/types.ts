@@ -230,6 +230,8 @@ export interface BranchRecord {
   confidence: number | null;
   /** mm, as `lumen info` reports it: with the edge to its parent. */
   length_mm: number;
+  /** The system of vessels, one of `kSystems`; older pages have none. */
+  system?: string;
 }
 
 export type Event =

@@ -74,6 +74,35 @@ test("a file's tree has the labels, lengths and numbers of lumen info", () => {
   expect(tree.voxelSize).toBe(0.5);
 });
 
+test("a file's branches have the system that most of their nodes have", () => {
+  const file = fileOf({
+      ...twoVessels(),
+      META: '{"nodeArrays": [{"name": "A_b.c", "type": "f32", "components": 1}, {"name": "LUMEN_vessel.system", "type": "u32", "components": 1}]}',
+    }),
+    rows = file[24] + 1,
+    arrays = [new Float32Array(4), new Uint32Array([2, 2, 4, 4])];
+  expect(new Tree(new Pack(packOfCase(file))).systems).toEqual([]);
+  // two chunks of one name, which fileOf() does not make
+  const whole = new Uint8Array(file.length + 256),
+    view = new DataView(whole.buffer);
+  whole.set(file.subarray(0, 64 * rows));
+  whole.set(file.subarray(64 * rows), 64 * rows + 128);
+  for (let row = 1; row < rows; ++row)
+    view.setBigUint64(64 * row + 8, view.getBigUint64(64 * row + 8, true) + 128n, true);
+  arrays.forEach((array, i) => {
+    const row = 64 * (rows + i),
+      at = file.length + 128 + 64 * i;
+    whole.set(new TextEncoder().encode("NARR"), row);
+    view.setBigUint64(row + 8, BigInt(at), true);
+    view.setBigUint64(row + 16, 16n, true);
+    whole.set(new Uint8Array(array.buffer), at);
+  });
+  view.setUint32(24, rows + 1, true);
+  const tree = new Tree(new Pack(packOfCase(whole)));
+  expect(tree.branches.map(b => b.system)).toEqual(["vein", "false-lumen"]);
+  expect(tree.systems).toEqual(["vein", "false-lumen"]);
+});
+
 test("a file that is cut off, compressed or of a later kind is refused with a sentence", () => {
   const whole = fileOf(twoVessels()),
     later = whole.slice();

@@ -2,6 +2,7 @@
 /** Reads a .lumen file (../../../spec/lumen.md) as far as the page shows it: the tree and whether there are models. libblob,
  * which opens the same bytes, checks checksums and the models; here every size and index is checked before it is used. */
 import { makePack } from "./pack";
+import { kSystems } from "../base/colour";
 import type { BranchRecord } from "../base/types";
 
 const kSignature = [0x8c, 0x4c, 0x55, 0x4d, 0x45, 0x4e, 0x0d, 0x0a, 0x1a, 0x0a],
@@ -29,6 +30,7 @@ function chunksOf(bytes: Uint8Array): Map<string, Uint8Array> {
   if (bytes.length < kHeader || !isCaseFile(bytes)) throw new Error("This is no .lumen file.");
   if (bytes[12] !== kMajor) throw new Error("The case needs a newer reader than this page.");
   const count = view.getUint32(24, true);
+  let arrays = 0; // their chunks have one name
   if (count > kMostChunks || kHeader * (1 + count) > bytes.length) throw new Error("The case is cut off.");
   for (let i = 0; i < count; ++i) {
     const row = kHeader * (1 + i),
@@ -37,7 +39,8 @@ function chunksOf(bytes: Uint8Array): Map<string, Uint8Array> {
       size = Number(view.getBigUint64(row + 16, true)),
       isCritical = (bytes[row + 6] & 1) !== 0;
     if (offset + size > bytes.length) throw new Error("The case is cut off.");
-    if (bytes[row + 7] === 0) chunks.set(name, bytes.subarray(offset, offset + size));
+    if (bytes[row + 7] === 0)
+      chunks.set(name === "NARR" ? `NARR${arrays++}` : name, bytes.subarray(offset, offset + size));
     else if (isCritical || name.startsWith("M"))
       throw new Error("The case is compressed: lumen convert CASE RAW.lumen makes one that a page reads.");
   }
@@ -79,7 +82,26 @@ function branchesOf(chunks: Map<string, Uint8Array>, nodes: number): BranchRecor
 
 interface Metadata {
   voxelSize?: number;
+  nodeArrays?: { name: string; type: string; components: number }[];
   steps?: { name: string; tool: string; parameters: Record<string, unknown> }[];
+}
+
+/** States the system of each branch: the one that most of its nodes have, as LUMEN_vessel.system states them. */
+function addSystems(
+  chunks: Map<string, Uint8Array>,
+  meta: Metadata,
+  nodes: number,
+  branches: BranchRecord[],
+): void {
+  const at = meta.nodeArrays?.findIndex(array => array.name === "LUMEN_vessel.system") ?? -1;
+  if (!chunks.has(`NARR${at}`)) return;
+  const systems = new Uint32Array(needed(chunks, `NARR${at}`, 4 * nodes).buffer);
+  for (const branch of branches) {
+    const counts = kSystems.map(() => 0);
+    for (const system of systems.subarray(branch.first_node, branch.first_node + branch.node_count))
+      ++counts[system];
+    branch.system = kSystems[counts.indexOf(Math.max(...counts))];
+  }
 }
 
 interface Nodes {
@@ -125,6 +147,7 @@ export function packOfCase(bytes: Uint8Array): Uint8Array {
     branches = branchesOf(chunks, n),
     inlierRate = chunks.has("NINL") ? numbers("NINL", 1) : null,
     links = new Uint32Array(chunks.has("LINK") ? needed(chunks, "LINK").buffer : new ArrayBuffer(0));
+  addSystems(chunks, meta, n, branches);
   if (links.some(node => node >= n)) throw new Error("A link of the case names a node that does not exist.");
   return makePack(
     {

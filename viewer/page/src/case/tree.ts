@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The centerline tree of a case: the arrays of its pack, and what follows from them. */
+import { kSystems } from "../base/colour";
 import { Motion, poseMatrix, type Poses } from "./motion";
 import type { Pack } from "./pack";
 import type { BranchRecord, Vec3 } from "../base/types";
@@ -72,6 +73,12 @@ export class Tree {
       greatest: Math.max(...radii),
       parentBranch: record.parent_node < 0 ? -1 : this.branch[record.parent_node],
     };
+  }
+
+  /** The systems of the branches, each once, in the order of their numbers; none if none is known. */
+  get systems(): string[] {
+    const found = new Set(this.branches.map(b => b.system ?? kSystems[0]));
+    return found.size === 1 && found.has(kSystems[0]) ? [] : kSystems.filter(name => found.has(name));
   }
 
   position(node: number): Vec3 {

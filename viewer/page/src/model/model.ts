@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page's model: values of a few owners, which panels and views watch. */
 import type { Model } from "../../../../libblob/wasm/blob.mjs";
-import { branchColour, type Rgb } from "../base/colour";
+import { branchColour, systemColour, type Rgb } from "../base/colour";
 import type { Deviation } from "../case/deviation";
 import { kNoBeside, type Beside } from "./beside";
 import { kNoSlabs, type Slabs } from "./slab";
@@ -284,10 +284,12 @@ export const shownTree = ({
   motion: { posed },
 }: Pick<View, "document" | "motion">): Tree | null => posed ?? tree;
 
-/** The colour of a branch: chosen, or of the number that its name has. */
+/** The colour of a branch: chosen, of its system, or of the number that its name has. */
 export function colourOf(view: Pick<View, "document" | "selection">, branch: number): Rgb {
-  const label = view.document.tree?.branches[branch]?.label ?? "";
-  return view.selection.colours.get(label) ?? branchColour(view.selection.colourNumbers.get(label) ?? branch);
+  const record = view.document.tree?.branches[branch],
+    label = record?.label ?? "",
+    number = view.selection.colourNumbers.get(label) ?? branch;
+  return view.selection.colours.get(label) ?? systemColour(record?.system, number) ?? branchColour(number);
 }
 
 export function isShown(view: Pick<View, "document" | "selection">, branch: number): boolean {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The legends of colours, in the corner of the 3D view: of the surface, and of meshes. */
-import { mapColour, toCss, type MapName } from "../base/colour";
+import { mapColour, systemColour, toCss, type MapName } from "../base/colour";
 import { colouring } from "../model/colouring";
 import { deviationText, kDeviationMap, sharedRange } from "../case/deviation";
 import type { Part } from "../model/model";
@@ -11,12 +11,14 @@ class Scale {
   private readonly bar = h("canvas", { width: 120, height: 8, "aria-hidden": "true" });
   private readonly ends = [h("span", {}), h("span", {}), h("span", {})];
   private readonly title = h("strong", {});
+  private readonly box = h("div", { class: "scale" }, this.bar, h("div", { class: "ends" }, ...this.ends));
 
   constructor(private readonly element: HTMLElement) {
-    element.append(
-      this.title,
-      h("div", { class: "scale" }, this.bar, h("div", { class: "ends" }, ...this.ends)),
-    );
+    element.append(this.title, this.box);
+  }
+
+  hide(isHidden: boolean): void {
+    this.title.hidden = this.box.hidden = isHidden;
   }
 
   show(title: string, [low, high]: [number, number], map: MapName): void {
@@ -33,10 +35,24 @@ class Scale {
 
 /** That of the surface's colours. */
 export function surfaceLegend(element: HTMLElement, app: Part<"document" | "scene">): void {
-  const scale = new Scale(element);
+  const scale = new Scale(element),
+    systems = h("div", { class: "figures" });
+  element.append(systems);
   app.store.watch(["scene.colourBy", "document.surface", "document.distance", "document.tree"], view => {
-    const c = colouring(view);
-    element.hidden = !c.mapped;
+    const c = colouring(view),
+      names = c.mapped ? [] : (view.document.tree?.systems ?? []);
+    element.hidden = !c.mapped && names.length === 0;
+    scale.hide(!c.mapped);
+    if (names.length > 0) element.setAttribute("aria-label", `Systems: ${names.join(", ")}`);
+    systems.replaceChildren(
+      ...names.map(name =>
+        h(
+          "span",
+          { style: `color: ${toCss(systemColour(name, 1) ?? [0.7, 0.7, 0.7])}` },
+          name.replaceAll("-", " "),
+        ),
+      ),
+    );
     if (c.mapped) scale.show(c.unit === "" ? c.title : `${c.title}, ${c.unit}`, c.range, c.map);
   });
 }

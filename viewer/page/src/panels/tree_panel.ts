@@ -117,7 +117,8 @@ export class TreePanel {
 
   private ordered(tree: Tree): { branch: Branch; depth: number }[] {
     const matches = (b: Branch): boolean =>
-      this.wanted === "" || `${b.label} ${b.kind} ${b.stop_reason}`.toLowerCase().includes(this.wanted);
+      this.wanted === "" ||
+      `${b.label} ${b.kind} ${b.stop_reason} ${b.system ?? ""}`.toLowerCase().includes(this.wanted);
     if (this.sort === "tree")
       return tree
         .outline()
@@ -279,6 +280,8 @@ export class TreePanel {
       ["Stopped by", b.stop_reason.replaceAll("-", " ")],
       ["Parent", parent],
     ];
+    if (view.document.tree!.systems.length > 0)
+      rows.push(["System", (b.system ?? "unknown").replaceAll("-", " ")]);
     const edited = view.document.tree!.countEdited(b);
     if (edited > 0) rows.push(["Edited", `${edited} of ${b.node_count} nodes, by hand`]);
     const opacity = slider(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/repair/unit_guess.h"
+#include "converters/geometry/unit_guess.h"
 
 #include <algorithm>
 #include <array>
@@ -40,6 +40,10 @@ struct Unit {
   double millimetres;
 };
 constexpr std::array<Unit, 3> kUnits = {{{"mm", 1}, {"m", 1000}, {"cm", 10}}};
+/// Units of microscopes, for vessels that have no possible size in the others: vessels of any size, or
+/// those of a microscope's field, from capillaries on.
+constexpr std::array<Unit, 2> kSmallUnits = {{{"um", 1e-3}, {"nm", 1e-6}}};
+constexpr double kLeastSeenRadius = 1e-3, kLeastSeenDiagonal = 0.01;  // mm
 
 bool isKnown(const VesselSize& size, double mm) {
   return std::any_of(kKnown.begin(), kKnown.end(), [&](const KnownVessels& known) {
@@ -48,9 +52,15 @@ bool isKnown(const VesselSize& size, double mm) {
   });
 }
 
+/// Without a radius the box alone counts.
+bool isBetween(const VesselSize& size, double mm, double leastRadius, double leastDiagonal) {
+  return size.diagonal * mm >= leastDiagonal && size.diagonal * mm <= kMostDiagonal &&
+         (std::isnan(size.radius) ||
+          (size.radius * mm >= leastRadius && size.radius * mm <= kMostRadius));
+}
+
 bool isPossible(const VesselSize& size, double mm) {
-  return size.diagonal * mm >= kLeastDiagonal && size.diagonal * mm <= kMostDiagonal &&
-         size.radius * mm >= kLeastRadius && size.radius * mm <= kMostRadius;
+  return isBetween(size, mm, kLeastRadius, kLeastDiagonal);
 }
 
 double millimetresOf(const std::string& unit) {
@@ -85,16 +95,13 @@ double volumeWithFans(const TriangleMesh& mesh) {
 
 /// "vessels of 9.1 mm radius in a box of 250 mm".
 std::string sizeText(const VesselSize& size, double mm) {
+  if (std::isnan(size.radius))
+    return "vessels in a box of " + shownNumber(size.diagonal * mm, 3) + " mm";
   return "vessels of " + shownNumber(size.radius * mm, 3) + " mm radius in a box of " +
          shownNumber(size.diagonal * mm, 3) + " mm";
 }
 
 }  // namespace
-
-VesselSize vesselSize(const MeshReport& report) {
-  return {report.area > 0 ? 2 * std::abs(report.volume) / report.area : 0,
-          (report.high - report.low).norm()};
-}
 
 VesselSize vesselSize(const TriangleMesh& mesh) {
   Eigen::Vector3d low = mesh.position[mesh.triangle.front()[0]], high = low;
@@ -121,7 +128,14 @@ UnitGuess guessUnit(const VesselSize& size, bool isSimVascular) {
     return {fit.front().millimetres, fit.front().name, true, fit.size() > 1 ? fit[1].name : ""};
   for (const Unit& unit : kUnits)
     if (isPossible(size, unit.millimetres)) return {unit.millimetres, unit.name, true, ""};
+  for (const Unit& unit : kSmallUnits)
+    if (isBetween(size, unit.millimetres, kLeastSeenRadius, kLeastSeenDiagonal))
+      return {unit.millimetres, unit.name, true, ""};
   return {1, "mm", false, ""};
+}
+
+bool hasPossibleSize(const VesselSize& size) {
+  return isKnown(size, 1) || isPossible(size, 1);
 }
 
 std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isSimVascular,
@@ -139,6 +153,19 @@ std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isS
   if (guess.millimetres == 1) return "";
   return taken + why + ": " + sizeText(size, guess.millimetres) + "; in mm they would be " +
          sizeText(size, 1) + option;
+}
+
+std::string standardWarning(const VesselSize& size, double standardMm, const char* standard,
+                            const FieldWord& word) {
+  if (hasPossibleSize(size)) return "";
+  const VesselSize numbers{size.radius / standardMm, size.diagonal / standardMm};
+  const UnitGuess guess = guessUnit(numbers);
+  const std::string taken = std::string("by the standard of ") + standard + " it holds " +
+                            sizeText(size, 1) + ", which are implausible";
+  const std::string option = "; " + word("unit") + " states the unit";
+  if (!guess.plausible || guess.millimetres == standardMm) return taken + option;
+  return taken + "; in " + guess.unit + " they would be " + sizeText(numbers, guess.millimetres) +
+         option;
 }
 
 }  // namespace lumen::convert

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/text_cursor.h"
+#include "converters/io/vtk/text_cursor.h"
 
+#include <algorithm>
 #include <charconv>
 #include <system_error>
 
+#include "converters/base/error.h"
 #include "converters/base/options/parsed_number.h"
-#include "converters/io/mesh/mesh_builder.h"
+#include "converters/base/shown_text.h"
 
 namespace lumen::convert {
 namespace {
 
 std::string foundText(const char* what, std::string_view word) {
-  return std::string(what) + (word.empty() ? " is missing" : " is " + quotedText(word));
+  return std::string(what) +
+         (word.empty() ? " is missing" : " is " + quotedText(std::string(word)));
 }
 
 }  // namespace
@@ -47,7 +50,7 @@ std::uint64_t TextCursor::parseWhole(std::string_view word, const char* what,
 }
 
 void TextCursor::refuse(const std::string& what) const {
-  refuseMesh(m_name, place(), what);
+  throw invalidInput(m_name + ": " + place() + ": " + what);
 }
 
 }  // namespace lumen::convert

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include "converters/io/mesh/vtk_legacy.h"
+#include "converters/io/vtk/vtk_legacy.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,12 +15,17 @@
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
-#include "converters/io/mesh/read_mesh.h"
-#include "converters/io/mesh/text_cursor.h"
+#include "converters/io/vtk/stored_number.h"
+#include "converters/io/vtk/text_cursor.h"
 
 namespace lumen::convert {
 namespace {
 
+std::string quotedWord(std::string_view text) {
+  return quotedText(std::string(text));
+}
+
+constexpr std::uint64_t kMostComponents = 64;
 constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max();
 
 struct TypeName {
@@ -68,11 +75,12 @@ double loadBig(const char* at, const TypeName& type) {
 
 class LegacyParser {
 public:
-  LegacyParser(std::string_view bytes, const std::string& name, std::string_view wanted)
+  LegacyParser(std::string_view bytes, const std::string& name,
+               std::span<const std::string_view> wanted)
       : m_bytes(bytes), m_text(bytes, name), m_wanted(wanted) {}
 
-  VtkPolyData parse(StatedFrame& frame) {
-    parseHead(frame);
+  VtkPolyData parse() {
+    parseHead();
     for (std::string word = keyword(); !word.empty(); word = keyword()) {
       if (word == "points")
         parsePoints();
@@ -92,22 +100,22 @@ public:
 private:
   std::string keyword() { return lowerCase(std::string(m_text.word())); }
 
-  void parseHead(StatedFrame& frame) {
+  void parseHead() {
     const std::string_view first = m_text.restOfLine();
     constexpr std::string_view kFirst = "# vtk DataFile Version ";
     if (!first.starts_with(kFirst))
-      m_text.refuse("begins with " + quotedText(first) + "; expected \"# vtk DataFile Version\"");
+      m_text.refuse("begins with " + quotedWord(first) + "; expected \"# vtk DataFile Version\"");
     m_isOffsets = first.substr(kFirst.size()).starts_with('5');
-    frame.look(m_text.restOfLine());
+    m_data.title = m_text.restOfLine();
     const std::string form = lowerCase(std::string(m_text.word()));
     if (form != "ascii" && form != "binary")
-      m_text.refuse("found " + quotedText(form) + "; expected ASCII or BINARY");
+      m_text.refuse("found " + quotedWord(form) + "; expected ASCII or BINARY");
     m_isBinary = form == "binary";
     if (keyword() != "dataset") m_text.refuse("expected DATASET");
     const std::string_view kind = m_text.word();
     if (lowerCase(std::string(kind)) != "polydata")
       throw unsupported(m_text.name() + ": " + m_text.place() + ": the data set is " +
-                        quotedText(kind) + "; lumen reads POLYDATA");
+                        quotedWord(kind) + "; lumen reads POLYDATA");
   }
 
   VtkCells* cellsOf(const std::string& word) {
@@ -121,7 +129,7 @@ private:
     const std::string lower = lowerCase(std::string(word));
     for (const TypeName& type : kTypeNames)
       if (type.name == lower) return type;
-    m_text.refuse("the type is " + quotedText(word) + "; expected one such as float or int");
+    m_text.refuse("the type is " + quotedWord(word) + "; expected one such as float or int");
   }
 
   /// Hands `take` each of the `count` numbers that follow, as text, or big-endian after the end of
@@ -220,7 +228,7 @@ private:
 
   void expect(const char* expected) {
     const std::string word = keyword();
-    if (word != expected) m_text.refuse("found " + quotedText(word) + "; expected " + expected);
+    if (word != expected) m_text.refuse("found " + quotedWord(word) + "; expected " + expected);
   }
 
   void beginData(bool ofCells) {
@@ -239,7 +247,7 @@ private:
   void parseArray(const std::string& word) {
     if (word == "field") return parseField();
     if (!m_hasData)
-      m_text.refuse("found " + quotedText(word) + "; expected POINTS, POLYGONS or another section");
+      m_text.refuse("found " + quotedWord(word) + "; expected POINTS, POLYGONS or another section");
     if (word == "scalars") return parseScalars();
     if (word == "lookup_table") return parseTable();
     std::uint64_t components = 0;
@@ -253,7 +261,7 @@ private:
     }
     if (word == "global_ids" || word == "pedigree_ids") components = 1;
     if (components == 0)
-      m_text.refuse("found " + quotedText(word) +
+      m_text.refuse("found " + quotedWord(word) +
                     "; expected SCALARS, NORMALS, FIELD or another "
                     "array of VTK");
     take(name, components, typeOf(m_text.word()), m_tuples);
@@ -290,37 +298,44 @@ private:
       const std::uint64_t tuples = m_text.whole("the number of values", kMostNumbers);
       const std::string_view type = m_text.word();
       if (lowerCase(std::string(type)) == "string")
-        passTexts(components * tuples);
+        passTexts(components * tuples, name);
       else
         take(name, components, typeOf(type), tuples);
     }
   }
 
   /// Texts stand on one line each, or after their lengths; a binary length takes one to eight
-  /// bytes.
-  void passTexts(std::uint64_t count) {
+  /// bytes. The first of a data set's unit or axes is kept.
+  void passTexts(std::uint64_t count, const std::string& name) {
     m_text.restOfLine();
     for (std::uint64_t i = 0; i < count; ++i) {
       if (m_text.left() == 0) m_text.refuse("the file ends; expected a text");
-      if (!m_isBinary) {
-        m_text.restOfLine();
-        continue;
-      }
-      const auto first = static_cast<unsigned char>(m_bytes[m_text.offset()]);
-      const std::size_t size = std::size_t{1} << (3 - (first >> 6));
-      std::uint64_t length = first & 0x3fU;
-      if (size > m_text.left()) m_text.refuse("the file ends; expected a text");
-      for (std::size_t b = 1; b < size; ++b)
-        length = length << 8 | static_cast<unsigned char>(m_bytes[m_text.offset() + b]);
-      if (length > m_text.left() - size) m_text.refuse("the file ends; expected a text");
-      m_text.skip(size + static_cast<std::size_t>(length));
+      const std::string_view text = m_isBinary ? binaryText() : m_text.restOfLine();
+      if (m_hasData || i > 0) continue;
+      if (name == kVtkUnit) m_data.unit = text.substr(0, kLongestVtkText);
+      if (name == kVtkSpace) m_data.space = text.substr(0, kLongestVtkText);
     }
+  }
+
+  std::string_view binaryText() {
+    const auto first = static_cast<unsigned char>(m_bytes[m_text.offset()]);
+    const std::size_t size = std::size_t{1} << (3 - (first >> 6));
+    std::uint64_t length = first & 0x3fU;
+    if (size > m_text.left()) m_text.refuse("the file ends; expected a text");
+    for (std::size_t b = 1; b < size; ++b)
+      length = length << 8 | static_cast<unsigned char>(m_bytes[m_text.offset() + b]);
+    if (length > m_text.left() - size) m_text.refuse("the file ends; expected a text");
+    m_text.skip(size);
+    const std::string_view text = m_bytes.substr(m_text.offset(), static_cast<std::size_t>(length));
+    m_text.skip(text.size());
+    return text;
   }
 
   void take(const std::string& name, std::uint64_t components, const TypeName& type,
             std::uint64_t tuples) {
-    const bool isWanted = m_ofCells && m_hasData && name == m_wanted && components == 1;
-    VtkArray array{name, 1, {}};
+    const bool isWanted = m_hasData && components > 0 && components <= kMostComponents &&
+                          std::find(m_wanted.begin(), m_wanted.end(), name) != m_wanted.end();
+    VtkArray array{name, isWanted ? static_cast<std::uint32_t>(components) : 1, {}};
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     if (components > 0 && tuples > most / components)
       m_text.refuse("an array has " + std::to_string(components) + " components of " +
@@ -328,21 +343,22 @@ private:
     numbers(components * tuples, type, "an array", [&](double value) {
       if (isWanted) array.values.push_back(value);
     });
-    if (isWanted) m_data.cellData.push_back(std::move(array));
+    if (isWanted) (m_ofCells ? m_data.cellData : m_data.pointData).push_back(std::move(array));
   }
 
   void checkIndices() const {
     for (const VtkCells* cells : {&m_data.polys, &m_data.strips})
       for (std::size_t i = 0; i < cells->point.size(); ++i)
         if (cells->point[i] >= m_data.position.size())
-          refuseMesh(m_text.name(), "corner " + std::to_string(i) + " of the polygons",
-                     "is point " + std::to_string(cells->point[i]) + "; expected less than " +
-                         std::to_string(m_data.position.size()) + ", the number of points");
+          throw invalidInput(m_text.name() + ": corner " + std::to_string(i) + " of the polygons" +
+                             ": is point " + std::to_string(cells->point[i]) +
+                             "; expected less than " + std::to_string(m_data.position.size()) +
+                             ", the number of points");
   }
 
   std::string_view m_bytes;
   TextCursor m_text;
-  std::string_view m_wanted;
+  std::span<const std::string_view> m_wanted;
   VtkPolyData m_data;
   bool m_isBinary = false, m_isOffsets = false, m_ofCells = false, m_hasData = false;
   std::uint64_t m_tuples = 0;
@@ -350,9 +366,9 @@ private:
 
 }  // namespace
 
-VtkPolyData parseVtkLegacy(std::string_view bytes, const std::string& name, std::string_view wanted,
-                           StatedFrame& frame) {
-  return LegacyParser(bytes, name, wanted).parse(frame);
+VtkPolyData parseVtkLegacy(std::string_view bytes, const std::string& name,
+                           std::span<const std::string_view> wanted) {
+  return LegacyParser(bytes, name, wanted).parse();
 }
 
 }  // namespace lumen::convert
