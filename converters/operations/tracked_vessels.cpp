@@ -122,7 +122,8 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
       [&](std::span<const convert::WorldBall> vessels) {
         return convert::coursesInRemainingLumen(found, vessels, progress);
       });
-  if (found.folded) result.result.metadata.source = convert::describeSource(volume);
+  if (&found.tracked(volume) != &volume)
+    result.result.metadata.source = convert::describeSource(volume);
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
   const convert::LumenInVolume lumen{
