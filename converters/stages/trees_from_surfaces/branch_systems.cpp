@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/vessel_system.h"
@@ -25,6 +27,20 @@ void setBranchSystems(formats::Case& value, const std::vector<VesselSystem>& bra
   for (const std::uint32_t branch : value.tree.branch) nodes.push_back(branches[branch]);
   formats::setNodeSystems(value, nodes);
 }
+
+/// The median radius of each branch, mm.
+std::vector<double> medianRadii(const formats::CenterlineTree& tree) {
+  std::vector<double> radii;
+  for (const formats::Branch& branch : tree.branches) {
+    const auto first = tree.radius.begin() + branch.firstNode;
+    radii.push_back(median({first, first + branch.nodeCount}));
+  }
+  return radii;
+}
+
+/// The most that a vessel is wider than one of two equal ones that it divides into (C. D. Murray,
+/// "The physiological principle of minimum work", 1926).
+const double kMurray = std::cbrt(2);
 
 }  // namespace
 
@@ -50,8 +66,9 @@ void spreadSystems(formats::Case& value) {
     const std::int32_t node = tree.branches[b].parentNode;
     return node < 0 ? b : std::size_t{tree.branch[static_cast<std::size_t>(node)]};
   };
+  const std::vector<double> radii = medianRadii(tree);
   const auto take = [&](std::size_t to, std::size_t from) {
-    if (systems[to] != VesselSystem::Unknown) return;
+    if (systems[to] != VesselSystem::Unknown || radii[to] > kMurray * radii[from]) return;
     const bool isTrue = systems[from] == VesselSystem::TrueLumen;
     systems[to] = isTrue ? VesselSystem::Artery : systems[from];
   };

@@ -16,7 +16,9 @@ namespace lumen::convert {
 void takeSystems(const LabelMask& mask, std::span<const LabelRole> roles, formats::Case& value);
 
 /// Gives branches whose system is unknown that of the vessel that they hang on, or else that of a
-/// vessel that hangs on them: a tree is of one system. Beyond a true lumen lie arteries.
+/// vessel that hangs on them, unless they are wider: a tree is of one system, but what is wider than
+/// a vessel and no label's may be a chamber that vessels of several systems meet in. Beyond a true
+/// lumen lie arteries.
 void spreadSystems(formats::Case& value);
 
 /// Appends the trees of a case without models to another one. Labels that are taken get a number.

@@ -167,6 +167,7 @@ TEST(BranchSystems, SpreadAlongATreeAndNoFarther) {
     branch.nodeCount = 1;
     value.tree.branch.push_back(static_cast<std::uint32_t>(value.tree.branches.size()));
     value.tree.centre.push_back({});
+    value.tree.radius.push_back(2);
     value.tree.branches.push_back(branch);
   }
   constexpr VesselSystem kNone = VesselSystem::Unknown, kVein = VesselSystem::Vein;
@@ -182,6 +183,10 @@ TEST(BranchSystems, SpreadAlongATreeAndNoFarther) {
   EXPECT_EQ(
       formats::readBranchSystems(value),
       (std::vector{VesselSystem::TrueLumen, VesselSystem::Artery, VesselSystem::Artery, kNone}));
+  value.tree.radius[1] = 2.6F;  // a chamber between two vessels
+  formats::setNodeSystems(value, {kVein, kNone, kNone, kNone});
+  spreadSystems(value);
+  EXPECT_EQ(formats::readBranchSystems(value), (std::vector{kVein, kNone, kNone, kNone}));
 }
 
 }  // namespace
