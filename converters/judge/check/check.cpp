@@ -193,7 +193,8 @@ std::vector<bool> tissueOf(const Volume& volume, bool dark, const Progress& prog
   const auto levels = dark ? std::nullopt : measureCtLevels(volume, progress);
   if (!levels) return isTissue;
   isTissue.resize(volume.geometry.voxelCount(), true);
-  for (const std::size_t i : findCtLumen(volume, *levels, {}, progress).indices)
+  for (const std::size_t i :
+       findCtLumen(volume, *levels, {}, BesideBone::Refused, progress).indices)
     isTissue[i] = false;
   return isTissue;
 }

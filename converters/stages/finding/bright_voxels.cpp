@@ -140,7 +140,7 @@ BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Prior& prio
                               const Progress& progress) {
   if (!dark)
     if (const auto levels = measureCtLevels(volume, progress))
-      return findCtLumen(volume, *levels, prior, progress);
+      return findCtLumen(volume, *levels, prior, BesideBone::Followed, progress);
   const float sign = dark ? -1.0F : 1.0F;
   const Background background(volume, sign, progress);
   const Histogram excess = countExcess(volume, background, sign, progress);

@@ -75,8 +75,11 @@ struct BrightVoxels {
 BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Prior& prior,
                               const Progress& progress);
 
+/// Whether voxels beside bone that may be thin lumen are found: tracks show which of them are.
+enum class BesideBone : std::uint8_t { Refused, Followed };
+
 /// The same in computed tomography.
 BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Prior& prior,
-                         const Progress& progress);
+                         BesideBone beside, const Progress& progress);
 
 }  // namespace lumen::convert

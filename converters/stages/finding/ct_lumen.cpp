@@ -36,11 +36,12 @@ constexpr float kMostBelowSoft = 1000;
 /// Finds lumen in a volume of computed tomography.
 class CtLumen {
 public:
-  CtLumen(const Volume& volume, const CtLevels& levels, const Prior& prior,
+  CtLumen(const Volume& volume, const CtLevels& levels, const Prior& prior, BesideBone beside,
           const Progress& progress)
       : m_volume(volume),
         m_levels(levels),
         m_prior(prior),
+        m_beside(beside),
         m_progress(progress),
         m_cells(volume.geometry.cells()),
         m_mark(m_cells.count()),
@@ -170,7 +171,7 @@ private:
     const std::vector<std::uint8_t> before(m_mark.data(), m_mark.data() + m_mark.size());
     markThin(m_levels.soft + CtLevels::kMostContrast);
     const std::optional<float> level = crestLevel();
-    if (!level || !m_prior.systems.empty()) return;
+    if (!level || m_beside == BesideBone::Refused || !m_prior.systems.empty()) return;
     std::copy(before.begin(), before.end(), m_mark.data());
     const float brightest = *level + kAboveTissue * m_levels.noise;
     m_rim = std::make_shared<const BoneRim>(m_volume, m_levels.soft, brightest);
@@ -300,6 +301,7 @@ private:
   const Volume& m_volume;
   const CtLevels& m_levels;
   const Prior& m_prior;
+  BesideBone m_beside;
   const Progress& m_progress;
   CellBox m_cells;
   ZeroedArray<std::uint8_t> m_mark, m_isSoft;
@@ -313,8 +315,8 @@ private:
 }  // namespace
 
 BrightVoxels findCtLumen(const Volume& volume, const CtLevels& levels, const Prior& prior,
-                         const Progress& progress) {
-  return CtLumen(volume, levels, prior, progress).find();
+                         BesideBone beside, const Progress& progress) {
+  return CtLumen(volume, levels, prior, beside, progress).find();
 }
 
 }  // namespace lumen::convert
