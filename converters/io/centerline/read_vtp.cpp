@@ -168,6 +168,9 @@ CenterlineFile treeOf(const VtkPolyData& data, bool isOfLumen, const std::string
   for (std::size_t cell = 0; cell < data.lines.size(); ++cell) cells.push_back({cell});
   CenterlineFile file = treeOfLines(linesOf(data, points, cells),
                                     linesOf(data, points, whole(data)), isOfLumen, shown);
+  if (file.points.empty())
+    throw invalidInput(shown + ": all of its " + std::to_string(data.lines.size()) +
+                       " lines have points at one place each; expected lines with a length");
   readFrame(data, isOfLumen, file);
   if (radii == nullptr)
     file.remarks.push_back("has no array MaximumInscribedSphereRadius or Radius of its points");

@@ -283,6 +283,18 @@ TEST(LineGraph, TenThousandsOfCellsAreRead) {
   EXPECT_EQ(centerlineChains(found).size(), 1U);
 }
 
+TEST(LineGraph, LinesWithoutLengthAloneAreRefused) {
+  LineFile file = test::fork();
+  for (Vector3d& p : file.points) p.setZero();
+  try {
+    parseVtpCenterline(test::vtpOf(file), "t.vtp");
+    FAIL() << "a file without a line of any length is read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
+    EXPECT_NE(std::string(error.what()).find("at one place each"), std::string::npos);
+  }
+}
+
 TEST(LegacyLines, TextAndBytesOfAllVersionsAreTheSameFork) {
   for (const bool isBinary : {false, true})
     for (const bool hasOffsets : {false, true}) {
