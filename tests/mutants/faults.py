@@ -120,7 +120,7 @@ FAULTS = [
     Fault("the rim of bone is a plateau", "converters/stages/finding/bone_rim.cpp",
           "slope(cell) >= kEdge * kEdge * steepest", "slope(cell) > steepest", "whole_tree_test", "BoneRim*"),
     Fault("courses stay beside their ridge", "converters/stages/finding/recentre.cpp",
-          "at(next) > at(place) ? next : place", "place", "whole_tree_test", "Recentre*"),
+          "at(next) > at(place) ? next", "at(next) < at(place) ? next", "whole_tree_test", "Recentre*"),
     Fault("systems of vessels spread by number, not by depth", "converters/stages/finding/find_vessels.cpp",
           "std::pair(depth, other.voxel) < std::pair(other.depth, voxel)", "other.voxel < voxel", "finding_test",
           "FindVessels.NoCourse*"),
