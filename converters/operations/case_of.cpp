@@ -8,6 +8,7 @@
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/operations/hinted_vessels.h"
 #include "converters/operations/label_prior.h"
+#include "converters/operations/stated_vessels.h"
 #include "converters/stages/fitting/fit.h"
 #include "formats/container/printable.h"
 
@@ -49,6 +50,7 @@ MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Cont
   const std::vector<NamingMap> naming = namingMaps(source.maps, volume.geometry, source.name);
   VesselOptions vessels = options.vessels;
   vessels.prior = priorOf(source.maps, volume.geometry, context.progress);
+  vessels.stated = statedVessels(source.maps, context);
   convert::TrackResult tracked = trackVessels(volume, source.name, vessels, context);
   MadeCase made;
   made.value = std::move(tracked.result);

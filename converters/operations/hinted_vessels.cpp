@@ -100,8 +100,7 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   Progress& progress = context.progress;
   convert::PlacedSeeds placed = placedSeeds(volume, options, context);
   std::string whyNone;
-  convert::TrackResult result =
-      findAndTrackIfAny(volume, options.track, options.prior, whyNone, context);
+  convert::TrackResult result = findAndTrackIfAny(volume, options, whyNone, context);
   if (result.result.tree.nodeCount() == 0) {
     result = trackPlaced(volume, placed, options, context);
     reportOnSeeds(volume, options, placed, result, context);
@@ -131,9 +130,8 @@ convert::TrackResult trackVessels(const convert::Volume& volume, const std::stri
                                   const VesselOptions& options, const Context& context) {
   const bool isSeeded = !options.seeds.empty();
   if (isSeeded && !options.isSeedsOnly) return findAndApplyHints(volume, name, options, context);
-  convert::TrackResult result =
-      isSeeded ? placeAndTrack(volume, options, context)
-               : findAndTrack(volume, name, options.track, options.prior, context);
+  convert::TrackResult result = isSeeded ? placeAndTrack(volume, options, context)
+                                         : findAndTrack(volume, name, options, context);
   apply(result.result, name, labelsOf(options.seeds), options, context);
   renameEnds(result.result.tree, result.ends);
   return result;

@@ -13,6 +13,7 @@
 #include "converters/base/tree_figures.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/tube_tree_distance.h"
+#include "formats/case/node_origin.h"
 #include "formats/case/topology.h"
 
 namespace lumen::operations {
@@ -151,8 +152,10 @@ void addEnds(const CenterlineTree& tree, const formats::Branch& branch,
 }
 
 /// Adds the branches that are named after a label, which has this place in this map.
-void addBranches(const CenterlineTree& tree, const std::vector<BranchLabel>& labels,
+void addBranches(const formats::Case& value, const std::vector<BranchLabel>& labels,
                  std::size_t map, std::size_t place, MappedLabel& label) {
+  const CenterlineTree& tree = value.tree;
+  const std::vector<formats::NodeOrigin> origins = formats::readNodeOrigins(value);
   std::vector<float> radii;
   for (std::size_t b = 0; b < labels.size(); ++b) {
     if (labels[b].map != map || labels[b].stretch.label != place) continue;
@@ -162,6 +165,8 @@ void addBranches(const CenterlineTree& tree, const std::vector<BranchLabel>& lab
         branch.parentNode != formats::kNoParent && labels[tree.branch[above]].stretch.label != 0;
     label.branches.push_back(branch.label);
     label.length += formats::branchLength(tree, branch);
+    for (std::uint32_t n = branch.firstNode + 1; n < branch.firstNode + branch.nodeCount; ++n)
+      if (origins[n] == formats::NodeOrigin::Given) label.stated += lengthAlong(tree, n - 1, n);
     addEnds(tree, branch, labels[b].stretch, isContinued, label);
     const auto first = tree.radius.begin() + branch.firstNode;
     radii.insert(radii.end(), first, first + branch.nodeCount);
@@ -222,7 +227,7 @@ LabelInventory inventoryOf(const std::vector<LabelPart>& maps, const std::vector
       const LabelCounts& count = counts[place];
       if (count.inside > 0)
         label.heldShare = static_cast<double>(count.held) / static_cast<double>(count.inside);
-      addBranches(tree, labels, m, place, label);
+      addBranches(value, labels, m, place, label);
       if (label.branches.empty() && isOfVessels(meaning.role))
         label.missing = whyMissing(count, tree, image != nullptr);
     }

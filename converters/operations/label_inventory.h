@@ -25,8 +25,9 @@ struct BeyondLabel {
 struct MappedLabel {
   convert::LabelMeaning meaning;
   std::size_t voxels = 0;
-  std::vector<std::string> branches;                           ///< those that are named after it
-  double length = 0;                                           ///< of these, mm
+  std::vector<std::string> branches;  ///< those that are named after it
+  double length = 0;                  ///< of these, mm
+  double stated = 0;  ///< of that, where the volume shows no wall, so that it is the map's, mm
   double leastRadius = 0, meanRadius = 0, greatestRadius = 0;  ///< of their nodes, mm
   std::vector<BeyondLabel> beyond;
   /// Share of its voxels in the volume that lie in the lumen of the case, or within half a voxel of

@@ -12,6 +12,7 @@
 #include "converters/base/text.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/operations/label_prior.h"
+#include "converters/operations/stated_vessels.h"
 #include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/finding/find_vessels.h"
@@ -95,10 +96,9 @@ convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
 }  // namespace
 
 convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
-                                  const convert::TrackOptions& options, const convert::Prior& prior,
-                                  const Context& context) {
+                                  const VesselOptions& options, const Context& context) {
   std::string whyNone;
-  convert::TrackResult result = findAndTrackIfAny(volume, options, prior, whyNone, context);
+  convert::TrackResult result = findAndTrackIfAny(volume, options, whyNone, context);
   if (result.result.tree.nodeCount() == 0)
     throw failed(formats::printable(name) + ": no vessels are found in it, as " + whyNone + "; " +
                  context.field("seeds") + " states where vessels begin, and " +
@@ -106,19 +106,18 @@ convert::TrackResult findAndTrack(const convert::Volume& volume, const std::stri
   return result;
 }
 
-convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
-                                       const convert::TrackOptions& options,
-                                       const convert::Prior& prior, std::string& whyNone,
-                                       const Context& context) {
+convert::TrackResult findAndTrackIfAny(const convert::Volume& volume, const VesselOptions& options,
+                                       std::string& whyNone, const Context& context) {
   Progress& progress = context.progress;
-  const convert::FoundVessels found = convert::findVessels(volume, options.dark, prior, progress);
+  const convert::FoundVessels found =
+      convert::findVessels(volume, options.track.dark, options.prior, progress);
   whyNone = found.isBoneKnown ? "it is computed tomography in which no blood has contrast"
                               : "nothing long and thin stands out of its noise";
   if (found.courses.empty()) return {};
   whyNone =
       "no cylinder fits along any of " + counted(found.courses.size(), "candidate", "candidates");
   convert::TrackResult result = convert::trackAlongCourses(
-      found.tracked(volume), found.courses, placesOfBone(found), options, progress,
+      found.tracked(volume), found.courses, placesOfBone(found), options.track, progress,
       [&](std::span<const convert::WorldBall> vessels) {
         return convert::coursesInRemainingLumen(found, vessels, progress);
       });
@@ -130,6 +129,7 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
       [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
       [&](const Eigen::Vector3d& point) { return found.geometry.containsWorld(point); }};
   setSystemsOf(found, result.result);
+  addStatedVessels(options.stated, found, result.result);
   for (const Eigen::Vector3d& place : convert::correctTopology(result.result, lumen))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
   // names of the maps' labels state the systems of the case

@@ -19,27 +19,25 @@ namespace lumen::operations {
 /// The vessels that are wanted.
 struct VesselOptions {
   convert::TrackOptions track;
-  std::vector<convert::SeedBranch> seeds;  ///< clicks of a person, in their own frame
-  std::string seedsName = "the seeds";     ///< for messages
+  std::vector<convert::SeedBranch> seeds = {};  ///< clicks of a person, in their own frame
+  std::string seedsName = "the seeds";          ///< for messages
   bool isSeedsOnly = false;  ///< seeds start all tracks; else they are hints on what is found
-  std::vector<Eigen::Vector3d> roots;  ///< places at ends where blood comes in, mm, LPS
-  bool isOnlyConnected = false;        ///< without trees in which no seed and no root lies
-  convert::Prior prior{};              ///< knowledge about the voxels, as label maps state it
+  std::vector<Eigen::Vector3d> roots = {};  ///< places at ends where blood comes in, mm, LPS
+  bool isOnlyConnected = false;             ///< without trees in which no seed and no root lies
+  convert::Prior prior{};                   ///< knowledge about the voxels, as label maps state it
+  std::vector<formats::Case> stated = {};   ///< the trees of these maps
 };
 
 /// Finds the vessels of `volume`, called `name`, without seeds, and tracks them. Vessels of which
 /// the volume shows no wall are left out, and are details for the listener. Throws Error(Failed) if
 /// none is left.
 convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
-                                  const convert::TrackOptions& options, const convert::Prior& prior,
-                                  const Context& context);
+                                  const VesselOptions& options, const Context& context);
 
 /// Finds the vessels of `volume` without seeds, and tracks them; empty if none is found.
 /// `whyNone`: the reason then, to follow "no vessels are found, as ".
-convert::TrackResult findAndTrackIfAny(const convert::Volume& volume,
-                                       const convert::TrackOptions& options,
-                                       const convert::Prior& prior, std::string& whyNone,
-                                       const Context& context);
+convert::TrackResult findAndTrackIfAny(const convert::Volume& volume, const VesselOptions& options,
+                                       std::string& whyNone, const Context& context);
 
 /// Adds to a case that was tracked in `volume` the vessels that it lacks, as findAndTrack() finds
 /// them; what it has stays as it is. Returns the result with its remarks on the new vessels.

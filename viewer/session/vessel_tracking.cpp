@@ -129,7 +129,7 @@ std::shared_ptr<const formats::Case> findProposals(const Document& document, Tra
     return proposalsFor(document, proposalsBehind(std::move(added.result), added.firstNewBranch));
   }
   std::string whyNone;
-  convert::TrackResult found = operations::findAndTrackIfAny(*document.volume, options, {}, whyNone,
+  convert::TrackResult found = operations::findAndTrackIfAny(*document.volume, {options}, whyNone,
                                                              engine::operationContext(progress));
   if (found.result.tree.nodeCount() == 0)
     throw failed("no vessels are found in " + name + ", as " + whyNone +

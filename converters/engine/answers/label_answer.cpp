@@ -36,6 +36,7 @@ Json mappedJson(const operations::MappedLabel& label) {
   Json json = labelJson(label.meaning, label.voxels);
   json["branches"] = label.branches;
   json["length_mm"] = jsonNumber(label.length);
+  json["map_wall_mm"] = jsonNumber(label.stated);
   json["least_radius_mm"] = measured(isFound, label.leastRadius);
   json["mean_radius_mm"] = measured(isFound, label.meanRadius);
   json["greatest_radius_mm"] = measured(isFound, label.greatestRadius);
@@ -68,6 +69,8 @@ std::string mappedText(const operations::MappedLabel& label) {
     text += ", radius " + fixedText(label.meanRadius, 1) + " (" + fixedText(label.leastRadius, 1) +
             " to " + fixedText(label.greatestRadius, 1) + ") mm, " +
             fixedText(100 * label.heldShare, 0) + " % held";
+    if (label.stated > 0)
+      text += ", " + fixedText(label.stated, 1) + " mm with the wall of the map";
     for (const operations::BeyondLabel& end : label.beyond)
       text += ", " + fixedText(end.length, 1) + " mm beyond at the " +
               (end.isStart ? "start" : "tip") +

@@ -106,7 +106,7 @@ private:
   [[nodiscard]] Answer writeFound(const FileFormat& from, Progress& progress) const {
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     const formats::Case found =
-        operations::findAndTrack(volume, m_input.name(), m_options, {}, operationContext(progress))
+        operations::findAndTrack(volume, m_input.name(), {m_options}, operationContext(progress))
             .result;
     return answer(seedsOn(found), caseSummary(found)["length_mm"], "vessel", "vessels");
   }
