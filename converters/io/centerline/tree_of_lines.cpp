@@ -127,8 +127,9 @@ CenterlineFile mended(const LineSet& courses, const LineGraph& graph, const std:
     file = treeAsDrawn(straight, straight, &graph);
   }
   if (!file) file = graph.tree();
-  for (const std::string& remark : {turns, graph.rootRemark()})
-    if (!remark.empty()) file->remarks.push_back(remark);
+  if (courses.isDirected && !turns.empty()) file->remarks.push_back(turns);
+  if (const std::string remark = graph.rootRemark(); !remark.empty())
+    file->remarks.push_back(remark);
   return *std::move(file);
 }
 
