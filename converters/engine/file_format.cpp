@@ -99,11 +99,11 @@ constexpr auto kEncodeObj = encodeMeshAs<encodePlain<convert::encodeObj>>;
 constexpr auto kEncodeStl = encodeMeshAs<encodeStl>;
 constexpr auto kEncodePly = encodeMeshAs<encodePlain<convert::encodePly>>;
 
-/// The encoder of a centerline format: the case's tree, encoded.
-template <std::string (*encode)(const formats::CenterlineTree&)>
+/// The encoder of a centerline format: the case's tree, encoded. A network holds links, too.
+template <std::string (*encode)(const formats::CenterlineTree&), bool isNetwork = false>
 EncodedCase encodeTreeAs(const formats::Case& value, const fs::path& file, const OutputOptions&,
                          Progress& progress) {
-  for (const std::string& loss : treeLosses(value.tree))
+  for (const std::string& loss : treeLosses(value.tree, isNetwork))
     progress.warn(formats::printable(file.string()) + ": " + loss);
   return {encode(value.tree), {}};
 }
@@ -147,13 +147,13 @@ std::vector<FileFormat> makeTable() {
       {.name = "simvascular", .title = "SimVascular", .kind = Centerline, .endings = {".ctgr", ".pth"},
        .readCenterline = convert::readSimVascular, .holds = convert::hasSimVascular},
       {.name = "graphml", .title = "GraphML", .kind = Centerline, .endings = {".graphml"},
-       .readCenterline = convert::readGraphml},
+       .readCenterline = convert::readGraphml, .encodeCase = encodeTreeAs<convert::encodeGraphml, true>},
       {.name = "csv", .title = "tables of nodes and edges", .kind = Centerline, .endings = {".csv", ".tsv"},
        .readCenterline = convert::readGraphCsv, .holds = convert::hasGraphTables},
       {.name = "am", .title = "Amira", .kind = Centerline, .endings = {".am"},
-       .readCenterline = convert::readSpatialGraph},
+       .readCenterline = convert::readSpatialGraph, .encodeCase = encodeTreeAs<convert::encodeSpatialGraph, true>},
       {.name = "vmv", .title = "VessMorphoVis", .kind = Centerline, .endings = {".vmv"},
-       .readCenterline = convert::readVmv},
+       .readCenterline = convert::readVmv, .encodeCase = encodeTreeAs<convert::encodeVmv, true>},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,

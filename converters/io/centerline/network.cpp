@@ -23,7 +23,9 @@ constexpr double kSameNode = 1e-3;  // of the step behind a node
 // Relative error of chords: programs smooth the courses that they measure.
 constexpr double kChordError = 0.1;
 constexpr double kIsOne = 0.02;
-constexpr double kBetter = 0.5;  // error of factors that count, beside that without them
+constexpr double kBetter = 0.5;         // error of factors that count, beside that without them
+constexpr double kLargestRatio = 1e12;  // of squared lengths, far beyond any voxel
+constexpr double kLittle = 1e-6;        // of the sum of squares
 constexpr std::size_t kLeastEdges = 3;
 
 std::size_t nodeSlot(Index index) {
@@ -105,8 +107,10 @@ std::vector<Eigen::Vector3d> squaredSpans(const Network& network) {
   std::vector<Eigen::Vector3d> spans;
   for (const NetworkEdge& edge : network.edges) {
     const Eigen::Vector3d span = spanOf(network, edge);
-    if (edge.chord > 0 && span.norm() > 0 && std::isfinite(edge.chord))
-      spans.emplace_back((span / edge.chord).cwiseAbs2());
+    if (!(edge.chord > 0)) continue;
+    const Eigen::Vector3d squares = (span / edge.chord).cwiseAbs2();
+    if (squares.sum() >= 1 / kLargestRatio && squares.sum() <= kLargestRatio)
+      spans.push_back(squares);
   }
   return spans;
 }
@@ -136,16 +140,25 @@ std::optional<Eigen::Vector3d> voxelsOfNetwork(const Network& network) {
   if (asStated <= kIsOne) return {};
   Eigen::Vector3d squares = Eigen::Vector3d::Constant(upperMedian(ratios));
   double error = errorOf(spans, squares);
-  const Eigen::FullPivLU<Eigen::Matrix3d> solver(normal);
-  const Eigen::Vector3d solved = solver.solve(right);
-  if (solver.isInvertible() && (solved.array() > 0).all() &&
-      errorOf(spans, solved) < kBetter * error) {  // voxels that are no cubes
+  // an axis along which no edge leads takes the factor of the others
+  const double little = kLittle * normal.trace();
+  const Eigen::Vector3d solved =
+      (normal + little * Eigen::Matrix3d::Identity()).ldlt().solve(right + little * squares);
+  if (solved.allFinite() && (solved.array() > 0).all() &&
+      errorOf(spans, solved) < kBetter * error) {  // no cubes
     squares = solved;
     error = errorOf(spans, squares);
   }
   const Eigen::Vector3d factors = squares.cwiseSqrt();
   if (!factors.allFinite() || error > kChordError || error > kBetter * asStated) return {};
   return factors;
+}
+
+void takeOwnFrame(std::string_view text, CenterlineFile& file) {
+  constexpr std::size_t kHead = 256;  // limit of the comment's place
+  if (text.substr(0, kHead).find(kOwnCenterline) == text.npos) return;
+  file.unit = 1;
+  file.axes = CenterlineAxes::Lps;
 }
 
 CenterlineFile treeOfNetwork(Network network, const std::string& name) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "converters/io/centerline/centerline_file.h"
@@ -36,6 +37,9 @@ CenterlineFile treeOfNetwork(Network network, const std::string& name);
 /// The size of the voxels in which a network's nodes are placed; empty where chords do not state one,
 /// or one of 1 x 1 x 1.
 std::optional<Eigen::Vector3d> voxelsOfNetwork(const Network& network);
+
+/// Takes unit and axes from the comment of lumen's own files at the beginning of a text, if it is there.
+void takeOwnFrame(std::string_view text, CenterlineFile& file);
 
 // Tables of nodes and edges, by the names that programs give their columns.
 

@@ -58,7 +58,8 @@ public:
     const AmiraField& ends = require("EDGE", "EdgeConnectivity", 2);
     const AmiraField& counts = require("EDGE", "NumEdgePoints", 1);
     const AmiraField& points = require("POINT", "EdgePointCoordinates", 3);
-    const AmiraRadii ofNodes = amiraRadiiOf(m_file, "VERTEX"), ofEdges = amiraRadiiOf(m_file, "EDGE"),
+    const AmiraRadii ofNodes = amiraRadiiOf(m_file, "VERTEX"),
+                     ofEdges = amiraRadiiOf(m_file, "EDGE"),
                      ofPoints = amiraRadiiOf(m_file, "POINT");
     hasRadii = ofNodes.field || ofEdges.field || ofPoints.field;
     Network network;
@@ -152,6 +153,7 @@ CenterlineFile parseSpatialGraph(std::string_view bytes, const std::string& name
   applyTransform(data, file, shown);
   const std::optional<double> unit = millimetresPer(data.unit);
   file.unit = unit.value_or(0);
+  takeOwnFrame(bytes, file);
   if (!data.unit.empty() && !unit)
     file.remarks.push_back("states the unit " + quotedText(data.unit) + ", which is unknown");
   if (graph.hasRadii)

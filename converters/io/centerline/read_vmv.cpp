@@ -9,7 +9,7 @@
 #include "converters/base/files.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/centerline/centerline_readers.h"
-#include "converters/io/centerline/join_curves.h"
+#include "converters/io/centerline/network.h"
 #include "converters/io/centerline/tree_of_lines.h"
 #include "converters/io/vtk/text_cursor.h"
 #include "formats/container/printable.h"
@@ -116,6 +116,7 @@ CenterlineFile parseVmv(std::string_view text, const std::string& name) {
     throw invalidInput(shown +
                        ": has no strand with a length; expected strands of at least two "
                        "vertices");
+  takeOwnFrame(text, file);
   fillRadii(file, shown, "the fifth number of a vertex");
   return file;
 }

@@ -126,20 +126,36 @@ private:
     } while (!m_open.empty());
   }
 
-  // Braces, words and texts between quotation marks; commas end values.
+  // Braces, words, and texts between quotation marks, of one or several lines; commas end values.
   void takeLine(const std::string& line) {
-    for (std::size_t at = 0; (at = line.find_first_not_of(" \t,", at)) != line.npos;) {
-      const char c = line[at];
-      const bool isQuoted = c == '"';
-      std::size_t end = at + 1;
-      if (isQuoted)
-        end = std::min(line.find('"', end), line.size());
-      else if (c != '{' && c != '}')
-        end = std::min(line.find_first_of(" \t,{}\"", end), line.size());
-      takeParameter(line.substr(at + (isQuoted ? 1 : 0), end - at - (isQuoted ? 1 : 0)), isQuoted);
-      at = std::min(end + (isQuoted ? 1 : 0), line.size());
-      if (m_open.empty()) return;
+    for (std::size_t at = 0; at < line.size() || m_isQuoted;) {
+      if (m_isQuoted) {
+        const std::size_t end = endOfQuote(line, at);
+        m_quoted.append(line, at, end - at);
+        if (end == line.size()) return;
+        m_isQuoted = false;
+        takeParameter(std::exchange(m_quoted, {}), true);
+        at = end + 1;
+      } else if (line[at] == '"') {
+        m_isQuoted = true;
+        ++at;
+      } else if (line[at] == ' ' || line[at] == '\t' || line[at] == ',') {
+        ++at;
+      } else {
+        std::size_t end = at + 1;
+        if (line[at] != '{' && line[at] != '}')
+          end = std::min(line.find_first_of(" \t,{}\"", end), line.size());
+        takeParameter(line.substr(at, end - at), false);
+        if (m_open.empty()) return;
+        at = end;
+      }
     }
+  }
+
+  // The place of the quotation mark that ends a text, or of the line's end; \" is part of the text.
+  static std::size_t endOfQuote(const std::string& line, std::size_t at) {
+    while (at < line.size() && line[at] != '"') at += line[at] == '\\' ? 2 : 1;
+    return std::min(at, line.size());
   }
 
   void takeParameter(std::string word, bool isQuoted) {
@@ -147,6 +163,7 @@ private:
       if (m_open.size() == kDeepest) m_cursor.refuse("opens more than 1000 braces");
       m_open.push_back(m_key);
     } else if (!isQuoted && word == "}") {
+      if (m_open.empty()) m_cursor.refuse("closes a brace that is not open");
       m_open.pop_back();
     } else if (m_open.size() == 1 && m_key == "TransformationMatrix" &&
                m_file.transform.size() < 16) {
@@ -263,7 +280,8 @@ private:
   AmiraFile m_file;
   bool m_isBinary = false;
   std::vector<std::string> m_open;  // words before braces
-  std::string m_key;
+  std::string m_key, m_quoted;
+  bool m_isQuoted = false;
   Endian m_endian = Endian::Little;
 };
 
