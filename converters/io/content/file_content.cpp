@@ -116,8 +116,8 @@ FileContent zipContent(const std::string& name) {
   using enum ContentKind;
   if (name.ends_with(".3mf"))
     return {Other, "a mesh (3MF)",
-            "lumen does not read 3MF; the program that wrote it, Blender or MeshLab saves it as "
-            "STL, OBJ or PLY"};
+            "lumen does not read 3MF; the program that wrote it, MeshLab or PrusaSlicer saves it "
+            "as STL or OBJ"};
   if (name.ends_with(".mrb"))
     return {Other, "a bundle of 3D Slicer (.mrb), a zip",
             "unzip it: its folder Data has volumes (.nrrd), models (.vtp, .vtk) and curves "
