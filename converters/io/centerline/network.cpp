@@ -25,8 +25,7 @@ constexpr double kChordError = 0.1;
 constexpr double kIsOne = 0.02;
 constexpr double kBetter = 0.5;         // error of factors that count, beside that without them
 constexpr double kLargestRatio = 1e12;  // of squared lengths, far beyond any voxel
-constexpr double kLittle = 1e-6;        // of the sum of squares
-constexpr std::size_t kLeastEdges = 3;
+constexpr std::size_t kLeastEdges = 3;  // for each factor
 
 std::size_t nodeSlot(Index index) {
   return static_cast<std::size_t>(index);
@@ -36,12 +35,17 @@ Eigen::Vector3d spanOf(const Network& network, const NetworkEdge& edge) {
   return network.nodes[nodeSlot(edge.to)].position - network.nodes[nodeSlot(edge.from)].position;
 }
 
-// Points of an edge that repeat its nodes are dropped.
+// Points of an edge from its first node to its last, without those that repeat these.
 std::vector<CurvePoint> interiorOf(const Network& network, const NetworkEdge& edge) {
   std::vector<CurvePoint> course = edge.course;
+  const auto from = [&](Index node, const CurvePoint& end) {
+    return (network.nodes[nodeSlot(node)].position - end.position).norm();
+  };
+  if (!course.empty() && from(edge.from, course.front()) + from(edge.to, course.back()) >
+                             from(edge.to, course.front()) + from(edge.from, course.back()))
+    std::reverse(course.begin(), course.end());
   const auto repeats = [&](Index node, const CurvePoint& end, const CurvePoint& next) {
-    return (network.nodes[nodeSlot(node)].position - end.position).norm() <=
-           kSameNode * (next.position - end.position).norm();
+    return from(node, end) <= kSameNode * (next.position - end.position).norm();
   };
   const std::size_t count = course.size();
   if (count > 1) {
@@ -127,31 +131,34 @@ double errorOf(const std::vector<Eigen::Vector3d>& spans, const Eigen::Vector3d&
 
 std::optional<Eigen::Vector3d> voxelsOfNetwork(const Network& network) {
   const std::vector<Eigen::Vector3d> spans = squaredSpans(network);
-  if (spans.size() < kLeastEdges) return {};
-  std::vector<double> ratios;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& span : spans) {
-    ratios.push_back(1 / span.sum());
-    normal += span * span.transpose();
-    right += span;
-  }
+  if (spans.empty()) return {};
   const double asStated = errorOf(spans, Eigen::Vector3d::Ones());
   if (asStated <= kIsOne) return {};
-  Eigen::Vector3d squares = Eigen::Vector3d::Constant(upperMedian(ratios));
-  double error = errorOf(spans, squares);
-  // an axis along which no edge leads takes the factor of the others
-  const double little = kLittle * normal.trace();
-  const Eigen::Vector3d solved =
-      (normal + little * Eigen::Matrix3d::Identity()).ldlt().solve(right + little * squares);
-  if (solved.allFinite() && (solved.array() > 0).all() &&
-      errorOf(spans, solved) < kBetter * error) {  // no cubes
-    squares = solved;
+  Eigen::Vector3d best = Eigen::Vector3d::Ones();
+  double error = asStated;
+  // cubes, voxels of other height, and any others: the fewest factors that state the lengths
+  for (const std::array<int, 3>& factorOf : {std::array{0, 0, 0}, {0, 0, 1}, {0, 1, 2}}) {
+    const int count = factorOf[2] + 1;
+    if (spans.size() < kLeastEdges * static_cast<std::size_t>(count)) break;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+    for (const Eigen::Vector3d& span : spans) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(count);
+      for (int a = 0; a < 3; ++a) row[factorOf[std::size_t(a)]] += span[a];
+      normal += row * row.transpose();
+      right += row;
+    }
+    const Eigen::VectorXd solved = normal.ldlt().solve(right);
+    Eigen::Vector3d squares;
+    for (int a = 0; a < 3; ++a) squares[a] = solved[factorOf[std::size_t(a)]];
+    if (!squares.allFinite() || !((squares.array() > 0).all()) ||
+        squares.maxCoeff() > kLargestRatio || errorOf(spans, squares) >= kBetter * error)
+      continue;
+    best = squares;
     error = errorOf(spans, squares);
   }
-  const Eigen::Vector3d factors = squares.cwiseSqrt();
-  if (!factors.allFinite() || error > kChordError || error > kBetter * asStated) return {};
-  return factors;
+  if (error > kChordError || error >= asStated) return {};
+  return Eigen::Vector3d(best.cwiseSqrt());
 }
 
 void takeOwnFrame(std::string_view text, CenterlineFile& file) {
@@ -173,7 +180,7 @@ CenterlineFile treeOfNetwork(Network network, const std::string& name) {
   }
   fillNodes(network);
   const LineSet lines = linesOfNetwork(network);
-  CenterlineFile file = treeOfLines(lines, lines, false, name);
+  CenterlineFile file = treeOfGraph(lines, name);
   if (file.points.empty())
     throw invalidInput(name +
                        ": all of its edges lie at one place each; expected edges with a "

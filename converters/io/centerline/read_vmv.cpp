@@ -111,7 +111,7 @@ CenterlineFile parseVmv(std::string_view text, const std::string& name) {
   const std::string shown = formats::printable(name);
   VmvParser parser(text, shown);
   parser.parse();
-  CenterlineFile file = treeOfLines(parser.lines, parser.lines, false, shown);
+  CenterlineFile file = treeOfGraph(parser.lines, shown);
   if (file.points.empty())
     throw invalidInput(shown +
                        ": has no strand with a length; expected strands of at least two "

@@ -149,4 +149,16 @@ CenterlineFile treeOfLines(const LineSet& cells, const LineSet& courses, bool is
   return *std::move(file);
 }
 
+CenterlineFile treeOfGraph(const LineSet& lines, const std::string& name) {
+  const LineGraph graph(lines);
+  if (graph.partCount() > kMostParts)
+    throw invalidInput(name + ": has " + std::to_string(graph.partCount()) +
+                       " parts without a connection; expected at most 10000");
+  CenterlineFile file = graph.tree();
+  if (const std::string remark = graph.rootRemark(); !remark.empty())
+    file.remarks.push_back(remark);
+  attachTrees(file);
+  return file;
+}
+
 }  // namespace lumen::convert

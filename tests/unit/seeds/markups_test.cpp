@@ -124,9 +124,8 @@ TEST_F(Markups, RadiusMeasurementGivesThePointsTheirRadii) {
 }
 
 TEST_F(Markups, RadiusMeasurementMayHaveUnitsOfItsOwn) {
-  const auto seeds =
-      read(markup("Curve", point("", "[1, 2, 3]") + "," + point("", "[4, 5, 6]"),
-                  R"(, "coordinateUnits": "mm", "measurements": [{"name": "Radius", "units": "cm",
+  const auto seeds = read(markup("Curve", point("", "[1, 2, 3]") + "," + point("", "[4, 5, 6]"),
+                                 R"(, "measurements": [{"name": "Radius", "units": "cm",
                                      "controlPointValues": [0.25, 0.15]}])"));
   EXPECT_EQ(seeds[0].points[0].radius, 2.5);
   EXPECT_EQ(seeds[0].points[0].position.x(), 1);
