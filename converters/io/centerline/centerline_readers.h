@@ -100,7 +100,7 @@ CenterlineFile readSimVascular(const InputFile& fileOrFolder);
 /// One file of these alone.
 CenterlineFile parseSimVascular(std::string_view text, const std::string& name);
 
-/// Whether a folder is a project of SimVascular, with contours.
+/// Whether a folder is a project of SimVascular, with paths or contours.
 bool hasSimVascular(const std::filesystem::path& folder);
 
 }  // namespace lumen::convert

@@ -363,8 +363,9 @@ CenterlineFile treeOfProject(const SvProject& project, const std::string& shown)
 }  // namespace
 
 bool hasSimVascular(const fs::path& folder) {
+  std::error_code ignored;
   return !filesOf(folder, "Segmentations", folder, kContours).empty() ||
-         !filesOf(folder, "Paths", folder, kPath).empty();
+         !filesEndingIn(folder / "Paths", {kPath}, ignored).empty();
 }
 
 CenterlineFile parseSimVascular(std::string_view text, const std::string& name) {
