@@ -15,6 +15,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/network.h"
+#include "formats/container/printable.h"
 
 namespace lumen::convert {
 namespace {
@@ -83,6 +84,13 @@ std::array<FoundColumn, 3> placesOf(const NetworkTable& table) {
   throw invalidInput(table.name + ": line " + std::to_string(row.line) + ": " + what);
 }
 
+// The name of a column in a message.
+std::string shownName(const NetworkTable& table, FoundColumn column) {
+  constexpr std::size_t kShown = 40;
+  const std::string& name = table.columns[column.at];
+  return name.size() > kShown ? quotedText(name) : formats::printable(name);
+}
+
 std::string cellOf(const NetworkRow& row, FoundColumn column) {
   return column.at < row.cells.size() ? trimmed(row.cells[column.at]) : std::string();
 }
@@ -94,7 +102,7 @@ double numberIn(const NetworkTable& table, const NetworkRow& row, FoundColumn co
   const auto value = parsedNumber(text);
   if (!value || std::abs(*value) > kLargestPlace)
     refuseRow(table, row,
-              table.columns[column.at] + " is " + quotedText(text) +
+              shownName(table, column) + " is " + quotedText(text) +
                   "; expected a number from -1e9 to 1e9");
   return *value;
 }
@@ -155,7 +163,7 @@ public:
       for (std::size_t a = 0; a < 3; ++a) {
         const double place = numberIn(table, row, places[a]);
         if (std::isnan(place))
-          refuseRow(table, row, "has no " + table.columns[places[a].at] + "; expected a number");
+          refuseRow(table, row, "has no " + shownName(table, places[a]) + "; expected a number");
         node.position[static_cast<Eigen::Index>(a)] = place;
       }
       const auto index = static_cast<std::int32_t>(network.nodes.size());
@@ -174,7 +182,7 @@ public:
     const auto found = m_byId.find(idOf(id));
     if (found == m_byId.end())
       refuseRow(edges, row,
-                edges.columns[column.at] + " is " + quotedText(id) +
+                shownName(edges, column) + " is " + quotedText(id) +
                     "; expected the id of a node of " + m_table.name);
     return found->second;
   }

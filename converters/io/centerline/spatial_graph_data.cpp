@@ -270,9 +270,9 @@ private:
     if (count > m_cursor.left() / 2 + 1)  // a number takes at least a digit and a blank
       m_cursor.refuse("begins the data @" + std::to_string(field.data) + " of " +
                       std::to_string(count) + " numbers, more than the file holds");
+    const std::string what = "a number of " + quotedText(field.name);
     field.values.reserve(count);
-    for (std::uint64_t i = 0; i < count; ++i)
-      field.values.push_back(m_cursor.number(field.name.c_str()));
+    for (std::uint64_t i = 0; i < count; ++i) field.values.push_back(m_cursor.number(what.c_str()));
   }
 
   std::string_view m_bytes;
