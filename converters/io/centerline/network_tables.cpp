@@ -38,7 +38,7 @@ const Names kRadii = {"radius",    "r",           "radius_avg",   "avgradiusavg"
                       "avgradius", "radius_mean", "vertex_radius"};
 const Names kDiameters = {"diameter", "d", "diameter_avg", "avg_diameter", "mean_diameter"};
 const Names kChords = {"distance", "euclidean_distance"};
-const Names kLengths = {"length"};
+const Names kLengths = {"length", "branch_distance"};
 const Names kTortuosities = {"tortuosity", "curveness"};
 
 struct ColumnName {
@@ -196,7 +196,8 @@ private:
   std::map<std::string, std::int32_t> m_byId;
 };
 
-// The distance of an edge's nodes as stated by its length.
+// The distance of an edge's nodes, as its own distance or its length and tortuosity state it, and what
+// all edges are longer than that.
 class Chords {
 public:
   explicit Chords(const NetworkTable& edges)
@@ -204,18 +205,31 @@ public:
         m_chord(findColumn(edges, kChords)),
         m_length(findColumn(edges, kLengths)),
         m_tortuosity(findColumn(edges, kTortuosities)) {}
-  [[nodiscard]] double of(const NetworkRow& row) const {
+  double of(const NetworkRow& row) {
+    const double length = m_length.isThere() ? numberIn(m_edges, row, m_length) : 0;
     double chord = 0;
     if (m_chord.isThere())
       chord = numberIn(m_edges, row, m_chord);
     else if (m_length.isThere() && m_tortuosity.isThere())
-      chord = numberIn(m_edges, row, m_length) / numberIn(m_edges, row, m_tortuosity);
-    return chord > 0 && std::isfinite(chord) ? chord : 0;
+      chord = length / numberIn(m_edges, row, m_tortuosity);
+    if (!(chord > 0) || !std::isfinite(chord)) return 0;
+    if (length >= chord) {
+      m_lengths += length;
+      m_chords += chord;
+    }
+    return chord;
+  }
+  // A sentence on the part of lengths that straight edges lack; empty for less than a hundredth.
+  [[nodiscard]] std::string lossRemark() const {
+    if (!(m_lengths > 1.01 * m_chords)) return {};
+    return "its edges have no courses, so they are straight, with " +
+           shownNumber(100 * m_chords / m_lengths, 3) + " % of their stated length";
   }
 
 private:
   const NetworkTable& m_edges;
   FoundColumn m_chord, m_length, m_tortuosity;
+  double m_lengths = 0, m_chords = 0;
 };
 
 }  // namespace
@@ -237,7 +251,7 @@ CenterlineFile treeOfTables(const NetworkTable& nodes, const NetworkTable& edges
                        "; expected source and target (or node1id and node2id) of edges");
   const FoundColumn from = findColumn(edges, kFrom), to = findColumn(edges, kTo);
   const Radii radii(edges, byId.unit());
-  const Chords chords(edges);
+  Chords chords(edges);
   for (const NetworkRow& row : edges.rows)
     network.edges.push_back({byId.at(edges, row, from),
                              byId.at(edges, row, to),
@@ -246,6 +260,8 @@ CenterlineFile treeOfTables(const NetworkTable& nodes, const NetworkTable& edges
                              {}});
   CenterlineFile file = treeOfNetwork(std::move(network), edges.name);
   file.unit = byId.unit();
+  if (std::string loss = chords.lossRemark(); !loss.empty())
+    file.remarks.push_back(std::move(loss));
   if (byId.haveRadii() || radii.areThere())
     fillRadii(file, edges.name, "a positive radius of some node or edge");
   else

@@ -93,6 +93,7 @@ TEST(Graphml, OfVesselVioIsInVoxelsWhoseSizeItsLengthsState) {
   const CenterlineFile file = readGraphml(sample("igraph-vesselvio.graphml"));
   expectFork(file);
   EXPECT_TRUE(hasRemark(file, "places are voxels of 0.5 x 0.5 x 2;"));
+  EXPECT_TRUE(hasRemark(file, "are straight, with 90.9 % of their stated length"));
   // arms have their own radii, and the fork that of the trunk
   EXPECT_NEAR(radiusAt(file, {3.6, 4.8, 28}), 1.5, 1e-6);
   EXPECT_NEAR(radiusAt(file, {-3.6, -4.8, 28}), 1.2, 1e-6);
