@@ -14,11 +14,12 @@ enum class CsvPlace { RowStart, CellStart, Plain, Quoted, QuoteInQuoted, Closed 
 
 class CsvReader {
 public:
+  explicit CsvReader(char separator) : m_separator(separator) {}
   /// False for a character that RFC 4180 does not allow here.
   bool take(char c) {
     if (m_place == CsvPlace::Quoted && c != '"') return keep(c, CsvPlace::Quoted);
     if (c == '"') return takeQuote();
-    if (c == ',') return endCell();
+    if (c == m_separator) return endCell();
     if (c == '\n' || c == '\r') return endRow();
     const bool isClosed = m_place == CsvPlace::QuoteInQuoted || m_place == CsvPlace::Closed;
     if (c != ' ' && c != '\t') return !isClosed && keep(c, CsvPlace::Plain);
@@ -57,14 +58,15 @@ private:
     return true;
   }
 
+  char m_separator;
   CsvPlace m_place = CsvPlace::RowStart;
   std::string m_cell;
 };
 
 }  // namespace
 
-std::vector<CsvRow> csvRows(const std::string& text, const std::string& name) {
-  CsvReader reader;
+std::vector<CsvRow> csvRows(const std::string& text, const std::string& name, char separator) {
+  CsvReader reader(separator);
   bool isRead = true;
   for (std::size_t at = 0, line = 1; isRead && at < text.size(); ++at) {
     const bool isEnd = text[at] == '\n' || text[at] == '\r';

@@ -14,7 +14,7 @@ struct CsvRow {
 };
 
 /// The rows of `text`, of a file that messages call `name`; empty lines are none. Throws
-/// Error(InvalidInput), with the line, for breaches of RFC 4180.
-std::vector<CsvRow> csvRows(const std::string& text, const std::string& name);
+/// Error(InvalidInput), with the line, for breaches of RFC 4180. `separator`: between cells.
+std::vector<CsvRow> csvRows(const std::string& text, const std::string& name, char separator = ',');
 
 }  // namespace lumen::convert

@@ -99,11 +99,11 @@ constexpr auto kEncodeObj = encodeMeshAs<encodePlain<convert::encodeObj>>;
 constexpr auto kEncodeStl = encodeMeshAs<encodeStl>;
 constexpr auto kEncodePly = encodeMeshAs<encodePlain<convert::encodePly>>;
 
-/// The encoder of a centerline format: the case's tree, encoded.
-template <std::string (*encode)(const formats::CenterlineTree&)>
+/// The encoder of a centerline format: the case's tree, encoded. A network holds links, too.
+template <std::string (*encode)(const formats::CenterlineTree&), bool isNetwork = false>
 EncodedCase encodeTreeAs(const formats::Case& value, const fs::path& file, const OutputOptions&,
                          Progress& progress) {
-  for (const std::string& loss : treeLosses(value.tree))
+  for (const std::string& loss : treeLosses(value.tree, isNetwork))
     progress.warn(formats::printable(file.string()) + ": " + loss);
   return {encode(value.tree), {}};
 }
@@ -143,7 +143,17 @@ std::vector<FileFormat> makeTable() {
       {.name = "centerline.vtk", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtk"},
        .readCenterline = convert::readVtkCenterline},
       {.name = "mrk.json", .title = "Slicer curves", .kind = Centerline, .endings = {".mrk.json"},
-       .readCenterline = convert::readCurves, .encodeCase = encodeTreeAs<convert::encodeCurves>},
+       .readCenterline = convert::readCurves, .holds = convert::hasCurves, .encodeCase = encodeTreeAs<convert::encodeCurves>},
+      {.name = "simvascular", .title = "SimVascular", .kind = Centerline, .endings = {".ctgr", ".pth"},
+       .readCenterline = convert::readSimVascular, .holds = convert::hasSimVascular},
+      {.name = "graphml", .title = "GraphML", .kind = Centerline, .endings = {".graphml"},
+       .readCenterline = convert::readGraphml, .encodeCase = encodeTreeAs<convert::encodeGraphml, true>},
+      {.name = "csv", .title = "tables of nodes and edges", .kind = Centerline, .endings = {".csv", ".tsv"},
+       .readCenterline = convert::readGraphCsv, .holds = convert::hasGraphTables},
+      {.name = "am", .title = "Amira", .kind = Centerline, .endings = {".am"},
+       .readCenterline = convert::readSpatialGraph, .encodeCase = encodeTreeAs<convert::encodeSpatialGraph, true>},
+      {.name = "vmv", .title = "VessMorphoVis", .kind = Centerline, .endings = {".vmv"},
+       .readCenterline = convert::readVmv, .encodeCase = encodeTreeAs<convert::encodeVmv, true>},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
@@ -175,7 +185,9 @@ const FileFormat* findByName(std::string_view name) {
 
 /// The format that a folder is read as.
 const FileFormat* findFolder(const InputFile& folder) {
-  if (!folder.isInMemory() && convert::hasCurves(folder.path())) return findByName("mrk.json");
+  if (!folder.isInMemory())
+    for (const FileFormat& format : fileFormats())
+      if (format.holds != nullptr && format.holds(folder.path())) return &format;
   for (const FileFormat& format : fileFormats())
     if (format.endings.empty()) return &format;
   return nullptr;

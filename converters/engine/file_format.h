@@ -50,6 +50,7 @@ struct FileFormat {
   using CenterlineReader = convert::CenterlineFile (*)(const InputFile&);
   using MeshReader = convert::MeshFile (*)(const InputFile&);
   using SceneReader = convert::MeshFile (*)(const InputFile&, const SceneArguments&);
+  using FolderTest = bool (*)(const std::filesystem::path&);
   using CaseEncoder = EncodedCase (*)(const formats::Case&, const std::filesystem::path&,
                                       const OutputOptions&, Progress&);
   using VolumeEncoder = std::string (*)(const convert::Volume&, const std::filesystem::path&);
@@ -64,6 +65,7 @@ struct FileFormat {
   MeshReader readMesh = nullptr;
   CenterlineReader readCenterline = nullptr;
   SceneReader readScene = nullptr;  ///< for files with several meshes, or that name others
+  FolderTest holds = nullptr;       ///< whether a folder's files are of this format, as one input
   // The bytes of a file. Its name serves messages, and nothing is written.
   CaseEncoder encodeCase = nullptr;
   VolumeEncoder encodeVolume = nullptr;

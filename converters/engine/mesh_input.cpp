@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/mesh_input.h"
 
+#include <algorithm>
 #include <system_error>
 
 #include "converters/base/error.h"
@@ -8,6 +9,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/file_format.h"
 #include "converters/engine/stage_options.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "formats/container/printable.h"
@@ -21,16 +23,23 @@ namespace {
 convert::CenterlineFile readCenterline(const InputFile& file) {
   const std::string name = lowerCase(file.path().filename().string());
   std::error_code ignored;
-  if ((!file.isInMemory() && fs::is_directory(file.path(), ignored)) || name.ends_with(".json"))
-    return convert::readCurves(file);
-  if (name.ends_with(".swc")) return convert::readSwc(file);
-  if (name.ends_with(".tre")) return convert::readTre(file);
+  const bool isFolder = !file.isInMemory() && fs::is_directory(file.path(), ignored);
+  // whatever .vtp or .vtk holds, it is to be a centerline
   if (name.ends_with(".vtp")) return convert::readVtpCenterline(file);
   if (name.ends_with(".vtk")) return convert::readVtkCenterline(file);
+  for (const FileFormat& format : fileFormats()) {
+    const bool isNamed =
+        std::any_of(format.endings.begin(), format.endings.end(),
+                    [&](std::string_view ending) { return name.ends_with(ending); });
+    if (format.readCenterline != nullptr &&
+        (isFolder ? format.holds != nullptr && format.holds(file.path()) : isNamed))
+      return format.readCenterline(file);
+  }
+  if (isFolder || name.ends_with(".json")) return convert::readCurves(file);
   throw unsupported(
       formats::printable(file.name()) +
-      ": the name's ending is not that of a centerline that lumen reads, .vtp, .vtk, .swc, "
-      ".tre or .mrk.json");
+      ": the name's ending is not that of a centerline that lumen reads, .vtp, .vtk, " +
+      formatEndings(canReadCenterline));
 }
 
 }  // namespace

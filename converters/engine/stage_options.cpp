@@ -222,7 +222,8 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
   table.file(
       "centerline", mesh.centerline,
       "Centerline of a mesh: .vtp or .vtk with VMTK's arrays, .swc, .tre or curves of 3D Slicer "
-      "(.mrk.json, or a folder of them) [found inside of the mesh]");
+      "(.mrk.json, or a folder of them), or another that lumen convert reads [found inside of the "
+      "mesh]");
   table
       .add("centerline-frame", &mesh.centerlineFrame, "FRAME",
            "Axes of --centerline: lps, or ras, whose x and y are negated [as its file states, or "

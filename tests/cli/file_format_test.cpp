@@ -3,7 +3,11 @@
 #include "converters/engine/file_format.h"
 
 #include <filesystem>
+#include <fstream>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +65,60 @@ TEST(FileFormats, TheLongestEndingInAnyCaseChooses) {
   EXPECT_EQ(inputFormat("a.nii.json", "").name, "lumen.json");
   EXPECT_EQ(inputFormat("a.lumen", "").name, "lumen");
   EXPECT_EQ(inputFormat("a.STL", "").name, "stl");
+}
+
+TEST(FileFormats, FilesOfNeighboursAreKnownByNameAndByContent) {
+  const std::filesystem::path samples = LUMEN_TEST_DATA "/neighbours";
+  for (const auto& [file, format] :
+       std::vector<std::pair<std::string, std::string>>{{"igraph-vesselvio.graphml", "graphml"},
+                                                        {"voreen_nodes.csv", "csv"},
+                                                        {"amira-correlation-lines.am", "am"},
+                                                        {"itk-binary.tre", "tre"}}) {
+    EXPECT_EQ(inputFormat(samples / file, "").name, format);
+    if (format == "csv") continue;  // a table of whatever
+    EXPECT_EQ(convert::detectContent(samples / file).kind, convert::ContentKind::Centerline)
+        << file;
+  }
+  EXPECT_EQ(inputFormat("a.ctgr", "").name, "simvascular");
+  EXPECT_EQ(inputFormat("a.VMV", "").name, "vmv");
+}
+
+TEST(FileFormats, OneFolderOfSeveralFilesIsOfTheFormatThatHoldsIt) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "lumen-folders-of-formats";
+  const auto formatOf = [&](const std::vector<std::string>& files) {
+    std::filesystem::remove_all(folder);
+    for (const std::string& file : files) {
+      std::filesystem::create_directories((folder / file).parent_path());
+      std::ofstream(folder / file) << "x";
+    }
+    return std::string(inputFormat(folder, "").name);
+  };
+  EXPECT_EQ(formatOf({"Paths/aorta.pth"}), "simvascular");
+  EXPECT_EQ(formatOf({"aorta.ctgr"}), "simvascular");
+  EXPECT_EQ(formatOf({"weights.pth", "1.dcm"}), "dicom");
+  EXPECT_EQ(formatOf({"a_nodes.csv", "a_edges.csv"}), "csv");
+  EXPECT_EQ(formatOf({"a_nodes.csv", "1.dcm"}), "dicom");
+  EXPECT_EQ(formatOf({"c.mrk.json", "a_nodes.csv"}), "mrk.json");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FileFormats, AFileThatIsNotReadIsNamedWithWhatHelps) {
+  const auto refusedAs = [](const char* name, std::string_view bytes) {
+    return refusal([&] { return inputFormat(InputFile(name, bytes), ""); });
+  };
+  EXPECT_EQ(
+      refusedAs("a.3mf", "PK\3\4...."),
+      "4: a.3mf: this is a mesh (3MF), not a volume; lumen does not read 3MF; the program that "
+      "wrote it, MeshLab or PrusaSlicer saves it as STL or OBJ");
+  EXPECT_EQ(refusedAs("s.mrb", "PK\3\4...."),
+            "4: s.mrb: this is a bundle of 3D Slicer (.mrb), a zip, not a volume; unzip it: its "
+            "folder Data has volumes (.nrrd), models (.vtp, .vtk) and curves (.mrk.json), which "
+            "lumen reads");
+  EXPECT_EQ(
+      refusedAs("s.mrml", "<?xml version=\"1.0\"?>\n<MRML version=\"5\"></MRML>"),
+      "4: s.mrml: this is a scene of 3D Slicer (MRML), not a volume; lumen reads the files that "
+      "it names: volumes (.nrrd), models (.vtp, .vtk) and curves (.mrk.json)");
 }
 
 TEST(FileFormats, ANameWithoutAKnownEndingIsUnsupported) {

@@ -98,7 +98,7 @@ TEST_F(CompletionTest, OptionsOfTheCommand) {
 }
 
 TEST_F(CompletionTest, FormatsOfFromAndTo) {
-  EXPECT_EQ(offered("convert --to g"), "glb gltf\n");
+  EXPECT_EQ(offered("convert --to g"), "glb gltf graphml\n");
   EXPECT_EQ(offered("convert --from nr"), "nrrd\n");
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Centerlines, the chains that they are made of, and the case that is made of them if their radii allow
 // one.
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -91,8 +93,42 @@ void vtkLines(std::span<const std::byte> input) {
   check([&] { return convert::parseVtkCenterline(textOf(input), "a.vtk"); }, false);
 }
 
-constexpr Target kTargets[] = {
-    {"swc", swc}, {"tre", tre}, {"vtp_lines", vtpLines}, {"vtk_lines", vtkLines}};
+void graphml(std::span<const std::byte> input) {
+  check([&] { return convert::parseGraphml(textOf(input), "a.graphml"); }, false);
+}
+
+/// Nodes and edges, with a line of dashes between them.
+void graphCsv(std::span<const std::byte> input) {
+  constexpr std::string_view kBetween = "\n--\n";
+  const std::string_view text = textOf(input);
+  const std::size_t end = std::min(text.find(kBetween), text.size());
+  const InputFile nodes("a_nodes.csv", text.substr(0, end));
+  const InputFile edges("a_edges.csv", text.substr(std::min(end + kBetween.size(), text.size())));
+  const std::vector<InputFile> files = {nodes, edges};
+  check([&] { return convert::readGraphCsv(InputFile("a", files)); }, false);
+}
+
+void spatialGraph(std::span<const std::byte> input) {
+  check([&] { return convert::parseSpatialGraph(textOf(input), "a.am"); }, false);
+}
+
+void vmv(std::span<const std::byte> input) {
+  check([&] { return convert::parseVmv(textOf(input), "a.vmv"); }, true);
+}
+
+void simVascular(std::span<const std::byte> input) {
+  check([&] { return convert::parseSimVascular(textOf(input), "a.ctgr"); }, false);
+}
+
+constexpr Target kTargets[] = {{"swc", swc},
+                               {"tre", tre},
+                               {"vtp_lines", vtpLines},
+                               {"vtk_lines", vtkLines},
+                               {"graphml", graphml},
+                               {"graph_csv", graphCsv},
+                               {"spatial_graph", spatialGraph},
+                               {"vmv", vmv},
+                               {"simvascular", simVascular}};
 
 }  // namespace
 

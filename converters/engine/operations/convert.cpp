@@ -59,7 +59,8 @@ public:
     table.argument("INPUT", &m_input,
                    "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
                        formatTitles(canReadMesh) + "), centerline (" +
-                       formatTitles(canReadCenterline) + "; also a folder of curves) or case");
+                       formatTitles(canReadCenterline) +
+                       "; also a folder of curves or tables, or of a project) or case");
     table.argument("OUTPUT", &m_output,
                    "Case, " + formatEndings(canWriteCase) +
                        "; or mesh, which holds the surface of the " + "vessels and no more, " +

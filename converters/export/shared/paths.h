@@ -41,7 +41,7 @@ namespace lumen {
 // Sentences on the parts of a tree that a file of lines of points cannot hold.
 
 /// Sentences without a full stop about links that close loops and about aneurysms; empty for a
-/// tree that has neither.
-std::vector<std::string> treeLosses(const formats::CenterlineTree& tree);
+/// tree that has neither. `isNetwork`: the file holds links.
+std::vector<std::string> treeLosses(const formats::CenterlineTree& tree, bool isNetwork = false);
 
 }  // namespace lumen

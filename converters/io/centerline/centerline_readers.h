@@ -64,4 +64,43 @@ CenterlineFile parseVtkCenterline(std::string_view bytes, const std::string& nam
 CenterlineFile readVtpCenterline(const InputFile& file);
 CenterlineFile readVtkCenterline(const InputFile& file);
 
+// Readers of networks: nodes, and edges without a direction (network.h).
+
+/// GraphML of igraph, networkx, VesselVio: nodes with x, y, z or one attribute of three numbers (pos), and
+/// radii of nodes or of edges. Attributes unit and space of the graph state both. Throws
+/// Error(InvalidInput) with `name`, the line, the finding and the expectation.
+CenterlineFile parseGraphml(std::string_view text, const std::string& name);
+CenterlineFile readGraphml(const InputFile& file);
+
+/// Two tables of comma-, semicolon- or tab-separated values, as Voreen writes them and VesselVio reads
+/// them: one of them, whose other lies beside it by its name (nodes or vertices, and edges), or their folder;
+/// or skan's table of branches alone. Throws as readGraphml().
+CenterlineFile readGraphCsv(const InputFile& fileOrFolder);
+
+/// Whether a folder has tables of nodes and of edges.
+bool hasGraphTables(const std::filesystem::path& folder);
+
+/// Spatial graphs of Amira and Avizo (`.am`), text or binary: edges with points, radii in thickness,
+/// radius or diameter of points, edges or vertices. Units { Coordinates } states the unit,
+/// TransformationMatrix is applied. Throws as readGraphml(), and Error(Unsupported) for other content.
+CenterlineFile parseSpatialGraph(std::string_view bytes, const std::string& name);
+CenterlineFile readSpatialGraph(const InputFile& file);
+
+/// VessMorphoVis' strands (`.vmv`). Throws as readGraphml().
+CenterlineFile parseVmv(std::string_view text, const std::string& name);
+CenterlineFile readVmv(const InputFile& file);
+
+// SimVascular: paths, and contours around them.
+
+/// A path (`.pth`), contours (`.ctgr`), or the folder of a project with its Paths and Segmentations: the
+/// contours' middles and radii, of the area within them, along the path between them. The first of
+/// several times is read. Throws as readGraphml().
+CenterlineFile readSimVascular(const InputFile& fileOrFolder);
+
+/// One file of these alone.
+CenterlineFile parseSimVascular(std::string_view text, const std::string& name);
+
+/// Whether a folder is a project of SimVascular, with paths or contours.
+bool hasSimVascular(const std::filesystem::path& folder);
+
 }  // namespace lumen::convert

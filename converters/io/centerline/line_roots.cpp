@@ -165,10 +165,11 @@ std::string LineGraph::rootRemark() const {
       places += (places.empty() ? "" : ", ") + vectorText(m_points[slotOf(part.root)].position);
   }
   if (count == 0) return {};
-  return "its lines run from several ends, or from a narrow vessel to a wider one; the root is the "
-         "widest end, " +
-         places + (count > kShown ? " and others" : "") + " in the file's coordinates; " +
-         kOption.root.shown() + " states another";
+  const std::string why =
+      m_set.isDirected ? "its lines run from several ends, or from a narrow vessel to a wider one"
+                       : "its lines have no direction";
+  return why + "; the root is the widest end, " + places + (count > kShown ? " and others" : "") +
+         " in the file's coordinates; " + kOption.root.shown() + " states another";
 }
 
 }  // namespace lumen::convert

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declared in centerline_readers.h.
-#include <algorithm>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "converters/base/error.h"
 #include "converters/base/options/option_name.h"
-#include "converters/base/text.h"
 #include "converters/io/centerline/centerline_readers.h"
+#include "converters/io/centerline/folder_files.h"
 #include "converters/io/centerline/join_curves.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/container/printable.h"
@@ -19,36 +19,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isMarkups(const fs::path& file) {
-  std::error_code ignored;
-  return lowerCase(file.filename().string()).ends_with(".mrk.json") &&
-         fs::is_regular_file(file, ignored);
-}
+constexpr std::string_view kMarkups = ".mrk.json";
 
-// The files in the order of their names; (10) comes before (2).
 std::vector<InputFile> listFiles(const InputFile& input) {
   const fs::path& path = input.path();
   std::error_code error;
   if (input.isInMemory() || !fs::is_directory(path, error)) return {input};
-  std::vector<fs::path> files;
-  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
-       entry.increment(error))
-    if (isMarkups(entry->path())) files.push_back(entry->path());
+  std::vector<InputFile> files = filesEndingIn(path, {kMarkups}, error);
   if (error)
     throw invalidInput(formats::printable(path.string()) + ": cannot be read (" + error.message() +
                        ")");
-  std::sort(files.begin(), files.end());
-  return {files.begin(), files.end()};
+  return files;
 }
 
 }  // namespace
 
 bool hasCurves(const fs::path& folder) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (isMarkups(entry->path())) return true;
-  return false;
+  std::error_code ignored;
+  return !filesEndingIn(folder, {kMarkups}, ignored).empty();
 }
 
 CenterlineFile readCurves(const InputFile& fileOrFolder) {

@@ -46,6 +46,7 @@ struct TreObject {
   std::vector<std::string> columns;
   std::optional<std::uint64_t> count;
   bool isBinary = false, isBigEndian = false, isDouble = false;
+  bool hasPlainRadii = false;  // spacing applies to places alone
   std::vector<CurvePoint> points;
 };
 
@@ -59,9 +60,13 @@ public:
     while (!m_rest.empty()) {
       const std::string line = trimmed(std::string(nextLine()));
       if (line.empty()) continue;
-      const auto equals = line.find('=');
-      if (equals == line.npos) refuse("is " + quotedText(line) + "; expected KEY = VALUE");
-      take(trimmed(line.substr(0, equals)), trimmed(line.substr(equals + 1)));
+      const auto mark = line.find_first_of("=:");
+      if (mark == line.npos) refuse("is " + quotedText(line) + "; expected KEY = VALUE");
+      const std::string key = trimmed(line.substr(0, mark)), value = trimmed(line.substr(mark + 1));
+      if (line[mark] == ':')
+        takeTubeX(key, value);
+      else
+        take(key, value);
     }
     if (m_objects.empty())
       throw invalidInput(m_name + ": has no ObjectType; expected a scene of tubes");
@@ -106,6 +111,38 @@ private:
       takeMatrix(object, value);
     else if (key == "PointDim")
       takeColumns(object, value);
+    else if (key == "NPoints")
+      object.count = static_cast<std::uint64_t>(std::max(0, whole(value)));
+    else if (key == "Points")
+      takePoints(object);
+  }
+
+  // A line of TubeX, TubeTK's older style (itktubeTubeXIO.hxx), whose objects begin with ID.
+  void takeTubeX(const std::string& key, const std::string& value) {
+    if (key == "ID") {
+      m_objects.emplace_back();
+      m_objects.back().type = "Tube";
+      m_objects.back().spacing = m_voxel;
+      m_objects.back().hasPlainRadii = true;
+      m_objects.back().id = whole(value);
+      return;
+    }
+    if (m_objects.empty()) {
+      if (key == "NDims" && value != "3")
+        refuse("has " + quotedText(value) + " dimensions; expected 3");
+      if (key == "VoxelSize") m_voxel = parseVector(value);
+      return;
+    }
+    TreObject& object = m_objects.back();
+    if (key == "Type")
+      object.type = value;
+    else if (key == "VParent")
+      object.parent = whole(value);
+    else if (key == "Attachpt")
+      object.parentPoint = whole(value);
+    else if (key == "PointDim")
+      takeColumns(object, std::string_view(value).substr(
+                              std::min(value.find_first_not_of("0123456789 "), value.size())));
     else if (key == "NPoints")
       object.count = static_cast<std::uint64_t>(std::max(0, whole(value)));
     else if (key == "Points")
@@ -267,6 +304,7 @@ private:
   std::string m_name;
   std::size_t m_number = 0;
   std::vector<TreObject> m_objects;
+  Eigen::Vector3d m_voxel = Eigen::Vector3d::Ones();  // of TubeX
 };
 
 // Objects by their ids; the first object wins where ids are equal.
@@ -319,7 +357,7 @@ CenterlineFile parseTre(std::string_view text, const std::string& name) {
         throw invalidInput(shown + ": a point of the tube \"" +
                            formats::printable(object.name.substr(0, 40)) +
                            "\" lies beyond 2e9 mm; expected lengths of vessels");
-      point.radius *= std::abs(object.spacing.x());
+      if (!object.hasPlainRadii) point.radius *= std::abs(object.spacing.x());
     }
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {

@@ -127,8 +127,9 @@ CenterlineFile mended(const LineSet& courses, const LineGraph& graph, const std:
     file = treeAsDrawn(straight, straight, &graph);
   }
   if (!file) file = graph.tree();
-  for (const std::string& remark : {turns, graph.rootRemark()})
-    if (!remark.empty()) file->remarks.push_back(remark);
+  if (courses.isDirected && !turns.empty()) file->remarks.push_back(turns);
+  if (const std::string remark = graph.rootRemark(); !remark.empty())
+    file->remarks.push_back(remark);
   return *std::move(file);
 }
 
@@ -146,6 +147,18 @@ CenterlineFile treeOfLines(const LineSet& cells, const LineSet& courses, bool is
   if (!file) file = mended(courses, graph, name);
   attachTrees(*file);
   return *std::move(file);
+}
+
+CenterlineFile treeOfGraph(const LineSet& lines, const std::string& name) {
+  const LineGraph graph(lines);
+  if (graph.partCount() > kMostParts)
+    throw invalidInput(name + ": has " + std::to_string(graph.partCount()) +
+                       " parts without a connection; expected at most 10000");
+  CenterlineFile file = graph.tree();
+  if (const std::string remark = graph.rootRemark(); !remark.empty())
+    file.remarks.push_back(remark);
+  attachTrees(file);
+  return file;
 }
 
 }  // namespace lumen::convert

@@ -17,4 +17,8 @@ namespace lumen::convert {
 CenterlineFile treeOfLines(const LineSet& cells, const LineSet& courses, bool isExact,
                            const std::string& name);
 
+/// The trees of a network, whose lines are no vessels: those of its graph, from the widest ends. Throws
+/// Error(InvalidInput) with `name` for more parts than can be compared.
+CenterlineFile treeOfGraph(const LineSet& lines, const std::string& name);
+
 }  // namespace lumen::convert

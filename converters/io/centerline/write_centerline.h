@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tree of a case as centerlines for other programs: centres and radii, mm, LPS. Files omit
-// non-circular sections, wall points, models and links. Equal trees give equal bytes.
+// non-circular sections, wall points and models, and trees omit links. Equal trees give equal bytes.
 #pragma once
 
 #include <string>
@@ -28,6 +28,18 @@ std::string encodeVtpCenterline(const formats::CenterlineTree& tree);
 /// Slicer Markups: a curve for each branch, with the measurement "Radius". A child's curve begins
 /// on its parent's axis.
 std::string encodeCurves(const formats::CenterlineTree& tree);
+
+// Networks, which hold the links that close loops, too. Pieces run from root, fork or tip to the next.
+
+/// VessMorphoVis: vertices and strands. A comment states unit and axes.
+std::string encodeVmv(const formats::CenterlineTree& tree);
+
+/// GraphML, with a node for each of the tree's: X, Y, Z and radius, as VesselVio reads the centerlines of
+/// a graph; unit and space of the graph.
+std::string encodeGraphml(const formats::CenterlineTree& tree);
+
+/// A spatial graph of Amira, text: the radius is its thickness.
+std::string encodeSpatialGraph(const formats::CenterlineTree& tree);
 
 /// Slicer Markups: a curve for one branch, which has a node, with the measurement "Radius".
 std::string encodeCurve(const formats::CenterlineTree& tree, const formats::Branch& branch);

@@ -33,9 +33,10 @@ struct Signature {
 std::span<const Signature> signatures() {
   using namespace std::string_view_literals;
   using enum ContentKind;
-  static constexpr std::array<Signature, 22> kTable = {{
+  static constexpr std::array<Signature, 23> kTable = {{
       {0, "NRRD00", Volume, "a volume (NRRD)"},
       {0, "ObjectType", Volume, "a volume (MetaImage)"},
+      {0, "NDims:", Centerline, "a centerline (TubeTK)"},
       {0, "NDims", Volume, "a volume (MetaImage)"},
       {344, "n+1\0"sv, Volume, "a volume (NIfTI)"},
       {344, "ni1\0"sv, Volume, "a volume (NIfTI)"},
@@ -110,6 +111,40 @@ std::string adviceFor(ContentKind kind) {
   return "";
 }
 
+/// Content of a zip, by the name's ending.
+FileContent zipContent(const std::string& name) {
+  using enum ContentKind;
+  if (name.ends_with(".3mf"))
+    return {Other, "a mesh (3MF)",
+            "lumen does not read 3MF; the program that wrote it, MeshLab or PrusaSlicer saves it "
+            "as STL or OBJ"};
+  if (name.ends_with(".mrb"))
+    return {Other, "a bundle of 3D Slicer (.mrb), a zip",
+            "unzip it: its folder Data has volumes (.nrrd), models (.vtp, .vtk) and curves "
+            "(.mrk.json), which lumen reads"};
+  return {Other, "an archive (zip)", "unzip it, and name a file or folder in it"};
+}
+
+/// Content of a text of other programs' networks and scenes, by its first words.
+FileContent textContent(std::string_view text) {
+  using enum ContentKind;
+  const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
+  if (text.starts_with("# AmiraMesh") || text.starts_with("# Avizo") ||
+      text.starts_with("# Amira "))
+    return has("HxSpatialGraph") ? FileContent{Centerline, "a centerline (Amira)", ""}
+                                 : FileContent{Other, "a file of Amira that is no spatial graph",
+                                               "Amira saves volumes as NRRD and surfaces as STL"};
+  if (has("$VERT_LIST_BEGIN")) return {Centerline, "a centerline (VessMorphoVis)", ""};
+  if (has("<graphml")) return {Centerline, "a centerline (GraphML)", ""};
+  if (has("<contourgroup ") || (has("<path ") && has("<path_element")))
+    return {Centerline, "a centerline (SimVascular)", ""};
+  if (has("<MRML"))
+    return {Other, "a scene of 3D Slicer (MRML)",
+            "lumen reads the files that it names: volumes (.nrrd), models (.vtp, .vtk) and curves "
+            "(.mrk.json)"};
+  return {};
+}
+
 /// Kind of a VTK XML file, by the counts in its first tags.
 FileContent vtkContent(std::string_view text) {
   using enum ContentKind;
@@ -165,10 +200,13 @@ FileContent detectContent(const InputFile& file) {
         view.substr(signature.offset).starts_with(signature.bytes))
       return signature.bytes == "<VTKFile"     ? vtkContent(view)
              : signature.bytes == "ObjectType" ? metaContent(view)
-                                               : FileContent{signature.kind, signature.name};
+             : signature.bytes.starts_with("PK")
+                 ? zipContent(lowerCase(file.path().filename().string()))
+                 : FileContent{signature.kind, signature.name, ""};
   if (lowerCase(file.path().filename().string()).ends_with(".swc"))
     return {Centerline, "a centerline (SWC)"};
   if (view.starts_with("<?xml") && view.find("<VTKFile") != view.npos) return vtkContent(view);
+  if (FileContent content = textContent(view); content.kind != Unknown) return content;
   const auto first = view.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first != view.npos && view[first] == '{') return jsonContent(view);
   const bool packed = view.starts_with("\x1f\x8b");
@@ -182,7 +220,8 @@ std::string notA(ContentKind wanted, const InputFile& file) {
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
   // a curve may be seeds or a centerline
   if (wanted == ContentKind::Seeds && content.name == kCurves) return "";
-  return content.sentence() + ", not " + nounFor(wanted) + adviceFor(content.kind);
+  return content.sentence() + ", not " + nounFor(wanted) +
+         (content.advice.empty() ? adviceFor(content.kind) : "; " + content.advice);
 }
 
 namespace {

@@ -13,7 +13,8 @@ enum class ContentKind : std::uint8_t { Unknown, Volume, Seeds, Case, Mesh, Cent
 
 struct FileContent {
   ContentKind kind = ContentKind::Unknown;
-  std::string name;  ///< "a volume (NRRD)", "seeds (3D Slicer Markups)", "a picture"
+  std::string name;      ///< "a volume (NRRD)", "seeds (3D Slicer Markups)", "a picture"
+  std::string advice{};  ///< on a file that lumen does not read; maybe empty
 
   /// "this is a volume (NRRD)", "these are seeds".
   [[nodiscard]] std::string sentence() const;

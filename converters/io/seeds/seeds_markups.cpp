@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/base/length_unit.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seeds_parse.h"
 
@@ -38,8 +39,10 @@ double unitScale(const JsonPlace& markup, const SeedReading& reading) {
   return unitInMillimetres(words[0], reading);
 }
 
-/// The values of the measurement "Radius", one for each control point; null if there is none.
-std::vector<double> radii(const JsonPlace& markup, std::size_t points) {
+/// The values of the measurement "Radius" in mm, one for each control point; none if there is none. Its
+/// own "units" count before those of coordinates, `unit`.
+std::vector<double> radii(const JsonPlace& markup, std::size_t points, double unit,
+                          const SeedReading& reading) {
   std::vector<double> values;
   if (!markup.has("measurements")) return values;
   for (const auto& measurement : markup.at("measurements").elements()) {
@@ -49,7 +52,10 @@ std::vector<double> radii(const JsonPlace& markup, std::size_t points) {
     if (entries.size() != points)
       measurement.at("controlPointValues")
           .refuse(std::to_string(points) + " radii, one for each control point");
-    for (const auto& entry : entries) values.push_back(entry.number());
+    const std::string* units =
+        measurement.has("units") ? measurement.at("units").value().text() : nullptr;
+    if (units != nullptr && !reading.unit) unit = millimetresPer(*units).value_or(unit);
+    for (const auto& entry : entries) values.push_back(unit * entry.number());
   }
   return values;
 }
@@ -68,15 +74,16 @@ struct ControlPoint {
 };
 
 /// The control points that have a position; Slicer keeps others as placeholders.
-std::vector<ControlPoint> controlPoints(const JsonPlace& markup, const SeedFrame& frame) {
+std::vector<ControlPoint> controlPoints(const JsonPlace& markup, const SeedFrame& frame,
+                                        const SeedReading& reading) {
   const auto places = markup.at("controlPoints").elements();
-  const std::vector<double> radius = radii(markup, places.size());
+  const std::vector<double> radius = radii(markup, places.size(), frame.unit, reading);
   std::vector<ControlPoint> points;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const JsonPlace& place = places[i];
     if (place.has("positionStatus") && place.at("positionStatus").text() != "defined") continue;
     SeedPoint point{frame.position(place.at("position").vector()), std::nullopt};
-    if (!radius.empty()) point.radius = frame.unit * radius[i];
+    if (!radius.empty()) point.radius = radius[i];
     points.push_back({place, point});
   }
   return points;
@@ -88,10 +95,10 @@ std::string textOr(const JsonPlace& place, const char* key, const std::string& f
 }
 
 /// Each control point of a Fiducial markup begins a branch of its own.
-void addFiducials(const JsonPlace& markup, const SeedFrame& frame, const std::string& name,
-                  std::vector<SeedBranch>& branches) {
+void addFiducials(const JsonPlace& markup, const SeedFrame& frame, const SeedReading& reading,
+                  const std::string& name, std::vector<SeedBranch>& branches) {
   int number = 0;
-  for (const auto& [place, point] : controlPoints(markup, frame)) {
+  for (const auto& [place, point] : controlPoints(markup, frame, reading)) {
     SeedBranch branch;
     branch.frame = frame;
     branch.label = textOr(place, "label", name + "-" + std::to_string(++number));
@@ -102,12 +109,12 @@ void addFiducials(const JsonPlace& markup, const SeedFrame& frame, const std::st
 }
 
 /// A line or curve is one branch.
-void addCurve(const JsonPlace& markup, const SeedFrame& frame, const std::string& name,
-              std::vector<SeedBranch>& branches) {
+void addCurve(const JsonPlace& markup, const SeedFrame& frame, const SeedReading& reading,
+              const std::string& name, std::vector<SeedBranch>& branches) {
   SeedBranch branch;
   branch.frame = frame;
   branch.label = name;
-  const auto points = controlPoints(markup, frame);
+  const auto points = controlPoints(markup, frame, reading);
   for (const auto& control : points) branch.points.push_back(control.point);
   if (!points.empty()) describe(points[0].place, branch);
   describe(markup, branch);
@@ -123,9 +130,9 @@ std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& s
     const SeedFrame frame{systemOf(markup, reading), unitScale(markup, reading)};
     const std::string type = markup.at("type").text(), name = textOr(markup, "name", stem);
     if (type == "Fiducial")
-      addFiducials(markup, frame, name, branches);
+      addFiducials(markup, frame, reading, name, branches);
     else if (type == "Line" || type == "Curve" || type == "ClosedCurve")
-      addCurve(markup, frame, name, branches);
+      addCurve(markup, frame, reading, name, branches);
     else
       markup.at("type").refuse(
           "\"Fiducial\", \"Line\", \"Curve\" or \"ClosedCurve\": points on vessels; save those "

@@ -138,5 +138,39 @@ TEST(WriteCenterline, LinesHaveTheArraysOfVmtk) {
     }
 }
 
+TEST(WriteNetwork, HoldsPlacesRadiiAndLinksWithUnitAndAxes) {
+  CenterlineTree tree = exampleTree();
+  tree.links = {{11, 25}};  // from the trunk's tip to that of the second child
+  std::multiset<std::tuple<float, float, float, float>> expected;
+  double length = 0;
+  for (std::size_t n = 0; n < tree.nodeCount(); ++n) {
+    const formats::Vec3f& c = tree.centre[n];
+    expected.insert({c.x, c.y, c.z, tree.radius[n]});
+    if (tree.parent[n] < 0) continue;
+    const formats::Vec3f& p = tree.centre[std::size_t(tree.parent[n])];
+    length += std::hypot(c.x - p.x, c.y - p.y, c.z - p.z);
+  }
+  for (const CenterlineFile& file :
+       {parseVmv(encodeVmv(tree), "a.vmv"), parseGraphml(encodeGraphml(tree), "a.graphml"),
+        parseSpatialGraph(encodeSpatialGraph(tree), "a.am")}) {
+    std::multiset<std::tuple<float, float, float, float>> found;
+    for (const CenterlinePoint& point : file.points) {
+      const Eigen::Vector3f p = point.position.cast<float>();
+      found.insert({p.x(), p.y(), p.z(), static_cast<float>(point.radius)});
+    }
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(file.unit, 1);
+    EXPECT_EQ(file.axes, CenterlineAxes::Lps);
+    EXPECT_EQ(file.links.size(), 1U);
+    const formats::Vec3f& a = tree.centre[11];
+    const formats::Vec3f& b = tree.centre[25];
+    double total = measureExtent(file).length;
+    for (const auto& [from, to] : file.links)
+      total +=
+          (file.points[std::size_t(from)].position - file.points[std::size_t(to)].position).norm();
+    EXPECT_NEAR(total, length + std::hypot(a.x - b.x, a.y - b.y, a.z - b.z), 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace lumen::convert

@@ -123,6 +123,14 @@ TEST_F(Markups, RadiusMeasurementGivesThePointsTheirRadii) {
   EXPECT_EQ(seeds[0].points[1].radius, 1.5);
 }
 
+TEST_F(Markups, RadiusMeasurementMayHaveUnitsOfItsOwn) {
+  const auto seeds = read(markup("Curve", point("", "[1, 2, 3]") + "," + point("", "[4, 5, 6]"),
+                                 R"(, "measurements": [{"name": "Radius", "units": "cm",
+                                     "controlPointValues": [0.25, 0.15]}])"));
+  EXPECT_EQ(seeds[0].points[0].radius, 2.5);
+  EXPECT_EQ(seeds[0].points[0].position.x(), 1);
+}
+
 TEST_F(Markups, RadiusMeasurementOfAnotherLengthIsRefused) {
   expectMarkupsRefused(
       markup("Curve", point("", "[1, 2, 3]") + "," + point("", "[4, 5, 6]"),

@@ -250,7 +250,8 @@ LUMEN_ENGINE_API size_t lumen_engine_branch_parent(
     const lumen_engine_case* value, size_t branch) LUMEN_ENGINE_NOEXCEPT;
 
 /* A case as the bytes of a file: "lumen", "lumen.json"; its surface as "glb", "gltf", "vtp", "obj",
- * "stl", "ply"; its tree as "swc", "tre", "centerline.vtp", "mrk.json".
+ * "stl", "ply"; its tree as "swc", "tre", "centerline.vtp", "mrk.json",
+ * "graphml", "am", "vmv".
  * Fails with UNSUPPORTED for another format, with INPUT for a surface of a case without models,
  * with USAGE, CANCELLED or MEMORY. Seconds for a surface. */
 LUMEN_ENGINE_API lumen_engine_status lumen_engine_encode(
