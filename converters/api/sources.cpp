@@ -18,6 +18,7 @@
 #include "converters/engine/source_input.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/content/file_content.h"
+#include "converters/io/volume/upright_grid.h"
 #include "converters/io/volume/volume_checks.h"
 #include "formats/container/printable.h"
 
@@ -25,8 +26,8 @@ namespace lumen::engine::api {
 namespace {
 
 /// Options of files of volumes, which say nothing of an array.
-constexpr std::array<const char*, 5> kOfFiles = {"series", "volume-index", "crop", "spacing",
-                                                 "unit"};
+constexpr std::array<const char*, 6> kOfFiles = {"series", "fill-gaps", "volume-index",
+                                                 "crop",   "spacing",   "unit"};
 
 /// Whether a part of the inputs is there. Throws Error(Usage) for one without its bytes or name.
 bool isThere(const lumen_engine_file& file, const char* part) {
@@ -88,10 +89,15 @@ convert::Volume volumeOf(const lumen_engine_volume& from, const std::string& nam
     geometry.direction.col(a) = axis / axis.norm();
     geometry.origin[a] = from.affine[a][3];
   }
-  convert::checkGeometry(geometry, name);
   convert::moveFarOrigin(geometry, volume.assumptions);
-  volume.voxels = voxelsOf(from, geometry.voxelCount());
+  const std::size_t count = geometry.voxelCount();
+  const std::optional<convert::VolumeGeometry> stored = convert::standUpright(geometry);
+  convert::checkGeometry(geometry, name);
+  volume.voxels = voxelsOf(from, count);
   convert::checkVoxels(volume, name);
+  if (!stored) return volume;
+  volume.assumptions.push_back(convert::uprightSentence(*stored, geometry));
+  convert::resampleUpright(*stored, volume, Progress());
   return volume;
 }
 

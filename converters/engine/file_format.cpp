@@ -133,6 +133,8 @@ std::vector<FileFormat> makeTable() {
        .readMesh = readMeshAs<MeshFormat::Ply>, .encodeCase = kEncodePly},
       {.name = "scn", .title = "a scene of SOFA", .kind = Mesh, .endings = {".scn"},
        .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
+      {.name = "dicom-surface", .title = "surfaces of DICOM", .kind = Mesh, .endings = {".surface.dcm"},
+       .readMesh = readMeshAs<MeshFormat::DicomSurface>},
       // centerlines
       {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc,
        .encodeCase = encodeTreeAs<convert::encodeSwc>},
@@ -199,6 +201,8 @@ const FileFormat* findByContent(const InputFile& file) {
   const std::string ending = lowerCase(file.path().extension().string());
   if (ending == ".vtp" && content.kind == convert::ContentKind::Centerline)
     return findByName("centerline.vtp");
+  if (convert::isDicom(content)) return findByName("dicom");
+  if (content.name == "a mesh (DICOM)") return findByName("dicom-surface");
   return ending == ".vtk" && convert::holdsLegacyLines(file) ? findByName("centerline.vtk")
                                                              : nullptr;
 }

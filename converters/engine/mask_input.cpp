@@ -65,7 +65,7 @@ convert::LabelTable besideTable(const InputFile& map, Progress& progress) {
 }
 
 operations::LabelPart loadLabelMap(const InputFile& map, const MaskArguments& arguments,
-                                   Progress& progress) {
+                                   const convert::VolumeGeometry* grid, Progress& progress) {
   requireInput(map, "label map");
   if (convert::isLabelFolder(map)) {
     convert::FolderMap read = loadLabelFolder(map, {}, progress);
@@ -76,7 +76,9 @@ operations::LabelPart loadLabelMap(const InputFile& map, const MaskArguments& ar
     throw invalidInput(formats::printable(map.name()) +
                        ": is no volume; expected a volume of labels");
   const convert::LabelTable table = arguments.table(map, progress);
-  convert::Volume voxels = readVolumeFile(map, format, {}, progress);
+  VolumeArguments reading;
+  if (grid != nullptr) reading.grid = *grid;
+  convert::Volume voxels = readVolumeFile(map, format, reading, progress);
   if (auto settled = convert::settleLabels(voxels, {}))
     voxels = takeSettled(*std::move(settled), map.name(), progress);
   return labelPart(std::move(voxels), map.name(), table);
@@ -160,13 +162,14 @@ void refuseTableOfFolder() {
 }
 
 std::vector<operations::LabelPart> loadLabelMaps(const MaskArguments& arguments,
+                                                 const convert::VolumeGeometry* grid,
                                                  Progress& progress) {
   std::vector<operations::LabelPart> maps;
   const std::vector<InputFile>& files = arguments.labelMaps;
   if (!arguments.labelTable.empty() && !files.empty() &&
       std::all_of(files.begin(), files.end(), convert::isLabelFolder))
     refuseTableOfFolder();
-  for (const InputFile& map : files) maps.push_back(loadLabelMap(map, arguments, progress));
+  for (const InputFile& map : files) maps.push_back(loadLabelMap(map, arguments, grid, progress));
   stateRoles(arguments.roles, maps);
   return maps;
 }

@@ -63,7 +63,9 @@ convert::FolderMap loadLabelFolder(const InputFile& folder,
 /// The maps of --label-map, files or folders of structures. Throws as stateRoles(),
 /// Error(InvalidInput) for a file that is missing, or no volume, and Error(Usage) for a table
 /// beside folders alone.
+/// `grid`: of the volume beside them, on which contours are filled; null: none.
 std::vector<operations::LabelPart> loadLabelMaps(const MaskArguments& arguments,
+                                                 const convert::VolumeGeometry* grid,
                                                  Progress& progress);
 
 }  // namespace lumen::engine

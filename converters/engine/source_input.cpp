@@ -51,7 +51,7 @@ operations::Source volumeSource(convert::Volume volume, const InputFile& file,
     if (isSeeded) warnOfVoxels(volume, source.name, progress);
     source.grey = std::move(volume);
   }
-  source.maps = loadLabelMaps(mask, progress);
+  source.maps = loadLabelMaps(mask, source.grey ? &source.grey->geometry : nullptr, progress);
   return source;
 }
 

@@ -86,6 +86,8 @@ convert::ReadVolumeOptions VolumeArguments::options() const {
   options.word = optionWord();
   options.series = series;
   options.skipFaulty = skipFaulty;
+  options.fillGaps = fillGaps;
+  options.grid = grid;
   if (const std::vector<double> mm = spacingIn(spacing); !mm.empty())
     options.spacing = Eigen::Vector3d(mm.front(), mm[mm.size() / 2], mm.back());
   if (const auto mm = millimetresByUnit().find(unit); mm != millimetresByUnit().end())
@@ -131,10 +133,16 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
            "folder holds several")
       .forInputs(kDicom);
   table
+      .flag("fill-gaps", volume.fillGaps,
+            "Interpolate slices that are missing from a DICOM series, and those between slices of "
+            "several distances")
+      .forInputs(kDicom);
+  table
       .add(kOption.volumeIndex.name, &volume.volumeIndex, "N",
-           "Volume of a file that holds several, such as a 4-D NIfTI; the first is 0")
+           "Volume of a file that holds several, such as a 4-D NIfTI, or of a DICOM series; the first "
+           "is 0")
       .in(WholeRange{})
-      .forInputs(kFileVolumes);
+      .forInputs(kVolumes);
   OptionRow& crop = table.add(kOption.crop.name, &volume.crop, "I0,I1,J0,J1,K0,K1",
                               "Keep this box of voxel indices only, ends included");
   crop.in(WholeRange{});

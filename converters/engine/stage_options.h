@@ -33,6 +33,8 @@ struct VolumeArguments {
   std::string spacing;  ///< empty, or mm of one or three axes, with commas between them
   std::string unit;     ///< empty, or mm, cm, m, um or nm
   std::vector<std::string> allowDetached;
+  std::optional<convert::VolumeGeometry> grid;  ///< on which contours are filled
+  bool fillGaps = false;    ///< interpolate missing slices of DICOM
   bool skipFaulty = false;  ///< leave out files of DICOM that cannot be read
   [[nodiscard]] convert::ReadVolumeOptions options() const;
 };

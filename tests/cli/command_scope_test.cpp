@@ -193,7 +193,9 @@ library verify out/hurt --key publisher.pub --no-state true
 const std::map<std::string, std::set<std::string>> kElsewhere = {
     {"needs DICOM: below",
      {"check series", "fit series", "motion series", "info series", "picture series",
-      "report series", "seeds series", "track series"}},
+      "report series", "seeds series", "track series", "check fill-gaps", "fit fill-gaps",
+      "motion fill-gaps", "info fill-gaps", "picture fill-gaps", "report fill-gaps",
+      "seeds fill-gaps", "track fill-gaps"}},
     {"needs another volume, or bounds work that ends before",
      {"seeds max-trials", "seeds aneurysm-gradient", "seeds even-blur"}},
     {"tests/library and tests/pipelines",
@@ -310,6 +312,14 @@ TEST_F(CommandScopeTest, ASeriesOfDicomIsChosenByEveryCommandThatReadsVolumes) {
     EXPECT_EQ(first.error, "") << trial.operation.name;
     EXPECT_FALSE(first == effectOf(withOption(trial.operation, {"series", "2"})))
         << trial.operation.name;
+    Operation gapped = trial.operation;
+    for (std::string& argument : gapped.arguments)
+      if (argument == "series") argument = "gapped";
+    for (auto& [name, values] : gapped.options)
+      std::replace(values.begin(), values.end(), std::string("series"), std::string("gapped"));
+    const Effect refused = effectOf(gapped);
+    EXPECT_NE(refused.error.find("--fill-gaps"), std::string::npos) << refused.error;
+    EXPECT_EQ(effectOf(withOption(gapped, {"fill-gaps", "true"})).error, "") << gapped.name;
   }
 }
 

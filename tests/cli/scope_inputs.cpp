@@ -138,7 +138,7 @@ std::string withMotion(const std::string& text) {
 }
 
 constexpr const char* kSamples = R"(convert
-  --series 1 --volume-index 1 --crop 2,29,2,29,2,29 --spacing 0.21 --unit cm --allow-detached .
+  --series 1 --fill-gaps true --volume-index 1 --crop 2,29,2,29,2,29 --spacing 0.21 --unit cm --allow-detached .
   --frame ras --seeds seeds.json --seeds-frame ras --seeds-unit cm --root 3.1,3.1,5.8
   --only-connected true --seeds-only true --dark true --inlier-rate 0.6 --inlier-band 0.12
   --rays 42 --axes 21 --samples 64 --min-trials 100 --max-trials 400 --step 0.4
@@ -252,9 +252,11 @@ void ScopeTest::makeDicom() const {
   write("tube.raw", tube.substr(kNiftiHeader));
   write("header/tube.nhdr", headerOf("../tube.raw"));
   fs::create_directories(path("series"));
+  fs::create_directories(path("gapped"));
   for (std::size_t k = 0; k < kEdge; ++k) {
     write("series/a" + std::to_string(k) + ".dcm", dicomOf(tube, k, "1.2.3.1"));
     write("series/b" + std::to_string(k) + ".dcm", dicomOf(two, k, "1.2.3.2"));
+    if (k != 9) write("gapped/a" + std::to_string(k) + ".dcm", dicomOf(tube, k, "1.2.3.1"));
   }
 }
 

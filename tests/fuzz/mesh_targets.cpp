@@ -78,13 +78,11 @@ void scene(std::span<const std::byte> input) {
   }
 }
 
-constexpr Target kTargets[] = {{"stl", mesh<MeshFormat::Stl>},
-                               {"obj", mesh<MeshFormat::Obj>},
-                               {"ply", mesh<MeshFormat::Ply>},
-                               {"gltf", mesh<MeshFormat::Gltf>},
-                               {"vtp", mesh<MeshFormat::Vtp>},
-                               {"vtk", mesh<MeshFormat::Vtk>},
-                               {"scene", scene}};
+constexpr Target kTargets[] = {
+    {"stl", mesh<MeshFormat::Stl>},   {"dicom_surface", mesh<MeshFormat::DicomSurface>},
+    {"obj", mesh<MeshFormat::Obj>},   {"ply", mesh<MeshFormat::Ply>},
+    {"gltf", mesh<MeshFormat::Gltf>}, {"vtp", mesh<MeshFormat::Vtp>},
+    {"vtk", mesh<MeshFormat::Vtk>},   {"scene", scene}};
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
+#include "converters/io/volume/dicom/dicom_tree.h"
 #include "converters/io/volume/read_volume.h"
 #include "fuzz/fuzz.h"
 
@@ -67,14 +68,17 @@ auto accepted(Read read) -> std::optional<decltype(read())> {
   }
 }
 
-void readBoth(const fs::path& path, convert::VolumeFormat format) {
+void readBoth(const InputFile& path, convert::VolumeFormat format,
+              const convert::ReadVolumeOptions& options = {}) {
   const Progress silent;
-  const auto header = accepted([&] { return convert::readVolumeHeader(path, format, {}, silent); });
+  const auto header =
+      accepted([&] { return convert::readVolumeHeader(path, format, options, silent); });
   if (header) checkGeometry(header->geometry);
   // voxels of 1032 times the file are legal, but too slow for many inputs
   constexpr std::uint64_t kMostBytes = 1 << 24;
-  if (header && header->voxelBytes > kMostBytes) return;
-  const auto volume = accepted([&] { return convert::readVolume(path, format, {}, silent); });
+  if (header && (header->voxelBytes > kMostBytes || header->geometry.voxelCount() > kMostBytes))
+    return;
+  const auto volume = accepted([&] { return convert::readVolume(path, format, options, silent); });
   if (!volume) return;
   expect(header.has_value(), "a volume that is read has a header");
   expect(header->geometry.size == volume->geometry.size, "both say the same size");
@@ -117,13 +121,26 @@ void dicom(std::span<const std::byte> input) {
     file = folder.write(std::to_string(n), rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + kNext.size());
   }
-  readBoth(file.parent_path(), convert::VolumeFormat::Dicom);
+  convert::ReadVolumeOptions filled;
+  filled.fillGaps = true;
+  readBoth(file.parent_path(), convert::VolumeFormat::Dicom, filled);
+}
+
+/// A file of DICOM that stands for itself: frames, a segmentation, a structure set; and its names.
+void dicomFile(std::span<const std::byte> input) {
+  const InputFile file("a.dcm", textOf(input));
+  convert::ReadVolumeOptions options;
+  options.allowsConstant = true;
+  readBoth(file, convert::VolumeFormat::Dicom, options);
+  for (const convert::DicomSegment& segment : convert::dicomSegments(file))
+    expect(segment.number <= convert::kMostLabel, "numbers of segments are labels");
 }
 #endif
 
 constexpr Target kTargets[] = {
 #ifdef LUMEN_WITH_DICOM
     {"dicom", dicom},
+    {"dicom_file", dicomFile},
 #endif
     {"nrrd", nrrd},
     {"metaimage", metaImage},

@@ -7,6 +7,7 @@ lumen_test(mesh_test
   LIBS lumen_repair lumen_surface OpenMeshCore draco::draco meshoptimizer::meshoptimizer TinyGLTF::TinyGLTF
     nlohmann_json::nlohmann_json
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/dicom_surface_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/gltf_skin_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/sofa_scene_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_coded_gltf_test.cpp

@@ -13,10 +13,14 @@ lumen_test(volume_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_types_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/memory_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/upright_grid_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_voxels_test.cpp)
 if(LUMEN_WITH_DICOM)
   target_sources(volume_test PRIVATE
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_frames_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_labels_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_series_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_stack_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_dicom_test.cpp)
 else()

@@ -68,6 +68,7 @@ Json volumeInfoJson(const VolumeInfo& info) {
     json["labels"] = labelsJson(info.values->labels);
   }
   json["placed_by"] = header.placedBy.empty() ? Json(nullptr) : Json(header.placedBy);
+  json["resampled"] = header.resampled.empty() ? Json(nullptr) : Json(header.resampled);
   json["stored_type"] = header.storedType;
   json["encoding"] = header.encoding;
   json["voxel_bytes"] = header.voxelBytes;

@@ -62,7 +62,7 @@ public:
     operations::Source source;
     source.name = m_input.name();
     source.grey = loadVolume(m_input, from, m_volume, context.progress);
-    source.maps = loadLabelMaps(m_labels, context.progress);
+    source.maps = loadLabelMaps(m_labels, &source.grey->geometry, context.progress);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
     to.writeCase(made.value, m_output, {}, context.progress);

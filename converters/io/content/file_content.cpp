@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLookedAt = 1 << 16;
 constexpr const char* kCurves = "a centerline (3D Slicer Markups)";
+constexpr const char* kDicom = "a slice (DICOM)";
 
 struct Signature {
   std::size_t offset;
@@ -41,7 +42,7 @@ std::span<const Signature> signatures() {
       {344, "n+1\0"sv, Volume, "a volume (NIfTI)"},
       {344, "ni1\0"sv, Volume, "a volume (NIfTI)"},
       {4, "n+2\0"sv, Volume, "a volume (NIfTI)"},
-      {128, "DICM", Volume, "a slice (DICOM)"},
+      {128, "DICM", Volume, kDicom},
       {0, "# Markups fiducial file", Seeds, "seeds (3D Slicer fiducials)"},
       {0, "glTF", Mesh, "a mesh (glTF)"},
       {0, "ply\n", Mesh, "a mesh (PLY)"},
@@ -168,6 +169,16 @@ FileContent metaContent(std::string_view text) {
   return {Volume, "a volume (MetaImage)"};
 }
 
+/// Kind of a DICOM file, by its storage class.
+FileContent dicomContent(std::string_view text) {
+  using enum ContentKind;
+  constexpr std::string_view kSurfaces = "1.2.840.10008.5.1.4.1.1.66.5";
+  const std::size_t at = text.substr(0, 1024).find(kSurfaces);
+  const std::string_view rest = text.substr(at == text.npos ? text.size() : at + kSurfaces.size());
+  const bool isWhole = !rest.empty() && (rest[0] < '0' || rest[0] > '9') && rest[0] != '.';
+  return isWhole ? FileContent{Mesh, "a mesh (DICOM)"} : FileContent{Volume, kDicom};
+}
+
 std::string nounFor(ContentKind kind) {
   using enum ContentKind;
   switch (kind) {
@@ -202,7 +213,8 @@ FileContent detectContent(const InputFile& file) {
              : signature.bytes == "ObjectType" ? metaContent(view)
              : signature.bytes.starts_with("PK")
                  ? zipContent(lowerCase(file.path().filename().string()))
-                 : FileContent{signature.kind, signature.name, ""};
+             : signature.name == kDicom ? dicomContent(view)
+                                        : FileContent{signature.kind, signature.name, ""};
   if (lowerCase(file.path().filename().string()).ends_with(".swc"))
     return {Centerline, "a centerline (SWC)"};
   if (view.starts_with("<?xml") && view.find("<VTKFile") != view.npos) return vtkContent(view);
@@ -238,6 +250,10 @@ bool announces(std::string_view text, std::string_view keyword) {
 }
 
 }  // namespace
+
+bool isDicom(const FileContent& content) {
+  return content.name == kDicom;
+}
 
 bool holdsLegacyLines(const InputFile& file) {
   if (!readBeginning(file).starts_with("# vtk DataFile")) return false;

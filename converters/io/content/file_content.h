@@ -28,6 +28,9 @@ FileContent detectContent(const InputFile& file);
 /// the file has the expected kind, or its kind is unknown.
 std::string notA(ContentKind wanted, const InputFile& file);
 
+/// Whether the content is an image or a label map of DICOM.
+bool isDicom(const FileContent& content);
+
 /// Whether a file of VTK's legacy format holds lines and no surface. Reads all of it; false for a file
 /// that cannot be read.
 bool holdsLegacyLines(const InputFile& file);

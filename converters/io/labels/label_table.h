@@ -17,6 +17,8 @@
 // | map | names |
 // |---|---|
 // | NRRD | segments of 3D Slicer (.seg.nrrd): `Segment0_LabelValue:=1`, `Segment0_Name:=BA`; the type of its terminology shows the role |
+// | DICOM SEG | segments: number, label; the type of their coded terminology shows the role |
+// | RTSTRUCT | structures: number, or the place in the list if one has none; name |
 // | NIfTI | the extension of Connectome Workbench, as TotalSegmentator writes it: `<Label Key="1" ...><![CDATA[aorta]]></Label>` |
 //
 // Formats: Slicer documentation, developer guide, modules Colors and Segmentations; ITK-SNAP 4,

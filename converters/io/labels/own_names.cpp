@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
 #include "converters/io/labels/label_lines.h"
 #include "converters/io/labels/label_table.h"
+#include "converters/io/volume/dicom/dicom_tree.h"
 #include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/text_header.h"
 #include "formats/container/printable.h"
@@ -105,8 +107,46 @@ LabelNames namesOfWorkbench(std::string_view xml) {
 
 }  // namespace
 
+namespace {
+
+/// The names of segments and structures of DICOM. Those that no branch can have are passed over.
+LabelTable namesOfDicom(const InputFile& file) {
+  LabelTable table;
+  for (const DicomSegment& segment : dicomSegments(file)) {
+    try {
+      addLabelName("", std::to_string(segment.number), segment.name, table.names);
+    } catch (const Error&) {
+      continue;
+    }
+    const LabelRole role = roleOfName(segment.type);
+    if (segment.number > 0 && role != LabelRole::Unknown)
+      table.roles[static_cast<std::int64_t>(segment.number)] = role;
+  }
+  table.from = "its header";
+  table.rolesFrom = "terminology";
+  return table;
+}
+
+/// The file of a folder of one, as archives have one for a segmentation.
+std::optional<InputFile> onlyFileOf(const InputFile& folder) {
+  if (folder.files() != nullptr)
+    return folder.files()->size() == 1 ? std::optional(folder.files()->front()) : std::nullopt;
+  if (!folder.isFolder()) return std::nullopt;
+  std::optional<InputFile> only;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path(), error)) {
+    if (only || !entry.is_regular_file(error)) return std::nullopt;
+    only = InputFile(entry.path());
+  }
+  return only;
+}
+
+}  // namespace
+
 LabelTable ownNames(const InputFile& file, std::int64_t layer) {
-  if (!file.isInMemory() && !fs::is_regular_file(file.path())) return {};
+  if (const std::optional<InputFile> only = onlyFileOf(file)) return ownNames(*only, layer);
+  if (file.isFolder() || (!file.isInMemory() && !fs::is_regular_file(file.path()))) return {};
+  if (LabelTable dicom = namesOfDicom(file); !dicom.names.empty()) return dicom;
   HeaderLines lines(file);
   std::string line;
   LabelTable table;

@@ -8,8 +8,9 @@
 namespace lumen::convert {
 
 MeshFile readMesh(const InputFile& file, MeshFormat format) {
-  const std::string bytes = file.read("mesh", kAnySize);
   const std::string name = formats::printable(file.path().string());
+  if (format == MeshFormat::DicomSurface) return readDicomSurface(file, name);
+  const std::string bytes = file.read("mesh", kAnySize);
   switch (format) {
     case MeshFormat::Stl:
       return parseStl(bytes, name);
@@ -23,6 +24,8 @@ MeshFile readMesh(const InputFile& file, MeshFormat format) {
       return parseVtp(bytes, name);
     case MeshFormat::Vtk:
       return parseVtk(bytes, name);
+    case MeshFormat::DicomSurface:
+      break;
   }
   throw unsupported(name + ": lumen cannot read meshes of this format");
 }

@@ -97,7 +97,12 @@ struct DecodedDraco {
 DecodedDraco decodeDracoMesh(std::string_view bytes, std::uint32_t position, std::size_t points,
                              std::size_t triangles);
 
-enum class MeshFormat : std::uint8_t { Stl, Obj, Ply, Gltf, Vtp, Vtk };
+// Surface segmentations of DICOM.
+
+/// The surfaces of a file, in mm and LPS; each is a group with the name of its segment.
+MeshFile readDicomSurface(const InputFile& file, const std::string& name);
+
+enum class MeshFormat : std::uint8_t { Stl, Obj, Ply, Gltf, Vtp, Vtk, DicomSurface };
 
 /// Reads a file of the given format: STL (ASCII or binary, several solids), OBJ (polygons become
 /// fans), PLY (ASCII, little and big endian), glTF (GLB or text; buffers inside the file or in its

@@ -70,7 +70,6 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
                           " mm, which is unusual; state the unit with " + options.word("unit"));
   else if (!stated.unit && !options.unit && !options.spacing && !stated.unitNote.empty())
     assumptions.push_back(stated.unitNote);
-  checkGeometry(geometry, path);
   return geometry;
 }
 

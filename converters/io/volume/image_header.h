@@ -38,8 +38,8 @@ struct StatedGeometry {
 /// The geometry in mm: spacing and unit are those of the options, else of the header, else 1 mm. An
 /// assumed spacing, or an implausible one in an assumed unit, appends a sentence to `assumptions`.
 /// Throws Error(InvalidInput), naming `path` and the option that helps, for a spacing that is
-/// stated along some axes only, or is not positive, finite and within 1e-6 to 1e4 mm, and as
-/// checkGeometry() does.
+/// stated along some axes only, or is not positive, finite and within 1e-6 to 1e4 mm. The axes may
+/// lean (upright_grid.h).
 VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOptions& options,
                                const std::filesystem::path& path,
                                std::vector<std::string>& assumptions);
@@ -82,8 +82,10 @@ StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int
 
 // Conversion between NIfTI-1's header, in RAS, and lumen's geometry, in LPS.
 
-/// The placement of the voxels by `header`. The sform is used if its axes are orthogonal and either
-/// the qform is not stated, or the sform is the scanner's; the qform otherwise. A transform that is
+/// The placement of the voxels by `header`: by the transform of the higher code, by the sform of equal
+/// ones. An sform of the scanner or of another scan (codes 1 and 2) whose axes lean counts whatever the
+/// codes, if the qform, which holds no lean, is more than half a voxel off; one of a template (3 to 5)
+/// that leans counts only without a qform. A transform that is
 /// invalid (numbers that are not finite, no rotation) is replaced by the other, and if none is
 /// stated, the volume's own axes are used; this, transforms that disagree, and another spacing in
 /// the sform that the options do not settle, append a sentence each to `assumptions`. Throws

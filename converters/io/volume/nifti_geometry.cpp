@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include <Eigen/LU>
+
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
@@ -27,6 +29,8 @@ using Eigen::Vector3d;
 // rejects an orthogonal sform whose inverse in floats is inaccurate, and leaves the origin of a file in
 // metres unconverted.
 constexpr double kOrthogonal = 1e-4;
+constexpr double kLeastUpright = 0.7;  // volume of unit axes, below which they are none of an image
+constexpr const char* kSheared = "its axes' directions (sform) are not orthogonal";
 // Limit of the norm of a quaternion's b, c and d, which belong to a unit vector: a greater one is
 // no rounding of floats.
 constexpr double kLongQuaternion = 1 + 1e-3;
@@ -44,7 +48,7 @@ constexpr std::int16_t kScannerTransform = 1, kAlignedTransform = 2;
 /// A transform of the header in RAS and the file's unit; a fault, if it is invalid.
 struct Transform {
   bool stated = false;
-  bool isSheared = false;  ///< axes are lengths along directions that are not orthogonal
+  bool isSheared = false;  ///< axes lean
   std::string fault;
   const char* remedy =
       "expected a place in space; write its transform again, by the tool it is from";
@@ -69,10 +73,11 @@ Transform sformOf(const NiftiHeader& header) {
     sform.fault = "its sform has numbers that are not finite";
   } else if (!(sform.axes.colwise().norm().minCoeff() > 0)) {
     sform.fault = "its sform has an axis without a length";
-  } else if (!(skew <= kOrthogonal)) {
-    sform.isSheared = true;
-    sform.fault = "its axes' directions (sform) are not orthogonal";
+  } else if (!(std::abs(axes.determinant()) >= kLeastUpright)) {
+    sform.fault = kSheared;
     sform.remedy = "resample the volume to an orthogonal grid first";
+  } else {
+    sform.isSheared = !(skew <= kOrthogonal);
   }
   return sform;
 }
@@ -128,27 +133,24 @@ void reportDisagreement(const Transform& used, const char* name, const Transform
                         " is right, remove the " + name + " (set its code to 0)");
 }
 
-/// Refuses a grid that the sform shears, as a gantry tilt does, and that the qform, which cannot, places
-/// elsewhere. The sform of an atlas is another space than the scanner's, and counts for nothing here.
-void refuseShear(const Transform& sform, const Transform& qform, const NiftiHeader& header,
-                 const std::filesystem::path& path) {
-  if (!sform.isSheared || !qform.usable() || header.sformCode > kAlignedTransform) return;
+/// Whether an sform that leans, as by a gantry tilt, is the grid of the scan, which no qform can state:
+/// it is the scanner's or that of another scan, and the qform is elsewhere, or there is no qform. One of
+/// an atlas leans by a registration that changes shapes.
+bool isTilted(const Transform& sform, const Transform& qform, const NiftiHeader& header) {
+  if (!sform.isSheared || !sform.usable()) return false;
+  if (!qform.usable()) return true;
   const double apart = distanceOf(qform, sform, header);
   const double voxel = toEigen(header.pixdim).minCoeff();
-  if (!(apart > kAgree * voxel)) return;
-  throw invalidInput(path.string() + ": " + sform.fault +
-                     ", as by a gantry tilt, and its qform (code " +
-                     std::to_string(header.qformCode) + ") places voxels up to " +
-                     numberText(apart / voxel, 3) + " voxels elsewhere; " + sform.remedy +
-                     ", or remove the sform (set its code to 0) if the qform is right");
+  return header.sformCode <= kAlignedTransform && apart > kAgree * voxel;
 }
 
 /// The transform that places the voxels, or null if none is stated.
-const Transform* chosenTransform(const Transform& sform, const Transform& qform,
+const Transform* chosenTransform(Transform& sform, const Transform& qform,
                                  const NiftiHeader& header, const std::filesystem::path& path,
                                  std::vector<std::string>& assumptions) {
   if (!sform.stated && !qform.stated) return nullptr;
-  refuseShear(sform, qform, header, path);
+  if (isTilted(sform, qform, header)) return &sform;
+  if (sform.isSheared) sform.fault = kSheared;
   const bool prefersS = sform.stated && (!qform.stated || header.sformCode >= header.qformCode);
   const Transform& first = prefersS ? sform : qform;
   const Transform& second = prefersS ? qform : sform;
@@ -206,7 +208,8 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
                     "), so lengths are taken as mm; state the unit with " + options.word("unit");
   geometry.size = header.size;
   geometry.spacing = toEigen(header.pixdim);
-  const Transform sform = sformOf(header), qform = qformOf(header);
+  Transform sform = sformOf(header);
+  const Transform qform = qformOf(header);
   const Transform* transform = chosenTransform(sform, qform, header, path, assumptions);
   if (transform == nullptr) {
     assumptions.emplace_back(
@@ -217,7 +220,11 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
   }
   stated.placedBy = transform == &sform ? "sform (code " + std::to_string(header.sformCode) + ")"
                                         : "qform (code " + std::to_string(header.qformCode) + ")";
-  if (!options.spacing) reportOtherSpacing(sform, geometry.spacing, options.word, assumptions);
+  // lengths along axes that lean are no distances of slices, which pixdim may state
+  const bool leans = transform == &sform && sform.isSheared;
+  if (leans) geometry.spacing = sform.axes.colwise().norm();
+  if (!options.spacing && !leans)
+    reportOtherSpacing(sform, geometry.spacing, options.word, assumptions);
   geometry.origin = kLpsFromRas.cwiseProduct(transform->offset);
   geometry.direction = kLpsFromRas.asDiagonal() * transform->axes;
   geometry.direction.colwise().normalize();

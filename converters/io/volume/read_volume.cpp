@@ -12,6 +12,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/io/volume/image_header.h"
+#include "converters/io/volume/upright_grid.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -35,7 +36,7 @@ void refuseWebPage(const InputFile& file) {
                        "download with a page of its own");
 }
 
-/// Throws unless the path is a folder for a format of folders, and a file for any other.
+/// Throws for a folder where the format is one of files, and for what is neither.
 void checkPlace(const InputFile& file, const VolumeFormat& format,
                 const ReadVolumeOptions& options) {
   const fs::path& path = file.path();
@@ -43,20 +44,12 @@ void checkPlace(const InputFile& file, const VolumeFormat& format,
   if (!file.isInMemory() && !fs::exists(path, ignored))
     throw invalidInput(path.string() + ": no such file or directory");
   const bool folder = file.isFolder();
-  if (format.isFolder && !folder)
-    throw invalidInput(path.string() +
-                       ": this is a file; a DICOM series is read from the folder that holds it");
   if (!format.isFolder && folder)
     throw invalidInput(path.string() + ": this is a folder; expected a file");
   if (!folder && !file.isInMemory() && !fs::is_regular_file(path, ignored))
     throw invalidInput(path.string() + ": this is a device or a pipe; expected a file");
-  if (!folder && !options.series.empty())
-    throw invalidInput(path.string() +
-                       ": is a file; a series can be chosen in a DICOM directory only");
-  if (folder && options.volumeIndex)
-    throw invalidInput(path.string() + ": is a folder of DICOM, in which " +
-                       options.word("series") + " chooses; " + options.word("volume-index") +
-                       " is for files of several volumes");
+  if (!format.isFolder && !options.series.empty())
+    throw invalidInput(path.string() + ": is a file; a series can be chosen in DICOM only");
   if (!folder) refuseWebPage(file);
 }
 
@@ -84,7 +77,14 @@ OpenVolume open(const InputFile& file, const VolumeFormat& format, const ReadVol
   checkPlace(file, format, options);
   progress.check();
   OpenVolume opened = format.open(file, options, progress);
-  moveFarOrigin(opened.header.geometry, opened.header.assumptions);
+  VolumeHeader& header = opened.header;
+  moveFarOrigin(header.geometry, header.assumptions);
+  opened.stored = standUpright(header.geometry);
+  checkGeometry(header.geometry, file.path());
+  if (opened.stored)
+    header.resampled += (header.resampled.empty() ? "" : "; ") +
+                        uprightSentence(*opened.stored, header.geometry);
+  if (!header.resampled.empty()) header.assumptions.push_back(header.resampled);
   return opened;
 }
 
@@ -103,6 +103,10 @@ Volume readVolume(const InputFile& file, const VolumeFormat& format,
   Volume volume{opened.header.geometry, {}, std::move(opened.header.assumptions), opened.padding};
   volume.voxels = opened.readVoxels(progress, volume.assumptions);
   progress.check();
+  if (opened.stored) {
+    checkVoxels(volume, file.path(), options.allowsConstant);
+    resampleUpright(*opened.stored, volume, progress);
+  }
   if (options.crop) crop(volume, *options.crop, file.path());
   checkVoxels(volume, file.path(), options.allowsConstant);
   progress.check();

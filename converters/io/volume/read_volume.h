@@ -19,9 +19,10 @@ VolumeHeader readVolumeHeader(const InputFile& file, const VolumeFormat& format,
 
 /// Reads a file of NIfTI-1, NRRD or MetaImage, or a DICOM series (of the files of a folder and
 /// of the folders below it), whatever its name; 3-D, scalar, of any pixel type. A direction that is
-/// orthonormal within 1e-3 is made exactly orthonormal. Throws Error(InvalidInput) for a file that
+/// orthonormal within 1e-3 is made exactly orthonormal, and axes that lean by more are resampled to an
+/// upright grid (upright_grid.h). Throws Error(InvalidInput) for a file that
 /// is missing, truncated or damaged, not 3-D, multi-component, constant, has infinite
-/// voxels, axes that are not orthogonal, a spacing that is not positive or a crop box outside of
+/// voxels, axes that lean by more than 45 degrees, a spacing that is not positive or a crop box outside of
 /// it, for a DICOM stack with gaps, for an ambiguous DICOM series (the message lists them), or for
 /// voxels in a file outside of the header's folder that the options do not allow;
 /// Error(Unsupported) for features of these formats that lumen does not read; Error(Cancelled).

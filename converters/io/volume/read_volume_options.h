@@ -33,9 +33,12 @@ struct ReadVolumeOptions {
   /// DICOM: files that cannot be read are left out, and an assumption names each, instead of a
   /// refusal of the series.
   bool skipFaulty = false;
+  bool fillGaps = false;  ///< DICOM: slices that are missing are interpolated between others
+  /// The grid on which contours are filled (RTSTRUCT); empty: that of the images which they refer to.
+  std::optional<VolumeGeometry> grid{};
   bool allowsConstant = false;  ///< voxels may all be equal, as those of a mask of nothing are
   /// Names, in messages and assumptions, the fields by which a caller states these: "series",
-  /// "volume-index", "spacing", "unit", "allow-detached".
+  /// "volume-index", "spacing", "unit", "allow-detached", "fill-gaps".
   FieldWord word{};
 };
 
@@ -48,6 +51,7 @@ struct VolumeHeader {
   std::uint64_t voxelBytes = 0;   ///< size of all voxels in the stored type, unpacked
   std::uint64_t storedBytes = 0;  ///< size of the files that hold them
   std::string placedBy;  ///< of a NIfTI's transforms the one that counts; empty for other formats
+  std::string resampled;  ///< a sentence; empty where the voxels are those of the file
   /// Assumptions of the reader where the header is incomplete: each a sentence that names the
   /// assumption and the option that overrides it. They do not name the file.
   std::vector<std::string> assumptions;

@@ -23,6 +23,8 @@ namespace lumen::convert {
 struct OpenVolume {
   VolumeHeader header;
   std::optional<std::array<float, 2>> padding{};  ///< as Volume::padding
+  /// The grid of the voxels that are read, if the header's is to be resampled from it; its axes lean.
+  std::optional<VolumeGeometry> stored{};
   /// Reads the voxels; appends sentences about them to `assumptions`.
   std::function<Voxels(const Progress&, std::vector<std::string>& assumptions)> readVoxels;
 };
@@ -41,7 +43,7 @@ struct VolumeFormat {
   OpenVolume (*open)(const InputFile&, const ReadVolumeOptions&, const Progress&);
   /// As encodeVolume(); null for a format that is not written.
   VolumeEncoder* encode = nullptr;
-  bool isFolder = false;  ///< of a folder; others are of a file
+  bool isFolder = false;  ///< of a folder or a file; others are of a file
 
   // Each is defined beside its reader. The voxels of NRRD and MetaImage may be in files of their own
   // that the header names.
@@ -51,7 +53,8 @@ struct VolumeFormat {
   /// Error(Unsupported) for NIfTI-2 and pairs of files.
   static const VolumeFormat Nifti;
   /// The series of DICOM files in a folder that the options name, or its only one: slices that form
-  /// a regular stack, or one multi-frame file.
+  /// a regular stack, or frames of files that do; or a file: a DICOMDIR, a slice of a series beside it, a
+  /// file of several frames, a segmentation, or a structure set.
   static const VolumeFormat Dicom;
 };
 

@@ -26,8 +26,6 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostLabels = 255;
 constexpr std::size_t kMostListed = 10;
-constexpr double kGreyShare =
-    1.0 / 3;  // share of neighbours that differ, beyond which voxels are no labels
 constexpr double kSpread = 0.7;   // voxels: the standard deviation that takes the steps away
 constexpr int kKernelVoxels = 3;  // voxels: where its kernel ends
 constexpr int kHalo = 2 * kKernelVoxels;  // reach of the kernel applied twice
@@ -70,19 +68,6 @@ std::set<std::int64_t> collectValues(const std::vector<T>& voxels, const LabelNa
           " different values; expected labels, or a choice of them by label or labels");
   }
   return values;
-}
-
-/// True if neighbours that are not 0 differ as the grey values of an image do; labels have equal
-/// neighbours but at their borders.
-template <class T>
-bool isGrey(const std::vector<T>& voxels) {
-  std::size_t pairs = 0, different = 0;
-  for (std::size_t i = 1; i < voxels.size(); ++i) {
-    if (voxels[i] == T{} || voxels[i - 1] == T{}) continue;
-    ++pairs;
-    different += voxels[i] != voxels[i - 1];
-  }
-  return static_cast<double>(different) > kGreyShare * static_cast<double>(pairs);
 }
 
 /// Samples of the labels' voxels for marching cubes, slab by slab.
@@ -285,24 +270,6 @@ void dropUnused(TriangleMesh& mesh) {
 }
 
 }  // namespace
-
-bool holdsLabels(const Volume& volume) {
-  return std::visit(
-      [](const auto& voxels) {
-        using T = typename std::decay_t<decltype(voxels)>::value_type;
-        constexpr double kLargest = 1e9;  // far more labels than any volume has
-        const auto isLabel = [](T v) {
-          const auto value = static_cast<double>(v);
-          return value >= 0 && value <= kLargest && value == std::floor(value);
-        };
-        if (!std::all_of(voxels.begin(), voxels.end(), isLabel)) return false;
-        const bool hasBackground = std::find(voxels.begin(), voxels.end(), T{}) != voxels.end();
-        const bool hasLabel =
-            std::any_of(voxels.begin(), voxels.end(), [](T v) { return v != T{}; });
-        return hasBackground && hasLabel && !isGrey(voxels);
-      },
-      volume.voxels);
-}
 
 LabelMask makeLabelMask(const Volume& volume, const LabelNames& wanted, const std::string& name) {
   if (wanted.size() > kMostLabels)

@@ -11,6 +11,7 @@
 #include "converters/base/progress.h"
 #include "converters/geometry/mesh_measures.h"
 #include "converters/io/labels/label_table.h"
+#include "converters/voxels/label_voxels.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
@@ -25,10 +26,6 @@ struct LabelMask {
   std::vector<std::string> names;    ///< as many
   bool isGrey = false;               ///< neighbours differ as the grey values of an image do
 };
-
-/// True for whole numbers whose voxels are equal to their neighbours, but at borders, as labels are:
-/// a mask or a label map. One value alone is none.
-bool holdsLabels(const Volume& volume);
 
 /// The voxels with these labels; all but 0, called "label-N", if `wanted` is empty. Throws
 /// Error(InvalidInput), `name` (of the file, printable) first, for voxels that are no whole

@@ -95,7 +95,7 @@ class Volume:
         array : (ni, nj, nk)
             The fastest axis of :class:`Volume` first: the other way round than ``Volume(array)``.
         affine : (4, 4)
-            From (i, j, k) to mm; its axes are orthogonal.
+            From (i, j, k) to mm; axes that lean are resampled to an upright grid.
         frame : "ras" or "lps"
             Frame that the affine leads to: NIfTI's is RAS.
         """

@@ -99,7 +99,7 @@ def case_of(source, *, affine=None, affine_frame="ras", labels=None, **options) 
     source : array, Volume, image, path or Case
         As for :func:`convert`; an array [k, j, i] without ``affine``, and [i, j, k] with it.
     affine : (4, 4), optional
-        From the indices (i, j, k) of the array to mm, as nibabel's ``image.affine``; its axes are orthogonal.
+        From the indices (i, j, k) of the array to mm, as nibabel's ``image.affine``; axes that lean are resampled.
     affine_frame : "ras" or "lps"
         Frame that the affine leads to.
     labels : array, Volume, image or dict, optional

@@ -176,7 +176,7 @@ class StandInTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "found 'RAS', expected 'ras' or 'lps'"):
             lumen.Volume.of_affine(VOXELS.T, np.eye(4), "RAS")
         sheared = np.eye(4)
-        sheared[0, 1] = 0.2
+        sheared[0, 1] = 2
         with self.assertRaisesRegex(lumen.Error, "not orthogonal unit vectors"):
             lumen.case_of(VOXELS.T, affine=sheared)
 

@@ -199,7 +199,7 @@ FILES.update({
     "flat.nrrd": lambda store: nrrd(sizes="4 2"),
     "blank.nrrd": lambda store: cube([7] * 40 ** 3),
     "dark.nrrd": lambda store: cube(20 if v else 200 - n % 3 for n, v in enumerate(in_tube())),
-    "sheared.mha": lambda store: meta("ElementSpacing = 1 1 1", "TransformMatrix = 1 0 0 0.1 0.995 0 0 0 1"),
+    "sheared.mha": lambda store: meta("ElementSpacing = 1 1 1", "TransformMatrix = 1 0 0 0.8 0.6 0 0 0 1"),
     "moved.mhd": lambda store: meta("ElementSpacing = 1 1 1", data="moved.raw", voxels=b""),
     "outside.mhd": lambda store: meta("ElementSpacing = 1 1 1", data="/etc/passwd", voxels=b""),
     "copied.nii.gz": copied,

@@ -238,16 +238,6 @@ TEST_F(Dicom, SlicesOfDifferentSizeAreRefused) {
   expectRefused(readRefusal(directory()), {"3: ", "differ in size"});
 }
 
-TEST_F(Dicom, TiltedStackIsRefused) {
-  DicomSlice slice;
-  for (int n = 0; n < 4; ++n) {
-    slice.number = n + 1;
-    slice.position = "0\\" + std::to_string(n) + "\\" + std::to_string(2 * n);
-    write(std::to_string(n) + ".dcm", slice.bytes());
-  }
-  expectRefused(readRefusal(directory()), {"3: ", "tilted"});
-}
-
 TEST_F(Dicom, SpacingThatIsNotPositiveIsRefused) {
   for (const char* bad : {"0\\0", "-0.5\\0.5", ""}) {
     DicomSlice slice;

@@ -108,8 +108,9 @@ TEST_F(HostileDicom, AnElementTwiceIsRefused) {
 
 TEST_F(HostileDicom, BitsThatAreNoneAreRefused) {
   for (const auto& [bits, used, high] :
-       {std::array{16, 0, 0}, std::array{16, 17, 16}, std::array{16, 12, 12},
-        std::array{12, 12, 11}, std::array{0, 0, 0}, std::array{64, 64, 63}}) {
+       {std::array{16, 0, 0}, std::array{16, 17, 16}, std::array{16, 12, 16},
+        std::array{16, 12, 10}, std::array{12, 12, 11}, std::array{0, 0, 0},
+        std::array{64, 64, 63}}) {
     DicomSlice slice = second();
     slice.bits = bits;
     slice.bitsUsed = used;
@@ -269,7 +270,7 @@ TEST_F(HostileDicom, WhatStopsTheDecoderStopsNothingElse) {
 }
 
 TEST_F(HostileDicom, OtherTransferSyntaxesAreUnsupported) {
-  for (const char* uid : {"1.2.840.10008.1.2.4.100", "1.2.840.10008.1.2.1.99", "", "x\x1b[1m"}) {
+  for (const char* uid : {"1.2.840.10008.1.2.4.100", "", "x\x1b[1m"}) {
     DicomSlice slice = second();
     slice.syntax = uid;
     expectFault(slice.bytes(), {"4: ", "transfer syntax", "JPEG"});

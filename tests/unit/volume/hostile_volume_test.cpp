@@ -103,7 +103,7 @@ TEST_F(HostileVolume, EachOfMetaImageIsNamed) {
       {{"ElementSpacing = 1 -0.12345678912345 1"}, kSound, {"3: ", "spacing of -0.123456789123 "}},
       {{"TransformMatrix = 1 0 0 1 0 0 0 0 1"}, kSound, {"3: ", "directions", "orthogonal"}},
       {{"TransformMatrix = 0 0 0 0 0 0 0 0 0"}, kSound, {"3: "}},
-      {{"TransformMatrix = 1 0 0 0.1 0.995 0 0 0 1"}, kSound, {"3: ", "orthogonal"}},
+      {{"TransformMatrix = 1 0 0 0.8 0.6 0 0 0 1"}, kSound, {"3: ", "orthogonal"}},
       {{}, std::string(8, '\7'), {"3: ", "every voxel is 7"}},
       {{"ElementType = MET_FLOAT"},
        bytes<float>({1, 2, nan, 3, -std::numeric_limits<float>::infinity(), 4, 5, 6}),

@@ -88,13 +88,10 @@ TEST_F(ReadVolume, NamesDoNotMatter) {
   }
 }
 
-TEST_F(ReadVolume, AFolderIsDicomAndNothingElseIs) {
+TEST_F(ReadVolume, AFolderIsNoFileOfAnotherFormat) {
   const Progress silent;
   expectRefused(refusal([&] { (void)readVolume(path(""), VolumeFormat::Nifti, {}, silent); }),
                 {"3: ", "folder"});
-  expectRefused(
-      refusal([&] { (void)readVolume(write("a.dcm", "x"), VolumeFormat::Dicom, {}, silent); }),
-      {"3: ", "a.dcm", "folder that holds it"});
 }
 
 TEST_F(ReadVolume, CompressedFormatsAreCompressed) {

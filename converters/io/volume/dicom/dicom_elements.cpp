@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <zlib.h>
+
 #include "converters/base/error.h"
 #include "converters/base/options/parsed_number.h"
 
@@ -24,8 +26,16 @@ constexpr DicomTag kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xf
 
 /// Sequences that are parsed although an implicit syntax does not mark them as sequences:
 /// functional groups of frames, and their content.
-constexpr std::array<DicomTag, 6> kSequences = {0x52009229, 0x52009230, 0x00209113,
-                                                0x00209116, 0x00289110, 0x00289145};
+constexpr std::array kSequences = {
+    // frames: their place, measures and values, content, type, echo, diffusion, heartbeat
+    0x52009229U, 0x52009230U, 0x00209113U, 0x00209116U, 0x00289110U, 0x00289145U, 0x00209111U,
+    0x00189329U, 0x00189226U, 0x00189504U, 0x00189114U, 0x00189117U, 0x00189118U,
+    // segments, their codes, and surfaces
+    0x00620002U, 0x00620003U, 0x0062000aU, 0x0062000fU, 0x00082218U, 0x00660002U, 0x0066002bU,
+    0x00660011U, 0x00660013U, 0x00660026U, 0x00660027U, 0x00660034U,
+    // structures and their contours
+    0x30060010U, 0x30060012U, 0x30060014U, 0x30060020U, 0x30060039U, 0x30060040U, 0x30060080U,
+    0x30060086U};
 
 [[noreturn]] void refuse(std::uint64_t at, const std::string& what) {
   throw invalidInput("damaged at byte " + std::to_string(at) + ": " + what);
@@ -46,7 +56,7 @@ public:
   /// first of another group than `onlyGroup`. Returns the offset after them.
   std::uint64_t walk(std::uint64_t at, std::uint64_t end, bool open, int onlyGroup = -1) {
     while (at < end) {
-      if (m_hasPixels && m_path.empty() && isPadding(at)) return end;
+      if (m_hasPixels && m_place.path.empty() && isPadding(at)) return end;
       if (onlyGroup >= 0 && end - at >= 2 && number<std::uint16_t>(at) != onlyGroup) return at;
       const Head head = readHead(at, end);
       if (open && head.tag == kItemEnd) {
@@ -125,7 +135,7 @@ private:
 
   std::uint64_t walkElement(const Head& head, std::uint64_t end) {
     if (head.tag >> 16U == 0xfffe) refuse(head.at, tagText(head.tag) + " outside of a sequence");
-    m_hasPixels = m_hasPixels || (head.tag == kPixelData && m_path.empty());
+    m_hasPixels = m_hasPixels || (head.tag == kPixelData && m_place.path.empty());
     DicomElement element;
     element.tag = head.tag;
     element.vr = head.vr;
@@ -133,14 +143,14 @@ private:
     if (head.tag == kPixelData && head.length == kUndefined) {
       element.encapsulated = true;
       element.value.length = 0;
-      const std::uint64_t next = walkFragments(head.value, end, element.fragments);
-      m_visit(element, m_path, m_item);
+      const std::uint64_t next = walkFragments(head.value, end, element);
+      m_visit(element, m_place);
       return next;
     }
     if (head.length != kUndefined) require(head.value, head.length, end, "a value");
     if (isSequence(head)) return walkSequence(head, end);
     if (head.length == kUndefined) refuse(head.at, tagText(head.tag) + " has no length");
-    m_visit(element, m_path, m_item);
+    m_visit(element, m_place);
     return head.value + head.length;
   }
 
@@ -153,16 +163,18 @@ private:
   }
 
   std::uint64_t walkSequence(const Head& head, std::uint64_t end) {
-    if (m_path.size() == kMaxDepth)
+    if (m_place.path.size() == kMaxDepth)
       refuse(head.at, "more than " + std::to_string(kMaxDepth) + " sequences within one another");
     const DicomSyntax outer = m_syntax;
     // a sequence of unknown representation is written implicitly (PS3.5, 6.2.2)
     if (head.vr == std::array{'U', 'N'}) m_syntax = {.explicitVr = false, .bigEndian = false};
     const bool open = head.length == kUndefined;
     const std::uint64_t stop = open ? end : head.value + head.length;
-    m_path.push_back(head.tag);
+    m_place.path.push_back(head.tag);
+    m_place.items.push_back(0);
     const std::uint64_t next = walkItems(head.value, stop, open);
-    m_path.pop_back();
+    m_place.path.pop_back();
+    m_place.items.pop_back();
     m_syntax = outer;
     return next;
   }
@@ -175,7 +187,7 @@ private:
         return item.value;
       }
       if (item.tag != kItem) refuse(at, tagText(item.tag) + " where an item of a sequence begins");
-      if (m_path.size() == 1) m_item = count;
+      m_place.items.back() = count;
       const bool openItem = item.length == kUndefined;
       if (!openItem) require(item.value, item.length, end, "an item");
       at = walk(item.value, openItem ? end : item.value + item.length, openItem);
@@ -184,16 +196,17 @@ private:
     return at;
   }
 
-  std::uint64_t walkFragments(std::uint64_t at, std::uint64_t end,
-                              std::vector<DicomExtent>& fragments) {
+  std::uint64_t walkFragments(std::uint64_t at, std::uint64_t end, DicomElement& element) {
     for (bool first = true; at < end; first = false) {
       const Head head = readHead(at, end);
       if (head.tag == kSequenceEnd && head.length == 0 && !first) return head.value;
       if (head.tag != kItem || head.length == kUndefined)
         refuse(at, tagText(head.tag) + " where a fragment of compressed pixels begins");
       require(head.value, head.length, end, "a fragment of compressed pixels");
-      if (!first)
-        fragments.push_back({head.value, head.length});  // the first is a table of offsets
+      if (first)
+        element.offsets = {head.value, head.length};
+      else
+        element.fragments.push_back({head.value, head.length});
       at = head.value + head.length;
     }
     refuse(at, "compressed pixels have no end");
@@ -202,8 +215,7 @@ private:
   DicomBytes& m_bytes;
   DicomSyntax m_syntax;
   const DicomVisitor& m_visit;
-  std::vector<DicomTag> m_path;
-  std::size_t m_item = 0;
+  DicomPlace m_place;
   bool m_hasPixels = false;
 };
 
@@ -220,7 +232,7 @@ DicomBytes::DicomBytes(const InputFile& file) {
 
 void DicomBytes::read(std::uint64_t at, std::span<std::byte> to) {
   if (at > m_size || m_size - at < to.size()) refuse(at, "the file ends");
-  if (to.size() > kWindow) return readAt(at, to);
+  if (m_file && to.size() > kWindow) return readAt(at, to);
   const bool inside = at >= m_windowAt && at - m_windowAt <= m_window.size() &&
                       m_window.size() - (at - m_windowAt) >= to.size();
   if (!inside) {
@@ -230,6 +242,37 @@ void DicomBytes::read(std::uint64_t at, std::span<std::byte> to) {
   }
   std::copy_n(m_window.begin() + static_cast<std::ptrdiff_t>(at - m_windowAt), to.size(),
               to.begin());
+}
+
+void DicomBytes::inflateFrom(std::uint64_t at) {
+  constexpr std::size_t kStep = std::size_t{1} << 20;
+  constexpr std::uint64_t kMost = std::uint64_t{4} << 30;
+  std::vector<std::byte> packed(m_size - at), out(at);
+  if (at > 0) readAt(0, out);
+  if (!packed.empty()) readAt(at, packed);
+  z_stream stream{};
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw invalidInput("cannot be unpacked");
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
+  int state = Z_OK;
+  for (std::size_t read = 0; state == Z_OK && out.size() < kMost;) {
+    if (stream.avail_in == 0) {
+      stream.avail_in = static_cast<uInt>(std::min(kStep, packed.size() - read));
+      stream.next_in = reinterpret_cast<Bytef*>(packed.data() + read);
+      read += stream.avail_in;
+    }
+    const std::size_t before = out.size();
+    out.resize(before + kStep);
+    stream.next_out = reinterpret_cast<Bytef*>(out.data() + before);
+    stream.avail_out = static_cast<uInt>(kStep);
+    state = inflate(&stream, Z_NO_FLUSH);
+    out.resize(out.size() - stream.avail_out);
+  }
+  if (state != Z_STREAM_END)
+    refuse(at, "its deflated data set (1.2.840.10008.1.2.1.99) cannot be unpacked");
+  m_file.reset();
+  m_size = out.size();
+  m_windowAt = 0;
+  m_window = std::move(out);
 }
 
 void DicomBytes::readAt(std::uint64_t at, std::span<std::byte> to) {

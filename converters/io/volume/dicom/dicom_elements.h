@@ -30,13 +30,16 @@ public:
   [[nodiscard]] std::uint64_t size() const { return m_size; }
   /// Fills `to`, which must lie within the file.
   void read(std::uint64_t at, std::span<std::byte> to);
+  /// Replaces all bytes from `at` on by what they unpack to (deflate, RFC 1951). Throws
+  /// Error(InvalidInput) for a stream that is damaged, or unpacks to more than 4 GB.
+  void inflateFrom(std::uint64_t at);
 
 private:
   void readAt(std::uint64_t at, std::span<std::byte> to);
 
   std::unique_ptr<std::istream> m_file;
   std::uint64_t m_size = 0, m_windowAt = 0;
-  std::vector<std::byte> m_window;
+  std::vector<std::byte> m_window;  ///< all bytes, if they were unpacked
 };
 
 struct DicomExtent {
@@ -49,6 +52,7 @@ struct DicomElement {
   DicomExtent value;
   bool encapsulated = false;           ///< pixels are in `fragments`, not in `value`
   std::vector<DicomExtent> fragments;  ///< without the table of offsets
+  DicomExtent offsets;                 ///< the table, of four bytes each; may be empty
 };
 
 /// Encoding of a data set.
@@ -56,10 +60,15 @@ struct DicomSyntax {
   bool explicitVr = true, bigEndian = false;
 };
 
-/// Called for each element that is not a sequence. `path` holds the sequences around it, outermost
-/// first; `item` is the number, from 0, of the item of the outermost one.
-using DicomVisitor =
-    std::function<void(const DicomElement&, std::span<const DicomTag> path, std::size_t item)>;
+/// Place of an element: the sequences around it, outermost first, and the number of the item in each,
+/// from 0.
+struct DicomPlace {
+  std::vector<DicomTag> path;
+  std::vector<std::size_t> items;
+};
+
+/// Called for each element that is not a sequence.
+using DicomVisitor = std::function<void(const DicomElement&, const DicomPlace&)>;
 
 /// Walks the file's meta information, group 2, from byte `at`; returns the byte after it. Throws as
 /// walkDicom() does.

@@ -20,12 +20,17 @@ struct DicomFolder {
   std::map<std::string, std::vector<DicomImage>> series;
   std::map<std::string, std::vector<std::string>> remarks;  ///< of series, a sentence each
   std::vector<DicomScan> faulty;
-  std::vector<InputFile> others;  ///< files that are no DICOM images
+  std::vector<InputFile> others;      ///< files that are no DICOM images
+  std::vector<InputFile> structures;  ///< of `others` those that are structure sets
 };
 
 /// Throws Error(InvalidInput) for a folder that cannot be listed, and one with more than half a
 /// million files below it; Error(Cancelled).
-DicomFolder scanDicomFolder(const InputFile& folder, const Progress& progress);
+/// `isFlat`: without the folders below it.
+DicomFolder scanDicomFolder(const InputFile& folder, const Progress& progress, bool isFlat = false);
+
+/// The folder of a file on this disk.
+InputFile folderOf(const InputFile& file);
 
 /// The images of one series.
 struct DicomChoice {
@@ -37,7 +42,10 @@ struct DicomChoice {
 /// the only one). Throws Error(InvalidInput) if there is no such series or several (the message
 /// lists them); the fault of a file that belongs to the series, or that names none and lies in
 /// a folder of the series, unless the options leave such files out; Error(Cancelled).
-DicomChoice findDicomSeries(const InputFile& folder, const ReadVolumeOptions& options,
+///
+/// A file in place of a folder is a DICOMDIR, whose folder it stands for; one of several frames, or a
+/// segmentation, which stands for itself; or a slice, which stands for its series in its folder.
+DicomChoice findDicomSeries(const InputFile& input, const ReadVolumeOptions& options,
                             const Progress& progress);
 
 }  // namespace lumen::convert

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,64 +19,97 @@ namespace lumen::convert {
 namespace {
 
 using Images = std::vector<DicomImage>;
-using Groups = std::vector<std::vector<std::size_t>>;  // indices of images at each position
+
+/// A frame of one of the images of a series.
+struct Place {
+  std::size_t image = 0, frame = 0;
+};
+using Places = std::vector<Place>;
+using Groups = std::vector<Places>;  // the frames at each position, in the order of files
 
 constexpr double kSamePlace = 1e-4;  // mm, and of directions
 
-bool isAtOnePlace(const DicomImage& a, const DicomImage& b) {
-  if (a.columns != b.columns || a.rows != b.rows || a.series != b.series) return false;
+bool isAtOnePlace(const DicomImage& a, const DicomPlane& one, const DicomImage& b,
+                  const DicomPlane& other) {
+  if (a.columns != b.columns || a.rows != b.rows) return false;
   for (int i = 0; i < 3; ++i)
-    if (!(std::abs((*a.plane.position)[i] - (*b.plane.position)[i]) < kSamePlace)) return false;
+    if (!(std::abs((*one.position)[i] - (*other.position)[i]) < kSamePlace)) return false;
   for (std::size_t i = 0; i < 6; ++i)
-    if (!(std::abs((*a.plane.orientation)[i] - (*b.plane.orientation)[i]) < kSamePlace))
-      return false;
+    if (!(std::abs((*one.orientation)[i] - (*other.orientation)[i]) < kSamePlace)) return false;
   return true;
 }
 
-// The images by their positions; empty unless all are single placed frames, and some share one.
-Groups groupsOf(const Images& images) {
-  for (const DicomImage& image : images)
-    if (image.frames > 1 || !image.plane.position || !image.plane.orientation) return {};
-  std::vector<std::size_t> order(images.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+/// The frames of a series; empty unless each is placed.
+Places framesOf(const Images& images) {
+  Places places;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (images[i].labels != DicomLabels::None) return {};
+    for (const std::size_t frame : images[i].usedFrames()) {
+      const DicomPlane& plane = images[i].planeOf(frame);
+      if (!plane.position || !plane.orientation) return {};
+      places.push_back({i, frame});
+    }
+  }
+  return places;
+}
+
+Groups groupsOf(const Images& images, const Places& places) {
+  const auto planeOf = [&](const Place& p) -> const DicomPlane& {
+    return images[p.image].planeOf(p.frame);
+  };
   // along a direction that is no axis of a scan, so that few positions are equal in it
   const Eigen::Vector3d along(0.3141, 0.5926, 0.7413);
-  const auto place = [&](std::size_t i) { return along.dot(*images[i].plane.position); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  Places order = places;
+  std::stable_sort(order.begin(), order.end(), [&](const Place& a, const Place& b) {
+    return along.dot(*planeOf(a).position) < along.dot(*planeOf(b).position);
+  });
   Groups groups;
-  for (const std::size_t i : order)
-    if (!groups.empty() && isAtOnePlace(images[groups.back().front()], images[i]))
-      groups.back().push_back(i);
+  for (const Place& p : order) {
+    const Place* const last = groups.empty() ? nullptr : &groups.back().front();
+    if (last != nullptr &&
+        isAtOnePlace(images[last->image], planeOf(*last), images[p.image], planeOf(p)))
+      groups.back().push_back(p);
     else
-      groups.push_back({i});
-  if (groups.size() == images.size()) return {};
-  for (auto& group : groups) std::sort(group.begin(), group.end());
+      groups.push_back({p});
+  }
+  const auto inOrder = [](const Place& a, const Place& b) {
+    return std::pair(a.image, a.frame) < std::pair(b.image, b.frame);
+  };
+  for (Places& group : groups) std::sort(group.begin(), group.end(), inOrder);
   return groups;
 }
 
 bool areCopies(const Images& images, const Groups& groups, const Progress& progress) {
-  for (const auto& group : groups) {
+  const auto read = [&](const Place& p) {
+    return readDicomFrame(images[p.image], p.frame, progress);
+  };
+  for (const Places& group : groups) {
     if (group.size() < 2) continue;
-    const Voxels first = readDicomFrame(images[group.front()], 0, progress);
+    const Voxels first = read(group.front());
     for (std::size_t k = 1; k < group.size(); ++k)
-      if (readDicomFrame(images[group[k]], 0, progress) != first) return false;
+      if (read(group[k]) != first) return false;
   }
   return true;
 }
 
-// The values of an element, if each has one image at every position.
-std::vector<std::string> valuesOf(const Images& images, const Groups& groups, std::size_t element) {
+/// The values of an element, if it takes a series apart into volumes: each has no position twice, and
+/// `isWhole` each position, else at least two.
+std::vector<std::string> valuesOf(const Images& images, const Groups& groups, std::size_t element,
+                                  bool isWhole) {
+  std::map<std::string, std::size_t> counts;
+  for (const Places& group : groups) {
+    std::set<std::string> here;
+    for (const Place& p : group) {
+      const std::string& value = images[p.image].phasesOf(p.frame)[element];
+      if (value.empty() || !here.insert(value).second) return {};
+      ++counts[value];
+    }
+  }
+  if (counts.size() < 2) return {};
   std::vector<std::string> values;
-  for (const std::size_t i : groups.front()) values.push_back(images[i].phases[element]);
-  std::sort(values.begin(), values.end());
-  if (values.size() < 2 || values.front().empty()) return {};
-  if (std::adjacent_find(values.begin(), values.end()) != values.end()) return {};
-  for (const auto& group : groups) {
-    std::vector<std::string> here;
-    for (const std::size_t i : group) here.push_back(images[i].phases[element]);
-    std::sort(here.begin(), here.end());
-    if (here != values) return {};
+  for (const auto& [value, count] : counts) {
+    if (count < (isWhole ? groups.size() : 2)) return {};
+    values.push_back(value);
   }
   // numbers in their order
   std::stable_sort(values.begin(), values.end(),
@@ -83,47 +117,87 @@ std::vector<std::string> valuesOf(const Images& images, const Groups& groups, st
   return values;
 }
 
-// The series of each value of an element, under a name of its own.
-void divide(Images images, const std::vector<std::string>& values, std::size_t element,
-            DicomFolder& folder) {
+/// The images with these frames alone.
+Images withFrames(const Images& images, const Places& places) {
+  Images out;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    std::vector<std::size_t> frames;
+    for (const Place& p : places)
+      if (p.image == i) frames.push_back(p.frame);
+    if (frames.empty()) continue;
+    std::sort(frames.begin(), frames.end());
+    out.push_back(images[i]);
+    if (frames.size() < images[i].frames) out.back().chosen = std::move(frames);
+  }
+  return out;
+}
+
+/// The series of each value of an element, under a name of its own.
+std::map<std::string, Images> divided(const Images& images, const Places& places,
+                                      const std::vector<std::string>& values, std::size_t element) {
+  std::map<std::string, Images> series;
   for (std::size_t v = 0; v < values.size(); ++v) {
     const DicomPhaseElement& known = kPhaseElements[element];
     std::string name = images.front().series + ", volume " +
                        paddedNumber(v + 1, std::to_string(values.size()).size()) + " of " +
                        std::to_string(values.size()) + " by the " + known.name;
     if (!known.isTime) name += ", " + values[v];
-    for (const DicomImage& image : images)
-      if (image.phases[element] == values[v]) folder.series[name].push_back(image);
-    for (DicomImage& image : folder.series[name]) image.series = name;
+    Places own;
+    for (const Place& p : places)
+      if (images[p.image].phasesOf(p.frame)[element] == values[v]) own.push_back(p);
+    series[name] = withFrames(images, own);
+    for (DicomImage& image : series[name]) image.series = name;
   }
+  return series;
+}
+
+/// The element that takes the series apart into volumes, and its values; none without one.
+std::pair<std::size_t, std::vector<std::string>> dividerOf(const Images& images,
+                                                           const Groups& groups) {
+  const auto isStack = [](std::size_t e) { return e == 0; };
+  const bool isRepeated = std::any_of(groups.begin(), groups.end(),
+                                      [](const Places& group) { return group.size() > 1; });
+  for (const bool isWhole : {true, false})
+    for (std::size_t e = 0; e < kPhaseElements.size(); ++e) {
+      if (isWhole ? !isRepeated : kPhaseElements[e].isTime || !(isRepeated || isStack(e))) continue;
+      if (auto values = valuesOf(images, groups, e, isWhole); !values.empty())
+        return {e, std::move(values)};
+    }
+  return {};
 }
 
 }  // namespace
 
 void dividePhases(DicomFolder& folder, const Progress& progress) {
-  std::map<std::string, Images> found = std::move(folder.series);
+  std::vector<Images> open;
+  for (auto& [uid, images] : folder.series) open.push_back(std::move(images));
   folder.series.clear();
-  for (auto& [uid, images] : found) {
-    const Groups groups = groupsOf(images);
-    bool isDivided = false;
-    for (std::size_t e = 0; !groups.empty() && e < kPhaseElements.size() && !isDivided; ++e) {
-      const std::vector<std::string> values = valuesOf(images, groups, e);
-      if (values.empty()) continue;
-      if (areCopies(images, groups, progress)) break;
-      divide(images, values, e, folder);
-      isDivided = true;
+  while (!open.empty()) {
+    Images images = std::move(open.back());
+    open.pop_back();
+    const std::string name = images.front().series;
+    const Places places = framesOf(images);
+    const Groups groups = groupsOf(images, places);
+    const auto [element, values] = dividerOf(images, groups);
+    const bool isRepeated = groups.size() < places.size();
+    const bool isCopied = isRepeated && areCopies(images, groups, progress);
+    if (!values.empty() && !isCopied) {
+      for (auto& [part, own] : divided(images, places, values, element))
+        open.push_back(std::move(own));
+      continue;
     }
-    if (isDivided) continue;
-    if (!groups.empty() && areCopies(images, groups, progress)) {
-      Images kept;
-      for (const auto& group : groups) kept.push_back(images[group.front()]);
-      folder.remarks[uid].push_back(counted(images.size() - kept.size(), "file", "files") +
-                                    " with the position and the voxels of another one " +
-                                    (images.size() - kept.size() == 1 ? "is" : "are") +
-                                    " left out");
-      images = std::move(kept);
+    if (isCopied) {
+      Places kept;
+      for (const Places& group : groups) kept.push_back(group.front());
+      const std::size_t left = places.size() - kept.size();
+      const bool isOfFiles = places.size() == images.size();
+      folder.remarks[name].push_back(
+          counted(left, isOfFiles ? "file" : "frame", isOfFiles ? "files" : "frames") +
+          " with the position and the voxels of another one " + (left == 1 ? "is" : "are") +
+          " left out");
+      images = withFrames(images, kept);
     }
-    folder.series[uid] = std::move(images);
+    folder.series[name] = std::move(images);
   }
 }
 

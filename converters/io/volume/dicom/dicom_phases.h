@@ -7,10 +7,10 @@
 
 namespace lumen::convert {
 
-/// Takes the series of a folder apart. Images that equal another one at their position are left out, if
-/// all that share a position do, and a remark counts them. A series of several volumes at one place
-/// becomes one for each, if an element (the acquisition number, the temporal position and others)
-/// tells them apart; its name is the UID and that element. Throws as readDicomFrame().
+/// Takes the series of a folder apart, frame by frame. Images that equal another one at their position
+/// are left out, if all that share a position do, and a remark counts them. A series of several volumes
+/// at one place, or of several stacks, becomes one for each, if an element (kPhaseElements) tells them
+/// apart; its name is the UID and that element. Throws as readDicomFrame().
 void dividePhases(DicomFolder& folder, const Progress& progress);
 
 }  // namespace lumen::convert

@@ -210,15 +210,54 @@ Bytes decodeRuns(const DicomImage& image, const Bytes& stream) {
   return pixels;
 }
 
+/// The fragments of a frame, by the table of offsets where frames have several.
+std::span<const DicomExtent> fragmentsOf(DicomBytes& file, const DicomImage& image,
+                                         std::size_t frame) {
+  const std::span<const DicomExtent> all = image.pixels.fragments;
+  if (image.frames == 1) return all;
+  if (all.size() == image.frames) return all.subspan(frame, 1);
+  const Bytes table = bytesAt(file, image.pixels.offsets);
+  constexpr std::uint64_t kHead = 8;  // of a fragment, from which offsets count
+  const auto indexAt = [&](std::size_t n) {
+    if (n == image.frames) return all.size();
+    const std::uint64_t at = all[0].at + little32(table, 4 * n);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].at == at) return i;
+    throw invalidInput("damaged: its table of offsets (7fe0,0010) has " +
+                       std::to_string(little32(table, 4 * n)) + " for frame " +
+                       std::to_string(n + 1) + "; expected the place of a fragment, which is " +
+                       std::to_string(kHead) + " bytes before its content");
+  };
+  const std::size_t first = indexAt(frame), end = indexAt(frame + 1);
+  if (end <= first) throw invalidInput("damaged: its table of offsets (7fe0,0010) does not ascend");
+  return all.subspan(first, end - first);
+}
+
 Bytes joinedFragments(DicomBytes& file, const DicomImage& image, std::size_t frame) {
-  const auto& fragments = image.pixels.fragments;
-  if (image.frames > 1) return bytesAt(file, fragments[frame]);
   Bytes stream;
-  for (const DicomExtent& fragment : fragments) {
+  for (const DicomExtent& fragment : fragmentsOf(file, image, frame)) {
     const Bytes part = bytesAt(file, fragment);
     stream.insert(stream.end(), part.begin(), part.end());
   }
   return stream;
+}
+
+/// The bits of a frame, each as a byte; the first is the lowest of its byte.
+Bytes bitsOf(DicomBytes& file, const DicomImage& image, std::size_t frame) {
+  const std::uint64_t count = image.columns * image.rows, first = frame * count;
+  // words of two bytes, of which big-endian ones have the second byte first
+  const bool isSwapped =
+      image.packing == DicomPacking::NativeBigEndian && image.pixels.vr != std::array{'O', 'B'};
+  const std::uint64_t begin = first / 16 * 2, wanted = (first + count + 15) / 16 * 2;
+  const std::uint64_t end = std::min<std::uint64_t>(wanted, image.pixels.value.length);
+  Bytes packed = bytesAt(file, {image.pixels.value.at + begin, end - begin});
+  packed.resize(wanted - begin);
+  Bytes bits(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint64_t bit = first + i - 8 * begin;
+    bits[i] = packed[isSwapped ? bit / 8 ^ 1U : bit / 8] >> (bit % 8) & std::byte{1};
+  }
+  return bits;
 }
 
 Bytes nativePixels(DicomBytes& file, const DicomImage& image, std::size_t frame) {
@@ -233,14 +272,15 @@ Bytes nativePixels(DicomBytes& file, const DicomImage& image, std::size_t frame)
 
 /// The values of pixels in T, from the used bits.
 template <class T>
-std::vector<T> storedValues(const Bytes& pixels, std::size_t bitsStored) {
+std::vector<T> storedValues(const Bytes& pixels, const DicomImage& image) {
   std::vector<T> values(pixels.size() / sizeof(T));
   std::memcpy(values.data(), pixels.data(), pixels.size());
-  const auto unused = static_cast<unsigned>(8 * sizeof(T) - bitsStored);
-  if (unused == 0) return values;
+  const auto unused = static_cast<unsigned>(8 * sizeof(T) - image.bitsStored);
+  if (unused == 0 || image.bitsAllocated == 1) return values;
+  const auto above = static_cast<unsigned>(8 * sizeof(T) - 1 - image.highBit);
   using U = std::make_unsigned_t<T>;
   for (T& value : values) {
-    const auto up = static_cast<U>(static_cast<std::uint64_t>(static_cast<U>(value)) << unused);
+    const auto up = static_cast<U>(static_cast<std::uint64_t>(static_cast<U>(value)) << above);
     value = static_cast<T>(static_cast<T>(up) >> unused);  // shifts the sign down, if T is signed
   }
   return values;
@@ -285,7 +325,7 @@ Voxels rescaled(const std::vector<T>& stored, const DicomImage& image, const Dic
 
 template <class T>
 Voxels decodeVoxels(const Bytes& pixels, const DicomImage& image, const DicomPlane& plane) {
-  return rescaled(storedValues<T>(pixels, image.bitsStored), image, plane);
+  return rescaled(storedValues<T>(pixels, image), image, plane);
 }
 
 Bytes unpacked(DicomBytes& file, const DicomImage& image, std::size_t frame,
@@ -293,6 +333,7 @@ Bytes unpacked(DicomBytes& file, const DicomImage& image, std::size_t frame,
   switch (image.packing) {
     case DicomPacking::Native:
     case DicomPacking::NativeBigEndian:
+      if (image.bitsAllocated == 1) return bitsOf(file, image, frame);
       return nativePixels(file, image, frame);
     case DicomPacking::RunLength:
       return decodeRuns(image, joinedFragments(file, image, frame));
@@ -304,11 +345,12 @@ Bytes unpacked(DicomBytes& file, const DicomImage& image, std::size_t frame,
 }  // namespace
 
 Voxels readDicomFrame(const DicomImage& image, std::size_t frame, const Progress& progress) {
-  const DicomPlane& plane = image.perFrame.empty() ? image.plane : image.perFrame[frame];
+  const DicomPlane& plane = image.planeOf(frame);
   try {
     DicomBytes file(image.file);
+    if (image.deflatedFrom) file.inflateFrom(*image.deflatedFrom);
     const Bytes pixels = unpacked(file, image, frame, progress);
-    if (image.bitsAllocated == 8)
+    if (image.bitsAllocated <= 8)
       return image.isSigned ? decodeVoxels<std::int8_t>(pixels, image, plane)
                             : decodeVoxels<std::uint8_t>(pixels, image, plane);
     if (image.bitsAllocated == 16)

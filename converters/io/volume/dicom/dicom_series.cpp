@@ -9,6 +9,8 @@
 #include "converters/base/error.h"
 #include "converters/io/volume/dicom/dicom_pixels.h"
 #include "converters/io/volume/dicom/dicom_stack.h"
+#include "converters/io/volume/upright_grid.h"
+#include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
 namespace {
@@ -70,7 +72,10 @@ DicomSeries describe(std::vector<DicomImage> images, const ReadVolumeOptions& op
   const DicomImage middle = images[images.size() / 2];
   try {
     const DicomStack stack = stackOf({std::move(images), {}}, options, folder.path());
-    series.spacing = stack.geometry.spacing;
+    VolumeGeometry geometry = stack.geometry;
+    (void)standUpright(geometry);
+    checkGeometry(geometry, folder.path());
+    series.spacing = geometry.spacing;
     const DicomFrame& frame = stack.slices[stack.slices.size() / 2];
     series.picture = pictureOf(*frame.image, frame.frame, progress);
   } catch (const Error& error) {

@@ -12,6 +12,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/io/volume/dicom/slice_spacing.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/volume_checks.h"
 
@@ -22,16 +23,13 @@ namespace fs = std::filesystem;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Share of the mean distance within which distances between slices of a regular grid agree.
-constexpr double kGapTolerance = 0.02;
-// Share of the mean distance by which rounded positions may lie off a regular grid.
-constexpr double kRoundedTolerance = 0.1;
-// The same where the decimals of positions explain more; a missing slice takes half.
-constexpr double kMostRounded = 0.25;
 // Lean of a stack from its first to its last slice, at most this share of a pixel.
 constexpr double kShearTolerance = 0.5;
 // Tolerance of slices of one grid in pixel spacing, mm, and in the axes' directions.
 constexpr double kSameGrid = 1e-4;
+// Frames of a segmentation: mm within which they share a slice, slices by which one lies off its slice,
+// and slices of a volume, which are those of 2 m at 0.2 mm.
+constexpr double kSamePlane = 1e-3, kOffSlot = 0.1, kMostSlots = 1e4;
 
 /// Rows, columns and normal, made orthogonal as ITK's reader of DICOM does.
 Matrix3d directionOf(const std::array<double, 6>& v) {
@@ -61,7 +59,8 @@ Vector3d pixelSpacing(const DicomFrame& slice, const ReadVolumeOptions& options)
 void checkPlaced(const DicomFrame& slice) {
   if (!slice.plane.position || !slice.plane.orientation)
     throw invalidInput(slice.image->file.path().string() +
-                       ": has no image position and orientation; expected a slice of a volume");
+                       ": has no image position (0020,0032) and orientation (0020,0037); expected "
+                       "a slice of a volume");
 }
 
 void checkSameGrid(const DicomFrame& slice, const DicomFrame& first, const fs::path& path) {
@@ -80,82 +79,35 @@ void checkSameGrid(const DicomFrame& slice, const DicomFrame& first, const fs::p
                      "expected parallel slices of one grid");
 }
 
-/// The coarsest decimal place, mm, of which all coordinates of positions are multiples, from 1 mm to
-/// 0.001 mm; 0: of none.
-double decimalOf(const std::vector<DicomFrame>& slices) {
-  constexpr double kExact = 1e-6;  // of the place
-  for (const double decimal : {1.0, 0.1, 0.01, 0.001}) {
-    const bool isAll = std::all_of(slices.begin(), slices.end(), [&](const DicomFrame& slice) {
-      const Eigen::Array3d places = slice.plane.position->array() / decimal;
-      return ((places - places.round()).abs() <= kExact * (1 + places.abs())).all();
-    });
-    if (isAll) return decimal;
-  }
-  return 0;
-}
-
-/// Whether slices that are sorted by position lie on a regular grid up to the rounding of their
-/// positions: within a tenth of their distance, or within the rounding of their decimals. A slice that
-/// is missing moves others by half a distance.
-bool isRounded(const std::vector<DicomFrame>& slices, double mean) {
-  double least = 0, most = 0;
-  for (std::size_t n = 0; n < slices.size(); ++n) {
-    const double off = slices[n].position - slices.front().position - static_cast<double>(n) * mean;
-    least = std::min(least, off);
-    most = std::max(most, off);
-  }
-  // along a normal that is no axis the rounding of three coordinates adds up
-  const double decimals = std::sqrt(3.0) / 2 * decimalOf(slices);
-  const double allowed =
-      std::max(kRoundedTolerance * mean, std::min(decimals, kMostRounded * mean));
-  return mean > 0 && 0.5 * (most - least) <= allowed;
-}
-
-/// Distance between slices that are sorted by position, mm.
-double sliceSpacing(const std::vector<DicomFrame>& slices, const fs::path& path,
-                    std::vector<std::string>& assumptions) {
-  std::vector<double> gaps;
-  for (std::size_t n = 1; n < slices.size(); ++n)
-    gaps.push_back(slices[n].position - slices[n - 1].position);
-  std::vector<double> sorted = gaps;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
-  const double mean =
-      (slices.back().position - slices.front().position) / static_cast<double>(gaps.size());
-  const auto isUsual = [&](double gap) {
-    return gap > 0 && std::abs(gap - usual) <= kGapTolerance * usual;
-  };
-  if (!std::all_of(gaps.begin(), gaps.end(), isUsual) && sorted.front() > 0 &&
-      isRounded(slices, mean)) {
-    assumptions.push_back("its slices are " + shownNumber(sorted.front()) + " to " +
-                          shownNumber(sorted.back()) +
-                          " mm apart, as positions that are rounded; their mean distance, " +
-                          shownNumber(mean) + " mm, is used");
-    return mean;
-  }
-  for (std::size_t n = 0; n < gaps.size(); ++n) {
-    if (isUsual(gaps[n])) continue;
-    throw invalidInput(path.string() + ": slices " + slices[n].name() + " and " +
-                       slices[n + 1].name() + " are " + shownNumber(gaps[n]) +
-                       " mm apart, where most are " + shownNumber(usual) +
-                       " mm; expected a regular stack with one image for each position");
-  }
-  return mean;
-}
-
-void checkUpright(const std::vector<DicomFrame>& slices, const Matrix3d& direction,
-                  const Vector3d& spacing, const fs::path& path) {
+/// The step from a slice to the next of a stack whose slices are shifted along themselves, as under a
+/// gantry tilt: the direction of the third axis and its spacing. Shifts of less than half a pixel from
+/// the first to the last slice are none.
+void leanAsSlices(const std::vector<DicomFrame>& slices, const Vector3d& pixels, double steps,
+                  const fs::path& path, VolumeGeometry& geometry) {
   const Vector3d lean = *slices.back().plane.position - *slices.front().plane.position;
-  for (int a = 0; a < 2; ++a)
-    if (std::abs(lean.dot(direction.col(a))) > kShearTolerance * spacing[a])
-      throw invalidInput(path.string() +
-                         ": its slices are shifted along themselves (a tilted gantry?); expected a "
-                         "stack along the slices' normal");
+  const Vector3d shift = geometry.direction.transpose() * lean;
+  const auto isShifted = [&](const Vector3d& by) {
+    return std::abs(by[0]) > kShearTolerance * pixels[0] ||
+           std::abs(by[1]) > kShearTolerance * pixels[1];
+  };
+  const double height = slices.back().position - slices.front().position;
+  for (const DicomFrame& slice : slices) {
+    const double part = (slice.position - slices.front().position) / height;
+    const Vector3d off = *slice.plane.position - *slices.front().plane.position - part * lean;
+    if (isShifted(geometry.direction.transpose() * off))
+      throw invalidInput(path.string() + ": its slice " + slice.name() +
+                         " is shifted along itself against the others (0020,0032); expected a "
+                         "stack along one line, upright or leaning as under a gantry tilt");
+  }
+  if (!isShifted(shift)) return;
+  geometry.direction.col(2) = lean.normalized();
+  geometry.spacing[2] = lean.norm() / steps;
 }
 
 /// Sorts slices with positions; returns their geometry.
-VolumeGeometry stackPlaced(std::vector<DicomFrame>& slices, const ReadVolumeOptions& options,
-                           const fs::path& path, std::vector<std::string>& assumptions) {
+VolumeGeometry stackPlaced(DicomStack& stack, const ReadVolumeOptions& options,
+                           const fs::path& path) {
+  std::vector<DicomFrame>& slices = stack.slices;
   VolumeGeometry geometry;
   geometry.direction = directionOf(*slices[0].plane.orientation);
   for (DicomFrame& slice : slices) {
@@ -167,9 +119,68 @@ VolumeGeometry stackPlaced(std::vector<DicomFrame>& slices, const ReadVolumeOpti
     return a.position < b.position;
   });
   geometry.spacing = pixelSpacing(slices[0], options);
-  geometry.spacing[2] = sliceSpacing(slices, path, assumptions);
-  checkUpright(slices, geometry.direction, options.spacing.value_or(geometry.spacing), path);
+  SliceSpacing spacing = sliceSpacing(slices, options, path, stack.assumptions);
+  geometry.spacing[2] = spacing.step;
+  const std::size_t count = spacing.places.empty() ? slices.size() : spacing.places.size();
+  leanAsSlices(slices, options.spacing.value_or(geometry.spacing), static_cast<double>(count - 1),
+               path, geometry);
   geometry.origin = *slices[0].plane.position;
+  stack.places = std::move(spacing.places);
+  stack.filled = std::move(spacing.filled);
+  return geometry;
+}
+
+/// The distance of slices, mm, of which the distances of frames, sorted by position, are multiples: the
+/// stated one, or else the least of theirs; of one frame `otherwise`, if it states none.
+double segmentStep(const std::vector<DicomFrame>& frames, double otherwise, const fs::path& path) {
+  const double first = frames.front().position;
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 1; n < frames.size(); ++n)
+    if (const double gap = frames[n].position - frames[n - 1].position; gap > kSamePlane)
+      step = std::min(step, gap);
+  const double stated = std::abs(frames[0].plane.distance.value_or(0));
+  const auto isGrid = [&](double by) {
+    return std::all_of(frames.begin(), frames.end(), [&](const DicomFrame& frame) {
+      const double slot = (frame.position - first) / by;
+      return std::abs(slot - std::round(slot)) <= kOffSlot && slot < kMostSlots;
+    });
+  };
+  if (stated > 0 && isGrid(stated)) return stated;
+  if (!std::isfinite(step)) step = stated > 0 ? stated : otherwise;
+  if (step > 0 && isGrid(step)) return step;
+  throw invalidInput(path.string() + ": the frames of this segmentation are not multiples of " +
+                     shownNumber(step) +
+                     " mm apart (0020,0032); expected those of a regular stack");
+}
+
+/// Frames of a segmentation, several in a slice or none, sorted by slices.
+VolumeGeometry stackSegments(DicomStack& stack, const ReadVolumeOptions& options,
+                             const fs::path& path) {
+  std::vector<DicomFrame>& frames = stack.slices;
+  VolumeGeometry geometry;
+  checkPlaced(frames[0]);
+  geometry.direction = directionOf(*frames[0].plane.orientation);
+  for (DicomFrame& frame : frames) {
+    checkPlaced(frame);
+    checkSameGrid(frame, frames[0], path);
+    frame.position = geometry.direction.col(2).dot(*frame.plane.position);
+  }
+  std::stable_sort(frames.begin(), frames.end(), [](const DicomFrame& a, const DicomFrame& b) {
+    return a.position < b.position;
+  });
+  geometry.spacing = pixelSpacing(frames[0], options);
+  const double first = frames.front().position;
+  const double step = segmentStep(frames, geometry.spacing[0], path);
+  for (DicomFrame& frame : frames)
+    frame.slot = static_cast<std::size_t>(std::lround((frame.position - first) / step));
+  geometry.spacing[2] = step;
+  // a volume has two slices at least; the second one is empty
+  geometry.size[2] = static_cast<int>(std::max<std::size_t>(2, frames.back().slot + 1));
+  if (frames.back().slot > 0)
+    leanAsSlices(frames, options.spacing.value_or(geometry.spacing),
+                 static_cast<double>(frames.back().slot), path, geometry);
+  geometry.origin = *frames[0].plane.position;
+  stack.isLabelled = true;
   return geometry;
 }
 
@@ -197,13 +208,12 @@ VolumeGeometry stackFrames(const std::vector<DicomFrame>& slices, const ReadVolu
 std::vector<DicomFrame> slicesOf(const std::vector<DicomImage>& images) {
   std::vector<DicomFrame> slices;
   for (const DicomImage& image : images) {
-    if (image.frames > 1 && images.size() > 1)
+    if (image.frames > 1 && images.size() > 1 && image.perFrame.empty())
       throw invalidInput(image.file.path().string() + ": holds " + std::to_string(image.frames) +
-                         " frames beside other files of its series; expected one frame for each "
-                         "file");
-    for (std::size_t frame = 0; frame < image.frames; ++frame)
-      slices.push_back(
-          {&image, frame, image.perFrame.empty() ? image.plane : image.perFrame[frame]});
+                         " frames without a position each beside other files of its series; "
+                         "expected one frame for each file");
+    for (const std::size_t frame : image.usedFrames())
+      slices.push_back({&image, frame, image.planeOf(frame)});
   }
   return slices;
 }
@@ -211,7 +221,7 @@ std::vector<DicomFrame> slicesOf(const std::vector<DicomImage>& images) {
 /// Adds an assumption about pixels after the announced ones, which may be uncounted frames.
 void reportRest(DicomStack& stack) {
   for (const DicomImage& image : stack.images) {
-    const std::size_t used = image.frameBytes() * image.frames;
+    const std::size_t used = image.pixelBytes();
     if (image.pixels.encapsulated || image.pixels.value.length < used + image.frameBytes())
       continue;
     stack.assumptions.push_back(image.file.path().filename().string() + " holds " +
@@ -228,19 +238,22 @@ DicomStack stackOf(DicomChoice choice, const ReadVolumeOptions& options, const f
   stack.images = std::move(choice.images);
   stack.assumptions = std::move(choice.assumptions);
   stack.slices = slicesOf(stack.images);
-  if (stack.slices.size() < 2)
+  const bool isLabelled = stack.images[0].labels != DicomLabels::None;
+  if (stack.slices.size() < 2 && !isLabelled)
     throw invalidInput(stack.images[0].file.path().string() +
                        ": is the only slice of its series, so it is not 3-D; expected a series of "
                        "slices in one folder, or a file of several frames");
-  const auto& perFrame = stack.images[0].perFrame;
-  const bool placed = stack.images.size() > 1 || (!perFrame.empty() && perFrame[1].position);
+  const bool isByFrame = !stack.images[0].perFrame.empty();
+  const bool placed = !isLabelled && (stack.images.size() > 1 ||
+                                      (isByFrame && stack.slices[1].plane.position.has_value()));
   if (placed) checkPlaced(stack.slices[0]);
   StatedGeometry stated;
-  stated.geometry = placed ? stackPlaced(stack.slices, options, path, stack.assumptions)
-                           : stackFrames(stack.slices, options, stack.assumptions);
-  stated.geometry.size = {static_cast<int>(stack.images[0].columns),
-                          static_cast<int>(stack.images[0].rows),
-                          static_cast<int>(stack.slices.size())};
+  stated.geometry = isLabelled ? stackSegments(stack, options, path)
+                    : placed   ? stackPlaced(stack, options, path)
+                               : stackFrames(stack.slices, options, stack.assumptions);
+  stated.geometry.size[0] = static_cast<int>(stack.images[0].columns);
+  stated.geometry.size[1] = static_cast<int>(stack.images[0].rows);
+  if (!isLabelled) stated.geometry.size[2] = static_cast<int>(stack.count());
   stated.unit = 1;  // DICOM has no other unit
   reportRest(stack);
   stack.geometry = settledGeometry(stated, options, path, stack.assumptions);
