@@ -23,10 +23,11 @@ constexpr int kRim = 2;                            // voxels around bone that it
 constexpr std::array<int, 4> kShrink{8, 4, 2, 1};  // voxels in one of a level, coarse to fine
 constexpr std::size_t kFine = 2;                   // level from which one start is left
 constexpr std::size_t kMostPoints = 5000;          // of bone, for a registration
-/// Voxels of bone and its rim, a cube of sixteen: fewer hardly hold a motion of six parameters.
-constexpr std::size_t kLeastPiece = 4096;
+/// Voxels of bone and its rim, a cube of ten: fewer hardly hold a motion of six parameters.
+constexpr std::size_t kLeastPiece = 1000;
 constexpr std::size_t kMostTrials = 32;
-constexpr int kRounds = 2;  // of registration with the bone that moved alike
+constexpr double kMostDifference = 0.5;  // of the excess of bone that lies in its place
+constexpr int kRounds = 2;               // of registration with the bone that moved alike
 /// Voxels of displacement beyond which another motion is sought, that of bone that lies most astray
 /// first, as bone beside it that lies better would hide its motion.
 constexpr std::array<double, 3> kAstray{1, 0.5, 0.25};
@@ -94,6 +95,14 @@ public:
         [&](std::uint32_t i) {
           const auto slope = static_cast<double>(m_bone.slope[i]);
           return slope * slope;
+        },
+        progress);
+    m_excess = m_blocks->localMeans(
+        [&](std::uint32_t i) {
+          return std::pow(
+              std::max(static_cast<double>(native.value(m_bone.rim->index(i)) - native.levels.soft),
+                       0.0),
+              2);
         },
         progress);
     for (const int shrink : kShrink) {
@@ -174,11 +183,21 @@ private:
     return std::isfinite(there) ? 2 * darker * darker : std::numeric_limits<double>::quiet_NaN();
   }
 
-  /// The displacement that a mean square amounts to, mm; not finite outside of the other scan.
-  [[nodiscard]] double displacement(double square, std::uint32_t block) const {
+  /// The displacement that is left at a block, mm; not finite outside of the other scan.
+  [[nodiscard]] double displacement(std::uint32_t block) const {
+    return std::sqrt(beyondNoise(block) / m_slope[block]);
+  }
+  [[nodiscard]] double beyondNoise(std::uint32_t block) const {
     const double noise = std::pow(static_cast<double>(m_native.levels.noise), 2) +
                          std::pow(static_cast<double>(m_contrast.levels.noise), 2);
-    return std::sqrt(std::max(0.0, square - noise) / m_slope[block]);
+    return std::max(0.0, m_square[block] - noise);
+  }
+  /// Whether a block within the other scan lies farther from its place than `most` mm. Where the
+  /// difference is half of the bone's own excess, it says no more of how far.
+  [[nodiscard]] bool isAstray(std::uint32_t block, double most) const {
+    return std::isfinite(m_square[block]) &&
+           (displacement(block) > most ||
+            beyondNoise(block) > kMostDifference * kMostDifference * m_excess[block]);
   }
 
   /// The same over places in this scan; infinite if most of them lie outside of the other scan.
@@ -250,9 +269,8 @@ private:
   void findOthers(double most) {
     m_isTried.resize(m_blocks->size(), false);
     for (std::size_t trial = 0; trial < kMostTrials; ++trial) {
-      const std::vector<std::uint32_t> group = m_blocks->largestGroup([&](std::uint32_t b) {
-        return !m_isTried[b] && std::isfinite(m_square[b]) && displacement(m_square[b], b) > most;
-      });
+      const std::vector<std::uint32_t> group = m_blocks->largestGroup(
+          [&](std::uint32_t b) { return !m_isTried[b] && isAstray(b, most); });
       if (m_blocks->countVoxels(group) < kLeastPiece) return;
       for (const std::uint32_t b : group) m_isTried[b] = true;
       tryGroup(group);
@@ -272,8 +290,7 @@ private:
     const std::vector<Isometry3d> before = std::exchange(m_bone.motions, {});
     std::vector<std::vector<std::uint32_t>> own(before.size());
     for (std::uint32_t b = 0; b < m_piece.size(); ++b)
-      if (m_piece[b] < before.size() && displacement(m_square[b], b) <= nativeVoxel())
-        own[m_piece[b]].push_back(b);
+      if (m_piece[b] < before.size() && !isAstray(b, nativeVoxel())) own[m_piece[b]].push_back(b);
     m_square.assign(m_blocks->size(), std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < before.size(); ++k)
       takeMotion(own[k].empty() ? before[k]
@@ -287,10 +304,8 @@ private:
         std::max(m_native.volume.geometry.voxelSize(), m_contrast.volume.geometry.voxelSize());
     for (std::uint32_t i = 0; i < rim.size(); ++i) {
       const std::uint32_t b = m_blocks->blockOf(i);
-      const double left = displacement(m_square[b], b);
-      m_bone.error.push_back(static_cast<float>(left));
-      m_bone.piece.push_back(std::isfinite(left) && !(left <= most) ? MovedBone::kUnmatched
-                                                                    : m_piece[b]);
+      m_bone.error.push_back(static_cast<float>(displacement(b)));
+      m_bone.piece.push_back(isAstray(b, most) ? MovedBone::kUnmatched : m_piece[b]);
     }
     return std::move(m_bone);
   }
@@ -301,6 +316,7 @@ private:
   std::unique_ptr<const BoneBlocks> m_blocks;
   std::vector<Volume> m_fixed, m_moving;  ///< of the levels
   std::vector<double> m_slope;            ///< mean square around each block
+  std::vector<double> m_excess;           ///< the same of the excess
   std::vector<double> m_square;           ///< that the best motion leaves around each block
   std::vector<std::uint8_t> m_piece;      ///< that motion
   std::vector<bool> m_isTried;            ///< for a motion of its own

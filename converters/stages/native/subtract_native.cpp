@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <type_traits>
@@ -160,21 +161,24 @@ double volumeOf(const MovedBone& bone, std::uint8_t piece) {
   return static_cast<double>(count) * bone.rim->geometry().spacing.prod();
 }
 
-/// Refuses scans whose bone does not match.
+/// Refuses scans of which most bone does not match.
 void requireMatch(const MovedBone& bone, const std::string& contrastName,
                   const std::string& nativeName) {
-  const auto isMatched = [&](std::uint8_t piece) { return piece < bone.motions.size(); };
-  if (std::any_of(bone.piece.begin(), bone.piece.end(), isMatched)) return;
-  throw invalidInput(
-      nativeName +
-      (std::count(bone.piece.begin(), bone.piece.end(), MovedBone::kUnmatched) == 0
-           ? ": it has no bone where " + contrastName + " lies"
-           : ": none of its bone comes to lie within a voxel of that of " + contrastName) +
-      "; expected a scan of the same body without contrast");
+  const auto countOf = [&](std::uint8_t piece) {
+    return std::count(bone.piece.begin(), bone.piece.end(), piece);
+  };
+  const std::ptrdiff_t inside = std::ssize(bone.piece) - countOf(MovedBone::kOutside);
+  if (inside > 0 && 2 * countOf(MovedBone::kUnmatched) < inside) return;
+  throw invalidInput(nativeName +
+                     (inside == 0 ? ": it has no bone where " + contrastName + " lies"
+                                  : ": less than half of its bone comes to lie within a voxel of "
+                                    "that of " +
+                                        contrastName) +
+                     "; expected a scan of the same body without contrast");
 }
 
-/// Refuses scans of which none has contrast where the other has none, or the wrong one: soft tissue
-/// of one scan is compared with what is left in its place.
+/// Refuses scans unless the first has contrast where the other has none: soft tissue of one scan is
+/// compared with what is left in its place.
 void requireContrast(const CtScan& contrast, const std::string& contrastName, const CtScan& native,
                      const std::string& nativeName, const CtScan& left, const Isometry3d& motion,
                      const Progress& progress) {
@@ -193,9 +197,6 @@ void requireContrast(const CtScan& contrast, const std::string& contrastName, co
       gained += at && softHere[from.index(*at)] != 0 ? 1 : 0;
     }
   }
-  if (lost > gained && lost > kLeastGain)
-    throw invalidInput(nativeName + ": its blood has contrast where that of " + contrastName +
-                       " has none; expected the scan without contrast");
   if (gained < kLeastGain || gained < 2 * lost)
     throw invalidInput(nativeName + ": no blood has less contrast in it than in " + contrastName +
                        "; expected a scan without contrast beside one with it");
