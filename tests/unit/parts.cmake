@@ -30,7 +30,7 @@ lumen_test(finding_test FOLDER finding WITHOUT track_courses_test.cpp beside_bon
   LIBS lumen_finding)
 if(LUMEN_REGISTERS)
   lumen_test(native_test FOLDER native
-    LABELS threads
+    LABELS threads slow
     LIBS lumen_native)
 endif()
 # Finding and tracking together.
