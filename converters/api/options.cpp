@@ -27,7 +27,7 @@ std::string nameInC(std::string_view option) {
 
 /// Whether an option allows what no call of this interface does: to open a file.
 bool opensFile(std::string_view option) {
-  return option == "allow-detached";
+  return option == "allow-detached" || option == "native";
 }
 
 /// The field of the inputs that takes the place of an option; null if the value names no file.

@@ -11,6 +11,7 @@ namespace lumen::engine {
 void ConvertOptions::addRows(OptionTable& table) {
   addVolumeRows(table, source.volume);
   addFrameRow(table, source.frame);
+  addNativeRow(table, source.native);
   addTrackRows(table, track);
   table
       .file("corrections", corrected,

@@ -12,11 +12,14 @@ namespace lumen::engine {
 
 operations::Source loadSource(const InputFile& file, const FileFormat& format,
                               const SourceArguments& arguments, bool isSeeded, Progress& progress) {
-  if (format.kind == FormatKind::Volume)
-    return volumeSource(readVolumeFile(file, format, arguments.volume, progress), file,
-                        arguments.mask, isSeeded, progress,
-                        arguments.volume.volumeIndex.value_or(0));
   operations::Source source;
+  if (format.kind == FormatKind::Volume) {
+    source =
+        volumeSource(readVolumeFile(file, format, arguments.volume, progress), file, arguments.mask,
+                     isSeeded, progress, arguments.volume.volumeIndex.value_or(0));
+    source.native = loadNative(arguments.native, progress);
+    return source;
+  }
   source.name = file.name();
   if (format.kind == FormatKind::Mesh) {
     const SceneArguments scene{arguments.mesh.sceneMesh, arguments.volume.allowDetached};

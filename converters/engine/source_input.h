@@ -20,6 +20,7 @@ struct SourceArguments {
   std::string frame;  ///< of a mesh or centerline: lps, ras, or empty
   MeshArguments mesh;
   MaskArguments mask;
+  InputFile native{};  ///< the same body without contrast; may be empty
 };
 
 /// The volume, mesh or centerline in `file`, with the parts beside it that the arguments name.

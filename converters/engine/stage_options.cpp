@@ -175,6 +175,15 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume, const std::strin
   for (std::size_t i = before; i < table.rows().size(); ++i) table.rows()[i].onlyWith(file);
 }
 
+void addNativeRow(OptionTable& table, InputFile& native) {
+  table
+      .file("native", native,
+            "Computed tomography of the same body without contrast; its grid and place may be "
+            "others. Each of its bones is registered alone and subtracted, so that vessels in bone "
+            "are found and bone is not")
+      .forInputs(kImage);
+}
+
 void addTrackRows(OptionTable& table, TrackArguments& track) {
   table.scope(kImage);
   table.group("Tracking");

@@ -58,6 +58,8 @@ struct TrackArguments {
 void addVolumeRows(OptionTable& table, VolumeArguments& volume);
 /// Rows of a volume that may be left out: they do nothing without the option `file`.
 void addVolumeRows(OptionTable& table, VolumeArguments& volume, const std::string& file);
+/// --native.
+void addNativeRow(OptionTable& table, InputFile& native);
 void addTrackRows(OptionTable& table, TrackArguments& track);
 void addMeshRows(OptionTable& table, MeshArguments& mesh);
 /// --label-table and --role.

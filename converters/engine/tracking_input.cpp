@@ -64,6 +64,16 @@ convert::Volume loadVolume(const InputFile& file, const FileFormat& format,
   return result;
 }
 
+std::optional<operations::NativePart> loadNative(const InputFile& file, Progress& progress) {
+  if (file.empty()) return {};
+  requireInput(file, "scan without contrast");
+  const FileFormat& format = inputFormat(file, "");
+  if (format.kind != FormatKind::Volume)
+    throw invalidInput(formats::printable(file.name()) +
+                       ": is no volume; expected a scan without contrast");
+  return operations::NativePart{readVolumeFile(file, format, {}, progress), file.name()};
+}
+
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
   requireInput(track.seeds, "seeds file");
   if (const std::string other = convert::notA(convert::ContentKind::Seeds, track.seeds);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "converters/engine/file_format.h"
 #include "converters/engine/stage_options.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/operations/source.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::engine {
@@ -31,6 +33,10 @@ void warnOfVoxels(const convert::Volume& volume, const std::string& file, Progre
 /// progress. Assumptions of the reader and reasons to doubt the voxels become warnings.
 convert::Volume loadVolume(const InputFile& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);
+
+/// The scan of --native; empty if no file is given. Throws Error(InvalidInput) for a file that is
+/// missing or no volume.
+std::optional<operations::NativePart> loadNative(const InputFile& file, Progress& progress);
 
 /// The seeds of --seeds, read by the options. Throws Error(InvalidInput) for a file that is
 /// missing or invalid.

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/volume/write_volume.h"
 #include "converters/operations/hinted_vessels.h"
 #include "converters/operations/label_prior.h"
 #include "converters/operations/stated_vessels.h"
@@ -45,8 +47,23 @@ void applyMaps(const Source& source, const std::vector<NamingMap>& naming,
   recordMaps(source.maps, made.value);
 }
 
+/// The volume less the bone of the scan without contrast, if there is one.
+std::optional<convert::NativeSubtraction> withoutBone(const Source& source,
+                                                      const Context& context) {
+  if (!source.native) return {};
+  const std::string name = formats::printable(source.native->name);
+  convert::NativeSubtraction out = convert::subtractNative(
+      *source.grey, formats::printable(source.name), source.native->voxels, name, context.progress);
+  if (out.report.unmatched > 0)
+    context.progress.warn(name + ": " + fixedText(out.report.unmatched / 1000, 1) +
+                          " ml of its bone match no bone of " + formats::printable(source.name) +
+                          "; there vessels are told from bone by the contrast alone");
+  return out;
+}
+
 MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Context& context) {
-  const convert::Volume& volume = *source.grey;
+  const std::optional<convert::NativeSubtraction> subtraction = withoutBone(source, context);
+  const convert::Volume& volume = subtraction ? subtraction->volume : *source.grey;
   const std::vector<NamingMap> naming = namingMaps(source.maps, volume.geometry, source.name);
   VesselOptions vessels = options.vessels;
   vessels.prior = priorOf(source.maps, volume.geometry, context.progress);
@@ -54,6 +71,11 @@ MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Cont
   convert::TrackResult tracked = trackVessels(volume, source.name, vessels, context);
   MadeCase made;
   made.value = std::move(tracked.result);
+  if (subtraction) {
+    made.native = subtraction->report;
+    made.value.metadata.source = convert::describeSource(*source.grey);
+    recordVolume("native", source.native->voxels, made.value);
+  }
   made.remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
   applyMaps(source, naming, options, made, context);
   CaseSelection select;

@@ -17,6 +17,7 @@
 #include "converters/operations/tracked_vessels.h"
 #include "converters/stages/editing/edit_request.h"
 #include "converters/stages/fitting/fit_options.h"
+#include "converters/stages/native/subtract_native.h"
 #include "formats/case/case.h"
 
 namespace lumen::operations {
@@ -55,6 +56,7 @@ struct MadeCase {
   std::optional<MeshFrame> meshFrame;                 ///< of a mesh
   std::optional<convert::ReadFrame> centerlineFrame;  ///< of a centerline
   LabelInventory labels;                              ///< of the maps beside a volume
+  std::optional<convert::NativeReport> native;        ///< of the scan without contrast
 };
 
 /// The case of a source: tree and wall points in mm and LPS, and models where the options ask for

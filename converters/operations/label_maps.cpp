@@ -150,12 +150,13 @@ void renameEnds(const formats::CenterlineTree& tree, std::vector<convert::TrackE
   });
 }
 
+void recordVolume(const std::string& name, const convert::Volume& volume, formats::Case& target) {
+  target.metadata.steps.push_back(
+      {name, "lumen " LUMEN_VERSION, {{name + "-sha256", convert::describeSource(volume).sha256}}});
+}
+
 void recordMaps(const std::vector<LabelPart>& maps, formats::Case& target) {
-  for (const LabelPart& map : maps)
-    target.metadata.steps.push_back(
-        {"label-map",
-         "lumen " LUMEN_VERSION,
-         {{"label-map-sha256", convert::describeSource(map.voxels).sha256}}});
+  for (const LabelPart& map : maps) recordVolume("label-map", map.voxels, target);
 }
 
 }  // namespace lumen::operations

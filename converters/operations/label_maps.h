@@ -51,6 +51,9 @@ void leaveOutUnlabelled(const std::vector<NamingMap>& maps, formats::Case& targe
 /// that are gone.
 void renameEnds(const formats::CenterlineTree& tree, std::vector<convert::TrackEnd>& ends);
 
+/// Records a volume beside that of a case as a step, `NAME` with the digest `NAME-sha256`.
+void recordVolume(const std::string& name, const convert::Volume& volume, formats::Case& target);
+
 /// Records the maps of a case as its steps.
 void recordMaps(const std::vector<LabelPart>& maps, formats::Case& target);
 

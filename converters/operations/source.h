@@ -24,6 +24,12 @@ struct LabelPart {
   std::vector<convert::LabelMeaning> meanings;
 };
 
+/// Computed tomography without contrast.
+struct NativePart {
+  convert::Volume voxels;
+  std::string name;  ///< for messages
+};
+
 /// The surface of vessels as triangles, in the unit of its file; axes are LPS.
 struct MeshPart {
   convert::MeshFile file;
@@ -44,6 +50,7 @@ struct CenterlinePart {
 /// | `grey` | the vessels that are found or seeded in the voxels |
 /// | `labels` | the vessels that the labels mark |
 /// | `grey` or `labels`, and `maps` | the same, whose branches have the names of the maps' labels |
+/// | `grey` and `native`, and `maps` | the same, in the voxels less the bone of the other scan |
 /// | `mesh` | the vessels whose wall it is |
 /// | `mesh`, `centerline` | the same, along this centerline; a unit of 0 is that of the mesh |
 /// | `centerline` | its vessels; points are in mm and LPS |
@@ -51,6 +58,7 @@ struct CenterlinePart {
 struct Source {
   std::string name;                     ///< for messages, as a person knows it: "head.nrrd"
   std::optional<convert::Volume> grey;  ///< intensities of an angiogram
+  std::optional<NativePart> native;     ///< the same body without contrast, on a grid of its own
   std::optional<LabelPart> labels;      ///< labels that are vessels
   /// Maps that state what lies where, each on a grid of its own; where two speak, the first counts.
   std::vector<LabelPart> maps;

@@ -137,6 +137,21 @@ def write_scan(path):
                      b"space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n" + struct.pack(f"<{len(voxels)}h", *voxels))
 
 
+def write_two_scans(folder):
+    """Bone in soft tissue in air, with a vessel through it and, elsewhere, without, as CT has them."""
+    noise = random.Random(2)
+    for name, shift, blood in ("cta.nrrd", 0, 350), ("plain.nrrd", 2, 40):
+        def level(x, y, z):
+            if max(abs(x - 20), abs(y - 20)) > 17: return -1000
+            x, y, z = x - shift, y + shift / 2, z - shift / 2
+            if math.hypot(x - 19, y - 20) < 4: return blood
+            if max(abs(x - 20) - 10, abs(y - 20) - 9, abs(z - 18) - 13) < 0: return 500 + 300 * math.sin(x) * math.sin(.8 * y) * math.sin(.9 * z)
+            return 40
+        voxels = [round(level(x, y, z) + noise.gauss(0, 8)) for z in range(40) for y in range(40) for x in range(40)]
+        (folder / name).write_bytes(b"NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 40\nencoding: raw\nendian: little\n"
+                                    b"space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n" + struct.pack(f"<{len(voxels)}h", *voxels))
+
+
 def make_cases(lumen, folder):
     go = lambda name, *arguments, **more: hold(name, run(lumen, folder, *arguments), " ".join(arguments), **more)
     go("phantom.schema.json", "phantom", "aneurysm", "a.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds", "seeds.json")
@@ -144,6 +159,10 @@ def make_cases(lumen, folder):
     write_scan(folder / "scan.nrrd")
     (folder / "vessel.swc").write_text("1 0 12 20 20 2 -1\n2 0 28 20 20 2 1\n")
     go("phantom.schema.json", "phantom", "--tree", "vessel.swc", "--into", "scan.nrrd", "drawn.nrrd")
+    write_two_scans(folder)
+    for command in ("convert", "track"):
+        result = run(lumen, folder, command, "cta.nrrd", "native.lumen", "--native", "plain.nrrd")
+        if "without ITK" not in result.stderr: hold(f"{command}.schema.json", result, f"{command} --native")
     go("seeds.schema.json", "seeds", "a.nrrd", "proposals.mrk.json")
     go("convert.schema.json", "convert", "a.nrrd", "proposed.lumen", "--seeds", "proposals.mrk.json")
     go("convert.schema.json", "convert", "a.nrrd", "found.lumen", "--repeat", "2")

@@ -20,6 +20,8 @@ track tube.nrrd out/t.lumen.json --seeds seeds.json --seeds-only true
   --min-trials 100 --max-trials 400 --step 0.4 --noise-margin 1.5 --look-ahead 2
   --branch-offset 1.5 --aneurysm-gradient 0.4 --point-spread 0.1 --smoothing 0.17
   --even-blur false --max-nodes 1000 --random-seed 2 --repeat 1
+track cta.nrrd out/t.lumen.json
+  --native plain.nrrd
 track tube.nrrd out/t.lumen.json
   --label-map halves.nii
 track tube.nrrd out/t.lumen.json --label-map halves.nii

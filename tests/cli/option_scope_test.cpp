@@ -57,6 +57,7 @@ label-map labels.nrrd --mask true
 label-table halves.nii --mask true
 role tube.nrrd
 role labels.nrrd --mask true
+native cta.nrrd
 only-labelled apart.nrrd --label-map one-label.nrrd
 only-labelled apart-labels.nrrd --mask true --label-map one-label.nrrd
 volume-index times.nii

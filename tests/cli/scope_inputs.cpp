@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/io/volume/write_volume.h"
+#include "tests/unit/native/two_bones.h"
 #include "tests/unit/volume/dicom_fixture.h"
 
 namespace lumen::test {
@@ -139,7 +141,7 @@ std::string withMotion(const std::string& text) {
 
 constexpr const char* kSamples = R"(convert
   --series 1 --fill-gaps true --volume-index 1 --crop 2,29,2,29,2,29 --spacing 0.21 --unit cm --allow-detached .
-  --frame ras --seeds seeds.json --seeds-frame ras --seeds-unit cm --root 3.1,3.1,5.8
+  --native plain.nrrd --frame ras --seeds seeds.json --seeds-frame ras --seeds-unit cm --root 3.1,3.1,5.8
   --only-connected true --seeds-only true --dark true --inlier-rate 0.6 --inlier-band 0.12
   --rays 42 --axes 21 --samples 64 --min-trials 100 --max-trials 400 --step 0.4
   --noise-margin 1.5 --look-ahead 2 --branch-offset 1.5 --aneurysm-gradient 0.4
@@ -221,6 +223,9 @@ void ScopeTest::makeVolumes() const {
   write("apart.swc", "1 0 0 0 0 .6 -1\n2 0 6 0 0 .6 1\n3 0 0 3 0 .6 -1\n4 0 6 3 0 .6 3\n");
   make({"phantom", "--tree", "apart.swc", "apart.nrrd", "--seeds", "apart.json"});
   write("scan.nrrd", scanOfBall());
+  for (const auto& [name, scan] : {std::pair("cta.nrrd", convert::withContrast()),
+                                   std::pair("plain.nrrd", convert::withoutContrast())})
+    write(name, convert::encodeVolume(scan.draw(), convert::VolumeFormat::Nrrd, true, name));
   nlohmann::json clicks = nlohmann::json::parse(read("apart.json"));
   clicks["branches"].erase(1);
   write("one.json", clicks.dump());

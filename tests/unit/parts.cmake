@@ -28,6 +28,11 @@ lumen_test(centerline_test FOLDER centerline
 lumen_test(finding_test FOLDER finding WITHOUT track_courses_test.cpp beside_bone_test.cpp
   LABELS threads
   LIBS lumen_finding)
+if(LUMEN_REGISTERS)
+  lumen_test(native_test FOLDER native
+    LABELS threads slow
+    LIBS lumen_native)
+endif()
 # Finding and tracking together.
 lumen_test(whole_tree_test
   LIBS lumen_compare lumen_editing lumen_finding lumen_phantom lumen_tracking

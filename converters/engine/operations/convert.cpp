@@ -10,6 +10,7 @@
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/label_answer.h"
+#include "converters/engine/answers/native_answer.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/answers/track_answer.h"
 #include "converters/engine/convert_options.h"
@@ -167,12 +168,13 @@ private:
     json["corrections"] = replayedJson(made.replayed);
     json["label_maps"] = inventoryJson(made.labels);
     json["unlabelled"] = unlabelledJson(made.labels);
+    json["native"] = nativeJson(made.native);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
                 frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
                 convert::reachLine(reach) + surfaceLines(surface, made.value) +
                 repetitionLines(made.repetition) + inventoryLines(made.labels) +
-                endLines(made.remarks)};
+                nativeLines(made.native) + endLines(made.remarks)};
   }
 
   InputFile m_input;

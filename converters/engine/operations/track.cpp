@@ -6,6 +6,7 @@
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/label_answer.h"
+#include "converters/engine/answers/native_answer.h"
 #include "converters/engine/answers/track_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/mask_input.h"
@@ -32,6 +33,7 @@ public:
     table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
     table.argument("OUT", &m_output, "Case to write, " + formatEndings(canWriteCase));
     addVolumeRows(table, m_volume);
+    addNativeRow(table, m_native);
     addTrackRows(table, m_track);
     addLabelMapRows(table, m_labels);
     table.find("label-table")->onlyWith("label-map");
@@ -62,6 +64,7 @@ public:
     operations::Source source;
     source.name = m_input.name();
     source.grey = loadVolume(m_input, from, m_volume, context.progress);
+    source.native = loadNative(m_native, context.progress);
     source.maps = loadLabelMaps(m_labels, &source.grey->geometry, context.progress);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
@@ -71,14 +74,16 @@ public:
     json["repeats"] = repetitionJson(made.repetition, made.value);
     json["label_maps"] = inventoryJson(made.labels);
     json["unlabelled"] = unlabelledJson(made.labels);
+    json["native"] = nativeJson(made.native);
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + convert::reachLine(std::nullopt) +
                 repetitionLines(made.repetition) + inventoryLines(made.labels) +
-                endLines(made.remarks)};
+                nativeLines(made.native) + endLines(made.remarks)};
   }
 
 private:
   InputFile m_input;
+  InputFile m_native;
   OutputFile m_output;
   std::string m_from, m_to;
   VolumeArguments m_volume;

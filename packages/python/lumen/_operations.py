@@ -52,6 +52,8 @@ def convert(source, to=None, **options) -> Any:
         The name states the format, so no ``to=`` option of the program is needed.
     label_map : path, Volume, image or array, or a list of them, optional
         Labels that name branches and state what is a vessel or none.
+    native : path, Volume, image or array, optional
+        Computed tomography of the same body without contrast, whose bone is registered and subtracted.
     role : dict, optional
         Roles of labels, such as ``{"aorta": "artery", 5: "bone"}``.
     label_table : path, name or dict, optional

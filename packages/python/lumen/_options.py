@@ -102,7 +102,7 @@ def in_python(message: str) -> str:
 
 # Options whose values may be in memory, by the types of the stubs.
 _IN_MEMORY = {"seeds": "Seeds", "volume": "VolumeLike", "image": "VolumeLike",
-              "label-map": "VolumeLike | Sequence[VolumeLike]", "role": "str | Sequence[str] | Mapping[Union[int, str], str]",
+              "label-map": "VolumeLike | Sequence[VolumeLike]", "native": "VolumeLike", "role": "str | Sequence[str] | Mapping[Union[int, str], str]",
               "label-table": "PathLike | Mapping[int, str]", "labels": "VolumeLike | Mapping[int, str]",
               "against": "Case | PathLike"}
 
