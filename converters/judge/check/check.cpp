@@ -86,6 +86,7 @@ std::vector<OpenEnd> findOpenEnds(const formats::CenterlineTree& tree, double vo
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSharedVoxels = 0.5;  // a wall within half a voxel of its edge is good
 constexpr double kSameLength = 1e-4;  // voxels: floats of one file and doubles of another
 
 Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
@@ -270,6 +271,7 @@ CheckResult checkCase(const Volume& whole, const formats::Case& value, const Edg
     report.shownLength = shownLength(tree, lumen, levels);
   }
   report.ends = findOpenEnds(tree, report.voxelSize, report.missing.vessels);
+  report.shared = findSharedLumen(tree, kSharedVoxels * report.voxelSize);
   progress.end();
   result.lumen = lumen.voxels();
   return result;

@@ -12,6 +12,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/judge/check/places.h"
+#include "converters/judge/check/shared_lumen.h"
 #include "converters/judge/check/wall_offsets.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
@@ -74,6 +75,7 @@ struct CheckReport {
   Regions dark;
   Missing missing;
   std::vector<OpenEnd> ends;
+  std::vector<SharedLumen> shared;              ///< overlaps of more than half a voxel
   double shownLength = 0;                       ///< mm of the case's vessels that the volume shows
   [[nodiscard]] double missingLength() const {  ///< mm
     double sum = 0;
