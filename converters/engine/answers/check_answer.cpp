@@ -29,6 +29,7 @@ Json offsetsJson(const convert::Offsets& o, double voxel) {
                   {"p90_absolute", jsonNumber(o.absoluteP90 / size)},
                   {"median_uncorrected", jsonNumber(o.uncorrectedMedian / size)},
                   {"median_steepest", jsonNumber(o.steepestMedian / size)}};
+  json["contrast_to_noise"] = jsonNumber(o.contrastToNoise);
   json["beyond_voxel_share"] = jsonNumber(o.beyondVoxel);
   json["no_edge_share"] = jsonNumber(o.noEdge);
   json["wrong_polarity_share"] = jsonNumber(o.wrongPolarity);
@@ -187,16 +188,15 @@ std::string sharedText(const convert::CheckReport& report, const formats::Center
   if (report.shared.empty()) return "no two vessels share lumen beyond their joint\n";
   return counted(report.shared.size(), "pair of vessels shares", "pairs of vessels share") +
          " lumen beyond their joint\n" +
-         firstLines(report.shared, "more pair shares less", "more pairs share less",
-                    [&](const convert::SharedLumen& each) {
-                      return formats::printable(convert::labelOf(tree, each.node)) + " and " +
-                             formats::printable(tree.branches[each.other].label) +
-                             " share lumen at " +
-                             convert::placeText(toEigen(tree.centre[each.node])) + ", " +
-                             fixedText(each.depth, 1) + " mm deep (" +
-                             convert::percentText(each.share) + " of the thinner one), over " +
-                             fixedText(each.length, 1) + " mm";
-                    });
+         firstLines(
+             report.shared, "more pair shares less", "more pairs share less",
+             [&](const convert::SharedLumen& each) {
+               return formats::printable(convert::labelOf(tree, each.node)) + " and " +
+                      formats::printable(tree.branches[each.other].label) + " share lumen at " +
+                      convert::placeText(toEigen(tree.centre[each.node])) + ", " +
+                      fixedText(each.depth, 1) + " mm deep (" + convert::percentText(each.share) +
+                      " of the thinner one), over " + fixedText(each.length, 1) + " mm";
+             });
 }
 
 std::string missingText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {

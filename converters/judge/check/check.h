@@ -46,7 +46,9 @@ struct Offsets {
   double absoluteMedian = 0, absoluteP90 = 0;
   double uncorrectedMedian = 0;  ///< from the visible edge, including its blur
   double steepestMedian = 0;     ///< from the steepest change of intensity, including its blur
-  double beyondVoxel = 0;        ///< share of samples whose wall is over a voxel off its edge
+  /// Contrast of the edges over the standard deviation of the background beyond them, medians; NaN if that is 0.
+  double contrastToNoise = 0;
+  double beyondVoxel = 0;  ///< share of samples whose wall is over a voxel off its edge
   double noEdge = 0;
   double wrongPolarity = 0;
 };
