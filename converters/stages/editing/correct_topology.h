@@ -72,7 +72,7 @@ std::vector<Eigen::Vector3d> joinOverlappingEnds(NodeGraph& graph);
 /// Makes one vessel of two that run in one lumen beyond their joint: nodes of the one, within half a
 /// radius of the other's axis, that run along it, or end there. The vessel with more measured nodes keeps the
 /// stretch, and all that hangs on the other's hangs on it; a loop that this closes becomes a link if it is longer than
-/// eight times both radii. Vessels that cross are left as they are. The graph is directed; directions of edges are
+/// eight times both radii. Vessels that cross, and two that end there, are left as they are. The graph is directed; directions of edges are
 /// stale afterwards. Returns the places at which such stretches began, mm, LPS.
 std::vector<Eigen::Vector3d> mergeDoubledTracks(NodeGraph& graph);
 

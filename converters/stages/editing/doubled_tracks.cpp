@@ -81,6 +81,15 @@ private:
     return best;
   }
 
+  /// Whether a point lies within its radius of a free end of a vessel.
+  [[nodiscard]] bool isAtEndOf(Nodes vessel, const Vector3d& point) const {
+    const auto holds = [&](std::uint32_t end) {
+      return m_graph.neighbours(end).size() < 2 &&
+             (m_graph.position(end) - point).norm() < m_graph.radius(end);
+    };
+    return holds(vessel.front()) || holds(vessel.back());
+  }
+
   [[nodiscard]] bool isBeyondJoint(std::uint32_t a, std::uint32_t b) const {
     const auto path = m_graph.pathLength(a, b);
     return !path || *path > kJointRadii * (m_graph.radius(a) + m_graph.radius(b));
@@ -105,24 +114,25 @@ private:
   }
 
   /// Runs of a vessel deep in another that are one lumen with it beyond their joint: it runs along
-  /// the other there, or ends there.
+  /// the other there, or ends there. Where the other ends, too, joinOverlappingEnds() decides.
   [[nodiscard]] std::vector<Run> runsIn(Nodes kept, Nodes other,
                                         const std::vector<std::optional<std::size_t>>& deep) const {
     std::vector<Run> runs;
     for (std::size_t i = 0; i < other.size(); ++i) {
       if (!deep[i]) continue;
       Run run{i, i};
-      bool isAlong = false, isBeyond = false;
+      bool isAlong = false, isBeyond = false, isAtEnd = false;
       for (; run.end < other.size() && deep[run.end]; ++run.end) {
         const std::size_t at = *deep[run.end];
         isAlong = isAlong || std::abs(chord(kept, at).dot(chord(other, run.end))) > kAlongCosine;
         isBeyond = isBeyond || isBeyondJoint(other[run.end], kept[at]);
+        isAtEnd = isAtEnd || isAtEndOf(kept, m_graph.position(other[run.end]));
       }
       const double radius = m_graph.radius(kept[*deep[run.end - 1]]);
       const std::size_t before = run.first > 0 ? 1 : 0, behind = run.end < other.size() ? 1 : 0;
       const Nodes around = other.subspan(run.first - before, run.end - run.first + before + behind);
       const bool isTip = isBump(other.subspan(run.end), radius) && !m_graph.isLinked(other.back());
-      if (isBeyond && (isTip || (isAlong && lengthOf(around) > kStretchRadii * radius)))
+      if (isBeyond && !isAtEnd && (isTip || (isAlong && lengthOf(around) > kStretchRadii * radius)))
         runs.push_back(isTip ? Run{run.first, other.size()} : run);
       i = run.end;
     }
