@@ -70,6 +70,10 @@ lumen_test(operations_test FOLDER operations
 lumen_test(phantom_test FOLDER phantom
   LABELS threads
   LIBS lumen_phantom lumen_geometry)
+if(HAS_NUMPY)
+  python_test(Finding.VesselsInDrawnOrgansStayFound nightly
+    ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/organs.py hold $<TARGET_FILE:lumen>)
+endif()
 lumen_test(compare_test FOLDER compare
   LABELS threads
   LIBS lumen_compare lumen_geometry

@@ -29,6 +29,7 @@ Json offsetsJson(const convert::Offsets& o, double voxel) {
                   {"p90_absolute", jsonNumber(o.absoluteP90 / size)},
                   {"median_uncorrected", jsonNumber(o.uncorrectedMedian / size)},
                   {"median_steepest", jsonNumber(o.steepestMedian / size)}};
+  json["contrast_to_noise"] = jsonNumber(o.contrastToNoise);
   json["beyond_voxel_share"] = jsonNumber(o.beyondVoxel);
   json["no_edge_share"] = jsonNumber(o.noEdge);
   json["wrong_polarity_share"] = jsonNumber(o.wrongPolarity);
@@ -74,6 +75,20 @@ Json endsJson(const std::vector<convert::OpenEnd>& ends, const formats::Centerli
   return json;
 }
 
+Json sharedJson(const std::vector<convert::SharedLumen>& shared,
+                const formats::CenterlineTree& tree) {
+  Json json = Json::array();
+  for (const convert::SharedLumen& each : shared)
+    json.push_back({{"position", vectorJson(toEigen(tree.centre[each.node]))},
+                    {"branch", convert::labelOf(tree, each.node)},
+                    {"other", tree.branches[each.other].label},
+                    {"node", each.node},
+                    {"length_mm", jsonNumber(each.length)},
+                    {"depth_mm", jsonNumber(each.depth)},
+                    {"diameter_share", jsonNumber(each.share)}});
+  return json;
+}
+
 }  // namespace
 
 Json checkJson(const convert::CheckReport& report, const formats::CenterlineTree& tree,
@@ -92,6 +107,7 @@ Json checkJson(const convert::CheckReport& report, const formats::CenterlineTree
   json["missing_vessels"] = vesselsJson(report.missing, tree);
   json["wide_regions"] = regionsJson(report.missing.wide, tree);
   json["ends"] = endsJson(report.ends, tree);
+  json["shared_lumen"] = sharedJson(report.shared, tree);
   json["shown_mm"] = jsonNumber(report.shownLength);
   json["missing_mm"] = jsonNumber(report.missingLength());
   json["coverage_share"] =
@@ -168,6 +184,21 @@ std::string endsText(const convert::CheckReport& report, const formats::Centerli
                     });
 }
 
+std::string sharedText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
+  if (report.shared.empty()) return "no two vessels share lumen beyond their joint\n";
+  return counted(report.shared.size(), "pair of vessels shares", "pairs of vessels share") +
+         " lumen beyond their joint\n" +
+         firstLines(
+             report.shared, "more pair shares less", "more pairs share less",
+             [&](const convert::SharedLumen& each) {
+               return formats::printable(convert::labelOf(tree, each.node)) + " and " +
+                      formats::printable(tree.branches[each.other].label) + " share lumen at " +
+                      convert::placeText(toEigen(tree.centre[each.node])) + ", " +
+                      fixedText(each.depth, 1) + " mm deep (" + convert::percentText(each.share) +
+                      " of the thinner one), over " + fixedText(each.length, 1) + " mm";
+             });
+}
+
 std::string missingText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
   const double missing = report.missingLength(), whole = report.shownLength + missing;
   return "the case has " + fixedText(report.shownLength, 1) + " of " + fixedText(whole, 1) +
@@ -207,7 +238,7 @@ std::string checkText(const convert::CheckReport& report, const formats::Centerl
          "samples where another part of the\ntree begins, not judged. One voxel is " +
          fixedText(report.voxelSize, 3) + " mm; blur taken as " +
          fixedText(report.options.pointSpread, 3) + " mm.\n\n" + darkText(report, tree) +
-         endsText(report, tree) + missingText(report, tree);
+         endsText(report, tree) + sharedText(report, tree) + missingText(report, tree);
 }
 
 namespace {

@@ -86,11 +86,21 @@ std::vector<OpenEnd> findOpenEnds(const formats::CenterlineTree& tree, double vo
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSameLength = 1e-4;  // voxels: floats of one file and doubles of another
+constexpr double kSharedVoxels = 0.5;  // a wall within half a voxel of its edge is good
+constexpr double kSameLength = 1e-4;   // voxels: floats of one file and doubles of another
+
+/// Median contrast over the robust standard deviation of the background far from the walls.
+double contrastToNoise(std::vector<double> contrasts, std::vector<double> background) {
+  if (background.empty()) return kNaN;
+  const double middle = upperMedian(background);
+  for (double& level : background) level = std::abs(level - middle);
+  const double noise = kDeviationOfMedian * upperMedian(background);
+  return noise > 0 ? upperMedian(contrasts) / noise : kNaN;
+}
 
 Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   Offsets result;
-  std::vector<double> each, absolute, uncorrected, steepest;
+  std::vector<double> each, absolute, uncorrected, steepest, contrasts, background;
   std::size_t beyond = 0, none = 0, wrong = 0;
   for (const WallOffset& o : offsets) {
     result.beside += o.verdict == Verdict::BesideAnother;
@@ -102,6 +112,8 @@ Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
     absolute.push_back(std::abs(o.offset));
     uncorrected.push_back(o.offset - o.displaced);
     steepest.push_back(o.fromSteepest);
+    contrasts.push_back(o.inside - o.outside);
+    background.push_back(o.beyond);
     beyond += std::abs(o.offset) > voxel;
   }
   result.samples = each.size() + none + wrong;
@@ -117,6 +129,7 @@ Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   result.absoluteP90 = quantile(absolute, 0.9);
   result.uncorrectedMedian = quantile(uncorrected, 0.5);
   result.steepestMedian = quantile(steepest, 0.5);
+  result.contrastToNoise = contrastToNoise(std::move(contrasts), std::move(background));
   result.beyondVoxel = share(beyond);
   result.noEdge = share(none);
   result.wrongPolarity = share(wrong);
@@ -270,6 +283,7 @@ CheckResult checkCase(const Volume& whole, const formats::Case& value, const Edg
     report.shownLength = shownLength(tree, lumen, levels);
   }
   report.ends = findOpenEnds(tree, report.voxelSize, report.missing.vessels);
+  report.shared = findSharedLumen(tree, kSharedVoxels * report.voxelSize);
   progress.end();
   result.lumen = lumen.voxels();
   return result;

@@ -12,6 +12,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/judge/check/places.h"
+#include "converters/judge/check/shared_lumen.h"
 #include "converters/judge/check/wall_offsets.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
@@ -45,7 +46,9 @@ struct Offsets {
   double absoluteMedian = 0, absoluteP90 = 0;
   double uncorrectedMedian = 0;  ///< from the visible edge, including its blur
   double steepestMedian = 0;     ///< from the steepest change of intensity, including its blur
-  double beyondVoxel = 0;        ///< share of samples whose wall is over a voxel off its edge
+  /// Contrast of the edges over the standard deviation of the background beyond them, medians; NaN if that is 0.
+  double contrastToNoise = 0;
+  double beyondVoxel = 0;  ///< share of samples whose wall is over a voxel off its edge
   double noEdge = 0;
   double wrongPolarity = 0;
 };
@@ -74,6 +77,7 @@ struct CheckReport {
   Regions dark;
   Missing missing;
   std::vector<OpenEnd> ends;
+  std::vector<SharedLumen> shared;              ///< overlaps of more than half a voxel
   double shownLength = 0;                       ///< mm of the case's vessels that the volume shows
   [[nodiscard]] double missingLength() const {  ///< mm
     double sum = 0;

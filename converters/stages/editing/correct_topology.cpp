@@ -58,6 +58,13 @@ public:
     for (const Vector3d& place : joinIntoSides(m_graph, isLumenBetween)) places.push_back(place);
     cutFalseConnections(m_graph);
     for (const Vector3d& place : joinAcrossVoids(m_graph)) places.push_back(place);
+    for (bool isMore = true; isMore;) {  // vessels that are joined may run in others
+      m_graph.orient(roots());
+      const std::vector<Vector3d> merged = mergeDoubledTracks(m_graph);
+      places.insert(places.end(), merged.begin(), merged.end());
+      isMore = !merged.empty();
+    }
+    cutFalseConnections(m_graph);
     m_graph.orient(roots());
     rebuild();
     for (const Match& match : joined) places.push_back(m_ends[match.a].position);

@@ -29,6 +29,7 @@ struct LumenInVolume {
 ///   bridge. A join that closes a loop becomes a link.
 /// - Tips that overlap are one vessel (joinOverlappingEnds()), and a tip before the side of another
 ///   joins it (joinIntoSides()). Loops are cut where vessels only touch (cutFalseConnections()).
+/// - Two tracks in one lumen become one (mergeDoubledTracks()).
 /// - Ends of two trees that face one another across a void are one vessel, too (joinAcrossVoids()).
 /// - Each tree begins at its widest end that leaves the volume, or at its widest end if those that
 ///   leave are less than half as wide.
@@ -65,6 +66,15 @@ std::vector<Eigen::Vector3d> joinIntoSides(
 /// leaves stays as it is. Directions of edges are stale afterwards. Returns the places of the joined
 /// ends, one for each pair, mm, LPS.
 std::vector<Eigen::Vector3d> joinOverlappingEnds(NodeGraph& graph);
+
+// Two tracks in one lumen (docs/method.md, section 1.14).
+
+/// Makes one vessel of two that run in one lumen beyond their joint: nodes of the one, within half a
+/// radius of the other's axis, that run along it, or end there. The vessel with more measured nodes keeps the
+/// stretch, and all that hangs on the other's hangs on it; a loop that this closes becomes a link if it is longer than
+/// eight times both radii. Vessels that cross, and two that end there, are left as they are. The graph is directed; directions of edges are
+/// stale afterwards. Returns the places at which such stretches began, mm, LPS.
+std::vector<Eigen::Vector3d> mergeDoubledTracks(NodeGraph& graph);
 
 // Places at which two vessels only touch, found from the loops that they close (docs/method.md,
 // section 1.14).

@@ -87,6 +87,8 @@ public:
   /// Returns the nodes at which trees of their own begin.
   [[nodiscard]] std::vector<std::uint32_t> cutBetweenSystems();
   void cut(std::uint32_t a, std::uint32_t b);
+  /// Hangs the links and aneurysms of a node on another.
+  void hangOn(std::uint32_t node, std::uint32_t from);
   void link(std::uint32_t a, std::uint32_t b) { m_edited.links.push_back({a, b}); }
   /// Whether a link holds a node.
   [[nodiscard]] bool isLinked(std::uint32_t node) const {

@@ -12,6 +12,16 @@ bool NodeGraph::hasAneurysm(std::uint32_t node) const {
   });
 }
 
+void NodeGraph::hangOn(std::uint32_t node, std::uint32_t from) {
+  for (auto& link : m_edited.links)
+    for (std::uint32_t& end : link)
+      if (end == from) end = node;
+  std::erase_if(m_edited.links, [](const auto& link) { return link[0] == link[1]; });
+  for (EditableBranch& branch : m_edited.branches)
+    if (branch.record.kind != formats::BranchKind::Vessel && branch.parent == from)
+      branch.parent = node;
+}
+
 std::vector<std::uint32_t> NodeGraph::unforkedFrom(std::uint32_t end) const {
   const auto isLeft = [&](std::uint32_t node) {
     return m_neighbours[node].size() > 2 || hasAneurysm(node);

@@ -61,6 +61,21 @@ TEST_P(TubeCheck, OffsetIsHowMuchTheModelIsTooWide) {
 
 INSTANTIATE_TEST_SUITE_P(Voxels, TubeCheck, ::testing::Values(-1.5, -0.5, 0.0, 0.25, 1.5));
 
+// The spline averages noise between voxels, by a fifth at most, and edges take the brightest and the
+// darkest voxel beside them.
+TEST(Check, ContrastIsComparedWithTheNoiseBeyondTheWall) {
+  const auto ratioAt = [](double noise) {
+    Phantom tube = phantomOf("tube", noise);
+    addStraightModels(tube.truth, tubeRadius(tube));
+    return reportOf(tube.volume, tube.truth).offsets.contrastToNoise;
+  };
+  const double ratio = ratioAt(0.05);
+  EXPECT_GT(ratio, 20);
+  EXPECT_LT(ratio, 20 * 1.4);
+  EXPECT_NEAR(ratioAt(0.025) / ratio, 2, 0.2);
+  EXPECT_GT(ratioAt(0), 10 * ratio);
+}
+
 TEST(Check, LumenHasTheVolumeOfItsModel) {
   Phantom tube = phantomOf("tube");
   addStraightModels(tube.truth, tubeRadius(tube));

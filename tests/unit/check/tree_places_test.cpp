@@ -3,11 +3,14 @@
 #include "converters/judge/check/tree_places.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "../mesh/synthetic.h"
+#include "converters/judge/check/shared_lumen.h"
 #include "converters/judge/check/skeleton_paths.h"
 #include "converters/voxels/depth.h"
 
@@ -51,6 +54,48 @@ TEST(TreePlaces, AVesselWithinAnotherIsDoubledButACrossingOrATouchingOneIsNot) {
   EXPECT_EQ(value.tree.branches[doubled[0].other].label, "wide");
   EXPECT_NEAR(doubled[0].length, 14, 1e-5);
   EXPECT_EQ(value.tree.branch[doubled[0].node], doubled[0].branch);
+}
+
+/// A vessel of radius 2 along z, and one of radius 1 across it that passes its axis at a distance.
+formats::Case crossing(double apart) {
+  formats::Case value;
+  addVessel(value, "wide", straightPath({0, 0, 0}, {0, 0, 1}, 41), 2.0, 1.0);
+  addVessel(value, "across", straightPath({-20, apart, 20}, {1, 0, 0}, 41), 1.0, 1.0);
+  return value;
+}
+
+TEST(SharedLumen, IsWhereTwoTubesOverlapDeeperThanTheTolerance) {
+  const auto shared = findSharedLumen(crossing(1.5).tree, 0.5);
+  ASSERT_EQ(shared.size(), 1U);
+  EXPECT_NEAR(shared[0].depth, 1.5, 1e-5) << "2 + 1 - 1.5";
+  EXPECT_NEAR(shared[0].share, 0.75, 1e-5) << "of a diameter of 2";
+  EXPECT_EQ(shared[0].node, 20U);
+  EXPECT_EQ(shared[0].branch, 0U);
+  EXPECT_EQ(shared[0].other, 1U);
+  // nodes at 0, 1 and 2 mm from the place are 1.5, 1.80 and 2.5 mm apart, and 2.5 is all that the tolerance allows
+  EXPECT_NEAR(shared[0].length, 3, 1e-5);
+  EXPECT_TRUE(findSharedLumen(crossing(2.6).tree, 0.5).empty()) << "they touch";
+}
+
+TEST(SharedLumen, IsNoJointAndNoForkThatOpensAt30Degrees) {
+  formats::Case linked = crossing(1.5);
+  linked.tree.links.push_back({20, 41 + 20});
+  EXPECT_TRUE(findSharedLumen(linked.tree, 0.5).empty());
+  for (const double degrees : {30.0, 10.0}) {
+    formats::Case fork;
+    addVessel(fork, "parent", straightPath({0, 0, 0}, {0, 0, 0.5}, 81), 1.0, 1.0);
+    const double angle = degrees * std::numbers::pi / 180;
+    const Eigen::Vector3d along(std::sin(angle), 0, std::cos(angle));
+    addVessel(fork, "child", straightPath(Eigen::Vector3d(0, 0, 5) + 0.5 * along, 0.5 * along, 40),
+              1.0, 1.0, 10);
+    const auto shared = findSharedLumen(fork.tree, 0.25);
+    EXPECT_EQ(shared.size(), degrees < 29 ? 1U : 0U);
+    // the overlap ends 10 mm behind the fork, where the axes are 1.75 mm apart; 3.5 mm behind it the
+    // child still reaches nodes of the parent at 5 mm, over a path of more than 8 mm
+    if (!shared.empty()) {
+      EXPECT_NEAR(shared[0].length, 7, 1e-3);
+    }
+  }
 }
 
 TEST(TreePlaces, ThreePoorNodesInARowAreAPlace) {

@@ -223,6 +223,60 @@ TEST(CorrectTopology, AJoinThatClosesALoopIsALink) {
   EXPECT_EQ(rootsOf(value), 1U);
 }
 
+/// Adds places to those of a vessel.
+void go(std::vector<Vec3f>& places, const Vector3d& from, const Vector3d& direction, int count) {
+  const std::vector<Vec3f> more = along(from, direction, count);
+  places.insert(places.end(), more.begin(), more.end());
+}
+
+/// A vessel of radius 1 along x, and a thinner one that comes to it from above, runs in its lumen for
+/// `inside` nodes, and leaves it downward.
+Case doubled(int inside) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "first", alongX(-10, 0.5F, 41), 1);
+  std::vector<Vec3f> places;
+  go(places, {-3, 8, 0}, {0, -1, 0}, 16);
+  go(places, {-2.8, 0.2, 0}, {1, 0, 0}, inside);
+  go(places, {-2.8 + 0.5 * inside, -0.5, 0}, {0, -1, 0}, 16);
+  addBeads(value, "second", places, 0.7F);
+  return withoutModels(value);
+}
+
+TEST(CorrectTopology, TwoTracksInOneLumenBecomeOne) {
+  Case value = doubled(10);
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(findFault(value), "");
+  EXPECT_EQ(rootsOf(value), 1U);
+  ASSERT_EQ(value.tree.branches.size(), 3U) << "both parts of the second hang on the first";
+  for (std::size_t b = 1; b < 3; ++b)
+    EXPECT_EQ(value.tree.branch[static_cast<std::size_t>(value.tree.branches[b].parentNode)], 0U);
+  // the first has 41 nodes, and the second loses those within half a radius of its axis
+  EXPECT_EQ(value.tree.nodeCount(), 41U + 16 + 16 - 1);
+}
+
+TEST(CorrectTopology, AVesselThatIsBrieflyInAnotherCrossesIt) {
+  Case value = doubled(2);
+  EXPECT_TRUE(correctTopology(value, kEverywhere).empty());
+  EXPECT_EQ(rootsOf(value), 2U);
+  EXPECT_EQ(value.tree.nodeCount(), 41U + 16 + 2 + 16);
+}
+
+TEST(CorrectTopology, ATrackThatReturnsIntoItsParentsLumenClosesALoopByALink) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "first", alongX(-10, 0.5F, 41), 1);
+  std::vector<Vec3f> places;
+  go(places, {-8, 0.5, 0}, {0, 1, 0}, 14);
+  go(places, {-7.5, 7, 0}, {1, 0, 0}, 20);
+  go(places, {2, 6.5, 0}, {0, -1, 0}, 14);
+  addBeads(value, "loop", places, 0.7F, 4);
+  value = withoutModels(value);
+  correctTopology(value, kEverywhere);
+  EXPECT_EQ(findFault(value), "");
+  EXPECT_EQ(rootsOf(value), 1U);
+  EXPECT_EQ(value.tree.branches.size(), 2U);
+  EXPECT_EQ(value.tree.links.size(), 1U);
+}
+
 TEST(CorrectTopology, ATreeBeginsAtItsWidestEndThatLeavesTheVolume) {
   Case value = formats::test::noBeads();
   // the widest end lies inside; another leaves, and is more than half as wide
