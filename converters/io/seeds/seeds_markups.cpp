@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/base/length_unit.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seeds_parse.h"
 
@@ -26,20 +27,30 @@ SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
   place.refuse("\"LPS\" or \"RAS\"; " + reading.word("seeds-frame") + " states another");
 }
 
-/// "mm" (the default) or "m"; a coded unit such as ["mm", "UCUM", "millimeter"] is read by its
+/// A unit of length, mm by default; a coded unit such as ["mm", "UCUM", "millimeter"] is read by its
 /// first word.
 double unitScale(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.unit) return *reading.unit;
   if (!markup.has("coordinateUnits")) return 1;
   const JsonPlace unit = markup.at("coordinateUnits");
-  if (!unit.value().isArray()) return unitInMillimetres(unit, reading);
-  const auto words = unit.elements();
-  if (words.empty()) unit.refuse("\"mm\" or \"m\"");
-  return unitInMillimetres(words[0], reading);
+  const auto words = unit.value().isArray() ? unit.elements() : std::vector<JsonPlace>{unit};
+  if (words.empty()) unit.refuse("a unit of length, such as \"mm\"");
+  if (const auto known = millimetresPer(words[0].text())) return *known;
+  words[0].refuse("\"mm\", \"m\" or another unit of length; " + reading.word("seeds-unit") +
+                  " states another");
 }
 
-/// The values of the measurement "Radius", one for each control point; null if there is none.
-std::vector<double> radii(const JsonPlace& markup, std::size_t points) {
+/// Millimetres in the unit of a measurement, which is that of the coordinates unless it states one.
+double unitOfMeasurement(const JsonPlace& measurement, const SeedFrame& frame,
+                         const SeedReading& reading) {
+  if (reading.unit || !measurement.has("units")) return frame.unit;
+  const std::string* const word = measurement.at("units").value().text();
+  return word == nullptr ? frame.unit : millimetresPer(*word).value_or(frame.unit);
+}
+
+/// The values of the measurement "Radius", mm, one for each control point; none if there is none.
+std::vector<double> radii(const JsonPlace& markup, std::size_t points, const SeedFrame& frame,
+                          const SeedReading& reading) {
   std::vector<double> values;
   if (!markup.has("measurements")) return values;
   for (const auto& measurement : markup.at("measurements").elements()) {
@@ -49,7 +60,8 @@ std::vector<double> radii(const JsonPlace& markup, std::size_t points) {
     if (entries.size() != points)
       measurement.at("controlPointValues")
           .refuse(std::to_string(points) + " radii, one for each control point");
-    for (const auto& entry : entries) values.push_back(entry.number());
+    const double unit = unitOfMeasurement(measurement, frame, reading);
+    for (const auto& entry : entries) values.push_back(unit * entry.number());
   }
   return values;
 }
@@ -68,15 +80,16 @@ struct ControlPoint {
 };
 
 /// The control points that have a position; Slicer keeps others as placeholders.
-std::vector<ControlPoint> controlPoints(const JsonPlace& markup, const SeedFrame& frame) {
+std::vector<ControlPoint> controlPoints(const JsonPlace& markup, const SeedFrame& frame,
+                                        const SeedReading& reading) {
   const auto places = markup.at("controlPoints").elements();
-  const std::vector<double> radius = radii(markup, places.size());
+  const std::vector<double> radius = radii(markup, places.size(), frame, reading);
   std::vector<ControlPoint> points;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const JsonPlace& place = places[i];
     if (place.has("positionStatus") && place.at("positionStatus").text() != "defined") continue;
     SeedPoint point{frame.position(place.at("position").vector()), std::nullopt};
-    if (!radius.empty()) point.radius = frame.unit * radius[i];
+    if (!radius.empty()) point.radius = radius[i];
     points.push_back({place, point});
   }
   return points;
@@ -88,10 +101,10 @@ std::string textOr(const JsonPlace& place, const char* key, const std::string& f
 }
 
 /// Each control point of a Fiducial markup begins a branch of its own.
-void addFiducials(const JsonPlace& markup, const SeedFrame& frame, const std::string& name,
-                  std::vector<SeedBranch>& branches) {
+void addFiducials(const JsonPlace& markup, const SeedFrame& frame, const SeedReading& reading,
+                  const std::string& name, std::vector<SeedBranch>& branches) {
   int number = 0;
-  for (const auto& [place, point] : controlPoints(markup, frame)) {
+  for (const auto& [place, point] : controlPoints(markup, frame, reading)) {
     SeedBranch branch;
     branch.frame = frame;
     branch.label = textOr(place, "label", name + "-" + std::to_string(++number));
@@ -102,12 +115,12 @@ void addFiducials(const JsonPlace& markup, const SeedFrame& frame, const std::st
 }
 
 /// A line or curve is one branch.
-void addCurve(const JsonPlace& markup, const SeedFrame& frame, const std::string& name,
-              std::vector<SeedBranch>& branches) {
+void addCurve(const JsonPlace& markup, const SeedFrame& frame, const SeedReading& reading,
+              const std::string& name, std::vector<SeedBranch>& branches) {
   SeedBranch branch;
   branch.frame = frame;
   branch.label = name;
-  const auto points = controlPoints(markup, frame);
+  const auto points = controlPoints(markup, frame, reading);
   for (const auto& control : points) branch.points.push_back(control.point);
   if (!points.empty()) describe(points[0].place, branch);
   describe(markup, branch);
@@ -123,9 +136,9 @@ std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& s
     const SeedFrame frame{systemOf(markup, reading), unitScale(markup, reading)};
     const std::string type = markup.at("type").text(), name = textOr(markup, "name", stem);
     if (type == "Fiducial")
-      addFiducials(markup, frame, name, branches);
+      addFiducials(markup, frame, reading, name, branches);
     else if (type == "Line" || type == "Curve" || type == "ClosedCurve")
-      addCurve(markup, frame, name, branches);
+      addCurve(markup, frame, reading, name, branches);
     else
       markup.at("type").refuse(
           "\"Fiducial\", \"Line\", \"Curve\" or \"ClosedCurve\": points on vessels; save those "
