@@ -49,7 +49,7 @@ def by_nibabel(g, original, where):
     for kind in ("int16", "uint16", "int32", "float32", "float64"):
         image = nib.Nifti1Image(data.astype(kind), affine(np, g))
         image.header.set_xyzt_units("mm")
-        image.header.set_slope_inter(1)
+        image.header.set_slope_inter(1, 0)
         yield Turned("NIfTI", f"nibabel, {kind}; {where}", written("v.nii", lambda path: nib.save(image, path)), original=original)
         image.header.set_slope_inter(0.25, -3)
         yield Turned("NIfTI", f"nibabel, {kind}, a scale; {where}", written("v.nii", lambda path: nib.save(image, path)), "same", "", (), original)
@@ -58,7 +58,7 @@ def by_nibabel(g, original, where):
     image = nib.Nifti1Pair(data, affine(np, g))
     yield Turned("NIfTI", f"nibabel, a pair; {where}", written("v.hdr", lambda path: nib.save(image, path)), "refused", r"\.nii", (), original)
     image = nib.AnalyzeImage(data, affine(np, g))
-    yield Turned("NIfTI", f"nibabel, ANALYZE; {where}", written("v.hdr", lambda path: nib.save(image, path)), "refused", r"NIfTI", (), original)
+    yield Turned("NIfTI", f"nibabel, ANALYZE; {where}", written("v.hdr", lambda path: nib.save(image, path)), "refused", r"nii", (), original)
 
 
 def by_simpleitk(g, original, where):
@@ -77,7 +77,7 @@ def by_simpleitk(g, original, where):
     for name in ("v.vtk", "v.hdr", "v.gipl", "v.tif", "v.mnc"):
         try: files = written(name, lambda path: sitk.WriteImage(sitk.Cast(image, sitk.sitkUInt16), path))
         except Exception: continue
-        yield Turned("other volumes", f"SimpleITK, {name}; {where}", files, "refused", r"\.nrrd|nrrd|\.nii", (), original)
+        yield Turned("other volumes", f"SimpleITK, {name}; {where}", files, "refused", r"nrrd|POLYDATA", (), original)
 
 
 def by_pynrrd(g, original, where):
@@ -180,7 +180,7 @@ def by_pydicom(g, original, where):
 
     def series(explicit=True, slope=None, inter=0, order=1, signed=True, thickness=None, big=False, number=True, gap_field=False):
         files = {}
-        root = uid.generate_uid(entropy_srcs=[where])
+        root = uid.generate_uid(entropy_srcs=[where])[:40] + "1"
         for k in range(g.size[2]):
             ds = dataset.Dataset()
             ds.file_meta = dataset.FileMetaDataset()

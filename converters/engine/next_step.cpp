@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/engine/answers/next_step.h"
+#include "converters/engine/next_step.h"
 
 #include <algorithm>
 #include <array>
