@@ -7,6 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/engine/scope.h"
@@ -31,7 +32,7 @@ std::size_t rootCount(const convert::CenterlineFile& file) {
 void addFrameRow(OptionTable& table, std::string& frame) {
   table.group("Mesh or centerline");
   table
-      .add("frame", &frame, "FRAME",
+      .add(kOption.frame.name, &frame, "FRAME",
            "Axes of the coordinates of a mesh or centerline, whatever its file states: lps, or ras "
            "[lps where the file does not state them]")
       .among(std::vector<std::string>{"lps", "ras"})

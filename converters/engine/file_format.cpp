@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
@@ -207,17 +208,19 @@ const FileFormat* findByContent(const InputFile& file) {
                                                              : nullptr;
 }
 
-const FileFormat* findByEnding(const fs::path& path) {
+/// The format with the longest ending that the name of a file has, and the size of that ending.
+std::pair<const FileFormat*, std::size_t> endingOf(const fs::path& path) {
   const std::string file = lowerCase(path.filename().string());
-  const FileFormat* best = nullptr;
-  std::size_t longest = 0;
+  std::pair<const FileFormat*, std::size_t> best{};
   for (const FileFormat& format : fileFormats())
     for (const std::string_view ending : format.endings)
-      if (ending.size() > longest && file.size() > ending.size() && file.ends_with(ending)) {
-        best = &format;
-        longest = ending.size();
-      }
+      if (ending.size() > best.second && file.size() > ending.size() && file.ends_with(ending))
+        best = {&format, ending.size()};
   return best;
+}
+
+const FileFormat* findByEnding(const fs::path& path) {
+  return endingOf(path).first;
 }
 
 /// `text(format)` of each format that passes `test`, each text once.
@@ -300,6 +303,10 @@ void FileFormat::writeVolume(const convert::Volume& volume, const OutputFile& fi
 const std::vector<FileFormat>& fileFormats() {
   static const std::vector<FileFormat> table = makeTable();
   return table;
+}
+
+std::size_t longestEnding(const std::string& name) {
+  return endingOf(name).second;
 }
 
 convert::ContentKind contentKind(const FileFormat& format) {

@@ -81,6 +81,9 @@ struct FileFormat {
 
 const std::vector<FileFormat>& fileFormats();
 
+/// Size of the ending that makes a file of this name one of a format; 0 if none does.
+std::size_t longestEnding(const std::string& name);
+
 /// Kind of content of a file of this format.
 convert::ContentKind contentKind(const FileFormat& format);
 

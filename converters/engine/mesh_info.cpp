@@ -11,6 +11,7 @@
 
 #include "converters/base/shown_text.h"
 #include "converters/engine/stage_options.h"
+#include "converters/geometry/far_origin.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -129,7 +130,11 @@ MeshInfo describeMesh(convert::MeshFile file, const std::string& name, const std
                       Progress& progress) {
   MeshInfo info;
   progress.begin("diagnosing", 0);
+  const Eigen::Vector3d back = convert::moveNear(file.mesh.position);
   info.report = convert::diagnoseMesh(file.mesh, progress);
+  info.report.low += back;
+  info.report.high += back;
+  for (convert::BoundaryLoop& loop : info.report.boundaryLoops) loop.centre += back;
   progress.end();
   const bool isSimVascular = isOfSimVascular(name, file);
   const operations::MeshPart part{std::move(file), isSimVascular};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/operations/hinted_vessels.h"
@@ -127,6 +128,7 @@ MadeCase caseWithoutModels(Source source, const CaseOptions& options, const Cont
   } else {
     made.centerlineFrame = source.centerline.value().frame;
     made.value = convert::caseOfCenterline(source.centerline->file, source.name);
+    recordAssumptions(made.value.metadata.steps.back(), source.centerline->file.assumptions);
     applyRoots(made.value, source.name, options.vessels, context);
   }
   return made;

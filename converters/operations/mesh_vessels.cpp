@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
+#include "converters/geometry/far_origin.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/repair/repair.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
@@ -17,14 +19,15 @@ namespace lumen::operations {
 
 namespace {
 
-/// The centerline beside a mesh in mm, LPS. `meshUnit`: mm in a unit of the mesh.
-convert::GivenCenterline inPatientSpace(const CenterlinePart& centerline, double meshUnit) {
+/// The centerline beside a mesh in mm, LPS, moved as the mesh. `meshUnit`: mm in a unit of the mesh.
+convert::GivenCenterline inPatientSpace(const CenterlinePart& centerline, double meshUnit,
+                                        const Eigen::Vector3d& move) {
   convert::GivenCenterline given{centerline.file, formats::printable(centerline.name)};
   const double unit = given.file.unit > 0 ? given.file.unit : meshUnit;
   const bool isRas = given.file.axes == convert::CenterlineAxes::Ras;
   const Eigen::Vector3d turn(isRas ? -unit : unit, isRas ? -unit : unit, unit);
   for (convert::CenterlinePoint& point : given.file.points) {
-    point.position = turn.cwiseProduct(point.position);
+    point.position = turn.cwiseProduct(point.position) - move;
     point.radius *= unit;
   }
   return given;
@@ -84,19 +87,31 @@ formats::Case meshVessels(const Source& source, const std::optional<double>& uni
   const MeshPart& part = source.mesh.value();
   Progress& progress = context.progress;
   progress.begin("repairing", 0);
-  convert::RepairResult repaired = convert::repairMesh(part.file.mesh, name, progress);
+  convert::TriangleMesh mesh = part.file.mesh;
+  const Eigen::Vector3d back = convert::moveNear(mesh.position);
+  convert::RepairResult repaired = convert::repairMesh(mesh, name, progress);
   progress.end();
   for (const std::string& note : part.file.notes) progress.warn(name + ": " + note);
   if (!repaired.repairs.empty()) progress.warn(name + ": repaired: " + listed(repaired.repairs));
   frame = meshFrame(part, convert::vesselSize(repaired.mesh), source.name, unit, context);
   const double scale = part.file.scaleFor(frame.unit);
-  for (Eigen::Vector3d& p : repaired.mesh.position) p *= scale;
+  const Eigen::Vector3d move =
+      convert::farMove(scale * (convert::lowestOf(repaired.mesh.position) + back));
+  const Eigen::Vector3d shift = scale * back - move;
+  for (Eigen::Vector3d& p : repaired.mesh.position) p = scale * p;
+  if (!shift.isZero(0))
+    for (Eigen::Vector3d& p : repaired.mesh.position) p += shift;
   std::optional<convert::GivenCenterline> centerline;
-  if (source.centerline) centerline = inPatientSpace(*source.centerline, scale);
+  if (source.centerline) centerline = inPatientSpace(*source.centerline, scale, move);
   convert::MeshCase made =
       convert::caseOfMesh(std::move(repaired.mesh), name, centerline, {{"unit", scale}}, progress);
   for (const std::string& note : made.notes) progress.warn(note);
   beginAtFurtherInlets(made, progress);
+  if (!move.isZero(0)) {
+    const std::string sentence = convert::farSentence("its points are", move);
+    progress.warn(name + ": " + sentence);
+    recordAssumptions(made.result.metadata.steps.back(), {sentence});
+  }
   return std::move(made.result);
 }
 

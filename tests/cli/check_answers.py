@@ -241,6 +241,7 @@ def make_cases(lumen, folder):
     for volume in ("a.nrrd", "a.nii.gz"):
         for voxels in ((), ("--voxels",)): go("info-volume.schema.json", "info", volume, *voxels)
     for mesh in ("mesh.ply", *sorted(map(str, (ROOT / "tests/data/mesh").glob("*")))): go("info-mesh.schema.json", "info", mesh)
+    go("info-seeds.schema.json", "info", "astray.json")
     for tree in ("a.swc", "a.tre", "a.centerline.vtp", "a.mrk.json"):
         go("convert.schema.json", "convert", "truth.lumen", tree)
         go("info-centerline.schema.json", "info", tree)

@@ -46,6 +46,7 @@ root tube.nrrd
 root labels.nrrd --mask true
 root plain.stl
 root vessels.scn --mesh tip
+root truth.swc
 only-connected apart.nrrd
 only-connected apart.stl
 only-connected apart-labels.nrrd --mask true

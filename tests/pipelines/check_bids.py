@@ -8,6 +8,9 @@ Exit status: 0 all holds, 1 not. Where node or the validator (npm ci in tests/pi
 import argparse, csv, json, os, pathlib, shutil, subprocess, sys, tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "cli"))
+from private_words import FOLDER, words_in
+
 APP = HERE.parents[1] / "converters/pipelines/bids/lumen-bids"
 VALIDATOR = HERE / "node_modules/bids-validator/bin/bids-validator"
 VOLUMES = {"sub-01/anat/sub-01_angio": "fork", "sub-01/anat/sub-01_run-2_angio": "tube", "sub-02/ses-a/anat/sub-02_ses-a_angio": "stenosis"}
@@ -192,11 +195,14 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path, help="copy the derivatives there, to be looked at")
     options = parser.parse_args()
     sorts_outliers_first()
-    with tempfile.TemporaryDirectory(prefix="lumen-bids-") as folder:
+    with tempfile.TemporaryDirectory(prefix=f"{FOLDER}-") as folder:
         app = App(options.lumen.resolve(), pathlib.Path(folder), dict(list(VOLUMES.items())[:1] if options.quick else VOLUMES))
         app.draw()
         whole = (makes_derivatives, makes_again_only_what_changed, uses_label_maps, makes_the_group, writes_a_list, is_valid)
         for step in (makes_derivatives, makes_a_library) if options.quick else whole: step(app)
+        for file in app.out.rglob("*"):
+            found = words_in(file.read_bytes()) if file.is_file() else []
+            must(not found, f"{file.relative_to(app.out)} holds {found}, which the name of a folder is")
         if options.keep: shutil.copytree(app.out, options.keep)
         refuses(app)
 

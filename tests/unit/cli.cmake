@@ -32,7 +32,6 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/motion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/option_scope_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/cli/paths_in_outputs_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/pushed_tool.cpp
@@ -74,6 +73,12 @@ endif()
 if(HAS_JSONSCHEMA)
   python_test(Answers.AreWhatTheirSchemasSay slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_answers.py $<TARGET_FILE:batch_lumen> ${PROJECT_BINARY_DIR})
 endif()
+
+# Facts that files state, turned one at a time; and words that no output may hold.
+set(facts ${CMAKE_CURRENT_SOURCE_DIR}/cli/facts/sweep.py $<TARGET_FILE:batch_lumen>)
+python_test(Facts.OfASampleOfFilesGiveEqualCases slow ${facts} --every 23)
+python_test(Facts.OfAllFilesGiveEqualCases nightly ${facts} --others)
+python_test(PrivateWords.AreInNoOutput slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/private_words.py $<TARGET_FILE:batch_lumen>)
 
 # Answers to mistakes, as docs/mistakes has them.
 set(mistakes ${CMAKE_CURRENT_SOURCE_DIR}/cli/mistakes/run.py --lumen $<TARGET_FILE:lumen> --batch $<TARGET_FILE:batch_lumen>)

@@ -24,6 +24,7 @@ struct OptionNames {
   OptionName json{"json"};
   // volumes, meshes and centerlines that are read
   OptionName unit{"unit"};
+  OptionName frame{"frame"};
   OptionName volumeIndex{"volume-index"};
   OptionName crop{"crop"};
   OptionName volume{"volume"};

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen info: the facts of a case, a volume, a mesh or a centerline.
+#include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
+#include "converters/base/shown_lines.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/chunk_info.h"
@@ -13,9 +20,13 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_info.h"
+#include "converters/engine/next_step.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/tracking_input.h"
+#include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/content/file_content.h"
+#include "converters/io/seeds/seeds.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
 
@@ -69,30 +80,107 @@ public:
     if (m_from.empty() && convert::isLabelFolder(m_input)) {
       requireInScope(*context.table, {kFileLabels, kAnyContent, m_input.name(), {}},
                      context.progress);
-      const VolumeInfo info = describeFolder(context.progress);
-      return {volumeInfoJson(info), volumeInfoText(info), 0, true};
+      return volumeAnswer(describeFolder(context.progress), context);
     }
+    if (std::optional<Answer> other = otherThanInputs(context)) return *std::move(other);
     const FileFormat& from = inputFormat(m_input, m_from);
     requireInScope(*context.table, {inputContent(from, false), kAnyContent, m_input.name(), {}},
                    context.progress);
-    if (from.kind == FormatKind::Volume) {
-      const VolumeInfo info = describe(from, context.progress);
-      return {volumeInfoJson(info), volumeInfoText(info), 0, true};
-    }
+    if (from.kind == FormatKind::Volume)
+      return volumeAnswer(describe(from, context.progress), context);
     if (from.kind == FormatKind::Mesh) {
       const MeshInfo info =
           describeMesh(readMesh(from), m_input.name(), m_volume.unit, context.progress);
-      return {meshInfoJson(info), meshInfoText(info), 0, true};
+      return withNext({meshInfoJson(info), meshInfoText(info), 0, true},
+                      {info.file.notes, "a case, along the middle of the surface",
+                       convertCommand(*context.table, m_input.name(), stem())},
+                      kColumn);
     }
     if (from.kind == FormatKind::Centerline) {
       const LoadedCenterline loaded =
           loadCenterline(m_input, from, m_volume, m_frame, context.progress);
-      return {centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true};
+      return withNext({centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true},
+                      nextOf(loaded, *context.table), kNarrowColumn);
     }
     return describeWithSurface(from.readCase(m_input), context);
   }
 
 private:
+  /// The name of the input without its folder and its ending.
+  [[nodiscard]] std::string stem() const {
+    const std::string name =
+        std::filesystem::path(m_input.name()).lexically_normal().filename().string();
+    const std::size_t longest = longestEnding(name);
+    return name.size() > longest && longest > 0 ? name.substr(0, name.size() - longest) : name;
+  }
+
+  [[nodiscard]] Answer volumeAnswer(const VolumeInfo& info, const RunContext& context) const {
+    const bool holdsLabels = info.values && !info.values->labels.empty();
+    return withNext({volumeInfoJson(info), volumeInfoText(info), 0, true},
+                    {info.header.assumptions,
+                     holdsLabels   ? "a case of the vessels that its labels mark"
+                     : info.values ? "a case of the vessels that lumen finds in it"
+                                   : "a case of the vessels in it; of a label map, of its labels",
+                     convertCommand(*context.table, m_input.name(), stem())},
+                    kNarrowColumn);
+  }
+
+  [[nodiscard]] NextStep nextOf(const LoadedCenterline& loaded, const OptionTable& table) const {
+    if (convert::measureExtent(loaded.file).most > 0)
+      return {loaded.file.remarks, "a case of its points and radii",
+              convertCommand(table, m_input.name(), stem())};
+    return {loaded.file.remarks, "a case of the surface that it lies in, as it has no radii",
+            "lumen convert SURFACE.stl " + shellWord(stem() + ".lumen") + " --centerline " +
+                shellWord(m_input.name())};
+  }
+
+  /// The answer about seeds, which are no input of their own; refuses a library of cases.
+  [[nodiscard]] std::optional<Answer> otherThanInputs(const RunContext& context) const {
+    std::error_code ignored;
+    if (m_input.isFolder()) {
+      if (m_input.isInMemory() ||
+          !std::filesystem::exists(m_input.path() / "library.json", ignored))
+        return {};
+      throw unsupported(formats::printable(m_input.name()) +
+                        ": this is a library of cases; lumen library verify " +
+                        shellWord(m_input.name()) +
+                        " checks it, and lumen info describes each of the .lumen files in it");
+    }
+    if (!m_from.empty() || convert::detectContent(m_input).kind != convert::ContentKind::Seeds)
+      return {};
+    const std::vector<convert::SeedBranch> seeds = convert::readSeeds(m_input);
+    if (mayBeCenterline(seeds)) return {};
+    constexpr ContentMask kNothing = 0;
+    requireInScope(*context.table, {kNothing, kAnyContent, m_input.name(), {}}, context.progress);
+    return seedsAnswer(seeds);
+  }
+
+  [[nodiscard]] static bool mayBeCenterline(const std::vector<convert::SeedBranch>& seeds) {
+    return std::any_of(seeds.begin(), seeds.end(), [](const convert::SeedBranch& seed) {
+      return seed.points.size() > 1 && seed.points.front().radius.has_value();
+    });
+  }
+
+  [[nodiscard]] Answer seedsAnswer(const std::vector<convert::SeedBranch>& seeds) const {
+    std::size_t points = 0, aneurysms = 0;
+    for (const convert::SeedBranch& seed : seeds) {
+      points += seed.points.size();
+      aneurysms += seed.kind == formats::BranchKind::Aneurysm ? 1 : 0;
+    }
+    Lines lines(kNarrowColumn);
+    lines.add("seeds", counted(seeds.size() - aneurysms, "vessel", "vessels") + ", " +
+                           counted(aneurysms, "aneurysm", "aneurysms"));
+    lines.add("points", std::to_string(points));
+    const Json json = {
+        {"vessels", seeds.size() - aneurysms}, {"aneurysms", aneurysms}, {"points", points}};
+    return withNext({json, lines.text(), 0, true},
+                    {{},
+                     "a case of the vessels that begin at these places of a volume",
+                     "lumen track VOLUME.nrrd " + shellWord(stem() + ".lumen") + " --seeds " +
+                         shellWord(m_input.name())},
+                    kNarrowColumn);
+  }
+
   [[nodiscard]] convert::MeshFile readMesh(const FileFormat& from) const {
     convert::MeshFile file = from.readScene != nullptr
                                  ? from.readScene(m_input, {{}, m_volume.allowDetached})
@@ -146,7 +234,15 @@ private:
     json["surface_warnings"] = found.warnings;
     std::string text = caseInfoText(info) + surfaceLines(found.report, value);
     for (const std::string& sentence : found.warnings) text += "warning      " + sentence + "\n";
-    return {std::move(json), std::move(text), 0, true};
+    const std::string name = shellWord(m_input.name());
+    return withNext({std::move(json), std::move(text), 0, true},
+                    value.models
+                        ? NextStep{recordedAssumptions(value.metadata),
+                                   "the closed surface of its vessels, as a mesh",
+                                   "lumen convert " + name + " " + shellWord(stem() + ".glb")}
+                        : NextStep{recordedAssumptions(value.metadata), "models of its vessels",
+                                   "lumen fit " + name + " " + shellWord(stem() + "-fitted.lumen")},
+                    kColumn);
   }
 
   InputFile m_input;

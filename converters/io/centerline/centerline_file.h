@@ -38,6 +38,7 @@ struct CenterlineFile {
   bool isOfLumen = false;                          ///< points are the nodes of a case
   bool isOfSimVascular = false;                    ///< lengths are cm, if that is plausible
   std::vector<std::string> remarks;                ///< assumptions and omissions, sentences
+  std::vector<std::string> assumptions;            ///< those of them that a case records
 
   [[nodiscard]] std::size_t radiiMissing() const;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/geometry/far_origin.h"
 #include "converters/io/centerline/case_of_centerline.h"
 
 namespace lumen::convert {
@@ -24,6 +25,17 @@ VesselSize sizeOf(const CenterlineFile& file) {
   }
   return {area > 0 ? volume / area : std::numeric_limits<double>::quiet_NaN(),
           measureExtent(file).diagonal};
+}
+
+// Moves points in mm that lie far from 0.
+void moveFarPoints(CenterlineFile& file) {
+  Eigen::Vector3d low = file.points.front().position;
+  for (const CenterlinePoint& point : file.points) low = low.cwiseMin(point.position);
+  const Eigen::Vector3d move = farMove(low);
+  if (move.isZero(0)) return;
+  for (CenterlinePoint& point : file.points) point.position -= move;
+  file.assumptions.push_back(farSentence("its points are", move));
+  file.remarks.push_back(file.assumptions.back());
 }
 
 }  // namespace
@@ -70,6 +82,7 @@ ReadFrame toPatientSpace(CenterlineFile& file, const CenterlineReading& reading)
   }
   if (axes == CenterlineAxes::Ras && !reading.axes)
     file.remarks.emplace_back("the file states RAS: x and y were negated, to LPS");
+  moveFarPoints(file);
   file.unit = 1;
   file.axes = CenterlineAxes::Lps;
   return frame;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declared in centerline_readers.h.
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -32,6 +34,16 @@ std::vector<InputFile> listFiles(const InputFile& input) {
   return files;
 }
 
+// The points as their file has them, so that options may state another unit and other axes.
+void restoreFrame(const SeedFrame& frame, CenterlineFile& file) {
+  file.unit = frame.unit;
+  if (frame.system == SeedSystem::Ras) file.axes = CenterlineAxes::Ras;
+  for (CenterlinePoint& point : file.points) {
+    point.position = frame.direction(point.position) / frame.unit;
+    point.radius /= frame.unit;
+  }
+}
+
 }  // namespace
 
 bool hasCurves(const fs::path& folder) {
@@ -43,8 +55,17 @@ CenterlineFile readCurves(const InputFile& fileOrFolder) {
   const std::string name = formats::printable(fileOrFolder.path().string());
   std::vector<CenterlineCurve> curves;
   std::size_t without = 0, short_ = 0;
+  SeedReading reading;
+  reading.word = [](std::string_view field, std::optional<std::size_t>) {
+    return field == "seeds-unit" ? kOption.unit.shown() : kOption.frame.shown();
+  };
+  std::optional<SeedFrame> stated;  // of all files
+  bool isOneFrame = true;
   for (const InputFile& file : listFiles(fileOrFolder)) {
-    for (const SeedBranch& branch : readSeeds(file)) {
+    for (const SeedBranch& branch : readSeeds(file, reading)) {
+      if (!stated) stated = branch.frame;
+      isOneFrame =
+          isOneFrame && stated->unit == branch.frame.unit && stated->system == branch.frame.system;
       CenterlineCurve curve{branch.label, {}, -1, -1};
       bool hasRadii = false;
       for (const SeedPoint& point : branch.points) {
@@ -68,6 +89,7 @@ CenterlineFile readCurves(const InputFile& fileOrFolder) {
   CenterlineFile result = joinCurves(curves);
   result.unit = 1;
   result.axes = CenterlineAxes::Lps;
+  if (stated && isOneFrame) restoreFrame(*stated, result);
   if (short_ > 0)
     result.remarks.push_back(std::to_string(short_) + " markups of a single point are left out");
   if (without > 0)

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
@@ -102,7 +103,7 @@ private:
     else if (key == "ElementType")
       takeType(object, value);
     else if (key == "CompressedData" && isTrue(value))
-      refuse("states that data are compressed; lumen reads them as they are");
+      refuse("states that data are compressed; expected CompressedData = False");
     else if (key == "ElementSpacing")
       object.spacing = parseVector(value);
     else if (key == "Offset" || key == "Position")
@@ -315,17 +316,19 @@ std::map<int, std::size_t> objectsById(const std::vector<TreObject>& objects) {
   return byId;
 }
 
-// A point of an object in the scene: its own placement is applied, then those of its ancestors.
-Eigen::Vector3d placed(Eigen::Vector3d p, std::size_t object, const std::vector<TreObject>& objects,
-                       const std::map<int, std::size_t>& byId) {
+// The placement of an object in the scene: its own one, then those of its ancestors.
+Placement placementOf(std::size_t object, const std::vector<TreObject>& objects,
+                      const std::map<int, std::size_t>& byId) {
+  Placement all;
   for (int depth = 0; depth < kDeepestTree; ++depth) {
     const Placement& placement = objects[object].placement;
-    p = placement.matrix * p + placement.offset;
+    all.matrix = placement.matrix * all.matrix;
+    all.offset = placement.matrix * all.offset + placement.offset;
     const auto parent = byId.find(objects[object].parent);
     if (parent == byId.end() || parent->second == object) break;
     object = parent->second;
   }
-  return p;
+  return all;
 }
 
 bool movesNothing(const std::vector<TreObject>& objects) {
@@ -350,14 +353,17 @@ CenterlineFile parseTre(std::string_view text, const std::string& name) {
     if (object.type != "Tube" || object.points.empty()) continue;
     curveOf[i] = static_cast<std::int32_t>(curves.size());
     curves.push_back({object.name, object.points, -1, -1});
+    const Placement placement = stays ? Placement() : placementOf(i, objects, byId);
+    const double scale = stays ? 1 : std::cbrt(std::abs(placement.matrix.determinant()));
     for (CurvePoint& point : curves.back().points) {
       point.position = point.position.cwiseProduct(object.spacing);
-      if (!stays) point.position = placed(point.position, i, objects, byId);
-      if (!(point.position.norm() <= kLargestTre * 2))
+      if (!stays) point.position = placement.matrix * point.position + placement.offset;
+      if (!(point.position.norm() <= kLargestTre * 2) || !(point.radius * scale <= kLargestTre))
         throw invalidInput(shown + ": a point of the tube \"" +
                            formats::printable(object.name.substr(0, 40)) +
                            "\" lies beyond 2e9 mm; expected lengths of vessels");
       if (!object.hasPlainRadii) point.radius *= std::abs(object.spacing.x());
+      point.radius *= scale;
     }
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {

@@ -11,7 +11,9 @@
 #include "converters/base/files.h"
 #include "converters/base/length_unit.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/stated_unit.h"
 #include "converters/base/shown_text.h"
+#include "converters/geometry/far_origin.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
 #include "converters/io/centerline/tree_of_lines.h"
@@ -129,7 +131,12 @@ void readFrame(const VtkPolyData& data, bool isOfLumen, CenterlineFile& file) {
   if (axes == StatedAxes::None) axes = axesIn(data.title);
   if (axes == StatedAxes::Ras) file.axes = CenterlineAxes::Ras;
   if (axes == StatedAxes::Lps || isOfLumen) file.axes = CenterlineAxes::Lps;
+  if (const auto unit = unitInComment(data.title)) {
+    file.unit = unit->millimetres;
+    file.remarks.push_back(unit->sentence());
+  }
   if (const auto unit = millimetresPer(data.unit)) file.unit = *unit;
+  for (std::string& sentence : data.unknownWords()) file.remarks.push_back(std::move(sentence));
   if (isOfLumen) file.unit = 1;
 }
 
@@ -153,13 +160,15 @@ void requireLegacyCounts(const VtkPolyData& data, const std::string& name) {
   require(data.cellData, cells);
 }
 
-CenterlineFile treeOf(const VtkPolyData& data, bool isOfLumen, const std::string& shown) {
+CenterlineFile treeOf(VtkPolyData data, bool isOfLumen, const std::string& shown) {
   if (data.lines.point.empty())
     throw invalidInput(shown + ": has no lines" +
                        (data.polys.size() > 0
                             ? " but " + std::to_string(data.polys.size()) + " polygons"
                             : std::string()) +
                        "; expected a centerline");
+  // far from 0 the rounding of floats, within which points are one, is longer than their distances
+  const Eigen::Vector3d back = moveNear(data.position);
   const VtkArray* radii = radiiOf(data);
   const VtkArray* branch = data.pointArray("Branch");
   if (branch != nullptr && branch->components != 1) branch = nullptr;
@@ -171,6 +180,8 @@ CenterlineFile treeOf(const VtkPolyData& data, bool isOfLumen, const std::string
   if (file.points.empty())
     throw invalidInput(shown + ": all of its " + std::to_string(data.lines.size()) +
                        " lines have points at one place each; expected lines with a length");
+  if (!back.isZero(0))
+    for (CenterlinePoint& point : file.points) point.position += back;
   readFrame(data, isOfLumen, file);
   if (radii == nullptr)
     file.remarks.push_back("has no array MaximumInscribedSphereRadius or Radius of its points");
@@ -189,9 +200,9 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
 
 CenterlineFile parseVtkCenterline(std::string_view bytes, const std::string& name) {
   const std::string shown = formats::printable(name);
-  const VtkPolyData data = parseVtkLegacy(bytes, shown, kVtpArrays);
+  VtkPolyData data = parseVtkLegacy(bytes, shown, kVtpArrays);
   requireLegacyCounts(data, shown);
-  return treeOf(data, false, shown);
+  return treeOf(std::move(data), false, shown);
 }
 
 CenterlineFile readVtpCenterline(const InputFile& file) {

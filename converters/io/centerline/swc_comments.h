@@ -23,7 +23,6 @@ public:
   void apply(CenterlineFile& file) const;
 
 private:
-  void readUnit(const std::string& comment);
   void readScale(std::string_view comment);
 
   double m_unit = 0;  // mm; 0: not stated

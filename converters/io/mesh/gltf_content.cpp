@@ -59,7 +59,7 @@ GltfContent::GltfContent(std::string_view bytes, const InputFile& file)
   const std::string version = asset ? text(*asset, "version") : "";
   if (!version.starts_with("2."))
     throw unsupported(m_name + ": /asset/version is " + quotedText(version) +
-                      "; lumen reads glTF 2.0");
+                      "; lumen reads glTF 2.0, which Blender exports");
   readBuffers();
 }
 

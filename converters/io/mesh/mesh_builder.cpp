@@ -8,6 +8,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/stated_unit.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -103,12 +104,17 @@ MeshFile MeshBuilder::finish(bool flipXy) {
 }
 
 void StatedFrame::look(std::string_view comment) {
+  comment = comment.substr(0, comment.find('\0'));  // a header of fixed size is filled with zeros
   const auto has = [&](std::string_view words) { return comment.find(words) != comment.npos; };
   if (has("SPACE=RAS")) ras = true;
   if (has("SPACE=LPS")) lps = true;
-  if (!has("mm, LPS") && !has("mm, SPACE=LPS") && !has("millimetres, LPS")) return;
-  lps = true;
-  unit = 1;
+  if (has("mm, LPS") || has("mm, SPACE=LPS") || has("millimetres, LPS")) {
+    lps = true;
+    unit = 1;
+  } else if (const auto stated = unitInComment(std::string(comment))) {
+    unit = stated->millimetres;
+    notes = {stated->sentence()};
+  }
 }
 
 MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame) {
@@ -116,6 +122,7 @@ MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame) {
   builder.file.unitMm = frame.unit;
   builder.file.isTurned = frame.ras;
   if (frame.ras) builder.file.notes.emplace_back(kTurnedNote);
+  builder.file.notes.insert(builder.file.notes.end(), frame.notes.begin(), frame.notes.end());
   return builder.finish(frame.ras);
 }
 

@@ -82,8 +82,10 @@ private:
 struct StatedFrame {
   bool ras = false, lps = false;
   double unit = 0;  ///< mm; 0: not stated
+  std::vector<std::string> notes;
 
-  /// Reads them from a comment: SPACE=LPS or SPACE=RAS as 3D Slicer writes it, and lumen's own words.
+  /// Reads them from a comment: SPACE=LPS or SPACE=RAS as 3D Slicer writes it, lumen's own words, and
+  /// units (stated_unit.h).
   void look(std::string_view comment);
 };
 

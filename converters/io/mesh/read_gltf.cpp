@@ -51,7 +51,10 @@ public:
     const auto normalized = json.find("normalized");
     m_normalized = normalized && normalized->boolean().value_or(false);
     if (json.find("sparse"))
-      throw unsupported(content.name() + ": " + m_where + " is sparse, which lumen does not read");
+      throw unsupported(
+          content.name() + ": " + m_where +
+          " is sparse, which lumen does not read; write it without sparse accessors, such as by "
+          "Blender's export");
     if (json.find("bufferView")) locate(json);
   }
 
@@ -136,6 +139,9 @@ public:
     m_builder.file.unitMm = 1;
     m_builder.file.frameStated = true;
     if (!m_isOurs) m_builder.file.standardMm = 1000;
+    if (!m_isOurs && m_hasSkin)
+      m_builder.file.notes.emplace_back(
+          "its skins are not applied: meshes lie where their nodes are, whatever their joints do");
     if (!m_isOurs)
       m_builder.file.notes.emplace_back("taken as metres with +Y up, by the standard of glTF");
     return m_builder.finish();
@@ -152,9 +158,10 @@ private:
                           text.starts_with("EXT_texture") || text == "KHR_lights_punctual" ||
                           text == "MSFT_lod";
       if (!isLook && text != kDracoExtension && text != "KHR_mesh_quantization")
-        throw unsupported(m_content.name() + ": it requires the extension " + quotedText(text) +
-                          ", which lumen does not read; KHR_draco_mesh_compression and "
-                          "KHR_mesh_quantization are read");
+        throw unsupported(
+            m_content.name() + ": it requires the extension " + quotedText(text) +
+            ", which lumen does not read; KHR_draco_mesh_compression and "
+            "KHR_mesh_quantization are read, and files of Blender's export have no other");
     }
   }
 
@@ -235,6 +242,7 @@ private:
     const std::vector<std::uint64_t> children = numbers(node, "children");
     for (auto child = children.rbegin(); child != children.rend(); ++child)
       m_open.emplace_back(*child, matrix);
+    m_hasSkin = m_hasSkin || (node.find("mesh") && node.find("skin"));
     if (node.find("mesh")) addMesh(m_content.whole(node, "mesh", kNoIndex), matrix);
   }
 
@@ -386,7 +394,7 @@ private:
   std::vector<bool> m_seen;
   std::vector<std::pair<std::uint64_t, Eigen::Matrix4d>> m_open;
   std::uint64_t m_placed = 0, m_dracoBytes = 0;
-  bool m_isOurs = false, m_hasLines = false;
+  bool m_isOurs = false, m_hasLines = false, m_hasSkin = false;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "converters/base/length_unit.h"
 #include "converters/io/mesh/mesh_builder.h"
@@ -35,7 +36,11 @@ StatedFrame frameOf(const VtkPolyData& data) {
     frame.ras = axes == StatedAxes::Ras;
     frame.lps = axes == StatedAxes::Lps;
   }
-  if (const auto unit = millimetresPer(data.unit)) frame.unit = *unit;
+  if (const auto unit = millimetresPer(data.unit)) {
+    frame.unit = *unit;
+    frame.notes.clear();
+  }
+  for (std::string& sentence : data.unknownWords()) frame.notes.push_back(std::move(sentence));
   return frame;
 }
 

@@ -27,21 +27,29 @@ SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
   place.refuse("\"LPS\" or \"RAS\"; " + reading.word("seeds-frame") + " states another");
 }
 
-/// "mm" (the default) or "m"; a coded unit such as ["mm", "UCUM", "millimeter"] is read by its
+/// A unit of length, mm by default; a coded unit such as ["mm", "UCUM", "millimeter"] is read by its
 /// first word.
 double unitScale(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.unit) return *reading.unit;
   if (!markup.has("coordinateUnits")) return 1;
   const JsonPlace unit = markup.at("coordinateUnits");
-  if (!unit.value().isArray()) return unitInMillimetres(unit, reading);
-  const auto words = unit.elements();
-  if (words.empty()) unit.refuse("\"mm\" or \"m\"");
-  return unitInMillimetres(words[0], reading);
+  const auto words = unit.value().isArray() ? unit.elements() : std::vector<JsonPlace>{unit};
+  if (words.empty()) unit.refuse("a unit of length, such as \"mm\"");
+  if (const auto known = millimetresPer(words[0].text())) return *known;
+  words[0].refuse("\"mm\", \"m\" or another unit of length; " + reading.word("seeds-unit") +
+                  " states another");
 }
 
-/// The values of the measurement "Radius" in mm, one for each control point; none if there is none. Its
-/// own "units" count before those of coordinates, `unit`.
-std::vector<double> radii(const JsonPlace& markup, std::size_t points, double unit,
+/// Millimetres in the unit of a measurement, which is that of the coordinates unless it states one.
+double unitOfMeasurement(const JsonPlace& measurement, const SeedFrame& frame,
+                         const SeedReading& reading) {
+  if (reading.unit || !measurement.has("units")) return frame.unit;
+  const std::string* const word = measurement.at("units").value().text();
+  return word == nullptr ? frame.unit : millimetresPer(*word).value_or(frame.unit);
+}
+
+/// The values of the measurement "Radius", mm, one for each control point; none if there is none.
+std::vector<double> radii(const JsonPlace& markup, std::size_t points, const SeedFrame& frame,
                           const SeedReading& reading) {
   std::vector<double> values;
   if (!markup.has("measurements")) return values;
@@ -52,9 +60,7 @@ std::vector<double> radii(const JsonPlace& markup, std::size_t points, double un
     if (entries.size() != points)
       measurement.at("controlPointValues")
           .refuse(std::to_string(points) + " radii, one for each control point");
-    const std::string* units =
-        measurement.has("units") ? measurement.at("units").value().text() : nullptr;
-    if (units != nullptr && !reading.unit) unit = millimetresPer(*units).value_or(unit);
+    const double unit = unitOfMeasurement(measurement, frame, reading);
     for (const auto& entry : entries) values.push_back(unit * entry.number());
   }
   return values;
@@ -77,7 +83,7 @@ struct ControlPoint {
 std::vector<ControlPoint> controlPoints(const JsonPlace& markup, const SeedFrame& frame,
                                         const SeedReading& reading) {
   const auto places = markup.at("controlPoints").elements();
-  const std::vector<double> radius = radii(markup, places.size(), frame.unit, reading);
+  const std::vector<double> radius = radii(markup, places.size(), frame, reading);
   std::vector<ControlPoint> points;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const JsonPlace& place = places[i];

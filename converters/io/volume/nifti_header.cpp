@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 // extensions are shorter.
 constexpr double kMaxOffset = 1 << 24;
 
+constexpr const char* kWriteNifti1 = ", as 3D Slicer and nibabel's nib-convert write it";
+
 /// A type of one number for each voxel.
 struct ScalarType {
   int code;
@@ -83,7 +85,8 @@ bool isSwapped(std::span<const std::byte, kNiftiHeaderSize> bytes, const fs::pat
   constexpr std::int32_t kSize = kNiftiHeaderSize, kSizeOfNifti2 = 540;
   for (const bool swapped : {false, true}) {
     const auto size = Fields(bytes, swapped).get<std::int32_t>(0);
-    if (size == kSizeOfNifti2) throw unsupported(path.string() + ": is NIfTI-2; expected NIfTI-1");
+    if (size == kSizeOfNifti2)
+      throw unsupported(path.string() + ": is NIfTI-2; expected NIfTI-1" + kWriteNifti1);
     if (size == kSize) return swapped;
   }
   refuse(path, "is not a NIfTI file: its first number, the header's size, is not 348",
@@ -96,9 +99,10 @@ void checkMagic(std::span<const std::byte, kNiftiHeaderSize> bytes, const fs::pa
   if (is("ni1"))
     throw unsupported(path.string() +
                       ": is the header of a pair of files (.hdr and .img); expected one file with "
-                      "header and voxels, .nii or .nii.gz");
+                      "header and voxels, .nii or .nii.gz" +
+                      kWriteNifti1);
   refuse(path, "is not a NIfTI file: the magic \"n+1\" at byte 344 is missing",
-         "NIfTI-1 rather than, for instance, ANALYZE 7.5");
+         std::string("NIfTI-1 rather than, for instance, ANALYZE 7.5") + kWriteNifti1);
 }
 
 /// Reads dim: at least three axes, and at least one voxel along each.

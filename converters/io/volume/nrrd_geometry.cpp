@@ -236,7 +236,8 @@ std::vector<double> readUnits(const TextHeader& header, const std::string& field
 /// Scales everything to mm if the header states its units.
 void settleUnits(const TextHeader& header, std::vector<Axis>& axes, const FieldWord& word,
                  StatedGeometry& stated, std::vector<std::string>& assumptions) {
-  const bool oriented = axes[0].direction.has_value();
+  // units of axes beside directions, which NRRD does not foresee, are those of the axes, too
+  const bool oriented = axes[0].direction.has_value() && header.has("space units");
   const std::string field = oriented ? "space units" : "units";
   if (!header.has(field)) return;
   std::vector<std::size_t> numbers = {0, 1, 2};

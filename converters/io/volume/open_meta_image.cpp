@@ -31,6 +31,7 @@ const std::string kDataFile = "ElementDataFile", kBigEndian = "ElementByteOrderM
 const std::string kChannels = "ElementNumberOfChannels", kUnits = "DistanceUnits";
 const std::string kSlope = "ElementToIntensityFunctionSlope";
 const std::string kIntercept = "ElementToIntensityFunctionOffset";
+const std::string kAnatomical = "AnatomicalOrientation";
 
 /// The canonical name of a field, whatever its case; synonyms map to one name.
 std::string metaField(const std::string& name) {
@@ -40,7 +41,7 @@ std::string metaField(const std::string& name) {
         {"origin", kOffset},   {"imageposition", kOffset}, {"binarydatabyteordermsb", kBigEndian}};
     for (const std::string& field :
          {kSpacing, kPixelSize, kSizes, kMatrix, kOffset, kType, kDataFile, kBigEndian, kChannels,
-          kUnits, kSlope, kIntercept, std::string("NDims"), std::string("BinaryData"),
+          kUnits, kSlope, kIntercept, kAnatomical, std::string("NDims"), std::string("BinaryData"),
           std::string("CompressedData"), std::string("CompressedDataSize"),
           std::string("HeaderSize"), std::string("ObjectType")})
       all[lowerCase(field)] = field;
@@ -107,6 +108,30 @@ std::vector<double> readSpacings(const TextHeader& header, std::size_t dimension
   return spacings;
 }
 
+/// The three letters of directions in LPS: the sides to which they run, or from which they come.
+std::string sidesOf(const Eigen::Matrix3d& direction, bool isTo) {
+  std::string sides;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    Eigen::Index row = 0;
+    direction.col(a).cwiseAbs().maxCoeff(&row);
+    sides += (direction(row, a) > 0) == isTo ? "LPS"[row] : "RAI"[row];
+  }
+  return sides;
+}
+
+/// MetaIO states by AnatomicalOrientation the sides to which axes run; ITK writes those from which they
+/// come. The matrix counts: a sentence where the letters are neither.
+void noteOrientation(const TextHeader& header, const VolumeGeometry& geometry,
+                     std::vector<std::string>& assumptions) {
+  const std::string& letters = header.text(kAnatomical);
+  if (letters.size() != 3 || letters.find_first_not_of("RLAPSI") != std::string::npos) return;
+  const std::string to = sidesOf(geometry.direction, true);
+  if (letters == to || letters == sidesOf(geometry.direction, false)) return;
+  assumptions.push_back("its AnatomicalOrientation is " + letters + ", but by " +
+                        (header.has(kMatrix) ? "its TransformMatrix" : "MetaImage's default") +
+                        ", which counts, its axes run to " + to);
+}
+
 StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int64_t>& sizes,
                             const ReadVolumeOptions& options,
                             std::vector<std::string>& assumptions) {
@@ -125,6 +150,7 @@ StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int
     for (std::size_t r = 0; r < 3 && !matrix.empty(); ++r)  // one axis after another
       g.direction(static_cast<Eigen::Index>(r), e) = matrix[n * a + r];
   }
+  noteOrientation(header, g, assumptions);
   const std::string unit = header.text(kUnits);
   if (unit.empty() || unit == "?") return stated;
   stated.unit = millimetresPer(unit);

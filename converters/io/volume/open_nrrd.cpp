@@ -30,6 +30,8 @@ std::string fieldName(const std::string& name) {
                                                            {"lineskip", "line skip"},
                                                            {"byteskip", "byte skip"},
                                                            {"axismins", "axis mins"},
+                                                           {"oldmin", "old min"},
+                                                           {"oldmax", "old max"},
                                                            {"axismaxs", "axis maxs"},
                                                            {"centerings", "centers"},
                                                            {"spacedirections", "space directions"},
@@ -240,6 +242,15 @@ void requireLayer(const TextHeader& header, const ReadVolumeOptions& options,
                      options.word("volume-index"));
 }
 
+/// Reports that Teem's quantization is not undone.
+void noteQuantization(const TextHeader& header, std::vector<std::string>& assumptions) {
+  if (header.has("old min") || header.has("old max"))
+    assumptions.emplace_back(
+        "its values before quantization (old min, old max) are not restored: voxels have the "
+        "values "
+        "that are stored");
+}
+
 OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
                     const Progress& progress) {
   progress.check();
@@ -255,6 +266,7 @@ OpenVolume openNrrd(const InputFile& file, const ReadVolumeOptions& options,
   const std::int64_t dimension = fields.integers("dimension", 1, 1, kMaxDimension)[0];
   const auto sizes = fields.integers("sizes", static_cast<std::size_t>(dimension), 1, kMaxInt);
   header.stated = nrrdGeometry(fields, sizes, options, header.assumptions);
+  noteQuantization(fields, header.assumptions);
   std::uint64_t entries = 1;
   for (const std::int64_t size : sizes) entries *= static_cast<std::uint64_t>(size);
   requireLayer(fields, options, entries / header.stated.geometry.voxelCount());

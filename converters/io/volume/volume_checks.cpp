@@ -10,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
+#include "converters/geometry/far_origin.h"
 
 namespace lumen::convert {
 namespace {
@@ -95,13 +96,10 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
 }
 
 void moveFarOrigin(VolumeGeometry& geometry, std::vector<std::string>& assumptions) {
-  constexpr double kFar = 1e4;  // mm
-  const Eigen::Vector3d move =
-      geometry.origin.unaryExpr([](double at) { return kFar * std::trunc(at / kFar); });
+  const Eigen::Vector3d move = farMove(geometry.origin);
   if (move.isZero(0)) return;
   geometry.origin -= move;
-  assumptions.push_back("its origin is far from 0: all positions are stated less " +
-                        vectorText(move, kHeaderDigits) + " mm, as floats would round them there");
+  assumptions.push_back(farSentence("its origin is", move));
 }
 
 void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value,

@@ -21,10 +21,8 @@ void checkGeometry(VolumeGeometry& geometry, const std::filesystem::path& path);
 /// for voxels that are all equal unless that is allowed.
 void checkVoxels(Volume& volume, const std::filesystem::path& path, bool allowsConstant = false);
 
-/// Moves a volume that lies farther than 10 m from the origin along an axis by whole tens of metres,
-/// so that all volumes of one place move alike. A case states positions as floats, which are exact to
-/// a thousandth of a millimetre within that; at a kilometre they are not to a tenth. The move is a
-/// sentence among the assumptions.
+/// Moves a volume that lies farther than 10 m from the origin along an axis (far_origin.h). The move is
+/// a sentence among the assumptions.
 void moveFarOrigin(VolumeGeometry& geometry, std::vector<std::string>& assumptions);
 
 /// Throws Error(InvalidInput), naming `path` and `field`, unless `value` is a valid spacing; `axis`

@@ -115,7 +115,7 @@ private:
     const std::string_view kind = m_text.word();
     if (lowerCase(std::string(kind)) != "polydata")
       throw unsupported(m_text.name() + ": " + m_text.place() + ": the data set is " +
-                        quotedWord(kind) + "; lumen reads POLYDATA");
+                        quotedWord(kind) + "; lumen reads POLYDATA" + kMakePolyData);
   }
 
   VtkCells* cellsOf(const std::string& word) {
@@ -312,8 +312,8 @@ private:
       if (m_text.left() == 0) m_text.refuse("the file ends; expected a text");
       const std::string_view text = m_isBinary ? binaryText() : m_text.restOfLine();
       if (m_hasData || i > 0) continue;
-      if (name == kVtkUnit) m_data.unit = text.substr(0, kLongestVtkText);
-      if (name == kVtkSpace) m_data.space = text.substr(0, kLongestVtkText);
+      if (isVtkUnit(name)) m_data.unit = text.substr(0, kLongestVtkText);
+      if (isVtkSpace(name)) m_data.space = text.substr(0, kLongestVtkText);
     }
   }
 

@@ -28,9 +28,16 @@ struct VtkArray {
   std::vector<double> values;  ///< tuple after tuple; may hold non-finite values
 };
 
-// Names of field data that state unit and axes, as lumen and 3D Slicer write them, in a few bytes.
-constexpr std::string_view kVtkUnit = "Unit", kVtkSpace = "SPACE";
+/// The way from other data sets, as the end of a sentence.
+constexpr const char* kMakePolyData = ", as ParaView's filter Extract Surface makes it";
+
+// Texts of field data that state unit and axes, in a few bytes.
 constexpr std::size_t kLongestVtkText = 32;
+
+/// Whether a name of field data is that of the unit, "Unit" as lumen writes it, or of the axes, "SPACE" as
+/// 3D Slicer does; in letters of any case, as are "Units" and "LengthUnit" of others.
+bool isVtkUnit(std::string_view name);
+bool isVtkSpace(std::string_view name);
 
 /// Lengths and axes are the file's; `unit` and `space` hold its words for them, empty if it has
 /// none, `title` that of a legacy file. Values may be infinite or NaN. Values of cells are in the order verts, lines, polys,
@@ -43,6 +50,8 @@ struct VtkPolyData {
 
   [[nodiscard]] const VtkArray* pointArray(std::string_view name) const;
   [[nodiscard]] const VtkArray* cellArray(std::string_view name) const;
+  /// A sentence on a unit or on axes that the file states in words that lumen does not know; or none.
+  [[nodiscard]] std::vector<std::string> unknownWords() const;
 };
 
 }  // namespace lumen

@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/length_unit.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/io/vtk/xml_events.h"
 #include "formats/container/printable.h"
@@ -31,6 +33,27 @@ const VtkArray* VtkPolyData::cellArray(std::string_view name) const {
   const auto found = std::find_if(cellData.begin(), cellData.end(),
                                   [&](const VtkArray& array) { return array.name == name; });
   return found == cellData.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> VtkPolyData::unknownWords() const {
+  std::vector<std::string> sentences;
+  if (!trimmed(unit).empty() && !convert::millimetresPer(unit))
+    sentences.push_back("its unit is " + convert::quotedText(unit) +
+                        ", which is not known as a length; " + kOption.unit.shown() + " states it");
+  if (!trimmed(space).empty() && convert::axesIn(space) == convert::StatedAxes::None)
+    sentences.push_back("its axes are " + convert::quotedText(space) +
+                        "; lumen knows LPS and RAS, and takes LPS; " + kOption.frame.shown() +
+                        " states them");
+  return sentences;
+}
+
+bool isVtkUnit(std::string_view name) {
+  const std::string word = lowerCase(std::string(name));
+  return word == "unit" || word == "units" || word == "lengthunit" || word == "lengthunits";
+}
+
+bool isVtkSpace(std::string_view name) {
+  return lowerCase(std::string(name)) == "space";
 }
 
 namespace {
@@ -136,7 +159,7 @@ private:
     m_isFile = true;
     const std::string_view type = attribute(attributes, "type");
     if (type != "PolyData")
-      return refuse("is of the type " + quoted(type) + "; expected PolyData",
+      return refuse("is of the type " + quoted(type) + "; expected PolyData" + kMakePolyData,
                     ErrorKind::Unsupported);
     m_document.packing.bigEndian = attribute(attributes, "byte_order") == "BigEndian";
     const std::string_view header = attribute(attributes, "header_type");
@@ -148,7 +171,8 @@ private:
     m_document.packing.zlib = !packer.empty();
     if (!packer.empty() && packer != "vtkZLibDataCompressor")
       refuse("is packed by " + quoted(packer) +
-                 "; lumen reads vtkZLibDataCompressor and unpacked data",
+                 "; lumen reads vtkZLibDataCompressor and unpacked data, one of which ParaView's "
+                 "Save Data offers",
              ErrorKind::Unsupported);
   }
 
@@ -176,7 +200,7 @@ private:
     element.section = m_section;
     element.name = attribute(attributes, "Name");
     if (isField && (attribute(attributes, "type") != "String" ||
-                    (element.name != kVtkUnit && element.name != kVtkSpace)))
+                    !(isVtkUnit(element.name) || isVtkSpace(element.name))))
       return;
     const bool isData = m_section == kPointData || m_section == kCellData;
     if (isData && std::find(m_wanted.begin(), m_wanted.end(), element.name) == m_wanted.end())
@@ -251,7 +275,7 @@ public:
     addArrays(kPointData, m_result.pointData);
     addArrays(kCellData, m_result.cellData);
     for (const Element& element : m_document.field)
-      (element.name == kVtkUnit ? m_result.unit : m_result.space) =
+      (isVtkUnit(element.name) ? m_result.unit : m_result.space) =
           decodeVtkText(encoded(element), m_document.packing, kLongestVtkText);
     return std::move(m_result);
   }

@@ -139,7 +139,8 @@ TEST(VtkXml, RefusesTwoArraysWithTheSameData) {
 
 TEST(VtkXml, RefusesOtherData) {
   EXPECT_EQ(message("<VTKFile type=\"ImageData\"/>"),
-            "a.vtp: line 1: is of the type \"ImageData\"; expected PolyData");
+            "a.vtp: line 1: is of the type \"ImageData\"; expected PolyData, as ParaView's filter "
+            "Extract Surface makes it");
   EXPECT_EQ(message("<svg/>"), "a.vtp: line 1: begins with \"svg\"; expected <VTKFile>");
   EXPECT_EQ(message("<!DOCTYPE a [<!ENTITY b \"c\">]><VTKFile/>"),
             "a.vtp: line 1: has a document type; expected none");
@@ -147,7 +148,7 @@ TEST(VtkXml, RefusesOtherData) {
   EXPECT_EQ(
       message("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"/>"),
       "a.vtp: line 1: is packed by \"vtkLZ4DataCompressor\"; lumen reads vtkZLibDataCompressor "
-      "and unpacked data");
+      "and unpacked data, one of which ParaView's Save Data offers");
 }
 
 TEST(VtkXml, RefusesDeepNesting) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/next_step.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "converters/base/shown_lines.h"
+
+namespace lumen::engine {
+
+namespace {
+
+/// Options of `lumen info` that `lumen convert` has with the same meaning.
+constexpr std::array<std::string_view, 9> kShared = {
+    "from", "spacing", "unit",           "series",      "volume-index",
+    "crop", "frame",   "allow-detached", "label-table",
+};
+
+}  // namespace
+
+std::string shellWord(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+:,=%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == word.npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string convertCommand(const OptionTable& table, const std::string& file,
+                           const std::string& stem) {
+  std::string command = "lumen convert " + shellWord(file) + " " + shellWord(stem + ".lumen");
+  for (const OptionRow& row : table.rows()) {
+    if (!row.isOn() || row.isPreference ||
+        std::find(kShared.begin(), kShared.end(), row.name) == kShared.end())
+      continue;
+    for (const std::string& value : row.givenValues)
+      command += " " + shellWord(row.shownName() + "=" + value);
+  }
+  return command;
+}
+
+Answer withNext(Answer answer, const NextStep& next, std::size_t column) {
+  answer.json["next"] = {{"assumed", next.assumed}, {"does", next.does}, {"command", next.command}};
+  Lines lines(column);
+  lines.add("next", next.does).add("type", next.command);
+  answer.text += lines.text();
+  return answer;
+}
+
+}  // namespace lumen::engine
