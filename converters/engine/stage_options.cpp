@@ -139,7 +139,8 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
       .forInputs(kDicom);
   table
       .add(kOption.volumeIndex.name, &volume.volumeIndex, "N",
-           "Volume of a file that holds several, such as a 4-D NIfTI, or of a DICOM series; the first "
+           "Volume of a file that holds several, such as a 4-D NIfTI, or of a DICOM series; the "
+           "first "
            "is 0")
       .in(WholeRange{})
       .forInputs(kVolumes);

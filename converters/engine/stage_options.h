@@ -34,8 +34,8 @@ struct VolumeArguments {
   std::string unit;     ///< empty, or mm, cm, m, um or nm
   std::vector<std::string> allowDetached;
   std::optional<convert::VolumeGeometry> grid;  ///< on which contours are filled
-  bool fillGaps = false;    ///< interpolate missing slices of DICOM
-  bool skipFaulty = false;  ///< leave out files of DICOM that cannot be read
+  bool fillGaps = false;                        ///< interpolate missing slices of DICOM
+  bool skipFaulty = false;                      ///< leave out files of DICOM that cannot be read
   [[nodiscard]] convert::ReadVolumeOptions options() const;
 };
 

@@ -48,7 +48,7 @@ TEST_F(FittedTubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   EXPECT_EQ(keys(info),
             (Names{"branches", "nodes", "links", "points", "blobs", "blobs_per_node", "length_mm",
                    "reachable", "radius_mm", "error_of_fit_mm", "provenance", "note", "node_arrays",
-                   "motion", "seeds", "branch_table", "surface", "surface_warnings"}));
+                   "motion", "seeds", "branch_table", "surface", "surface_warnings", "next"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);
   EXPECT_EQ(keys(info["provenance"]),
@@ -212,8 +212,9 @@ TEST_F(TubeTest, WhatACaseDoesNotHaveIsNull) {
 
 TEST_F(TubeTest, InfoOfAVolumeGivesItsHeader) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
-  EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "placed_by",
-                               "stored_type", "encoding", "voxel_bytes", "stored_bytes"}));
+  EXPECT_EQ(keys(info),
+            (Names{"size", "spacing_mm", "origin_mm", "direction", "placed_by", "resampled",
+                   "stored_type", "encoding", "voxel_bytes", "stored_bytes", "next"}));
   EXPECT_TRUE(info["placed_by"].is_null());
   EXPECT_EQ(info["stored_type"], "int16");
   EXPECT_EQ(info["encoding"], "gzip");
@@ -232,8 +233,8 @@ TEST_F(TubeTest, InfoDoesNotReadVoxelsUnlessAsked) {
 TEST_F(TubeTest, InfoOfAVolumeGivesItsGeometryAndDigest) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json", "--voxels"}).out);
   EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256",
-                               "pixel_type", "min", "max", "labels", "placed_by", "stored_type",
-                               "encoding", "voxel_bytes", "stored_bytes"}));
+                               "pixel_type", "min", "max", "labels", "placed_by", "resampled",
+                               "stored_type", "encoding", "voxel_bytes", "stored_bytes", "next"}));
   EXPECT_EQ(info["labels"], Json::array());
   EXPECT_EQ(info["size"], Json::array({64, 64, 64}));
   EXPECT_EQ(info["pixel_type"], "int16");

@@ -82,8 +82,8 @@ OpenVolume open(const InputFile& file, const VolumeFormat& format, const ReadVol
   opened.stored = standUpright(header.geometry);
   checkGeometry(header.geometry, file.path());
   if (opened.stored)
-    header.resampled += (header.resampled.empty() ? "" : "; ") +
-                        uprightSentence(*opened.stored, header.geometry);
+    header.resampled +=
+        (header.resampled.empty() ? "" : "; ") + uprightSentence(*opened.stored, header.geometry);
   if (!header.resampled.empty()) header.assumptions.push_back(header.resampled);
   return opened;
 }

@@ -50,7 +50,7 @@ struct VolumeHeader {
   std::string encoding;           ///< encoding in the format's words: "raw", "gzip"
   std::uint64_t voxelBytes = 0;   ///< size of all voxels in the stored type, unpacked
   std::uint64_t storedBytes = 0;  ///< size of the files that hold them
-  std::string placedBy;  ///< of a NIfTI's transforms the one that counts; empty for other formats
+  std::string placedBy;   ///< of a NIfTI's transforms the one that counts; empty for other formats
   std::string resampled;  ///< a sentence; empty where the voxels are those of the file
   /// Assumptions of the reader where the header is incomplete: each a sentence that names the
   /// assumption and the option that overrides it. They do not name the file.

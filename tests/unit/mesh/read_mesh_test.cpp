@@ -327,7 +327,8 @@ TEST(ReadVtk, WrongCountsAndIndicesAreRefused) {
             "points");
   EXPECT_EQ(
       refusal("# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_GRID\n", MeshFormat::Vtk),
-      "4: a: line 4: the data set is \"STRUCTURED_GRID\"; lumen reads POLYDATA, as ParaView's filter "
+      "4: a: line 4: the data set is \"STRUCTURED_GRID\"; lumen reads POLYDATA, as ParaView's "
+      "filter "
       "Extract Surface makes it");
 }
 

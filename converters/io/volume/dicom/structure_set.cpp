@@ -31,9 +31,9 @@ constexpr DicomTag kRoiFrames = 0x30060010, kStudies = 0x30060012, kReferredItem
                    kContoursOfRois = 0x30060039, kRoiOfContours = 0x30060084,
                    kContours = 0x30060040, kGeometry = 0x30060042, kPoints = 0x30060050;
 
-constexpr double kParallel = 1e-3;    // of a unit normal, and of a contour's size off its plane
-constexpr double kOnePlane = 1e-3;    // mm
-constexpr double kOnCentre = 0.01;    // pixels: positions are rounded
+constexpr double kParallel = 1e-3;  // of a unit normal, and of a contour's size off its plane
+constexpr double kOnePlane = 1e-3;  // mm
+constexpr double kOnCentre = 0.01;  // pixels: positions are rounded
 // Voxels of a grid of contours' own, as many as 512 x 512 x 1024, and its slices, those of 2 m at 0.2 mm.
 constexpr double kMostOwnVoxels = 1 << 28, kMostPlanes = 1e4;
 
