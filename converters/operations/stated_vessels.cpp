@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "converters/base/error.h"
@@ -29,6 +30,42 @@ using convert::TrackedNode;
 using convert::TrackedTree;
 using Eigen::Vector3d;
 using formats::VesselSystem;
+
+/// Share of a map that vessels may fill: a label of more is of something else, as a threshold of
+/// noise is, whose surface would take minutes.
+constexpr double kMostVessels = 0.1;
+
+/// Passes warnings on as details: a coarse map is no fault of the user's.
+class UnwarnedProgress : public CountingProgress {
+public:
+  explicit UnwarnedProgress(Progress& shown) : CountingProgress(shown), m_shown(shown) {}
+  void begin(std::string_view stage, std::size_t total) override {
+    m_shown.check();
+    CountingProgress::begin(stage, total);
+  }
+  void advance(std::size_t units) override {
+    m_shown.check();
+    CountingProgress::advance(units);
+  }
+  void warn(std::string_view message) override { m_shown.detail(message); }
+
+private:
+  Progress& m_shown;
+};
+
+/// The labels of a map that are of vessels, unless they fill too much of it.
+std::set<std::int64_t> vesselsOf(const LabelPart& map) {
+  std::set<std::int64_t> vessels;
+  for (const convert::LabelMeaning& meaning : map.meanings)
+    if (convert::isVessel(meaning.role) || meaning.role == convert::LabelRole::TrueLumen ||
+        meaning.role == convert::LabelRole::FalseLumen)
+      vessels.insert(meaning.value);
+  std::size_t voxels = 0;
+  for (const auto& [value, count] : convert::countLabels(map.voxels))
+    if (vessels.contains(value)) voxels += count;
+  const auto all = static_cast<double>(map.voxels.geometry.voxelCount());
+  return static_cast<double>(voxels) > kMostVessels * all ? std::set<std::int64_t>() : vessels;
+}
 
 /// A tree with the system of each branch.
 struct SystemTree {
@@ -164,13 +201,9 @@ private:
 std::vector<formats::Case> statedVessels(const std::vector<LabelPart>& maps,
                                          const Context& context) {
   std::vector<formats::Case> cases;
-  QuietProgress quiet(context.progress);  // a coarse map is no fault of the user's
+  UnwarnedProgress quiet(context.progress);
   for (const LabelPart& map : maps) {
-    std::set<std::int64_t> vessels;
-    for (const convert::LabelMeaning& meaning : map.meanings)
-      if (convert::isVessel(meaning.role) || meaning.role == convert::LabelRole::TrueLumen ||
-          meaning.role == convert::LabelRole::FalseLumen)
-        vessels.insert(meaning.value);
+    const std::set<std::int64_t> vessels = vesselsOf(map);
     if (vessels.empty()) continue;
     try {
       cases.push_back(labelledVessels(map, vessels, context.within(quiet)));

@@ -12,7 +12,7 @@
 namespace lumen::operations {
 
 /// The trees of the vessels that maps state, by the surfaces of their labels, one case for each map
-/// that has any; mm, LPS. Throws Error(Cancelled).
+/// that has any, and of which vessels fill a tenth at most; mm, LPS. Throws Error(Cancelled).
 std::vector<formats::Case> statedVessels(const std::vector<LabelPart>& maps,
                                          const Context& context);
 

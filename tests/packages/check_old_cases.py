@@ -42,8 +42,8 @@ def distances(blob, case, tree):
 
 
 def plain(answer):
-    """An answer without what names the file or the folder."""
-    return {key: value for key, value in answer.items() if key not in ("file", "files")}
+    """An answer without what names the file or the folder: the command to type does, too."""
+    return {key: value for key, value in answer.items() if key not in ("file", "files", "next")}
 
 
 def answers_of(lumen, blob, case, work):

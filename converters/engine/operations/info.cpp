@@ -149,7 +149,7 @@ private:
     if (!m_from.empty() || convert::detectContent(m_input).kind != convert::ContentKind::Seeds)
       return {};
     const std::vector<convert::SeedBranch> seeds = convert::readSeeds(m_input);
-    if (mayBeCenterline(seeds)) return {};
+    if (m_input.name().ends_with(".mrk.json") && mayBeCenterline(seeds)) return {};
     constexpr ContentMask kNothing = 0;
     requireInScope(*context.table, {kNothing, kAnyContent, m_input.name(), {}}, context.progress);
     return seedsAnswer(seeds);

@@ -120,6 +120,18 @@ TEST(StatedVessels, AreNoneWhereTheyAreFoundOrNoLongerThanWide) {
   EXPECT_EQ(addStatedVessels(bar(), lumenBetween(5, 75), most), 0U) << "a bump at its end";
 }
 
+TEST(StatedVessels, AreNoneOfALabelThatFillsMoreThanVesselsDo) {
+  Progress progress;
+  const auto countWith = [&](std::ptrdiff_t more) {  // the bar has 2059 of 35,280 voxels
+    LabelPart map = barMap();
+    auto& labels = std::get<std::vector<std::uint8_t>>(map.voxels.voxels);
+    std::fill_n(labels.begin(), more, std::uint8_t{1});
+    return statedVessels({map}, {progress}).size();
+  };
+  EXPECT_EQ(countWith(1200), 1U) << "9 %";
+  EXPECT_EQ(countWith(1680), 0U) << "11 %";
+}
+
 TEST(StatedVessels, NeedLabelsOfVessels) {
   LabelPart rib = barMap();
   rib.meanings[0].role = convert::LabelRole::Bone;

@@ -111,8 +111,8 @@ TEST_F(Markups, CodedUnitsCountByTheirFirstWord) {
 }
 
 TEST_F(Markups, UnknownUnitIsRefused) {
-  expectMarkupsRefused(R"({"type": "Fiducial", "coordinateUnits": "um", "controlPoints": []})",
-                       {"/markups/0/coordinateUnits", "\"um\"", "\"mm\""});
+  expectMarkupsRefused(R"({"type": "Fiducial", "coordinateUnits": "fathoms", "controlPoints": []})",
+                       {"/markups/0/coordinateUnits", "\"fathoms\"", "\"mm\""});
 }
 
 TEST_F(Markups, RadiusMeasurementGivesThePointsTheirRadii) {
