@@ -114,7 +114,7 @@ Volume makeVolume(std::array<int, 3> size, const std::function<double(int, int, 
 template <class T>
 std::string bytes(const std::vector<T>& values) {
   std::string out(values.size() * sizeof(T), '\0');
-  std::memcpy(out.data(), values.data(), out.size());
+  if (!values.empty()) std::memcpy(out.data(), values.data(), out.size());
   return out;
 }
 
