@@ -39,7 +39,7 @@ double numberAt(const char* bytes, std::string_view type, Endian endian) {
   return loadNumber<std::uint8_t>(bytes, endian);
 }
 
-// A byte above 127 precedes so many bytes as they are, any other the byte that is repeated.
+// A byte above 127 is followed by a run of that length less 128, any other by the byte that it repeats.
 std::optional<std::string> unpackedRuns(std::string_view packed, std::size_t size) {
   std::string bytes;
   for (std::size_t at = 0; at < packed.size() && bytes.size() < size;) {

@@ -31,7 +31,7 @@ struct NativeReport {
   double doubtful = 0;              ///< mm^3 at steep edges of bone that were made soft tissue
 };
 
-/// What subtraction leaves, on the grid of the scan with contrast.
+/// The result of the subtraction, on the grid of the scan with contrast.
 struct NativeSubtraction {
   Volume volume;
   NativeReport report;

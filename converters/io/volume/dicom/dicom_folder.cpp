@@ -214,7 +214,7 @@ DicomChoice choiceFrom(DicomFolder found, const InputFile& place,
   return choice;
 }
 
-/// What a file that is no folder stands for.
+/// The meaning of a file that is no folder.
 DicomChoice choiceOf(const InputFile& file, const ReadVolumeOptions& options,
                      const Progress& progress) {
   DicomScan scan = scanDicom(file);
