@@ -58,7 +58,7 @@ std::optional<convert::NativeSubtraction> withoutBone(const Source& source,
   if (out.report.unmatched > 0)
     context.progress.warn(name + ": " + fixedText(out.report.unmatched / 1000, 1) +
                           " ml of its bone match no bone of " + formats::printable(source.name) +
-                          "; there vessels are told from bone by the contrast alone");
+                          "; there the contrast alone separates vessels from bone");
   return out;
 }
 

@@ -76,7 +76,7 @@ struct SystemTree {
   std::vector<VesselSystem> systems;
 };
 
-/// A node of a vessel of a tree.
+/// A node of a tree, by its branch.
 struct Place {
   int branch = -1, node = -1;
 };
@@ -128,8 +128,8 @@ private:
           stated.branches[static_cast<std::size_t>(stated.branches[b].parentBranch)];
       before = above.nodes[static_cast<std::size_t>(stated.branches[b].parentNode)].centre;
     }
-    while (first < end && !isLumen(nodes[first].centre)) ++first, before.reset();
-    while (first < end && !isLumen(nodes[end - 1].centre)) --end, behind.reset();
+    for (; first < end && !isLumen(nodes[first].centre); ++first) before.reset();
+    for (; first < end && !isLumen(nodes[end - 1].centre); --end) behind.reset();
     if (!isVessel(std::span(nodes).subspan(first, end - first))) return;
     TrackedBranch branch;
     branch.nodes.assign(nodes.begin() + static_cast<std::ptrdiff_t>(first),

@@ -175,7 +175,7 @@ private:
         },
         m_progress);
   }
-  /// Of a voxel of this scan at a place in the other one; not finite outside of that.
+  /// The squared difference, doubled, of a voxel from a place in the other scan; NaN outside of that.
   [[nodiscard]] double squareAt(std::size_t voxel, const Vector3d& place) const {
     const float there = m_contrast.excessAt(m_contrast.volume.geometry.indexFromWorld(place)),
                 here = std::max(m_native.value(voxel) - m_native.levels.soft, 0.0F);
