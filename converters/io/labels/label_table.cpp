@@ -19,6 +19,7 @@
 #include "converters/io/labels/label_lines.h"
 #include "converters/io/volume/text_header.h"
 #include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {

@@ -88,7 +88,7 @@ LevelCounts countLevels(const Volume& volume, const Progress& progress) {
     parts.local().add(around);
   });
   LevelCounts all;
-  for (const LevelCounts& part : parts) all.add(part);
+  parts.combine_each([&](const LevelCounts& part) { all.add(part); });
   return all;
 }
 

@@ -17,6 +17,11 @@ public:
     return m_values[std::this_thread::get_id()];
   }
 
+  template <class Visit>
+  void combine_each(const Visit& visit) {
+    for (auto& [thread, value] : m_values) visit(value);
+  }
+
 private:
   std::mutex m_mutex;
   std::map<std::thread::id, T> m_values;
