@@ -51,7 +51,7 @@ operations::Source volumeSource(convert::Volume volume, const InputFile& file,
     source.labels = operations::LabelPart{std::move(volume), source.name,
                                           convert::meaningsOf(mask.table(file, progress, layer))};
   } else {
-    if (isSeeded) warnOfVoxels(volume, source.name, progress);
+    warnOfVoxels(volume, source.name, progress);
     source.grey = std::move(volume);
   }
   source.maps = loadLabelMaps(mask, source.grey ? &source.grey->geometry : nullptr, progress);

@@ -55,6 +55,17 @@ std::vector<double> spacingIn(const std::string& text) {
 }
 
 constexpr NumberRange kPlace{-kLongest, kLongest};
+constexpr NumberRange kInputPlace{-1e12, 1e12};  // of an input far from 0, which is moved near it
+
+std::string coordinatesFault(const std::string& text, const NumberRange& range) {
+  if (numbersIn(text, range).size() == 3) return {};
+  return "found " + (text.empty() ? "nothing" : text) +
+         ", expected three coordinates with commas between them, each " + range.text();
+}
+
+std::string inputPlaceFault(const std::string& text) {
+  return coordinatesFault(text, kInputPlace);
+}
 
 std::string spacingFault(const std::string& text) {
   if (!spacingIn(text).empty()) return {};
@@ -65,13 +76,11 @@ std::string spacingFault(const std::string& text) {
 }  // namespace
 
 std::string placeFault(const std::string& text) {
-  if (numbersIn(text, kPlace).size() == 3) return {};
-  return "found " + (text.empty() ? "nothing" : text) +
-         ", expected three coordinates with commas between them, each " + kPlace.text();
+  return coordinatesFault(text, kPlace);
 }
 
 Eigen::Vector3d placeIn(const std::string& text) {
-  const std::vector<double> numbers = numbersIn(text, kPlace);
+  const std::vector<double> numbers = numbersIn(text, kInputPlace);
   return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -209,7 +218,7 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
           kOption.root.name, &track.roots, "X,Y,Z",
           "Place near the end of a vessel through which blood comes in, mm, LPS [the widest end of "
           "each tree]. May be given several times")
-      .checkedBy(placeFault)
+      .checkedBy(inputPlaceFault)
       .many()
       .forInputs(kImage | kLabels | kMeshes | kCenterline);
   table

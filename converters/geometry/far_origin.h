@@ -13,12 +13,26 @@
 
 namespace lumen::convert {
 
+inline constexpr double kFarStep = 1e4;  // mm
+
 /// The whole tens of metres by which an input is moved whose lowest place is `low`, mm, so that all
 /// inputs of one place move alike. Floats are exact to a thousandth of a millimetre within ten metres;
 /// at a kilometre they are not to a tenth.
 inline Eigen::Vector3d farMove(const Eigen::Vector3d& low) {
-  constexpr double kFar = 1e4;  // mm
-  return low.unaryExpr([](double at) { return kFar * std::trunc(at / kFar); });
+  return low.unaryExpr([](double at) { return kFarStep * std::trunc(at / kFarStep); });
+}
+
+/// A place that a person states in the coordinates of an input, as a case of it states it: less the tens
+/// of metres by which it comes nearest to `about`, a place of the case. A body is smaller than these.
+inline Eigen::Vector3d placeNear(const Eigen::Vector3d& about, const Eigen::Vector3d& place) {
+  return place - (place - about).unaryExpr([](double off) {
+    return kFarStep * std::round(off / kFarStep);
+  });
+}
+
+/// placeNear() of each place.
+inline void bringNear(const Eigen::Vector3d& about, std::vector<Eigen::Vector3d>& places) {
+  for (Eigen::Vector3d& place : places) place = placeNear(about, place);
 }
 
 /// The sentence on such a move, about "its origin" or "its points".

@@ -63,6 +63,10 @@ bool isPossible(const VesselSize& size, double mm) {
   return isBetween(size, mm, kLeastRadius, kLeastDiagonal);
 }
 
+bool isSeen(const VesselSize& size, double mm) {
+  return isBetween(size, mm, kLeastSeenRadius, kLeastSeenDiagonal);
+}
+
 double millimetresOf(const std::string& unit) {
   for (const Unit& one : kUnits)
     if (unit == one.name) return one.millimetres;
@@ -129,13 +133,8 @@ UnitGuess guessUnit(const VesselSize& size, bool isSimVascular) {
   for (const Unit& unit : kUnits)
     if (isPossible(size, unit.millimetres)) return {unit.millimetres, unit.name, true, ""};
   for (const Unit& unit : kSmallUnits)
-    if (isBetween(size, unit.millimetres, kLeastSeenRadius, kLeastSeenDiagonal))
-      return {unit.millimetres, unit.name, true, ""};
+    if (isSeen(size, unit.millimetres)) return {unit.millimetres, unit.name, true, ""};
   return {1, "mm", false, ""};
-}
-
-bool hasPossibleSize(const VesselSize& size) {
-  return isKnown(size, 1) || isPossible(size, 1);
 }
 
 std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isSimVascular,
@@ -155,15 +154,16 @@ std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isS
          sizeText(size, 1) + option;
 }
 
-std::string standardWarning(const VesselSize& size, double standardMm, const char* standard,
-                            const FieldWord& word) {
-  if (hasPossibleSize(size)) return "";
-  const VesselSize numbers{size.radius / standardMm, size.diagonal / standardMm};
+std::string statedWarning(const VesselSize& numbers, double millimetres, UnitBy by,
+                          const FieldWord& word) {
+  const bool isStandard = by == UnitBy::StandardOfGltf;
+  if (isPossible(numbers, millimetres) || (!isStandard && isSeen(numbers, millimetres))) return "";
   const UnitGuess guess = guessUnit(numbers);
-  const std::string taken = std::string("by the standard of ") + standard + " it holds " +
-                            sizeText(size, 1) + ", which are implausible";
+  const std::string taken =
+      std::string("by the ") + (isStandard ? "standard of glTF" : "unit that it states") +
+      " it holds " + sizeText(numbers, millimetres) + ", which are implausible";
   const std::string option = "; " + word("unit") + " states the unit";
-  if (!guess.plausible || guess.millimetres == standardMm) return taken + option;
+  if (!guess.plausible || guess.millimetres == millimetres) return taken + option;
   return taken + "; in " + guess.unit + " they would be " + sizeText(numbers, guess.millimetres) +
          option;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The unit of a mesh or centerline whose file states none, by the size of known vessels.
+// The unit of a mesh or centerline whose file states none, by the size of known vessels; and sizes that
+// a stated unit makes impossible.
 #pragma once
 
 #include <string>
@@ -40,13 +41,13 @@ UnitGuess guessUnit(const VesselSize& size, bool isSimVascular = false);
 std::string unitWarning(const UnitGuess& guess, const VesselSize& size, bool isSimVascular,
                         const FieldWord& word = {});
 
-/// Whether vessels of this size, in mm, are possible.
-bool hasPossibleSize(const VesselSize& size);
+enum class UnitBy { StandardOfGltf, File };
 
-/// A sentence for people on vessels whose size, in mm by the standard of their format, is not possible;
-/// empty for others. `standardMm`: mm in one unit of the file by that standard.
-std::string standardWarning(const VesselSize& size, double standardMm, const char* standard,
-                            const FieldWord& word);
+/// A sentence for people on vessels whose size, of `millimetres` mm in one unit of `numbers`, is not
+/// possible; empty for others. A file that states its unit may be one of a microscope, a format whose
+/// standard states it is not.
+std::string statedWarning(const VesselSize& numbers, double millimetres, UnitBy by,
+                          const FieldWord& word);
 
 /// Unit and axes that were taken for a file.
 struct ReadFrame {

@@ -7,6 +7,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/options/edit_steps.h"
+#include "converters/geometry/far_origin.h"
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/operations/hinted_vessels.h"
@@ -67,6 +68,7 @@ MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Cont
   const convert::Volume& volume = subtraction ? subtraction->volume : *source.grey;
   const std::vector<NamingMap> naming = namingMaps(source.maps, volume.geometry, source.name);
   VesselOptions vessels = options.vessels;
+  convert::bringNear(volume.geometry.origin, vessels.roots);
   vessels.prior = priorOf(source.maps, volume.geometry, context.progress);
   vessels.stated = statedVessels(source.maps, context);
   convert::TrackResult tracked = trackVessels(volume, source.name, vessels, context);

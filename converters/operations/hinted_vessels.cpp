@@ -13,6 +13,7 @@
 #include "converters/base/random.h"
 #include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/far_origin.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/operations/label_maps.h"
 #include "converters/stages/editing/hints.h"
@@ -207,7 +208,10 @@ std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
 
 void applyRoots(formats::Case& target, const std::string& name, const VesselOptions& options,
                 const Context& context) {
-  apply(target, name, {}, options, context);
+  VesselOptions near = options;
+  if (target.tree.nodeCount() > 0)
+    convert::bringNear(toEigen(target.tree.centre.front()), near.roots);
+  apply(target, name, {}, near, context);
 }
 
 }  // namespace lumen::operations

@@ -70,13 +70,15 @@ MeshFrame meshFrame(const MeshPart& part, const convert::VesselSize& size, const
                     const std::optional<double>& unit, const Context& context) {
   const convert::MeshFile& file = part.file;
   if (unit) return {*unit, "option", file.frameStated};
-  if (file.standardMm > 0) {
-    const std::string warning =
-        convert::standardWarning(size, file.standardMm, "glTF", context.fieldWord);
+  const bool isStandard = file.standardMm > 0;
+  if (const double stated = isStandard ? file.standardMm : file.unitMm; stated > 0) {
+    const double read = file.scaleFor(stated) / stated;  // units of the file in one of `size`
+    const std::string warning = convert::statedWarning(
+        {size.radius * read, size.diagonal * read}, stated,
+        isStandard ? convert::UnitBy::StandardOfGltf : convert::UnitBy::File, context.fieldWord);
     if (!warning.empty()) context.progress.warn(formats::printable(name) + ": " + warning);
-    return {file.standardMm, "standard", file.frameStated};
+    return {stated, isStandard ? "standard" : "file", file.frameStated};
   }
-  if (file.unitMm > 0) return {file.unitMm, "file", file.frameStated};
   const convert::UnitGuess guess = guessUnitOf(size, name, part.isOfSimVascular, context);
   return {guess.millimetres, "guess", file.frameStated};
 }

@@ -14,7 +14,7 @@ $NAME  TYPE is a part with a name. TYPE is one of
   [TYPE] [TYPE]3 [TYPE]+               an array; of 3 elements; of at least one
   NAME ANSWER.KEY                      a part of the same answer, or of the answer `parts`; the type of a key of another answer
   TYPE?                                or null"""
-import json, pathlib, re, sys
+import argparse, json, pathlib, re
 
 RANGE = re.compile(r"(integer|number)(?:>=([-.\d]+)|>([-.\d]+)|\(([-.\d]+)\.\.([-.\d]+)\))")
 PLAIN = {"integer", "number", "string", "boolean", "null"}
@@ -86,8 +86,9 @@ def answers(text):
 
 
 def main():
-    if len(sys.argv) != 2: sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
     for name, schema in answers((pathlib.Path(__file__).parent / "answers.txt").read_text()).items():
         (folder / name).write_text(json.dumps(schema, indent=2, ensure_ascii=False) + "\n")

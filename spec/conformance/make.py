@@ -8,7 +8,7 @@ make.py --renew FOLDER   writes the set, and its digests into digests.txt
 
 Shares no code with any reader: it has its own writer, and answers.py computes the expected answers with exact fractions, to
 be rounded once, at the end."""
-import functools, hashlib, json, pathlib, re, struct, sys
+import argparse, functools, hashlib, json, pathlib, re, struct, sys
 from fractions import Fraction
 
 from answers import Answers, Undecided
@@ -267,11 +267,15 @@ def digests(folder):
 
 
 def main():
-    *flags, folder = sys.argv[1:] or sys.exit(__doc__)
-    folder, stated = pathlib.Path(folder), HERE / "digests.txt"
-    if "--check" not in flags: write(folder)
-    if "--renew" in flags: stated.write_text(digests(folder))
-    if "--check" in flags and digests(folder) != stated.read_text():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--renew", action="store_true")
+    parser.add_argument("folder", type=pathlib.Path)
+    given, stated = parser.parse_args(), HERE / "digests.txt"
+    folder = given.folder
+    if not given.check: write(folder)
+    if given.renew: stated.write_text(digests(folder))
+    if given.check and digests(folder) != stated.read_text():
         sys.exit(f"{stated} does not state the digests of {folder}, which are\n{digests(folder)}"
                  "To see what has changed, compare with a set that was made before.")
 

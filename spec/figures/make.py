@@ -3,7 +3,7 @@
 """Draws the figures of ../lumen.md with the fields of the reference reader.
 
 make.py [FOLDER]    writes PNG files beside itself, or into FOLDER"""
-import io, math, pathlib, sys
+import argparse, io, math, pathlib, sys
 
 import matplotlib
 matplotlib.use("Agg")
@@ -87,8 +87,8 @@ def bare(axes):
     axes.axis("off")
 
 
-def saved(figure, name):
-    image, folder = io.BytesIO(), pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+def saved(figure, folder, name):
+    image = io.BytesIO()
     figure.savefig(image, dpi=150, facecolor="white")
     Image.open(image).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(folder / f"{name}.png", optimize=True)
     plt.close(figure)
@@ -97,7 +97,7 @@ def saved(figure, name):
 # the figures -----------------------------------------------------------------------------------------------------------
 
 
-def power_cells():
+def power_cells(folder):
     path = [([0, 0, 0], 1.0), ([1.3, 0.05, 0], 1.0), ([2.5, 0.15, 0], 0.85), ([3.6, 0.35, 0], 0.6), ([4.6, 0.65, 0], 0.5), ([5.5, 1.05, 0], 0.5)]
     case = vessels(path)
     figure, axes = plt.subplots(figsize=(7.4, 3.1), layout="constrained")
@@ -122,7 +122,7 @@ def power_cells():
     axes.text(2.77, -1.0, "power cell\nof node 2", ha="center", va="center")
     bare(axes)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-    saved(figure, "power-cells")
+    saved(figure, folder, "power-cells")
 
 
 def shares(case, p):
@@ -131,7 +131,7 @@ def shares(case, p):
     return u / u.sum()
 
 
-def weights():
+def weights(folder):
     bend, radius = 1.0, 0.72
     arc = [[bend * math.sin(a), -bend * math.cos(a), 0] for a in np.radians([0, 30, 60, 90])]
     path = [(c, radius) for c in ([-1.1, -bend, 0], [-0.55, -bend, 0], *arc, [bend, 0.55, 0], [bend, 1.1, 0])]
@@ -159,7 +159,7 @@ def weights():
         left.text(*(c + 0.2 * np.maximum(c * [1, -1], 0) * [1, -1]), f"{i}", ha="center", va="center")
     bare(left)
     left.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-    saved(figure, "weights")
+    saved(figure, folder, "weights")
 
 
 def beside(s, r, bend):
@@ -168,7 +168,7 @@ def beside(s, r, bend):
     return [[r * math.sin(t) + min(a, 0), -r * math.cos(t) + max(a - math.pi / 2 * bend, 0), 0.0] for a, t in zip(s, turn)]
 
 
-def touching_vessels():
+def touching_vessels(folder):
     one = [([0, 0, z], 1.0) for z in (-1.2, 0, 1.2)]
     two = [([1.72, 0, z], 0.78) for z in (-1.0, 0, 1.0)]
     case = vessels(one, two)
@@ -189,10 +189,10 @@ def touching_vessels():
     right.text(2.8, 1.12, "T", ha="right")
     right.set(xlabel="along the line, mm", ylabel="f / T", xlim=(-1.3, 2.8), ylim=(0, None))
     right.legend(frameon=False)
-    saved(figure, "touching-vessels")
+    saved(figure, folder, "touching-vessels")
 
 
 if __name__ == "__main__":
-    power_cells()
-    weights()
-    touching_vessels()
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path, nargs="?", default=HERE)
+    for draw in (power_cells, weights, touching_vessels): draw(parser.parse_args().folder)

@@ -133,6 +133,7 @@ def main():
         first = Viewer("tube.nrrd", "tube.lumen", "seeds.json", cwd=folder)
         expect("address", first.address.startswith("http://127.0.0.1:") and len(first.address.split("/")[3]) == 32, True)
         state = first.state()
+        expect("no path", [folder in first.get(name).decode() for name in ("", "state")], [False, False])
         expect("new case", (state["has_volume"], state["has_case"], state["save_as"], len(state["seeds"])), (True, False, "tube.lumen", 1))
         first.do(op="track", labels=None)
         first.wait()

@@ -5,7 +5,8 @@
     private_words.py BATCH_LUMEN
 
 Words are in the names of folders, of the home folder and of the user, and in fields of inputs that name a patient, a place or a
-file: headers of volumes and meshes, tags of DICOM, comments. Outputs are searched within archives, packed parts and base64, too."""
+file: headers of volumes and meshes, tags of DICOM, comments. Outputs are searched within archives, packed parts and base64, too.
+Answers as JSON, and messages, are searched where the paths that a person gives have no such word."""
 import base64, gzip, io, json, os, pathlib, re, struct, sys, tempfile, zipfile, zlib
 
 from batch import Batch
@@ -57,11 +58,36 @@ picture IN/tube.lumen OUT/pv.png --volume IN/tube.nii
 report IN/tube.lumen OUT/r.html --volume IN/tube.nrrd
 report OUT/dicom.lumen.json OUT/rd.html
 """
+PAGES = """
+view IN/tube.lumen IN/tube.nii --html OUT/v.html --html-volume
+view IN/tube.mha IN/m.ply IN/c.swc --html OUT/vm.html
+view IN/series OUT/dicom.lumen.json --html OUT/vd.html
+"""
+ANSWERS = """
+info IN/tube.nrrd --voxels
+info IN/tube.nii
+info IN/tube.mha
+info IN/series
+info IN/tube.lumen
+info IN/tube.lumen --chunks
+info IN/m.stl
+info IN/m.vtk
+info IN/m.gltf
+info IN/c.swc
+info IN/c.tre
+validate IN/tube.lumen
+compare IN/tube.lumen IN/truth.lumen
+export --list
+"""
 LIBRARY = """
 library init OUT/lib --title T --publisher P --licence CC-BY-4.0
 library add OUT/lib IN/tube.lumen --title One --synthetic --attribution A --id one
 library index OUT/lib
 library extract OUT/lib OUT/own --case one
+"""
+LIBRARY_ANSWERS = """
+library list OUT/lib
+library check OUT/lib
 """
 
 
@@ -182,18 +208,27 @@ def main():
         refusal = lumen.run(["export", "none", str(place / "in/tube.lumen"), "x"], root).stderr
         targets = re.findall(r"[a-z]+", refusal.partition("exports to ")[2].replace(" or ", " "))
         runs = RUNS + "".join(f"export {t} {'OUT/c-swc.lumen.json' if t == 'sofa' else 'IN/tube.lumen'} OUT/x-{t}\n" for t in targets)
-        if "library" in lumen.run(["--help"], root).stdout: runs += LIBRARY
-        runs = [line for line in runs.splitlines() if line]
+        answers = ANSWERS
+        if "library" in lumen.run(["--help"], root).stdout: runs, answers = runs + LIBRARY, answers + LIBRARY_ANSWERS
+        if (pathlib.Path(sys.argv[1]).resolve().parents[2] / "viewer/page/page.js").exists(): runs += PAGES
+        else: print("the page was not built: the pages of lumen view are not searched")
+        runs, answers = ([line for line in lines.splitlines() if line] for lines in (runs, answers))
         faults = []
         for line in runs:
             words = [str(place / w.split("/")[0].lower() / w.split("/", 1)[1]) if w.startswith(("IN/", "OUT/")) else w for w in line.split()]
             done = lumen.run(words, root)
             if done.returncode: faults.append(f"{line}: {done.stderr.strip()[-300:]}")
+        (place / "again").mkdir()
+        for line in runs + answers:
+            words = [re.sub("^OUT/", "again/", re.sub("^IN/", "in/", w)) for w in line.split()]
+            done = lumen.run([*words, "--json"], place)
+            if done.returncode: faults.append(f"{line} --json: {done.stderr.strip()[-300:]}")
+            if found := words_in((done.stdout + done.stderr).encode()): faults.append(f"the answer to {line} holds {', '.join(found)}")
         lumen.end()
         files = [p for p in (place / "out").rglob("*") if p.is_file()]
         for file in files:
             if found := words_in(file.read_bytes()): faults.append(f"{file.relative_to(place / 'out')} holds {', '.join(found)}")
-    print(f"{len(runs)} commands with {len(targets)} targets wrote {len(files)} files")
+    print(f"{len(runs)} commands with {len(targets)} targets wrote {len(files)} files, and {len(runs) + len(answers)} answered")
     for fault in faults: print("FAULT", fault)
     sys.exit(bool(faults) or len(files) < 100 or len(targets) < 16)
 

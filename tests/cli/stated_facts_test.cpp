@@ -110,6 +110,41 @@ TEST_F(StatedFactsTest, ACenterlineHasARootThatAPersonStates) {
   EXPECT_EQ(lumen({"convert", "f.vtp", "f.lumen", "--root=500,0,0"}).code, 1);
 }
 
+TEST_F(StatedFactsTest, ARootIsStatedInTheCoordinatesOfAnInputFarFromZero) {
+  convert::test::LineFile fork = convert::test::fork();
+  for (auto& p : fork.points) p += Eigen::Vector3d(2'000'100, 0, -3e4);
+  write("f.vtp", convert::test::vtpOf(fork));
+  for (const char* root : {"--root=2000091,0,-29968", "--root=91,0,32"}) {
+    const Outcome done = lumen({"convert", "f.vtp", "f.lumen", root});
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_TRUE(contains(rootOf("f.lumen"), " 91 0 32 1.2 -1")) << root << rootOf("f.lumen");
+  }
+}
+
+TEST_F(StatedFactsTest, AStatedUnitThatNoVesselHasGetsAWarning) {
+  convert::test::LineFile fork = convert::test::fork();
+  const std::string field =
+      R"(<FieldData><Array type="String" Name="Unit" NumberOfTuples="1" format="ascii">109 0</Array></FieldData>)";
+  write("f.vtp", convert::test::vtpOf(fork, field));
+  write("s.swc", "# units: m\n1 0 0 0 0 2 -1\n2 0 0 0 90 2 1\n");
+  convert::TriangleMesh mesh = convert::test::tube(convert::test::straight(40), 2, false);
+  std::ostringstream obj;
+  obj << "# units: m\n";
+  for (const auto& p : mesh.position) obj << "v " << p.x() << " " << p.y() << " " << p.z() << "\n";
+  for (const auto& t : mesh.triangle)
+    obj << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  write("t.obj", obj.str());
+  for (const char* file : {"f.vtp", "s.swc", "t.obj"}) {
+    const Outcome done = lumen({"info", file});
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_TRUE(contains(done.out, "m, as the file states")) << done.out;
+    EXPECT_TRUE(contains(done.err, ": by the unit that it states it holds vessels of "))
+        << done.err;
+    EXPECT_TRUE(contains(done.err, "implausible; in mm they would be")) << done.err;
+    EXPECT_FALSE(contains(lumen({"info", file, "--unit", "mm"}).err, "implausible"));
+  }
+}
+
 TEST_F(StatedFactsTest, LegacyLinesAreFoundByTheirContent) {
   const convert::test::LineFile fork = convert::test::fork();
   for (const bool isBinary : {false, true}) {

@@ -20,6 +20,7 @@ for target; do
     binary | json) seeds=("$build/spec/conformance/valid" "$build/spec/conformance/hostile") ;;
     round_trip) seeds=("$build/spec/conformance/valid") ;;
     vtp | vtp_lines) seeds+=("$corpora/../../data/vtk") ;;
+    graph_csv | graphml | spatial_graph | swc | tre) seeds+=("$corpora/../../data/neighbours") ;;
   esac
   for seed in "${!seeds[@]}"; do [ -d "${seeds[$seed]}" ] || unset "seeds[$seed]"; done
   made=$(mktemp -d)

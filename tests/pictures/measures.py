@@ -6,7 +6,7 @@ measures.py [FILE]    writes the picture, or into FILE
 
 Every line is computed from the formula that it shows: the window's weights, the circle of curvature, rays and tangents
 of a section, the beginnings and vectors of a fork's arms, a healthy calibre, and a neck plane."""
-import io, math, pathlib, sys
+import argparse, io, math, pathlib
 
 import matplotlib
 matplotlib.use("Agg")
@@ -214,10 +214,12 @@ def path(axes):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", metavar="FILE", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "docs/measures.png")
+    out = parser.parse_args().out
     figure, places = plt.subplots(2, 3, figsize=(10, 6.2))
     for draw, axes in zip((curve, section, path, fork, narrowing, aneurysm), places.flat): draw(axes)
     figure.tight_layout(w_pad=1.5)
-    out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2] / "docs/measures.png"
     image = io.BytesIO()
     figure.savefig(image, dpi=130)
     Image.open(image).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(out, optimize=True)

@@ -65,12 +65,17 @@ ReadFrame toPatientSpace(CenterlineFile& file, const CenterlineReading& reading)
   if (file.points.empty()) return {};
   ReadFrame frame{reading.unit.value_or(file.unit), reading.unit ? "option" : "file",
                   reading.axes.has_value() || file.axes != CenterlineAxes::Unknown};
-  if (frame.unit == 0) {
+  if (!reading.unit) {
     const VesselSize size = sizeOf(file);
-    const UnitGuess guess = guessUnit(size, file.isOfSimVascular);
-    frame.unit = guess.millimetres;
-    frame.unitFrom = "guess";
-    std::string warning = unitWarning(guess, size, file.isOfSimVascular, reading.word);
+    std::string warning;
+    if (frame.unit == 0) {
+      const UnitGuess guess = guessUnit(size, file.isOfSimVascular);
+      frame.unit = guess.millimetres;
+      frame.unitFrom = "guess";
+      warning = unitWarning(guess, size, file.isOfSimVascular, reading.word);
+    } else {
+      warning = statedWarning(size, frame.unit, UnitBy::File, reading.word);
+    }
     if (!warning.empty()) file.remarks.push_back(std::move(warning));
   }
   const double unit = frame.unit;

@@ -40,7 +40,7 @@ std::span<const Signature> signatures() {
       {0, "NDims:", Centerline, "a centerline (TubeTK)"},
       {0, "NDims", Volume, "a volume (MetaImage)"},
       {344, "n+1\0"sv, Volume, "a volume (NIfTI)"},
-      {344, "ni1\0"sv, Volume, "a volume (NIfTI)"},
+      {344, "ni1\0"sv, Other, "the header of a pair of files (NIfTI)"},
       {4, "n+2\0"sv, Volume, "a volume (NIfTI)"},
       {128, "DICM", Volume, kDicom},
       {0, "# Markups fiducial file", Seeds, "seeds (3D Slicer fiducials)"},
@@ -110,6 +110,18 @@ std::string adviceFor(ContentKind kind) {
       break;
   }
   return "";
+}
+
+/// Content that a signature alone states.
+FileContent plainContent(const Signature& signature) {
+  const std::string_view name = signature.name;
+  if (name.starts_with("a picture"))
+    return {signature.kind, signature.name,
+            "3D Slicer and Fiji save a stack of pictures as one volume, .nrrd"};
+  if (name.starts_with("the header"))
+    return {signature.kind, signature.name,
+            "3D Slicer and nibabel's nib-convert write one file with header and voxels, .nii"};
+  return {signature.kind, signature.name, ""};
 }
 
 /// Content of a zip, by the name's ending.
@@ -214,7 +226,7 @@ FileContent detectContent(const InputFile& file) {
              : signature.bytes.starts_with("PK")
                  ? zipContent(lowerCase(file.path().filename().string()))
              : signature.name == kDicom ? dicomContent(view)
-                                        : FileContent{signature.kind, signature.name, ""};
+                                        : plainContent(signature);
   if (lowerCase(file.path().filename().string()).ends_with(".swc"))
     return {Centerline, "a centerline (SWC)"};
   if (view.starts_with("<?xml") && view.find("<VTKFile") != view.npos) return vtkContent(view);

@@ -10,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
+#include "converters/geometry/far_origin.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -53,10 +54,12 @@ bool isWithinVoxels(const VolumeGeometry& geometry, const Vector3d& index) {
   return ((index - heldInside(geometry, index, 0)).cwiseAbs().array() <= kOutermost).all();
 }
 
-/// Position in LPS mm, as stored in the branch.
+/// Position in LPS mm, as stored in the branch; within a volume that was moved near 0, in its place.
 Vector3d worldOf(const SeedBranch& branch, const Vector3d& position,
                  const VolumeGeometry& geometry) {
-  return branch.frame.system == SeedSystem::Voxel ? geometry.worldFromIndex(position) : position;
+  if (branch.frame.system == SeedSystem::Voxel) return geometry.worldFromIndex(position);
+  const Vector3d near = placeNear(geometry.origin, position);
+  return isWithinVoxels(geometry, geometry.indexFromWorld(near)) ? near : position;
 }
 
 std::string outsideText(const Vector3d& world, const VolumeGeometry& geometry) {

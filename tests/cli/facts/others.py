@@ -52,7 +52,7 @@ def by_nibabel(g, original, where):
         image.header.set_slope_inter(1, 0)
         yield Turned("NIfTI", f"nibabel, {kind}; {where}", written("v.nii", lambda path: nib.save(image, path)), original=original)
         image.header.set_slope_inter(0.25, -3)
-        yield Turned("NIfTI", f"nibabel, {kind}, a scale; {where}", written("v.nii", lambda path: nib.save(image, path)), "same", "", (), original)
+        yield Turned("NIfTI", f"nibabel, {kind}, a scale; {where}", written("v.nii", lambda path: nib.save(image, path)), "warned", "as in a mask", (), original)
     image = nib.Nifti2Image(data, affine(np, g))
     yield Turned("NIfTI", f"nibabel, NIfTI-2; {where}", written("v.nii", lambda path: nib.save(image, path)), "refused", "NIfTI-1", (), original)
     image = nib.Nifti1Pair(data, affine(np, g))
@@ -77,7 +77,7 @@ def by_simpleitk(g, original, where):
     for name in ("v.vtk", "v.hdr", "v.gipl", "v.tif", "v.mnc"):
         try: files = written(name, lambda path: sitk.WriteImage(sitk.Cast(image, sitk.sitkUInt16), path))
         except Exception: continue
-        yield Turned("other volumes", f"SimpleITK, {name}; {where}", files, "refused", r"nrrd|POLYDATA", (), original)
+        yield Turned("other volumes", f"SimpleITK, {name}; {where}", files, "refused", r"nrrd|\.nii|POLYDATA", (), original)
 
 
 def by_pynrrd(g, original, where):

@@ -31,7 +31,7 @@ double artery(const Vector3d& p) {
   return capsule(p, {12, 30, 36}, {60, 42, 36}, kThin);
 }
 double petrous(const Vector3d& p) {
-  return ((p - Vector3d(36, 36, 36)).cwiseAbs() - Vector3d(9, 12, 12)).maxCoeff();
+  return inBox(p, {27, 24, 24}, {45, 48, 48});
 }
 
 /// Bone is uneven over two voxels, as no blood is.
@@ -46,9 +46,6 @@ Volume head(double calcium = 0) {
   volume.geometry.size = {kHeadSize, kHeadSize, kHeadSize};
   Random random(5);
   std::vector<std::int16_t> voxels;
-  const auto mix = [](double& value, double other, double distance) {
-    value += (other - value) * std::clamp(0.5 - distance / 1.5, 0.0, 1.0);
-  };
   volume.geometry.cells().forEach([&](const Cell& cell) {
     const Vector3d p = cell.cast<double>();
     double value = -1000;

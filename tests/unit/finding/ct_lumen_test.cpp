@@ -21,10 +21,6 @@ using Eigen::Vector3d;
 constexpr int kScanSize = 80;
 constexpr double kScanNoise = 10, kSoftTissue = 40;
 
-double inBox(const Vector3d& p, const Vector3d& low, const Vector3d& high) {
-  return ((p - 0.5 * (low + high)).cwiseAbs() - 0.5 * (high - low)).maxCoeff();
-}
-
 // A wide vessel, its branch, and another thin one that hangs on nothing.
 double aorta(const Vector3d& p) {
   return capsule(p, {22, 40, -9}, {22, 40, 90}, 6);
@@ -67,9 +63,6 @@ Volume draw(const Scene& scene) {
   volume.geometry.size = {kScanSize, kScanSize, kScanSize};
   Random random(3);
   std::vector<std::int16_t> voxels;
-  const auto mix = [](double& value, double other, double distance) {
-    value += (other - value) * std::clamp(0.5 - distance / 1.5, 0.0, 1.0);
-  };
   volume.geometry.cells().forEach([&](const Cell& cell) {
     const Vector3d p = cell.cast<double>();
     double value = -1000;

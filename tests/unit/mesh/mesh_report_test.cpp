@@ -152,5 +152,21 @@ TEST(UnitGuess, AWarningNamesBothUnitsThatArePlausible) {
   EXPECT_EQ(unitWarning(guessUnit(whole), whole, false), "");
 }
 
+TEST(UnitGuess, ASizeThatNoVesselHasInTheStatedUnitGetsAWarningWithTheUnitThatFits) {
+  const VesselSize aorta = vesselSize(openTube(10, 300));  // numbers of mm
+  const auto warned = [&](double millimetres, UnitBy by) {
+    return statedWarning(aorta, millimetres, by, {});
+  };
+  EXPECT_EQ(warned(1, UnitBy::File), "");
+  EXPECT_EQ(warned(1e-3, UnitBy::File), "");  // a microscope's
+  for (const double wrong : {10.0, 1000.0, 1e-6})
+    EXPECT_NE(warned(wrong, UnitBy::File).find("implausible; in mm they would be vessels of 9."),
+              std::string::npos)
+        << warned(wrong, UnitBy::File);
+  EXPECT_EQ(warned(1000, UnitBy::File).find("by the unit that it states it holds"), 0U);
+  EXPECT_EQ(warned(1000, UnitBy::StandardOfGltf).find("by the standard of glTF it holds"), 0U);
+  EXPECT_NE(warned(1e-3, UnitBy::StandardOfGltf), "");
+}
+
 }  // namespace
 }  // namespace lumen::test

@@ -36,10 +36,10 @@ struct TwoBones {
     return capsule(p, {17, 19, -9}, {17, 19, 70}, kVesselRadius);
   }
   static double toFirst(const Eigen::Vector3d& p) {
-    return std::min(toBox(p, {7, 8, 5}, {27, 28, 49}), toBox(p, {27, 14, 20}, {32, 24, 32}));
+    return std::min(inBox(p, {7, 8, 5}, {27, 28, 49}), inBox(p, {27, 14, 20}, {32, 24, 32}));
   }
   static double toSecond(const Eigen::Vector3d& p) {
-    return std::min(toBox(p, {40, 39, 14}, {48, 47, 34}), toBox(p, {42, 35, 18}, {46, 39, 24}));
+    return std::min(inBox(p, {40, 39, 14}, {48, 47, 34}), inBox(p, {42, 35, 18}, {46, 39, 24}));
   }
 
   [[nodiscard]] Volume draw() const {
@@ -53,7 +53,7 @@ struct TwoBones {
     volume.geometry.cells().forEach([&](const Cell& cell) {
       const Eigen::Vector3d p = volume.geometry.position(cell), a = first * p, b = second * p;
       double value = -1000;
-      mix(value, kSoft, toBox(p, {4, 4, -20}, {52, 52, 80}));
+      mix(value, kSoft, inBox(p, {4, 4, -20}, {52, 52, 80}));
       if (hasRod) {
         mix(value, 900, capsule(p, {28, 28, 8}, {28, 28, 48}, 6));
       } else {
@@ -68,13 +68,6 @@ struct TwoBones {
   }
 
 private:
-  static double toBox(const Eigen::Vector3d& p, const Eigen::Vector3d& low,
-                      const Eigen::Vector3d& high) {
-    return ((p - 0.5 * (low + high)).cwiseAbs() - 0.5 * (high - low)).maxCoeff();
-  }
-  static void mix(double& value, double other, double distance) {
-    value += (other - value) * std::clamp(0.5 - distance / 1.5, 0.0, 1.0);
-  }
   /// Marrow is an uneven texture, the cortex around it two millimetres thick.
   static double level(const Eigen::Vector3d& p, double distance) {
     if (distance > -2) return 900;

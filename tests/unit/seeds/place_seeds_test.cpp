@@ -77,6 +77,13 @@ TEST(PlaceSeeds, InsideIsUpToHalfAVoxelBeyondTheOutermostCentres) {
                  "(100, 0, 0) to (105, 10, 15)", "11 x 21 x 31"});
 }
 
+TEST(PlaceSeeds, ClicksInTheCoordinatesOfAVolumeThatWasMovedNearZeroArePlaced) {
+  const Vector3d inside(103, 5, 6), move(10'000'000, -20'000, 0);
+  EXPECT_EQ(place({vessel("a", inside + move)}, volume()).seeds[0].points[0].position, inside);
+  expectRefused(placeRefusal({vessel("a", {20'000, -8000, 26'000})}, volume()),
+                {"(20000, -8000, 26000)"});
+}
+
 TEST(PlaceSeeds, DistancesInMessagesHaveSixSignificantDigits) {
   expectRefused(placeRefusal({vessel("a", {105.623456789, 10, 15})}, volume()),
                 {"lies 0.623457 mm outside", "(105.623, 10, 15)"});

@@ -43,6 +43,17 @@ inline double capsule(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const 
   return (p - a - t * (b - a)).norm() - radius;
 }
 
+/// Signed distance to a box.
+inline double inBox(const Eigen::Vector3d& p, const Eigen::Vector3d& low,
+                    const Eigen::Vector3d& high) {
+  return ((p - 0.5 * (low + high)).cwiseAbs() - 0.5 * (high - low)).maxCoeff();
+}
+
+/// Makes the value of a voxel that of another tissue where this lies, at a signed distance in voxels.
+inline void mix(double& value, double other, double distance) {
+  value += (other - value) * std::clamp(0.5 - distance / 1.5, 0.0, 1.0);
+}
+
 // Tubes to track, and clicks on them.
 using Eigen::Vector3d;
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/geometry/far_origin.h"
 #include "converters/io/volume/volume_checks.h"
 #include "text_volume.h"
 
@@ -305,6 +306,12 @@ TEST(FarOrigin, IsMovedByTensOfMetres) {
   EXPECT_EQ(said[0],
             "its origin is far from 0: all positions are stated less (10000000, -20000, 0) mm, as "
             "floats would round them there");
+}
+
+TEST(FarOrigin, APlaceMayBeStatedInTheInputsCoordinatesOrTheCases) {
+  const Eigen::Vector3d about(9800, -5000.5, 3), place(10'100.25, -5100, 50);
+  EXPECT_EQ(placeNear(about, place), place);
+  EXPECT_EQ(placeNear(about, place + Eigen::Vector3d(10'000'000, -20'000, 0)), place);
 }
 
 }  // namespace
