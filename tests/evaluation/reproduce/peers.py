@@ -145,7 +145,10 @@ def hold(data, lumen):
     with tempfile.TemporaryDirectory() as folder:
         for name in INPUTS:
             one = Input(Path(data), Path(folder), lumen, name)
-            results = {way: result for way, result in one.results() if print(row(name, way, result), flush=True) is None}
+            results = {}
+            for way, result in one.results():
+                print(row(name, way, result), flush=True)
+                results[way] = result
             own = next(result for way, result in results.items() if way.endswith("map") and way.startswith("lumen"))
             for way, result in results.items():
                 if way in PEERS and not isinstance(result, str) and (result[0] > own[0] or (one.volume and result[2] < own[2])):
