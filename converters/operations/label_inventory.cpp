@@ -2,6 +2,7 @@
 #include "converters/operations/label_inventory.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -42,7 +43,7 @@ std::optional<double> lightAt(const ImageBesideMaps& image, const Eigen::Vector3
 
 /// Light along the axes of vessels.
 struct VesselLight {
-  double median = 0, leastUsual = 0;  ///< the second is that of the twentieth part of nodes
+  double median = 0, leastUsual = 0, mostUsual = 0;  ///< all but a twentieth lie above, and below
 };
 
 VesselLight vesselLight(const ImageBesideMaps& image, const CenterlineTree& tree) {
@@ -51,12 +52,23 @@ VesselLight vesselLight(const ImageBesideMaps& image, const CenterlineTree& tree
     if (const auto one = lightAt(image, toEigen(centre))) light.push_back(*one);
   if (light.empty()) return {};
   std::sort(light.begin(), light.end());
-  return {light[light.size() / 2], light[light.size() / 20]};
+  const std::size_t last = light.size() - 1;
+  return {light[light.size() / 2], light[light.size() / 20], light[last - last / 20]};
+}
+
+LeftOut whyLeftOut(const ImageBesideMaps& image, const VesselLight& vessels,
+                   const Eigen::Vector3d& place, double light) {
+  const convert::VolumeGeometry& geometry = image.volume.geometry;
+  const auto cell = geometry.cells().nearest(geometry.indexFromWorld(place));
+  if (cell && image.prior.isNoVessel(geometry.index(*cell))) return LeftOut::NotVessel;
+  if (light < vessels.leastUsual) return LeftOut::Faint;
+  return light > vessels.mostUsual ? LeftOut::Strong : LeftOut::NoWall;
 }
 
 /// Counts of the voxels of a label that lie in the volume.
 struct LabelCounts {
   std::size_t inside = 0, held = 0, dark = 0;
+  std::array<std::size_t, kLeftOutCount> leftOut{};
   std::map<std::uint32_t, std::size_t> byBranch;  ///< of those that are held
 };
 
@@ -87,8 +99,11 @@ std::vector<LabelCounts> countVoxels(const convert::LabelMask& mask, const Cente
         ++count.held;
         ++count.byBranch[hit.branch];
       }
-      if (image && lightAt(*image, place).value_or(light.leastUsual) < light.leastUsual)
-        ++count.dark;
+      if (!image) return;
+      const double own = lightAt(*image, place).value_or(light.leastUsual);
+      if (own < light.leastUsual) ++count.dark;
+      if (hit.distance > half)
+        ++count.leftOut[static_cast<std::size_t>(whyLeftOut(*image, light, place, own))];
     });
   });
   std::vector<LabelCounts> sums(mask.names.size() + 1);
@@ -97,6 +112,8 @@ std::vector<LabelCounts> countVoxels(const convert::LabelMask& mask, const Cente
       sums[l].inside += slice[l].inside;
       sums[l].held += slice[l].held;
       sums[l].dark += slice[l].dark;
+      for (std::size_t why = 0; why < kLeftOutCount; ++why)
+        sums[l].leftOut[why] += slice[l].leftOut[why];
       for (const auto& [branch, count] : slice[l].byBranch) sums[l].byBranch[branch] += count;
     }
   return sums;
@@ -192,6 +209,13 @@ std::string whyMissing(const LabelCounts& counts, const CenterlineTree& tree, bo
   return "no cylinder fits along it";
 }
 
+std::array<double, kLeftOutCount> volumesOf(const LabelCounts& counts, double voxel) {
+  std::array<double, kLeftOutCount> volumes{};
+  for (std::size_t why = 0; why < kLeftOutCount; ++why)
+    volumes[why] = static_cast<double>(counts.leftOut[why]) * voxel;
+  return volumes;
+}
+
 bool isOfVessels(convert::LabelRole role) {
   return convert::isVessel(role) ||
          (convert::isOtherLumen(role) && role != convert::LabelRole::Chamber);
@@ -228,8 +252,10 @@ LabelInventory inventoryOf(const std::vector<LabelPart>& maps, const std::vector
       if (count.inside > 0)
         label.heldShare = static_cast<double>(count.held) / static_cast<double>(count.inside);
       addBranches(value, labels, m, place, label);
-      if (label.branches.empty() && isOfVessels(meaning.role))
-        label.missing = whyMissing(count, tree, image != nullptr);
+      if (!isOfVessels(meaning.role)) continue;
+      if (label.branches.empty()) label.missing = whyMissing(count, tree, image != nullptr);
+      if (image && tree.nodeCount() > 0)
+        label.leftOut = volumesOf(count, mask.geometry.spacing.prod());
     }
   }
   for (std::size_t b = 0; b < labels.size(); ++b) {

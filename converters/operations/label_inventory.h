@@ -2,7 +2,9 @@
 // The vessels of a case by the labels of the maps beside its volume.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,15 @@ struct BeyondLabel {
   double length = 0;     ///< from the last node with a label on, mm
 };
 
+/// Voxels of a label of vessels that lie in no vessel of the case, by what the volume shows there.
+enum class LeftOut {
+  NotVessel,  ///< a map states that there is none
+  Faint,      ///< less contrast than the vessels have
+  Strong,     ///< more than these, as bone and metal
+  NoWall,     ///< the contrast of these, but no wall was found around it
+};
+constexpr std::size_t kLeftOutCount = 4;
+
 struct MappedLabel {
   convert::LabelMeaning meaning;
   std::size_t voxels = 0;
@@ -34,7 +45,8 @@ struct MappedLabel {
   /// the map from it; negative if none lies in the volume, and for labels that name no branch.
   double heldShare = -1;
   std::string missing;  ///< reason why no branch is named after a label of vessels; else empty
-  double refused = 0;   ///< volume of no vessel that is at least as bright as vessels, mm^3
+  std::optional<std::array<double, kLeftOutCount>> leftOut;  ///< mm^3; of vessels in an image
+  double refused = 0;  ///< volume of no vessel that is at least as bright as vessels, mm^3
 };
 
 struct MappedLabels {

@@ -74,6 +74,13 @@ if(HAS_NUMPY)
   python_test(Finding.VesselsInDrawnOrgansStayFound nightly
     ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/organs.py hold $<TARGET_FILE:lumen>)
 endif()
+# .ci/nightly makes the environment, where there is a Python that VMTK's wheel runs with.
+set(peers ${PROJECT_SOURCE_DIR}/build/peers/bin/python)
+if(EXISTS ${peers} AND EXISTS ${PROJECT_SOURCE_DIR}/../shared/data/prior AND NOT LUMEN_SANITIZE)
+  add_test(NAME Finding.BesideOtherPrograms COMMAND ${peers} -B
+    ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/peers.py hold ${PROJECT_SOURCE_DIR}/../shared/data $<TARGET_FILE:lumen>)
+  set_tests_properties(Finding.BesideOtherPrograms PROPERTIES LABELS nightly)
+endif()
 lumen_test(compare_test FOLDER compare
   LABELS threads
   LIBS lumen_compare lumen_geometry

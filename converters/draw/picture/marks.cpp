@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "converters/base/shown_text.h"
 
@@ -78,28 +79,36 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink) {
 }
 
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink) {
-  const int scale = letterScale(picture), margin = 8 * scale;
-  const auto count = static_cast<int>(legend.values.size());
-  const bool isNamed = legend.values.size() == legend.colours.size();  // a name below each colour
-  int least = -kLetterWidth * scale, widest = 0;  // with a letter's room between two values
-  for (const std::string& value : legend.values) {
-    least += textWidth(value, scale) + kLetterWidth * scale;
-    widest = std::max(widest, textWidth(value, scale) + kLetterWidth * scale);
-  }
-  if (isNamed) least = count * widest;
-  const int length = std::max({picture.width / 4, textWidth(legend.title, scale), least});
-  const int x0 = picture.width - margin - length;
-  const int bottom = picture.height - 4 * scale, values = bottom - kLetterHeight * scale;
+  const int scale = letterScale(picture), letter = kLetterWidth * scale;
+  const std::size_t count = legend.values.size();
+  const bool isNamed = count == legend.colours.size();
+  std::vector<int> widths;  // with a letter's room between two values
+  for (const std::string& value : legend.values) widths.push_back(textWidth(value, scale) + letter);
+  const int titleWidth = textWidth(legend.title, scale);
+  int length = std::accumulate(widths.begin(), widths.end(), isNamed ? 0 : -letter);
+  if (!isNamed) length = std::max({length, picture.width / 4, titleWidth});
+  const int x0 = picture.width - 8 * scale - length;
+  const int values = picture.height - (4 + kLetterHeight) * scale;
   const int bar = values - 7 * scale, title = bar - (2 + kLetterHeight) * scale;
-  for (int x = 0; x < length; ++x) {
-    const std::size_t colour =
-        static_cast<std::size_t>(x) * legend.colours.size() / static_cast<std::size_t>(length);
-    picture.fill(x0 + x, bar, x0 + x + 1, bar + 5 * scale, legend.colours[colour]);
+  const auto fill = [&](int from, int to, std::size_t colour) {
+    picture.fill(from, bar, to, bar + 5 * scale, legend.colours[colour]);
+  };
+  if (isNamed) {  // the sides of the patient stand in the row of values
+    picture.text(x0 - titleWidth - letter, bar - scale, scale, legend.title, ink);
+    for (std::size_t i = 0, x = 0; i < count; x += static_cast<std::size_t>(widths[i++])) {
+      const int at = x0 + static_cast<int>(x);
+      fill(at, at + widths[i], i);
+      picture.text(at, title, scale, legend.values[i], ink);
+    }
+    return;
   }
+  for (int x = 0; x < length; ++x)
+    fill(x0 + x, x0 + x + 1,
+         static_cast<std::size_t>(x) * legend.colours.size() / static_cast<std::size_t>(length));
   picture.text(x0, title, scale, legend.title, ink);
-  for (std::size_t i = 0; i < legend.values.size(); ++i) {
-    const int room = isNamed ? length : length - textWidth(legend.values[i], scale);
-    const int steps = isNamed ? count : std::max(1, count - 1);
+  const int steps = std::max(1, static_cast<int>(count) - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int room = length - textWidth(legend.values[i], scale);
     picture.text(x0 + room * static_cast<int>(i) / steps, values, scale, legend.values[i], ink);
   }
 }

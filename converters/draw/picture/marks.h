@@ -38,7 +38,8 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink);
 struct Legend {
   std::string title;         ///< title, with the unit
   std::vector<Rgb> colours;  ///< colours from left to right
-  /// Numbers at even distances, the first at the left end, three at most; or a name for each colour.
+  /// Numbers at even distances below, the first at the left end, three at most; or a name for each
+  /// colour, above it, with the title at the left.
   std::vector<std::string> values;
 };
 /// Draws the legend in the lower right corner.

@@ -2,6 +2,7 @@
 #include "converters/engine/answers/label_answer.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "converters/base/options/option_name.h"
@@ -13,6 +14,15 @@ namespace lumen::engine {
 namespace {
 
 constexpr double kMillilitre = 1e-3;  // of a cubic millimetre
+
+/// Key and words of a reason why voxels of a label are left out, in the order of the reasons.
+struct LeftOutWords {
+  const char *key, *words;
+};
+constexpr std::array<LeftOutWords, operations::kLeftOutCount> kLeftOut = {
+    LeftOutWords{"no_vessel_ml", "no vessel by a map"},
+    LeftOutWords{"fainter_ml", "fainter than the vessels"}, LeftOutWords{"stronger_ml", "stronger"},
+    LeftOutWords{"no_wall_ml", "without a wall around it"}};
 
 Json labelJson(const convert::LabelMeaning& meaning, std::size_t voxels) {
   const std::string from = convert::sourcesOf(meaning);
@@ -42,6 +52,9 @@ Json mappedJson(const operations::MappedLabel& label) {
   json["greatest_radius_mm"] = measured(isFound, label.greatestRadius);
   json["beyond"] = std::move(beyond);
   json["held_share"] = measured(label.heldShare >= 0, label.heldShare);
+  json["left_out"] = nullptr;
+  for (std::size_t why = 0; label.leftOut && why < kLeftOut.size(); ++why)
+    json["left_out"][kLeftOut[why].key] = jsonNumber((*label.leftOut)[why] * kMillilitre);
   json["missing"] = label.missing.empty() ? Json(nullptr) : Json(label.missing);
   json["refused_ml"] = jsonNumber(label.refused * kMillilitre);
   return json;
@@ -57,10 +70,24 @@ void addLabel(Lines& lines, const convert::LabelMeaning& meaning, std::size_t vo
                 counted(voxels, "voxel", "voxels") + rest);
 }
 
+/// ", 0.31 ml left out: 0.3 fainter than the vessels, 0.01 stronger"; empty if nothing is.
+std::string leftOutText(const operations::MappedLabel& label) {
+  std::string text;
+  double sum = 0;
+  for (std::size_t why = 0; label.leftOut && why < kLeftOut.size(); ++why) {
+    const double volume = (*label.leftOut)[why] * kMillilitre;
+    if (volume <= 0) continue;
+    sum += volume;
+    text += (text.empty() ? "" : ", ") + shownFigure(volume) + " " + kLeftOut[why].words;
+  }
+  return text.empty() ? text : ", " + shownFigure(sum) + " ml left out: " + text;
+}
+
 /// "; 31.2 mm, radius 1.4 (0.9 to 1.8) mm, 97 % held, 12.3 mm beyond at the tip", or the reason why
 /// it is not found.
 std::string mappedText(const operations::MappedLabel& label) {
-  if (!label.missing.empty()) return "; not found: " + formats::printable(label.missing);
+  if (!label.missing.empty())
+    return "; not found: " + formats::printable(label.missing) + leftOutText(label);
   std::string text;
   if (!label.branches.empty()) {
     text = "; " + fixedText(label.length, 1) + " mm";
@@ -75,6 +102,7 @@ std::string mappedText(const operations::MappedLabel& label) {
       text += ", " + fixedText(end.length, 1) + " mm beyond at the " +
               (end.isStart ? "start" : "tip") +
               (label.branches.size() > 1 ? " of " + formats::printable(end.branch) : "");
+    text += leftOutText(label);
   } else if (label.refused > 0) {
     text = "; " + shownFigure(label.refused * kMillilitre) + " ml as bright as the vessels refused";
   }

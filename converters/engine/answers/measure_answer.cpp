@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -21,11 +22,18 @@ std::string vesselText(const formats::Case& source, const convert::CaseMeasures&
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"vessel", "length", "tortuosity", "mean curvature", "mean radius",
                   "smallest radius", "volume"});
-  for (const convert::VesselMeasures& m : measures.vessels)
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(source);
+  if (!systems.empty()) rows.front().insert(rows.front().begin() + 1, "system");
+  for (const convert::VesselMeasures& m : measures.vessels) {
     rows.push_back({source.tree.branches[m.branch].label, measuredText(m.length, 1),
                     measuredText(m.tortuosity, 3), measuredText(m.meanCurvature, 3),
                     measuredText(m.meanRadius, 2), measuredText(m.smallestRadius, 2),
                     measuredText(m.volume, 1)});
+    if (!systems.empty()) {
+      const auto system = static_cast<std::size_t>(systems[m.branch]);
+      rows.back().insert(rows.back().begin() + 1, std::string(formats::kVesselSystemNames[system]));
+    }
+  }
   return alignColumns(rows);
 }
 

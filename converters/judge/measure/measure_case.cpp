@@ -170,9 +170,20 @@ std::string cell(double value) {
   return std::isfinite(value) ? numberText(value, kDigits) : std::string();
 }
 
-void addHeader(const MeasureTable& table, std::string& text) {
+bool hasSystems(const MeasureTable& table) {
+  return !table.rows.empty() && !table.rows.front().system.empty();
+}
+
+/// Whether a case has systems, so that rows of all have a column for it.
+bool haveSystems(std::span<const MeasuredCase> cases, std::size_t kind) {
+  return std::any_of(cases.begin(), cases.end(),
+                     [&](const MeasuredCase& one) { return hasSystems(one.tables[kind]); });
+}
+
+void addHeader(const MeasureTable& table, bool withSystems, std::string& text) {
   text += "case";
   for (const auto& label : table.labels) text += ',' + std::string(label);
+  if (withSystems) text += ",system";
   for (const auto& place : table.places) {
     const std::string key = placeKey(place);
     const bool isLength = key.ends_with("_mm");
@@ -186,9 +197,10 @@ void addHeader(const MeasureTable& table, std::string& text) {
 }
 
 void addRow(const std::string& name, const MeasureTable& table, const MeasureRow& row,
-            std::string& text) {
+            bool withSystems, std::string& text) {
   text += csvCell(name);
   for (const std::string& label : row.labels) text += ',' + csvCell(label);
+  if (withSystems) text += ',' + std::string(row.system);
   for (const Place& place : row.places)
     for (int a = 0; a < 3; ++a) text += ',' + cell(place[a]);
   std::string absent;
@@ -213,6 +225,7 @@ Json measuresJson(std::span<const MeasureTable> tables) {
       Json object = Json::object();
       for (std::size_t i = 0; i < row.labels.size(); ++i)
         object[std::string(table.labels[i])] = row.labels[i];
+      if (!row.system.empty()) object["system"] = row.system;
       for (std::size_t i = 0; i < row.places.size(); ++i)
         object[placeKey(table.places[i])] = jsonOf(row.places[i]);
       for (std::size_t i = 0; i < row.values.size(); ++i)
@@ -230,22 +243,28 @@ Json measuresJson(const formats::Case& source, const MeasureOptions& options, Pr
 
 std::string measuresCsv(std::span<const MeasuredCase> cases, std::size_t kind) {
   std::string text;
+  const bool withSystems = haveSystems(cases, kind);
   for (const MeasuredCase& one : cases) {
     const MeasureTable& table = one.tables[kind];
-    if (text.empty()) addHeader(table, text);
-    for (const MeasureRow& row : table.rows) addRow(one.name, table, row, text);
+    if (text.empty()) addHeader(table, withSystems, text);
+    for (const MeasureRow& row : table.rows) addRow(one.name, table, row, withSystems, text);
   }
   return text;
 }
 
 std::string measuresLongCsv(std::span<const MeasuredCase> cases) {
-  std::string text = "case,kind,of,x_mm,y_mm,z_mm,measure,value,plus_minus,absent\n";
+  bool withSystems = false;
+  for (std::size_t kind = 0; !cases.empty() && kind < cases.front().tables.size(); ++kind)
+    withSystems = withSystems || haveSystems(cases, kind);
+  std::string text = std::string("case,kind,of,") + (withSystems ? "system," : "") +
+                     "x_mm,y_mm,z_mm,measure,value,plus_minus,absent\n";
   for (const MeasuredCase& one : cases)
     for (const MeasureTable& table : one.tables)
       for (const MeasureRow& row : table.rows) {
         std::string of;
         for (const std::string& label : row.labels) of += (of.empty() ? "" : "; ") + label;
         std::string head = csvCell(one.name) + ',' + std::string(table.kind) + ',' + csvCell(of);
+        if (withSystems) head += ',' + std::string(row.system);
         for (int a = 0; a < 3; ++a) head += ',' + cell(row.places.front()[a]);
         for (std::size_t i = 0; i < row.values.size(); ++i) {
           const Measured& m = row.values[i];

@@ -47,7 +47,7 @@ nlohmann::ordered_json measuresJson(const formats::Case& source, const MeasureOp
 
 /// The tables of one kind of all cases as one text (RFC 4180): a column `case`, those of text,
 /// three for each place, two for each value (the second is its half interval, `_pm`), and `absent`,
-/// which states why values are empty.
+/// which states why values are empty; behind the texts `system`, if a case states systems.
 std::string measuresCsv(std::span<const MeasuredCase> cases, std::size_t kind);
 
 /// All tables of all cases as one text with a row for each value: case, kind, the row's texts, its

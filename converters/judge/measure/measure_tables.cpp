@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "formats/case/vessel_system.h"
+
 namespace lumen::convert {
 
 namespace {
@@ -157,7 +159,9 @@ MeasureTable stationTable(const Labels& labels, const CaseMeasures& measures) {
   return table;
 }
 
-MeasureTable vesselTable(const Labels& labels, const CaseMeasures& measures) {
+MeasureTable vesselTable(const formats::Case& source, const Labels& labels,
+                         const CaseMeasures& measures) {
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(source);
   MeasureTable table{"vessels", {"vessel"}, {}, {}, {}};
   addNames(kCoursePlaces, table.places);
   addNames(kCourseValues, table.values);
@@ -165,6 +169,8 @@ MeasureTable vesselTable(const Labels& labels, const CaseMeasures& measures) {
   for (const VesselMeasures& m : measures.vessels) {
     MeasureRow& row = table.rows.emplace_back();
     row.labels = {labels[m.branch]};
+    if (!systems.empty())
+      row.system = formats::kVesselSystemNames[static_cast<std::size_t>(systems[m.branch])];
     addPlaces(m, kCoursePlaces, row);
     addValues(m, kCourseValues, row);
     addValues(m, kVesselValues, row);
@@ -247,7 +253,7 @@ std::vector<MeasureTable> measureTables(const formats::Case& source, const CaseM
   const Labels labels(source.tree);
   std::vector<MeasureTable> tables;
   tables.push_back(stationTable(labels, measures));
-  tables.push_back(vesselTable(labels, measures));
+  tables.push_back(vesselTable(source, labels, measures));
   tables.push_back(pathTable(labels, measures));
   tables.push_back(forkTable(labels, measures));
   tables.push_back(narrowingTable(labels, measures));

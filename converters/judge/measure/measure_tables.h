@@ -18,6 +18,7 @@ namespace lumen::convert {
 /// table's columns.
 struct MeasureRow {
   std::vector<std::string> labels;
+  std::string_view system;    ///< of a vessel; empty if the case states none
   std::vector<Place> places;  ///< mm, LPS; not finite where there is none
   std::vector<Measured> values;
 };

@@ -91,6 +91,7 @@ struct CaseFigures {
   std::optional<double> errorMedian, errorP90;  ///< without models or points: none
   std::optional<double> reachable;              ///< without models: none
   std::optional<GeometryFigures> geometry;      ///< none in records of lumen before 0.2
+  std::vector<std::string> systems;             ///< those of its branches; empty if it states none
 };
 
 /// A place where an instrument enters, or a vessel ends. mm, LPS.

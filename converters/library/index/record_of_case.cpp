@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -14,6 +15,7 @@
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
+#include "formats/case/vessel_system.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {
@@ -98,6 +100,9 @@ CaseFigures measureFigures(const formats::Case& source, Progress& progress) {
                   progress.check();
                 }).reachable);
   figures.geometry = measureGeometry(source, progress);
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(source);
+  for (const formats::VesselSystem one : std::set(systems.begin(), systems.end()))
+    figures.systems.emplace_back(formats::kVesselSystemNames[static_cast<std::size_t>(one)]);
   return figures;
 }
 

@@ -92,7 +92,7 @@ GeometryFigures readGeometry(const JsonPlace& place) {
 
 CaseFigures readFigures(const JsonPlace& place) {
   place.onlyKeys({"branches", "aneurysms", "nodes", "length_mm", "radius_mm", "fit_error_mm",
-                  "reachable_mm", "geometry"});
+                  "reachable_mm", "geometry", "systems"});
   CaseFigures figures;
   figures.branches = wholeNumber(place.at("branches"));
   figures.aneurysms = wholeNumber(place.at("aneurysms"));
@@ -111,6 +111,10 @@ CaseFigures readFigures(const JsonPlace& place) {
   }
   if (!reachable.value().isNull()) figures.reachable = notNegative(reachable);
   if (place.has("geometry")) figures.geometry = readGeometry(place.at("geometry"));
+  if (place.has("systems"))
+    for (const JsonPlace& one : place.at("systems").elements())
+      figures.systems.push_back(
+          readWord(one, {"unknown", "artery", "vein", "true-lumen", "false-lumen"}));
   return figures;
 }
 

@@ -46,6 +46,7 @@ Json figuresJson(const CaseFigures& figures) {
   if (figures.geometry)
     for (const GeometryKey& figure : kGeometryKeys)
       json["geometry"][figure.key] = numberOrNull((*figures.geometry).*figure.value);
+  if (!figures.systems.empty()) json["systems"] = figures.systems;
   return json;
 }
 

@@ -70,8 +70,11 @@ std::string figureTerms(const CaseRecord& record) {
   };
   const bool hasError = figures.errorMedian && figures.errorP90;
   const GeometryFigures geometry = figures.geometry.value_or(GeometryFigures{});
+  std::string systems;
+  for (const std::string& one : figures.systems) systems += (systems.empty() ? "" : ", ") + one;
   const std::pair<const char*, std::string> terms[] = {
       {"Vessels", std::to_string(figures.branches)},
+      {"Systems of vessels", systems},
       {"Aneurysms", figures.aneurysms > 0 ? std::to_string(figures.aneurysms) : ""},
       {"Length", shownFigure(figures.length) + " mm"},
       {"Reachable for a tool", shown(figures.reachable, " mm")},

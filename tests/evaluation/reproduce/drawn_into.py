@@ -36,15 +36,26 @@ def run(*words):
     return json.loads(done.stdout), time.monotonic() - begin
 
 
+def read_swc(file):
+    """The nodes of a tree in mm."""
+    rows = [line.split() for line in Path(file).read_text().splitlines() if line.strip() and line[0] != "#"]
+    place = {row[0]: k for k, row in enumerate(rows)}
+    return {"centre": [[float(x) for x in row[2:5]] for row in rows], "radius": [float(row[5]) for row in rows],
+            "parent": [place.get(row[6], -1) for row in rows]}
+
+
 class Axes:
     """The axes of a case as short pieces (middle, radius, length), which are looked up by place."""
 
     def __init__(self, lumen, case):
-        with tempfile.TemporaryDirectory() as folder:
-            twin = Path(folder) / "case.lumen.json"
-            run(lumen, "convert", case, twin)
-            whole = json.loads(twin.read_text())
-        self.voxel, self.pieces, self.cells, tree = whole["metadata"]["voxelSize"], [], defaultdict(list), whole["tree"]
+        if Path(case).suffix == ".swc": tree, voxel = read_swc(case), None
+        else:
+            with tempfile.TemporaryDirectory() as folder:
+                twin = Path(folder) / "case.lumen.json"
+                run(lumen, "convert", case, twin)
+                whole = json.loads(twin.read_text())
+            tree, voxel = whole["tree"], whole["metadata"].get("voxelSize")
+        self.voxel, self.pieces, self.cells = voxel, [], defaultdict(list)
         for node, parent in enumerate(tree["parent"]):
             if parent < 0: continue
             a, b, r, s = tree["centre"][parent], tree["centre"][node], tree["radius"][parent], tree["radius"][node]
@@ -62,7 +73,11 @@ class Axes:
 
 def score(lumen, case, truth):
     """True length that counts, the share of it that is found, found length, the share of it that is false."""
-    true, found = Axes(lumen, truth), Axes(lumen, case)
+    return compare(Axes(lumen, truth), Axes(lumen, case))
+
+
+def compare(true, found):
+    """The same of axes."""
     voxel, widest = true.voxel, max(radius for _, radius, _ in true.pieces)
     wide = [(p, max(r, voxel), length) for p, r, length in true.pieces if 2 * r > voxel]
     held = sum(length for p, reach, length in wide if any(math.dist(p, q) <= reach for q, _, _ in found.near(p, reach)))

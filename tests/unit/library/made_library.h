@@ -43,7 +43,8 @@ inline CaseRecord madeRecord(const std::string& id = "siphon-01") {
                     0.01,
                     0.04,
                     80.5,
-                    GeometryFigures{0.125, 40, 75, 62.5, 7, 3.5}};
+                    GeometryFigures{0.125, 40, 75, 62.5, 7, 3.5},
+                    {}};
   record.insertions = {{"ica", "", {1, 2, 3}, {0, 0, 1}, 2.5}};
   record.ends = {{"inlet", "inlet", {1, 2, 3}, {0, 0, -1}, 2.5},
                  {"outlet-mca", "outlet", {4, 5, 6}, {1, 0, 0}, 1.5}};

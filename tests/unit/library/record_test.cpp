@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/library/index/record_of_case.h"
 #include "converters/library/publish/record_faults.h"
+#include "formats/case/vessel_system.h"
 #include "tests/unit/formats/json_samples.h"
 #include "tests/unit/library/made_library.h"
 
@@ -62,6 +64,7 @@ TEST(Record, WithoutWhatMayBeMissingToo) {
   record.figures.errorP90.reset();
   record.figures.reachable.reset();
   record.figures.geometry = GeometryFigures{};
+  record.figures.systems = {"unknown", "artery"};
   record.insertions.clear();
   record.ends.clear();
   record.about.codes.clear();
@@ -69,6 +72,43 @@ TEST(Record, WithoutWhatMayBeMissingToo) {
   record.provenance["steps"] = Json::array();
   const std::string text = recordText(record);
   EXPECT_EQ(recordText(readRecord(text, "record.json")), text);
+}
+
+TEST(Record, OfACaseWithSystemsStatesThem) {
+  formats::Case value;
+  formats::CenterlineTree& tree = value.tree;
+  for (std::uint32_t n = 0; n < 6; ++n) {
+    const bool isFirst = n % 2 == 0;
+    tree.parent.push_back(isFirst ? formats::kNoParent : static_cast<std::int32_t>(n) - 1);
+    tree.centre.push_back({isFirst ? 0.0F : 10.0F, 10.0F * static_cast<float>(n / 2), 0});
+    tree.direction.push_back({1, 0, 0});
+    tree.radius.push_back(1);
+    tree.height.push_back(1);
+    tree.branch.push_back(n / 2);
+    if (!isFirst) continue;
+    formats::Branch& branch = tree.branches.emplace_back();
+    branch.label = "b" + std::to_string(n);
+    branch.firstNode = n;
+    branch.nodeCount = 2;
+  }
+  Progress progress;
+  CaseRecord record = madeRecord();
+  describe(value, "", record, progress);
+  EXPECT_TRUE(record.figures.systems.empty());
+  using enum formats::VesselSystem;
+  setNodeSystems(value, {Vein, Vein, Artery, Artery, Vein, Vein});
+  describe(value, "", record, progress);
+  EXPECT_EQ(record.figures.systems, (std::vector<std::string>{"artery", "vein"}));
+  FaultList faults(10);
+  record.figures.systems.clear();  // as lumen wrote it before
+  checkFigures(value, record, "record.json", faults);
+  EXPECT_TRUE(faults.kept().empty());
+  record.figures.systems = {"artery"};
+  checkFigures(value, record, "record.json", faults);
+  EXPECT_EQ(faults.kept().size(), 1U);
+  setNodeSystems(value, std::vector(6, Unknown));
+  checkFigures(value, record, "record.json", faults);
+  EXPECT_EQ(faults.kept().size(), 2U);
 }
 
 TEST(Record, RefusesWhatTheSchemaRefusesAndSaysWhere) {
@@ -107,6 +147,8 @@ TEST(Record, RefusesWhatTheSchemaRefusesAndSaysWhere) {
       {"/figures/geometry", Json::object(), "path_tortuosity"},
       {"/figures/geometry/nascet_percent", -1, "at least 0"},
       {"/figures/geometry/more", 1, "unknown key"},
+      {"/figures/systems", "artery", "an array"},
+      {"/figures/systems", {"artery", "nerve"}, "\"false-lumen\""},
       {"/insertions/0/direction", {0, 0, 2}, "length 1"},
       {"/insertions/0/radius", 0, "above 0"},
       {"/insertions/0/label", "", "1 to 255"},

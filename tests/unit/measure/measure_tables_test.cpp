@@ -10,6 +10,7 @@
 
 #include "converters/base/csv_rows.h"
 #include "converters/judge/measure/measure_case.h"
+#include "formats/case/vessel_system.h"
 #include "tests/unit/measure/shapes.h"
 
 namespace lumen::convert::test {
@@ -112,6 +113,30 @@ TEST(Tables, AsCsvHaveUnitsIntervalsReasonsAndTheCase) {
   std::size_t numbers = 0;
   for (const MeasureTable& table : tables) numbers += table.rows.size() * table.values.size();
   EXPECT_EQ(csvRows(measuresLongCsv(cases), "long").size(), 1 + 2 * numbers);
+}
+
+// Of two cases one states systems.
+TEST(Tables, OfVesselsHaveTheirSystem) {
+  const formats::Case without = forkCase();
+  formats::Case with = without;
+  std::vector<formats::VesselSystem> systems;
+  for (const std::uint32_t branch : with.tree.branch)
+    systems.push_back(branch == 0 ? formats::VesselSystem::Artery : formats::VesselSystem::Vein);
+  setNodeSystems(with, systems);
+  const MeasuredCase cases[] = {{"a", measureTables(without, measuresOf(without))},
+                                {"b", measureTables(with, measuresOf(with))}};
+  const auto rows = csvRows(measuresCsv(cases, 1), "vessels");
+  ASSERT_EQ(rows.size(), 5U);
+  const char* const expected[] = {"system", "", "", "artery", "vein"};
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i].cells[2], expected[i]) << i;
+  const auto stations = csvRows(measuresCsv(cases, 0), "stations");
+  EXPECT_EQ(stations[0].cells[2], "x_mm");
+  EXPECT_EQ(csvRows(measuresLongCsv(cases), "long")[0].cells[3], "system");
+  EXPECT_EQ(measuresCsv({cases, 1}, 1).find("system"), std::string::npos);
+  const auto json = measuresJson(cases[1].tables);
+  EXPECT_EQ(json["vessels"][1]["system"], "vein");
+  EXPECT_FALSE(json["paths"][0].contains("system"));
+  EXPECT_FALSE(measuresJson(cases[0].tables)["vessels"][0].contains("system"));
 }
 
 TEST(Tables, AsJsonGiveEveryRowAPlace) {

@@ -2,6 +2,7 @@
 // Maps choose among the branches of a case, and an inventory states what it has of each label.
 #include "converters/operations/label_maps.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -195,6 +196,42 @@ TEST_F(LabelMapsTest, LabelsOfNoVesselStateTheVolumeThatTheyTookAway) {
   EXPECT_NEAR(made.maps[0].labels[3].refused, 20 * 25, 1e-9);
   EXPECT_EQ(made.maps[0].labels[2].missing,
             "most of its voxels are outside of the levels of the vessels that are found");
+  EXPECT_FALSE(made.maps[0].labels[3].leftOut);  // no vessel
+  EXPECT_FALSE(inventory(value).maps[0].labels[0].leftOut);
+}
+
+TEST_F(LabelMapsTest, WhatACaseLacksOfALabelIsStatedByReason) {
+  formats::Case value;
+  addBranch(value, "trunk", 0, 19, 10);
+  convert::Volume volume;
+  volume.geometry = mapGrid();
+  std::vector<std::int16_t> voxels;
+  convert::Prior prior;
+  std::array<double, kLeftOutCount> far{};
+  mapGrid().cells().forEach([&](const convert::Cell& cell) {
+    const bool isBeside = cell[1] < 9;
+    voxels.push_back(cell[0] < 20 ? 300 : isBeside ? 20 : cell[2] < 10 ? 900 : 300);
+    const bool isTaken = cell[0] >= 20 && cell[2] == 12;
+    prior.systems.push_back(isTaken ? convert::Prior::kNoVessel : convert::Prior::kNothing);
+    if (m_naming[0].mask.label[mapGrid().index(cell)] != 3) return;
+    const LeftOut why = isTaken        ? LeftOut::NotVessel
+                        : isBeside     ? LeftOut::Faint
+                        : cell[2] < 10 ? LeftOut::Strong
+                                       : LeftOut::NoWall;
+    ++far[static_cast<std::size_t>(why)];
+  });
+  volume.voxels = std::move(voxels);
+  const ImageBesideMaps image{volume, prior};
+  const std::vector<MappedLabel> labels = inventory(value, &image).maps[0].labels;
+  ASSERT_TRUE(labels[2].leftOut);
+  for (std::size_t why = 0; why < kLeftOutCount; ++why) {
+    EXPECT_GT(far[why], 0) << why;
+    EXPECT_NEAR((*labels[2].leftOut)[why], far[why], 1e-9) << why;
+  }
+  // a trunk is as bright as itself, and what lies beyond its wall has none
+  ASSERT_TRUE(labels[0].leftOut);
+  EXPECT_NEAR(labels[0].leftOut->back(), (1 - labels[0].heldShare) * 500, 1e-6);
+  EXPECT_NEAR(labels[0].leftOut->front(), 0, 1e-9);
 }
 
 }  // namespace

@@ -239,6 +239,27 @@ TEST(Marks, TheLegendHasItsColoursAndStaysInThePicture) {
   }
 }
 
+// All five systems of vessels, in the width from which they have room.
+TEST(Marks, NamesOfColoursOverlapNoOtherMark) {
+  for (const int width : {400, 800, 1000}) {
+    Camera camera = cameraOf(20);
+    camera.width = width;
+    const Picture paper(width, width * 4 / 5, kPaper);
+    Picture others = paper, legend = paper;
+    drawSides(others, camera, kInk);
+    drawScaleBar(others, camera, kInk);
+    drawLegend(legend,
+               {"system",
+                {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}},
+                {"unknown", "artery", "vein", "true-lumen", "false-lumen"}},
+               kInk);
+    for (std::size_t i = 0; i < paper.pixels.size(); ++i)
+      EXPECT_TRUE(others.pixels[i] == kPaper || legend.pixels[i] == kPaper) << width << " " << i;
+    for (unsigned char red = 1; red <= 5; ++red)
+      EXPECT_GT(std::count(legend.pixels.begin(), legend.pixels.end(), Rgb{red, 0, 0}), 100);
+  }
+}
+
 TEST(Marks, SmallPicturesHaveNone) {
   EXPECT_EQ(roomForMarks(159, 800), 0);
   EXPECT_EQ(roomForMarks(800, 159), 0);
