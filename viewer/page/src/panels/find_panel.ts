@@ -74,6 +74,10 @@ export function findPanel(app: Needs): HTMLElement[] {
   return [box];
 }
 
+/** "artery, ", or nothing where the system is unknown. */
+const systemOf = ({ system = "unknown" }: Proposal): string =>
+  system === "unknown" ? "" : `${system.replaceAll("-", " ")}, `;
+
 function proposalRow(app: Needs, proposal: Proposal): HTMLElement {
   const { label, parent } = proposal,
     busy = app.store.get().document.state.job !== null;
@@ -106,7 +110,7 @@ function proposalRow(app: Needs, proposal: Proposal): HTMLElement {
         h(
           "span",
           { class: "note", title: parent === null ? "A tree of its own" : `It leaves ${parent}` },
-          `${proposal.kind === "aneurysm" ? "aneurysm, " : ""}${parent === null ? "own tree" : `on ${parent}`}`,
+          `${proposal.kind === "aneurysm" ? "aneurysm, " : ""}${systemOf(proposal)}${parent === null ? "own tree" : `on ${parent}`}`,
         ),
       ),
       h(
