@@ -18,8 +18,6 @@
 namespace lumen::operations {
 namespace {
 
-constexpr const char* kMapStep = "label-map";
-
 /// Takes the labels that are stated to be no vessels, or regions, off a mask.
 void leaveOutOthers(const std::vector<convert::LabelMeaning>& meanings, convert::LabelMask& mask) {
   std::vector<bool> isLeftOut(mask.values.size() + 1, false);
@@ -158,14 +156,7 @@ void recordVolume(const std::string& name, const convert::Volume& volume, format
 }
 
 void recordMaps(const std::vector<LabelPart>& maps, formats::Case& target) {
-  for (const LabelPart& map : maps) recordVolume(kMapStep, map.voxels, target);
-}
-
-void takeMaps(const formats::Case& other, formats::Case& target) {
-  std::vector<formats::Step>& steps = target.metadata.steps;
-  for (const formats::Step& step : other.metadata.steps)
-    if (step.name == kMapStep && std::find(steps.begin(), steps.end(), step) == steps.end())
-      steps.push_back(step);
+  for (const LabelPart& map : maps) recordVolume("label-map", map.voxels, target);
 }
 
 }  // namespace lumen::operations

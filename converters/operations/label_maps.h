@@ -56,8 +56,6 @@ void recordVolume(const std::string& name, const convert::Volume& volume, format
 
 /// Records the maps of a case as its steps.
 void recordMaps(const std::vector<LabelPart>& maps, formats::Case& target);
-/// Records the maps that another case records.
-void takeMaps(const formats::Case& other, formats::Case& target);
 
 /// Gives the labels of a mask names, where they are known.
 void useNames(const convert::LabelNames& names, convert::LabelMask& mask);

@@ -10,7 +10,6 @@
 #include "converters/base/text.h"
 #include "converters/base/tree_figures.h"
 #include "converters/geometry/tube_tree_distance.h"
-#include "converters/operations/label_maps.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/topology.h"
@@ -39,6 +38,14 @@ std::shared_ptr<const Case> without(Case value, const std::vector<bool>& goes) {
   convert::leaveOutBranches(value, goes);
   value.metadata.steps = steps;
   return std::make_shared<const Case>(std::move(value));
+}
+
+/// Records in a case the label maps that its new vessels were found with (operations::recordMaps()).
+void takeMaps(const Case& found, Case& value) {
+  std::vector<formats::Step>& steps = value.metadata.steps;
+  for (const formats::Step& step : found.metadata.steps)
+    if (step.name == "label-map" && std::find(steps.begin(), steps.end(), step) == steps.end())
+      steps.push_back(step);
 }
 
 /// Gives proposals names that neither the vessels nor the seeds of a document have.
@@ -133,7 +140,7 @@ Acceptance accepted(const Document& document, std::vector<bool> chosen) {
     out.firstNewNode = static_cast<std::uint32_t>(document.value->tree.nodeCount());
     out.value = std::make_shared<Case>(
         withBranches(*document.value, found, chosen, takenLabels(document), out.droppedArrays));
-    operations::takeMaps(found, *out.value);
+    takeMaps(found, *out.value);
   } else {
     out.value = std::make_shared<Case>(*without(found, others));
     Joints::remove(*out.value);
