@@ -120,8 +120,9 @@ export function labelPanel(app: Needs): HTMLElement[] {
     "section-labels",
     "Labels",
     true,
-    h("div", { class: "row" }, mode, search, all),
+    h("div", { class: "row" }, mode, all),
     h("label", { class: "line" }, "Opacity", opacity),
+    search,
     list,
     about,
   );
