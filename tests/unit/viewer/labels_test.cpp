@@ -68,8 +68,9 @@ protected:
   }
   /// "NAME: SYSTEM" of each vessel in a pack.
   [[nodiscard]] std::set<std::string> systemsIn(const std::string& pack) const {
+    const ReadPack read(get(pack).body);
     std::set<std::string> found;
-    for (const Json& branch : ReadPack(get(pack).body).json["branches"])
+    for (const Json& branch : read.json["branches"])
       found.insert(branch["label"].get<std::string>() + ": " + branch["system"].get<std::string>());
     return found;
   }
