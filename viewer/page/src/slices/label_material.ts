@@ -96,7 +96,7 @@ export class LabelMaterial {
     (u.up.value as Vector3).set(...plane.frame.up).multiplyScalar(plane.halfHeight);
     (u.rim.value as Vector2).set((2 * kRim) / size[0], (2 * kRim) / size[1]);
     u.ready.value = ready;
-    u.alpha.value = opacity;
+    u.alpha.value = mode === "outline" ? Math.sqrt(opacity) : opacity; // lines are fainter than areas
     u.outline.value = mode === "outline";
     this.whole.draw(renderer);
   }
