@@ -144,13 +144,14 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume, const Vess
 
 convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
                                 const convert::Volume& volume, const formats::Case& known,
-                                const Context& context) {
+                                const VesselOptions& options, const Context& context) {
   Progress& progress = context.progress;
   const convert::FoundVessels found =
-      convert::findVessels(volume, tracking.options().dark, {}, progress);
+      convert::findVessels(volume, tracking.options().dark, options.prior, progress);
   convert::AddedTracks added =
       convert::addTracksAlongCourses(tracking, known, found.courses, placesOfBone(found), progress);
   reportRefused(added, progress);
+  addStatedVessels(options.stated, found, added.result);
   return added;
 }
 

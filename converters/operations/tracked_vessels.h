@@ -40,10 +40,11 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume, const Vess
                                        std::string& whyNone, const Context& context);
 
 /// Adds to a case that was tracked in `volume` the vessels that it lacks, as findAndTrack() finds
-/// them; what it has stays as it is. Returns the result with its remarks on the new vessels.
+/// them; what it has stays as it is. Of the options, knowledge about the voxels and stated trees
+/// count. Returns the result with its remarks on the new vessels.
 convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
                                 const convert::Volume& volume, const formats::Case& known,
-                                const Context& context);
+                                const VesselOptions& options, const Context& context);
 
 /// The seeds within the volume; those that cannot be placed in it become warnings. Throws
 /// Error(InvalidInput) if none can.

@@ -71,9 +71,25 @@ def check_run(lumen, folder):
     back = module("LumenModelToCase", "--case", "back.lumen", "--ends", "back.mrk.json", "wall.vtp", lumen=lumen, folder=folder)
     check(back.returncode == 0, f"LumenModelToCase: {back.stderr}")
     apart = [min(math.dist(a, b) for b in points_of(folder / "back.mrk.json").values()) for a in ends.values()]
+    check_labels(seeds, fork, lumen, folder)
     check(max(apart) < 2, f"ends of the case that was made of the surface lie {apart} mm from those of the volume")
     shown = module("LumenCaseToModel", "--surface", "again.vtp", "--edge=0.6r", "fork.lumen", lumen=lumen, folder=folder)
     check(shown.returncode == 0 and (folder / "again.vtp").read_bytes() == (folder / "wall.vtp").read_bytes(), f"LumenCaseToModel: {shown.stderr}")
+
+
+def check_labels(seeds, fork, lumen, folder):
+    """A label map names the vessels, and a role states their system."""
+    subprocess.run([lumen, "check", fork, folder / "fork.lumen", "--mask", folder / "labels.nrrd", "--quiet"], check=True, timeout=100)
+    made = module("LumenVessels", "--labelMap", "labels.nrrd", "--roles", "label-1=bone, 1=vein", "--onlyLabelled", "--case", "veins.lumen", fork,
+                  lumen=lumen, folder=folder)
+    check(made.returncode == 1 and "label-1" in made.stderr, f"a role of no label: {made.stderr}")
+    made = module("LumenVessels", "--labelMap", "labels.nrrd", "--roles", "1=vein", "--onlyLabelled", "--case", "veins.lumen", fork,
+                  lumen=lumen, folder=folder)
+    check(made.returncode == 0, f"LumenVessels with labels: {made.stderr}")
+    info = json.loads(subprocess.run([lumen, "info", folder / "veins.lumen", "--json"], capture_output=True, text=True, check=True).stdout)
+    check({branch["system"] for branch in info["branch_table"]} == {"vein"}, f"systems of labelled vessels: {info['branch_table']}")
+    check(not module("LumenVessels", "--labelMap", "labels.nrrd", "--roles", "1=bone, 2=bone", "--case", "bone.lumen", fork, lumen=lumen,
+                     folder=folder).returncode == 0, "vessels are found where all is bone")
 
 
 def check_models(folder):
@@ -92,7 +108,7 @@ def check_models(folder):
 
 def check_failures(lumen, folder):
     for words, message in ((["--surface", "x.vtp", "none.nrrd"], "none.nrrd"), (["--colour", "red", "fork.nrrd"], "--colour"), ([], "volume"),
-                           (["--seedsOnly", "fork.nrrd"], "seeds")):
+                           (["--seedsOnly", "fork.nrrd"], "seeds"), (["--roles", "1=vein", "fork.nrrd"], "label map")):
         told = module("LumenVessels", *words, lumen=lumen, folder=folder)
         check(told.returncode == 1 and message in told.stderr and "Traceback" not in told.stderr, f"LumenVessels {words}: {told}")
     told = module("LumenCaseToModel", "--surface", "x.vtp", "fork.lumen", lumen="/nowhere/lumen", folder=folder)
@@ -117,7 +133,7 @@ def check_cancel(folder):
     check(False, "lumen goes on after its module was killed")
 
 
-def check_scripted():
+def check_scripted(program):
     """The form hands on only parameters that the modules have."""
     stub = types.ModuleType("slicer.ScriptedLoadableModule")
     for name in ("ScriptedLoadableModule", "ScriptedLoadableModuleLogic", "ScriptedLoadableModuleWidget"): setattr(stub, name, object)
@@ -132,7 +148,12 @@ def check_scripted():
     spec.loader.exec_module(lumen)
     logic = lumen.LumenLogic()
     outputs = logic.outputs("head")
-    logic.findVessels(logic.vesselParameters("volume", ["points"], outputs, "head.lumen", True))
+    slicer.util = types.SimpleNamespace(tempDirectory=lambda: "/tmp", saveNode=lambda node, path: node == "segments")
+    labels = logic.labelParameters("segments", {"aorta": "artery", "rib": lumen.AS_NAMED})
+    check(labels["roles"] == "aorta=artery" and labels["labelMap"].endswith(".seg.nrrd"), f"Lumen.py hands on {labels}")
+    words = subprocess.run([program, "convert", "--help"], capture_output=True, text=True, check=True).stdout
+    check(all(role in words for role in lumen.ROLES), f"Lumen.py has other roles than lumen: {lumen.ROLES}")
+    logic.findVessels(logic.vesselParameters("volume", ["points"], outputs, "head.lumen", True, labels=labels))
     logic.showCase("head.lumen", outputs)
     for name, parameters in asked.items():
         root = ElementTree.parse(MODULES / f"{name}.xml").getroot()
@@ -155,7 +176,7 @@ def main(lumen):
         check_models(folder)
         check_failures(lumen, folder)
         check_cancel(folder)
-    check_scripted()
+    check_scripted(lumen)
     print(f"{len(NAMES)} modules, {len(failures)} faults")
     return 1 if failures else 0
 

@@ -6,6 +6,7 @@ lumen_test(viewer_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/arguments_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/document_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/kept_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/labels_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/mesh_deviation_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/moving_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/proposals_test.cpp
@@ -30,7 +31,7 @@ endif()
 if(NODE)
   add_executable(ask_blob ${PROJECT_SOURCE_DIR}/viewer/page/people/ask_blob.c)
   target_link_libraries(ask_blob PRIVATE blob)
-  set(LUMEN_STORIES checked found_and_corrected from_disk keys_and_axe mistakes slices)
+  set(LUMEN_STORIES checked found_and_corrected from_disk keys_and_axe labels mistakes slices)
   set(LUMEN_NIGHT_STORIES corrections dicom firefox gallery)
   foreach(story ${LUMEN_STORIES} ${LUMEN_NIGHT_STORIES})
     add_test(NAME ViewerPage.People.${story} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/viewer/page/people/run.mjs ${story})

@@ -44,6 +44,7 @@ public:
   [[nodiscard]] std::string example() const override {
     return "  lumen view head.nrrd head.lumen\n"
            "  lumen view ct.nrrd head.lumen mr.nii.gz\n"
+           "  lumen view ct.nrrd chest.lumen --label-map labels.nii.gz\n"
            "  lumen view cases/\n"
            "  lumen view heart.lumen --time 0.3\n"
            "  lumen view siphons --case siphon-01\n"
@@ -94,6 +95,8 @@ public:
               "With --html: the wall points too, which are most of a case")
         .onlyWith("html");
     engine::addVolumeRows(table, m_options.volume);
+    engine::addLabelMapRows(table, m_options.labels);
+    table.find("label-map")->without("html");
   }
 
   engine::Answer run(const engine::RunContext& context) override {
@@ -197,12 +200,19 @@ private:
   /// Volumes first, which seeds in voxels need, then cases.
   void openFiles(Session& session, const engine::RunContext& context) {
     const std::optional<std::string> output = newCase();
+    if (m_options.labels.labelMaps.size() > 1)
+      throw Error(ErrorKind::Usage, "--label-map: the page shows one label map, not several");
     for (const FileRole wanted :
          {FileRole::Volume, FileRole::Case, FileRole::Mesh, FileRole::Seeds})
       for (const std::string& file : m_files)
         if (file != output && openingRole({file, file}) == wanted &&
             !offerSeries(session, file, wanted, context))
           openOne(session, file, wanted, context);
+    for (const InputFile& map : m_options.labels.labelMaps) {
+      const fs::path& path = map.path();
+      const fs::path name = (path.has_filename() ? path : path.parent_path()).filename();
+      session.open({map, name.string(), OpenAs::Labels}, context.progress);
+    }
     if (output) session.saving.saveTo(*output);
     if (const auto doubt = secondDoubt(session.now().document)) context.progress.warn(*doubt);
   }

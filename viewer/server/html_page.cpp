@@ -153,9 +153,10 @@ private:
 Json lookOnly(Json state) {
   state["revision"] = 1;
   for (Json& revision : state["revisions"]) revision = 1;
-  for (const char* const name : {"library", "measures", "series", "second"})
+  for (const char* const name : {"library", "measures", "series", "second", "labels"})
     state["revisions"][name] = 0;
-  for (const char* const name : {"undo", "redo", "job", "save_as", "second"}) state[name] = nullptr;
+  for (const char* const name : {"undo", "redo", "job", "save_as", "second", "labels"})
+    state[name] = nullptr;
   state["formats"] = state["proposals"] = Json::array();
   state["unsaved"] = state["measures_are_old"] = false;
   for (Json& file : state["files"]) file["named"] = false;  // the page reaches none

@@ -48,7 +48,8 @@ OpenAs openAs(const std::string& word) {
   if (word.empty() || word == "auto") return OpenAs::Auto;
   if (word == "truth") return OpenAs::Truth;
   if (word == "second") return OpenAs::Second;
-  throw Error(ErrorKind::Usage, "\"as\" must be auto, truth or second");
+  if (word == "labels") return OpenAs::Labels;
+  throw Error(ErrorKind::Usage, "\"as\" must be auto, truth, second or labels");
 }
 
 /// A name for a download that every system takes.
@@ -209,7 +210,8 @@ private:
                  m_session.series.picture(static_cast<std::size_t>(numberOf(request, "series"))));
     });
     for (const auto& [name, role] :
-         {std::pair{"volume", FileRole::Volume}, std::pair{"second", FileRole::Second}})
+         {std::pair{"volume", FileRole::Volume}, std::pair{"second", FileRole::Second},
+          std::pair{"labels", FileRole::Labels}})
       get(name, [this, role = role](const Request& request, Response& response) {
         answerVolume(request, response, role);
       });

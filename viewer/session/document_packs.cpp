@@ -8,6 +8,7 @@
 
 #include "converters/geometry/tube_tree_distance.h"
 #include "formats/case/case_encoding.h"
+#include "viewer/session/document/document_labels.h"
 #include "viewer/session/packs/case_pack.h"
 #include "viewer/session/packs/mesh_deviation.h"
 #include "viewer/session/packs/pack.h"
@@ -35,14 +36,24 @@ Tagged DocumentPacks::casePack(const Moment& now, Progress& progress) {
 
 std::shared_ptr<const VolumePack> DocumentPacks::volumePack(const Moment& now, FileRole role,
                                                             std::string& tag) {
-  const bool isSecond = role == FileRole::Second;
-  const auto& volume = isSecond ? now.document.second : now.document.volume;
+  const bool isSecond = role == FileRole::Second, isLabels = role == FileRole::Labels;
+  const auto& [document, revision, parts] = now;
+  const std::shared_ptr<const OpenLabels>& labels = document.labels;
+  const auto volume = isSecond    ? document.second
+                      : !isLabels ? document.volume
+                      : labels    ? labels->voxels
+                                  : nullptr;
   if (!volume) return nullptr;
-  tag = std::to_string(isSecond ? now.parts.second : now.parts.volume);
+  tag = std::to_string(isSecond ? parts.second : isLabels ? parts.labels : parts.volume);
   const std::lock_guard lock(m_mutex);
-  Packed& packed = isSecond ? m_second : m_volume;
-  if (packed.volume != volume)
-    packed = {volume, std::make_shared<const VolumePack>(volume, now.document.labelOf(role))};
+  Packed& packed = isSecond ? m_second : isLabels ? m_labels : m_volume;
+  if (packed.volume != volume) {
+    VolumeSending sending;
+    sending.isLabels = isLabels;
+    const auto sent =
+        isLabels ? std::make_shared<const convert::Volume>(placesOf(*labels)) : volume;
+    packed = {volume, std::make_shared<const VolumePack>(sent, document.labelOf(role), sending)};
+  }
   return packed.pack;
 }
 

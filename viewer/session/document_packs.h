@@ -20,7 +20,8 @@ namespace lumen::viewer {
 class DocumentPacks {
 public:
   Tagged casePack(const Moment& now, Progress& progress);
-  /// The volume, or with `role` Second the other one; null without it. `tag` names it.
+  /// The volume, or with `role` Second the other one, or with Labels the places of labels in the
+  /// list; null without it. `tag` names it.
   std::shared_ptr<const VolumePack> volumePack(const Moment& now, FileRole role, std::string& tag);
 
 private:
@@ -30,7 +31,7 @@ private:
   };
   std::mutex m_mutex;  ///< guards all that follow
   Tagged m_case;
-  Packed m_volume, m_second;
+  Packed m_volume, m_second, m_labels;
 };
 
 /// The proposals as a case's pack, without wall points.

@@ -34,6 +34,7 @@ std::string folderName(const fs::path& folder) {
 /// How a file of that role was opened.
 OpenAs openAs(FileRole role) {
   if (role == FileRole::Truth) return OpenAs::Truth;
+  if (role == FileRole::Labels) return OpenAs::Labels;
   return role == FileRole::Second ? OpenAs::Second : OpenAs::Auto;
 }
 
@@ -76,8 +77,7 @@ std::string openListed(Session& session, std::size_t index, Progress& progress) 
   Library& library = session.library;
   const auto& [file, name, keptAt] = library.at(index);
   // truth, seeds and meshes belong to the vessel tree that was open
-  Document document =
-      withFile({}, {file, name}, session.nextFile(), session.options.volume, progress);
+  Document document = withFile({}, {file, name}, session.nextFile(), session.options, progress);
   progress.check();
   const auto kept = session.keepUnsaved();  // nothing can be undone afterwards
   const std::lock_guard swap(session.swapping);
@@ -105,7 +105,7 @@ void reloadFile(Session& session, const OpenFile& file, const Moment& from, Prog
   const int id = file.role == FileRole::Mesh ? session.nextFile() : file.id;
   const Document before =
       file.role == FileRole::Mesh ? withoutFile(from.document, file.id) : from.document;
-  Document document = withFile(before, opening, id, session.options.volume, progress);
+  Document document = withFile(before, opening, id, session.options, progress);
   session.commit("read " + file.label + " again", from, std::move(document),
                  [&session, &file](const Document& read) {
                    if (file.role == FileRole::Case) session.saving.holdCase(read);
@@ -126,7 +126,7 @@ fs::path foundCopy(Session& session, const Arguments& request) {
 
 void Session::open(const Opening& opening, Progress& progress) {
   const Moment before = now();
-  Document document = withFile(before.document, opening, nextFile(), options.volume, progress);
+  Document document = withFile(before.document, opening, nextFile(), options, progress);
   const auto hold = [this, &before](const Document& opened) {
     if (opened.value != before.document.value)
       saving.holdCase(opened);
@@ -178,14 +178,14 @@ Json listSeries(Session& session, const Arguments& request, const Moment&) {
 Json openSeries(Session& session, const Arguments& request, const Moment&) {
   Opening opening = session.series.opening(request, "series");
   opening.as = seriesAs(request);
-  return session.startJob("opening " + opening.label, true,
-                          [&session, opening](Progress& progress) {
-                            const Moment before = session.now();
-                            session.commit("open " + opening.label, before,
-                                           withFile(before.document, opening, session.nextFile(),
-                                                    session.options.volume, progress));
-                            return opening.label + " is open";
-                          });
+  return session.startJob(
+      "opening " + opening.label, true, [&session, opening](Progress& progress) {
+        const Moment before = session.now();
+        session.commit(
+            "open " + opening.label, before,
+            withFile(before.document, opening, session.nextFile(), session.options, progress));
+        return opening.label + " is open";
+      });
 }
 
 Json closeSeries(Session& session, const Arguments&, const Moment&) {
@@ -252,7 +252,7 @@ Json recover(Session& session, const Arguments& request, const Moment& from) {
         Document before = from.document;
         // a copy has all that waited
         before.seeds = std::make_shared<const Seeds>(trackedSeeds(from.document));
-        const Document read = withFile(before, {file, name}, 0, session.options.volume, progress);
+        const Document read = withFile(before, {file, name}, 0, session.options, progress);
         Document document = from.document;
         if (holdsProposals(file)) {
           document.proposals = proposalsFor(from.document, read.value);

@@ -8,6 +8,7 @@
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
+#include "converters/engine/mask_input.h"
 #include "converters/engine/source_input.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/content/file_content.h"
@@ -15,6 +16,7 @@
 #include "converters/io/volume/write_volume.h"
 #include "converters/operations/case_of.h"
 #include "viewer/session/document/arguments.h"
+#include "viewer/session/document/document_labels.h"
 #include "viewer/session/document/document_seeds.h"
 
 namespace lumen::viewer {
@@ -93,8 +95,24 @@ void closeSecond(Document& document) {
   dropFiles(document, FileRole::Second);
 }
 
+void closeLabels(Document& document) {
+  document.labels.reset();
+  dropFiles(document, FileRole::Labels);
+}
+
+std::shared_ptr<const OpenLabels> labelsOf(const Opening& opening, const Document& document,
+                                           engine::MaskArguments arguments, Progress& progress) {
+  if (!document.volume) refuse(opening.label + ": open the volume first that its labels are of");
+  // options are for the map of the command line
+  if (opening.file.isInMemory()) arguments = {};
+  arguments.labelMaps = {opening.file};
+  return openLabels(engine::loadLabelMaps(arguments, &document.volume->geometry, progress),
+                    document);
+}
+
 Document add(Document document, const Opening& opening, FileRole role, int id,
-             const engine::VolumeArguments& arguments, Progress& progress) {
+             const SessionOptions& options, Progress& progress) {
+  const engine::VolumeArguments& arguments = options.volume;
   const fs::path named = opening.file.isInMemory() ? fs::path() : opening.file.path();
   const FileStamp stamp = readFileStamp(named);
   switch (role) {
@@ -110,6 +128,9 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
       document.second = volumeOf(opening, secondArguments(arguments), progress);
       document.secondSource =
           std::make_shared<const formats::SourceVolume>(convert::describeSource(*document.second));
+      break;
+    case FileRole::Labels:
+      document.labels = labelsOf(opening, document, options.labels, progress);
       break;
     case FileRole::Case:
     case FileRole::Truth: {
@@ -146,6 +167,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
 
 FileRole openingRole(const Opening& opening) {
   if (!opening.file.isInMemory()) engine::requireInput(opening.file.path(), "file");
+  if (opening.as == OpenAs::Labels && convert::isLabelFolder(opening.file)) return FileRole::Labels;
   if (convert::detectContent(opening.file).kind == convert::ContentKind::Seeds)
     return FileRole::Seeds;
   const engine::FileFormat& format = engine::inputFormat(opening.file, "");
@@ -153,9 +175,13 @@ FileRole openingRole(const Opening& opening) {
     refuse(opening.label + ": the truth must be a case");
   if (opening.as == OpenAs::Second && format.kind != engine::FormatKind::Volume)
     refuse(opening.label + ": only a volume can be seen beside the first volume");
+  if (opening.as == OpenAs::Labels && format.kind != engine::FormatKind::Volume)
+    refuse(opening.label + ": only a volume can be a label map");
   switch (format.kind) {
     case engine::FormatKind::Volume:
-      return opening.as == OpenAs::Second ? FileRole::Second : FileRole::Volume;
+      return opening.as == OpenAs::Second   ? FileRole::Second
+             : opening.as == OpenAs::Labels ? FileRole::Labels
+                                            : FileRole::Volume;
     case engine::FormatKind::Mesh:
       return FileRole::Mesh;
     case engine::FormatKind::Case:
@@ -166,8 +192,8 @@ FileRole openingRole(const Opening& opening) {
 }
 
 Document withFile(const Document& document, const Opening& opening, int id,
-                  const engine::VolumeArguments& volume, Progress& progress) {
-  return add(document, opening, openingRole(opening), id, volume, progress);
+                  const SessionOptions& options, Progress& progress) {
+  return add(document, opening, openingRole(opening), id, options, progress);
 }
 
 Document withoutFile(const Document& document, int id) {
@@ -182,9 +208,13 @@ Document withoutFile(const Document& document, int id) {
       result.volumeSource.reset();
       result.proposals.reset();
       closeSecond(result);
+      closeLabels(result);
       break;
     case FileRole::Second:
       closeSecond(result);
+      return result;
+    case FileRole::Labels:
+      closeLabels(result);
       return result;
     case FileRole::Case:
       result.seeds = std::make_shared<const Seeds>(waitingSeeds(document));

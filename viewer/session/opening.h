@@ -7,9 +7,9 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "converters/engine/stage_options.h"
 #include "viewer/session/document/document.h"
 #include "viewer/session/document/dropped_files.h"
+#include "viewer/session/document/encoded_document.h"
 
 namespace lumen::viewer {
 
@@ -18,6 +18,7 @@ enum class OpenAs : std::uint8_t {
   Auto,    ///< as its content is
   Truth,   ///< a case to compare with
   Second,  ///< a volume to look at beside the first
+  Labels,  ///< a label map of the volume
 };
 
 struct Opening {
@@ -35,13 +36,14 @@ FileRole openingRole(const Opening& opening);
 
 /// The document with one more file, as number `id`. A volume, a second volume, a case, a truth or
 /// seeds replace those that were open; meshes are added. A second volume is read without options
-/// but for the files that a header may name, and needs a first: Error(Usage). A case brings the seeds that it holds, beside those that
+/// but for the files that a header may name, and needs a first: Error(Usage). So does a label map,
+/// whose names and roles the options state if it was named by a person. A case brings the seeds that it holds, beside those that
 /// wait; a file of seeds leaves those that are tracked. A centerline becomes a case, and is fitted. Throws as
 /// its reader.
 Document withFile(const Document& document, const Opening& opening, int id,
-                  const engine::VolumeArguments& volume, Progress& progress);
+                  const SessionOptions& options, Progress& progress);
 
-/// The document without that file and its part: with a volume the second goes, with a case its
+/// The document without that file and its part: with a volume the second and the labels go, with a case its
 /// tracked seeds, with a file of seeds those that wait. Throws Error(Usage) if there is none.
 Document withoutFile(const Document& document, int id);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/container/printable.h"
+#include "viewer/session/document/document_labels.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/source_match.h"
 
@@ -43,6 +44,11 @@ Json reject(Session& session, const Arguments& request, const Moment& from) {
   const std::vector<bool> chosen = chosenProposals(from.document, request);
   return session.commit(makeTitle("reject", *from.document.proposals, chosen), from,
                         rejected(from.document, chosen));
+}
+
+Json changeRole(Session& session, const Arguments& request, const Moment& from) {
+  ChangedRole changed = withRole(from.document, request);
+  return session.commit(changed.title, from, std::move(changed.document));
 }
 
 Json step(Session& session, bool forward) {
@@ -95,6 +101,7 @@ constexpr NamedOperation kOperations[] = {{"save", save, Needs::Nothing},
                                           {"find", find, Needs::OneSource},
                                           {"accept", accept, Needs::OneSource},
                                           {"reject", reject},
+                                          {"role", changeRole},
                                           {"fit", fit}};
 
 }  // namespace

@@ -146,6 +146,11 @@ Case withBranches(const Case& known, const Case& found, const std::vector<bool>&
   }
   Case out = readyToGrow(known, dropped);
   convert::appendTracks(tree, out);
+  std::vector<formats::VesselSystem> systems = formats::readNodeSystems(out);
+  const std::vector<formats::VesselSystem> systemsFound = formats::readNodeSystems(found);
+  for (std::size_t n = 0; n < nodeIn.size(); ++n)
+    if (nodeIn[n] >= 0) systems[static_cast<std::size_t>(nodeIn[n])] = systemsFound[n];
+  formats::setNodeSystems(out, systems);
   addLinks(found.tree, joints, known.tree, nodeIn, out.tree);
   formats::dropDependentChunks(out);
   if (const auto valid = formats::validate(out); !valid)

@@ -13,6 +13,7 @@
 #include "converters/stages/editing/selection.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/topology.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 #include "viewer/session/proposal_joints.h"
 
@@ -37,6 +38,14 @@ std::shared_ptr<const Case> without(Case value, const std::vector<bool>& goes) {
   convert::leaveOutBranches(value, goes);
   value.metadata.steps = steps;
   return std::make_shared<const Case>(std::move(value));
+}
+
+/// Records in a case the label maps that its new vessels were found with (operations::recordMaps()).
+void takeMaps(const Case& found, Case& value) {
+  std::vector<formats::Step>& steps = value.metadata.steps;
+  for (const formats::Step& step : found.metadata.steps)
+    if (step.name == "label-map" && std::find(steps.begin(), steps.end(), step) == steps.end())
+      steps.push_back(step);
 }
 
 /// Gives proposals names that neither the vessels nor the seeds of a document have.
@@ -131,6 +140,7 @@ Acceptance accepted(const Document& document, std::vector<bool> chosen) {
     out.firstNewNode = static_cast<std::uint32_t>(document.value->tree.nodeCount());
     out.value = std::make_shared<Case>(
         withBranches(*document.value, found, chosen, takenLabels(document), out.droppedArrays));
+    takeMaps(found, *out.value);
   } else {
     out.value = std::make_shared<Case>(*without(found, others));
     Joints::remove(*out.value);
@@ -165,6 +175,8 @@ Json proposalsJson(const Document& document) {
   if (!document.proposals) return list;
   const CenterlineTree& tree = document.proposals->tree;
   const Joints joints(*document.proposals);
+  const std::vector<formats::VesselSystem> systems =
+      formats::readBranchSystems(*document.proposals);
   for (const formats::Branch& branch : tree.branches) {
     const std::span radii = std::span(tree.radius).subspan(branch.firstNode, branch.nodeCount);
     const formats::Vec3f& middle = tree.centre[branch.firstNode + branch.nodeCount / 2];
@@ -176,14 +188,16 @@ Json proposalsJson(const Document& document) {
     if (parent >= 0) on = tree.branches[static_cast<std::size_t>(parent)].label;
     if (at) on = document.value->tree.branches[document.value->tree.branch[*at]].label;
     const auto confidence = branch.meanInlierRate;
-    list.push_back({{"label", branch.label},
-                    {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
-                    {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))},
-                    {"radius_mm", engine::jsonNumber(static_cast<double>(radiusRange(radii).mean))},
-                    {"confidence", confidence ? engine::jsonNumber(*confidence) : Json(nullptr)},
-                    {"parent", std::move(on)},
-                    {"parent_waits", parent >= 0},
-                    {"position", {middle.x, middle.y, middle.z}}});
+    list.push_back(
+        {{"label", branch.label},
+         {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
+         {"system", formats::kVesselSystemNames[static_cast<std::size_t>(systems[list.size()])]},
+         {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))},
+         {"radius_mm", engine::jsonNumber(static_cast<double>(radiusRange(radii).mean))},
+         {"confidence", confidence ? engine::jsonNumber(*confidence) : Json(nullptr)},
+         {"parent", std::move(on)},
+         {"parent_waits", parent >= 0},
+         {"position", {middle.x, middle.y, middle.z}}});
   }
   return list;
 }

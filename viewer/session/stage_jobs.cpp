@@ -69,8 +69,7 @@ Json find(Session& session, const Arguments&, const Moment& from) {
   if (!from.document.volume) refuse("there is no volume to find vessels in");
   return session.startJob("finding vessels", true, [&session, from](Progress& progress) {
     Document document = from.document;
-    document.proposals =
-        findProposals(document, session.tracking, session.options.track.options, progress);
+    document.proposals = findProposals(document, session.tracking, session.options, progress);
     if (document.proposals || from.document.proposals)
       session.commit("find vessels", from, document);
     if (!document.proposals) return std::string("no vessel is found that the case lacks");

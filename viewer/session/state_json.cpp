@@ -7,6 +7,7 @@
 #include "converters/engine/file_format.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
+#include "viewer/session/document/document_labels.h"
 #include "viewer/session/document/document_seeds.h"
 #include "viewer/session/proposals.h"
 #include "viewer/session/session.h"
@@ -84,6 +85,7 @@ Json revisionsJson(const Session& session, const PartRevisions& parts) {
           {"surface", surface},
           {"volume", parts.volume},
           {"second", parts.second},
+          {"labels", parts.labels},
           {"seeds", parts.seeds},
           {"proposals", parts.proposals},
           {"meshes", parts.meshes},
@@ -127,6 +129,7 @@ Json Session::state() const {
                                          : std::vector<std::string>{};
   json["other_source"] = orNull(otherSource(document));
   json["second"] = secondJson(document);
+  json["labels"] = labelsJson(document);
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);
   json["proposals"] = proposalsJson(document);

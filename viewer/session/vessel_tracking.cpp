@@ -11,11 +11,15 @@
 #include "converters/base/vectors.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/operations/case_of.h"
+#include "converters/operations/label_maps.h"
+#include "converters/operations/label_prior.h"
+#include "converters/operations/stated_vessels.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
+#include "viewer/session/document/document_labels.h"
 #include "viewer/session/document/document_seeds.h"
 #include "viewer/session/proposals.h"
 
@@ -59,6 +63,22 @@ formats::Case trackFurther(const convert::TrackingVolume& volume, const formats:
   dropped = std::move(tracks.droppedArrays);
   fitNewNodes(value, known, tracks.firstNewNode, progress);
   return value;
+}
+
+/// Proposals with the names and systems of the labels on which they lie; null for null.
+std::shared_ptr<const formats::Case> byMaps(const std::vector<operations::LabelPart>& maps,
+                                            const Document& document,
+                                            std::shared_ptr<const formats::Case> proposals,
+                                            const SessionOptions& options,
+                                            const operations::Context& context) {
+  if (maps.empty() || !proposals) return proposals;
+  const std::string name = document.labelOf(FileRole::Volume);
+  const auto naming = operations::namingMaps(maps, document.volume->geometry, name);
+  auto named = std::make_shared<formats::Case>(*proposals);
+  operations::nameByMaps(naming, *named, context);
+  if (options.labels.isOnlyLabelled) operations::leaveOutUnlabelled(naming, *named, name);
+  operations::recordMaps(maps, *named);
+  return named;
 }
 
 /// The middles of the vessels of a case, as clicks.
@@ -114,27 +134,34 @@ void fitNewNodes(formats::Case& value, const formats::Case& known, std::uint32_t
 }
 
 std::shared_ptr<const formats::Case> findProposals(const Document& document, TrackingCache& cache,
-                                                   const convert::TrackOptions& options,
+                                                   const SessionOptions& options,
                                                    Progress& progress) {
   const std::string name = formats::printable(document.labelOf(FileRole::Volume));
+  const operations::Context context = engine::operationContext(progress);
   if (convert::holdsLabels(*document.volume))
     throw invalidInput(name +
                        ": its voxels are labels, as of a mask; expected the intensities of an "
                        "angiogram. `lumen convert` makes a case of a mask");
+  const std::vector<operations::LabelPart> maps = mapsOf(document);
+  operations::VesselOptions vessels{options.track.options};
+  vessels.prior = operations::priorOf(maps, document.volume->geometry, progress);
+  vessels.stated = operations::statedVessels(maps, context);
   if (hasVessels(document)) {
     const auto& known = *document.value;
-    const auto tracking = cache.volumeFor(document, clicksOn(known.tree), options, progress);
-    convert::AddedTracks added = operations::findAndAdd(*tracking, *document.volume, known,
-                                                        engine::operationContext(progress));
-    return proposalsFor(document, proposalsBehind(std::move(added.result), added.firstNewBranch));
+    const auto tracking = cache.volumeFor(document, clicksOn(known.tree), vessels.track, progress);
+    convert::AddedTracks added =
+        operations::findAndAdd(*tracking, *document.volume, known, vessels, context);
+    auto proposals = proposalsBehind(std::move(added.result), added.firstNewBranch);
+    return proposalsFor(document, byMaps(maps, document, std::move(proposals), options, context));
   }
   std::string whyNone;
-  convert::TrackResult found = operations::findAndTrackIfAny(*document.volume, {options}, whyNone,
-                                                             engine::operationContext(progress));
+  convert::TrackResult found =
+      operations::findAndTrackIfAny(*document.volume, vessels, whyNone, context);
   if (found.result.tree.nodeCount() == 0)
     throw failed("no vessels are found in " + name + ", as " + whyNone +
                  "; a seed states where a vessel begins");
-  return proposalsFor(document, proposalsBehind(std::move(found.result), 0));
+  auto proposals = proposalsBehind(std::move(found.result), 0);
+  return proposalsFor(document, byMaps(maps, document, std::move(proposals), options, context));
 }
 
 Json vesselNear(const Eigen::Vector3d& click, const Document& document, TrackingCache& cache,

@@ -55,10 +55,11 @@ void fitNewNodes(formats::Case& value, const formats::Case& known, std::uint32_t
                  Progress& progress);
 
 /// The vessels that the volume of a document shows and its case lacks, without clicks, as proposals
-/// with names that are free. Null if the case has all. Throws Error(Failed) if the volume shows none,
-/// Error(InvalidInput) for a mask, and as the stages.
+/// with names that are free; a label map states what lies where, and names them. Null if the case has
+/// all. Throws Error(Failed) if the volume shows none, Error(InvalidInput) for a mask, and as the
+/// stages.
 std::shared_ptr<const formats::Case> findProposals(const Document& document, TrackingCache& cache,
-                                                   const convert::TrackOptions& options,
+                                                   const SessionOptions& options,
                                                    Progress& progress);
 
 /// {"found", "position", "direction", "radius_mm", "reason"} of the axis near a click, mm. Throws

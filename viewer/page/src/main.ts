@@ -9,6 +9,7 @@ import { Flight } from "./scene/flight";
 import { Frame } from "./frame";
 import { Hand } from "./tools/hand";
 import { listenToKeys } from "./keys";
+import { labelPanel } from "./panels/label_panel";
 import { deviationLegend, surfaceLegend } from "./panels/legend";
 import { libraryPanel } from "./panels/library_panel";
 import { Loader } from "./updates/loader";
@@ -96,6 +97,7 @@ async function start(root: HTMLElement): Promise<void> {
     ...oneSourcePanel(app),
     ...assumptionsPanel(app),
     ...libraryPanel(app),
+    ...labelPanel(app),
     ...findPanel(app),
     ...workPanel(app, hand, work),
     ...displayPanel(app, actions),

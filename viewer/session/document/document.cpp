@@ -51,7 +51,7 @@ std::size_t sizeOf(const Seeds& seeds) {
 }  // namespace
 
 std::string roleName(FileRole role) {
-  constexpr std::array kNames = {"volume", "second", "case", "truth", "seeds", "mesh"};
+  constexpr std::array kNames = {"volume", "second", "labels", "case", "truth", "seeds", "mesh"};
   return kNames[static_cast<std::size_t>(role)];
 }
 
@@ -101,6 +101,7 @@ std::size_t countBytes(const std::vector<const Document*>& documents) {
   for (const Document* document : documents) {
     add(document->volume);
     add(document->second);
+    if (document->labels) add(document->labels->voxels);
     add(document->value);
     add(document->truth);
     add(document->seeds);

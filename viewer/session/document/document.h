@@ -10,8 +10,10 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "converters/io/labels/label_meaning.h"
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/voxels/volume.h"
@@ -19,7 +21,7 @@
 
 namespace lumen::viewer {
 
-enum class FileRole : std::uint8_t { Volume, Second, Case, Truth, Seeds, Mesh };
+enum class FileRole : std::uint8_t { Volume, Second, Labels, Case, Truth, Seeds, Mesh };
 
 /// The word for a role, as the state has it.
 std::string roleName(FileRole role);
@@ -50,6 +52,13 @@ struct OpenMesh {
   std::shared_ptr<const convert::MeshFile> mesh;  ///< in mm
 };
 
+/// A label map beside the volume, and the labels that its voxels have by ascending values, each with
+/// the number of these voxels.
+struct OpenLabels {
+  std::shared_ptr<const convert::Volume> voxels;
+  std::vector<std::pair<convert::LabelMeaning, std::size_t>> labels;
+};
+
 using Seeds = std::vector<convert::SeedBranch>;
 
 /// A missing part is null, except `seeds`.
@@ -60,6 +69,7 @@ struct Document {
   /// it.
   std::shared_ptr<const convert::Volume> second;
   std::shared_ptr<const formats::SourceVolume> secondSource;  ///< of `second`
+  std::shared_ptr<const OpenLabels> labels;  ///< states what lies where in `volume`
   std::shared_ptr<const formats::Case> value;
   std::shared_ptr<const formats::Case> truth;
   std::shared_ptr<const Seeds> seeds = std::make_shared<const Seeds>();

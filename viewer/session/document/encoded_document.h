@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/progress.h"
+#include "converters/engine/mask_input.h"
 #include "converters/engine/stage_options.h"
 #include "viewer/session/document/document.h"
 
@@ -22,6 +23,7 @@ namespace lumen::viewer {
 /// line.
 struct SessionOptions {
   engine::VolumeArguments volume;
+  engine::MaskArguments labels;  ///< of the label map that was named
   engine::TrackArguments track;
   convert::FitOptions fit;
   /// Unsaved work of a document without any named file is kept beside this one, which need not

@@ -14,6 +14,11 @@ bool sameMeshes(const Document& a, const Document& b) {
                     [](const OpenMesh& m, const OpenMesh& n) { return m.mesh == n.mesh; });
 }
 
+/// Another role of a label leaves the voxels as they are.
+std::shared_ptr<const convert::Volume> voxelsOfLabels(const Document& document) {
+  return document.labels ? document.labels->voxels : nullptr;
+}
+
 }  // namespace
 
 Moment History::now() const {
@@ -27,6 +32,7 @@ void History::replace(Document document) {
   parts.value += document.value != old.value;
   parts.volume += document.volume != old.volume;
   parts.second += document.second != old.second;
+  parts.labels += voxelsOfLabels(document) != voxelsOfLabels(old);
   parts.seeds += document.seeds != old.seeds;
   parts.proposals += document.proposals != old.proposals;
   parts.truth += document.truth != old.truth;

@@ -16,7 +16,8 @@ namespace lumen::viewer {
 
 /// Counts the changes of each part; the page fetches a part again when its number is another.
 struct PartRevisions {
-  std::uint64_t value = 1, volume = 1, second = 1, seeds = 1, proposals = 1, truth = 1, meshes = 1;
+  std::uint64_t value = 1, volume = 1, second = 1, labels = 1, seeds = 1, proposals = 1, truth = 1,
+                meshes = 1;
 };
 
 /// A document and how often it has changed.

@@ -40,7 +40,7 @@ std::pair<double, double> measureRange(const std::vector<T>& voxels) {
 
 VolumePack::VolumePack(std::shared_ptr<const convert::Volume> volume, const std::string& name,
                        const VolumeSending& sending)
-    : m_volume(std::move(volume)) {
+    : m_volume(std::move(volume)), m_isLabels(sending.isLabels) {
   choosePlace(sending);
   m_bytes = sending.eightBits || std::holds_alternative<std::vector<std::uint8_t>>(m_volume->voxels)
                 ? 1
@@ -165,6 +165,14 @@ std::string VolumePack::slices(int first, int count) const {
           };
           if (asTheyAre) {
             std::memcpy(out, at(from(0, 0), from(1, j), from(2, k)), row * m_bytes);
+            return;
+          }
+          if (m_isLabels) {
+            const auto middle = [&](int a, int i) {
+              return from(a, i) + m_reduction[static_cast<std::size_t>(a)] / 2;
+            };
+            for (int i = 0; i < m_size[0]; ++i)
+              out[i] = static_cast<char>(*at(middle(0, i), middle(1, j), middle(2, k)));
             return;
           }
           for (int i = 0; i < m_size[0]; ++i) {

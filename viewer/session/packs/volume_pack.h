@@ -18,6 +18,7 @@ struct VolumeSending {
   /// More voxels than that are averaged in blocks, first along the axis of the least spacing.
   std::size_t mostVoxels = std::size_t{512} * 512 * 512;
   bool eightBits = false;  ///< whatever the volume has
+  bool isLabels = false;   ///< of blocks one voxel is sent, none is averaged
   convert::CellBox crop{};
   bool cropped = false;
 };
@@ -45,6 +46,7 @@ private:
   std::array<int, 3> m_low{}, m_source{};  ///< the box of the volume that is sent, voxels
   std::array<int, 3> m_reduction{1, 1, 1}, m_size{};
   std::size_t m_voxels = 0, m_bytes = 1;
+  bool m_isLabels = false;
   double m_scale = 1, m_offset = 0;  ///< intensity = scale * stored + offset
   std::string m_before;
 };

@@ -37,7 +37,7 @@ def parser():
                       help="suffixes of angiograms (default: %(default)s)")
     made.add_argument("--labels", action="append", default=[], metavar="DIR",
                       help="data set with label maps, *_dseg.nii.gz, which name the vessels "
-                           "(default: BIDS_DIR)")
+                           "and state what is none (default: BIDS_DIR)")
     made.add_argument("--config", metavar="FILE", help="options of lumen convert, one on a line")
     made.add_argument("--export", action="append", default=[], metavar="TARGET",
                       help="also the folder of this target of lumen export; may be repeated")

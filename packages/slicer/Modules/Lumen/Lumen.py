@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """lumen in 3D Slicer: vessels of a volume with a few clicks, by the modules LumenVessels and LumenCaseToModel."""
+import os
+
 import ctk
 import qt
 import slicer
@@ -11,6 +13,9 @@ except ImportError:  # before Slicer 5.6
     _ = str
 
 COLOUR = (0.85, 0.25, 0.2)
+AS_NAMED = "as its name shows"
+# of lumen convert's option role
+ROLES = ("vessel", "artery", "vein", "chamber", "aneurysm", "true-lumen", "false-lumen", "bone", "metal", "calcium", "organ", "region", "unknown")
 
 
 class Lumen(ScriptedLoadableModule):
@@ -21,7 +26,8 @@ class Lumen(ScriptedLoadableModule):
         parent.dependencies = ["LumenVessels", "LumenCaseToModel"]
         parent.contributors = ["The lumen developers"]
         parent.helpText = _(
-            "Choose an angiogram, click into vessels if you like (each point is a vessel, and so is each curve), and apply. The surface, the "
+            "Choose an angiogram, click into vessels if you like (each point is a vessel, and so is each curve), and apply. A segmentation "
+            "names vessels and states what is none: each segment has the role that its name shows, or the one that you choose. The surface, the "
             "centerline and the ends appear in the scene; the case is a file for lumen and for simulators. Not for clinical use.")
         parent.acknowledgementText = _(
             "The method is that of A. Yureidini, Robust blood vessel surface reconstruction for interactive simulations from "
@@ -38,11 +44,20 @@ class LumenLogic(ScriptedLoadableModuleLogic):
                 "centerline": add("vtkMRMLModelNode", f"{name} centerline"),
                 "ends": add("vtkMRMLMarkupsFiducialNode", f"{name} ends")}
 
-    def vesselParameters(self, volume, seeds, outputs, case, seedsOnly=False, edge="0.5r"):
-        """Parameters of LumenVessels. `case`: a path, or empty for none."""
+    def labelParameters(self, segmentation, roles, onlyLabelled=False):
+        """Parameters of a segmentation, which becomes a file. `roles`: by the names of segments; AS_NAMED leaves one to its name."""
+        path = os.path.join(slicer.util.tempDirectory(), "segments.seg.nrrd")
+        if not slicer.util.saveNode(segmentation, path): raise ValueError(_("The segmentation cannot be written."))
+        stated = {name: role for name, role in roles.items() if role != AS_NAMED}
+        for name in stated:
+            if "," in name: raise ValueError(_("Rename the segment {name}: a comma parts roles.").format(name=name))
+        return {"labelMap": path, "onlyLabelled": onlyLabelled, "roles": ",".join(f"{name}={role}" for name, role in stated.items())}
+
+    def vesselParameters(self, volume, seeds, outputs, case, seedsOnly=False, edge="0.5r", labels=None):
+        """Parameters of LumenVessels. `case`: a path, or empty for none; `labels`: those of labelParameters()."""
         if volume is None: raise ValueError(_("Choose a volume."))
         if seedsOnly and not seeds: raise ValueError(_("Tracking from seeds alone needs a markups node with points."))
-        parameters = {"volume": volume, "seedsOnly": seedsOnly, "edge": edge, **outputs}
+        parameters = {"volume": volume, "seedsOnly": seedsOnly, "edge": edge, **outputs, **(labels or {})}
         if seeds: parameters["seeds"] = seeds
         if case: parameters["case"] = case
         return parameters
@@ -79,6 +94,17 @@ class LumenWidget(ScriptedLoadableModuleWidget):
         self.seeds.setMRMLScene(slicer.mrmlScene)
         self.seeds.toolTip = _("Point lists and curves within vessels. Without any all vessels are found.")
         form.addRow(_("Seeds:"), self.seeds)
+        self.segmentation = self.selector(["vtkMRMLSegmentationNode"], "inputSegmentation")
+        self.segmentation.toolTip = _("Segments that name vessels and state what is a vessel or none")
+        self.segmentation.connect("currentNodeChanged(vtkMRMLNode*)", self.onSegmentation)
+        form.addRow(_("Segmentation:"), self.segmentation)
+        self.roles = qt.QTableWidget(0, 2)
+        self.roles.setHorizontalHeaderLabels([_("Segment"), _("Role")])
+        self.roles.horizontalHeader().setSectionResizeMode(0, qt.QHeaderView.Stretch)
+        self.roles.visible = False
+        form.addRow(self.roles)
+        self.onlyLabelled = qt.QCheckBox()
+        form.addRow(_("Labelled only:"), self.onlyLabelled)
         self.seedsOnly = qt.QCheckBox()
         form.addRow(_("Seeds only:"), self.seedsOnly)
         self.case = ctk.ctkPathLineEdit()
@@ -115,12 +141,32 @@ class LumenWidget(ScriptedLoadableModuleWidget):
         form.addRow(button)
         return button
 
+    def onSegmentation(self, node):
+        """A row with a menu of roles for each segment."""
+        segments = node.GetSegmentation() if node else None
+        names = [segments.GetNthSegment(i).GetName() for i in range(segments.GetNumberOfSegments())] if segments else []
+        self.roles.visible = bool(names)
+        self.roles.setRowCount(len(names))
+        for row, name in enumerate(names):
+            item, menu = qt.QTableWidgetItem(name), qt.QComboBox()
+            item.setFlags(qt.Qt.ItemIsEnabled)
+            menu.addItems([AS_NAMED, *ROLES])
+            self.roles.setItem(row, 0, item)
+            self.roles.setCellWidget(row, 1, menu)
+
+    def labels(self):
+        """Parameters of the chosen segmentation; none without one."""
+        node = self.segmentation.currentNode()
+        if node is None: return None
+        roles = {self.roles.item(row, 0).text(): self.roles.cellWidget(row, 1).currentText for row in range(self.roles.rowCount)}
+        return self.logic.labelParameters(node, roles, self.onlyLabelled.checked)
+
     def onApply(self):
         with slicer.util.tryWithErrorDisplay(_("The vessels cannot be found."), waitCursor=False):
             volume = self.volume.currentNode()
             outputs = self.logic.outputs(volume.GetName() if volume else "")
             parameters = self.logic.vesselParameters(volume, list(self.seeds.checkedNodes()), outputs, self.case.currentPath,
-                                                     self.seedsOnly.checked, self.edge.text)
+                                                     self.seedsOnly.checked, self.edge.text, self.labels())
             self.start(self.logic.findVessels(parameters), outputs)
 
     def onShowCase(self):

@@ -49,6 +49,10 @@ export function systemColour(system: string | undefined, index: number): Rgb | n
   return fromOklch(kLightness[index % kLightness.length], kChroma, kSystemHues[system]);
 }
 
+/** "artery, ", to stand before other words; nothing for an unknown system. */
+export const systemWords = (system: string | undefined): string =>
+  system === undefined || system === "unknown" ? "" : `${system.replaceAll("-", " ")}, `;
+
 export const toHex = (c: Rgb): string =>
   `#${c
     .map(x =>

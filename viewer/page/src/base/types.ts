@@ -21,6 +21,8 @@ export interface Proposal {
   radius_mm: number;
   /** Mean inlier rate of its nodes, in [0, 1]. */
   confidence: number | null;
+  /** One of `kSystems`. */
+  system?: string;
   /** Vessel of the case, or proposal, that it leaves. */
   parent: string | null;
   /** Its parent is a proposal. */
@@ -109,6 +111,16 @@ export interface SeriesList {
   others: number;
 }
 
+/** A label of the map beside the volume. */
+export interface Label {
+  value: number;
+  name: string | null;
+  role: string;
+  /** Where name and role come from. */
+  from: string | null;
+  voxels: number;
+}
+
 export interface FileEntry {
   id: number | string;
   kind: string;
@@ -125,6 +137,7 @@ interface Revisions {
   seeds: number;
   proposals?: number;
   second?: number;
+  labels?: number;
   meshes?: number;
   truth?: number;
   distance?: number;
@@ -147,6 +160,8 @@ export interface State {
   other_source: string | null;
   /** The volume that is seen beside the first, and a sentence on what speaks against that. */
   second: { name: string; doubt: string | null } | null;
+  /** The label map of the volume, and the words of all roles; its voxels have places in the list, counted from 1. */
+  labels: { name: string; roles: string[]; list: Label[] } | null;
   meshes: { id: number | string; name: string }[];
   seeds: Seed[];
   proposals: Proposal[];
@@ -188,6 +203,7 @@ export const kEmptyState: State = {
   assumptions: [],
   other_source: null,
   second: null,
+  labels: null,
   meshes: [],
   seeds: [],
   proposals: [],

@@ -90,6 +90,13 @@ export class Volume {
     return this.index(p).every((x, a) => x >= -0.5 && x <= this.size[a] - 0.5);
   }
 
+  /** Stored number of the voxel that holds a position; 0 outside, and where it has not arrived. */
+  nearest(p: Vec3): number {
+    if (!this.holds(p)) return 0;
+    const [i, j, k] = this.index(p).map((x, a) => Math.min(Math.max(Math.round(x), 0), this.size[a] - 1));
+    return this.voxel[i + this.size[0] * (j + this.size[1] * k)];
+  }
+
   /** Intensity at a position, trilinear; NaN outside of the voxels' centres. */
   sample(p: Vec3): number {
     const [x, y, z] = this.index(p),

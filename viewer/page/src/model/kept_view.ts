@@ -4,6 +4,7 @@ import { isBeside, type Beside } from "./beside";
 import { fromHex, toHex, type Rgb } from "../base/colour";
 import { kColourTitles } from "./colouring";
 import { kInitial, kLayouts, type Part, type Measurement, type View } from "./model";
+import { isLabelLook, type LabelLook } from "./label_look";
 import { areSlabs, type Slabs } from "./slab";
 import type { Vec3 } from "../base/types";
 
@@ -18,7 +19,7 @@ const kFormat = "lumen-view",
 /** The values that are kept as they are, by their owners; a file has all of them side by side. */
 const kPlain = {
   selection: ["allOpacity"],
-  slices: ["window", "crosshair", "interpolate", "axes", "slabs", "beside", "secondWindow"],
+  slices: ["window", "crosshair", "interpolate", "axes", "slabs", "beside", "secondWindow", "labelLook"],
   scene: ["cast", "layers", "colourBy", "clip"],
   page: ["layout", "strip", "panels"],
 } as const;
@@ -35,7 +36,7 @@ const flat = (view: View): Flat =>
 const kUsual = flat(kInitial);
 
 /** Those that a file of before may lack. */
-const kLater: readonly string[] = ["slabs", "beside", "secondWindow"];
+const kLater: readonly string[] = ["slabs", "beside", "secondWindow", "labelLook"];
 /** The words that some of them may be. */
 const kWords: { readonly [name in keyof Flat]?: readonly string[] } = {
   cast: ["off", "mip", "volume"],
@@ -115,7 +116,8 @@ export function readView(text: string): KeptView {
       !isLike(value[name], kUsual[name]) ||
       kWords[name]?.includes(value[name] as string) === false ||
       (name === "slabs" && !areSlabs(value.slabs as Slabs)) ||
-      (name === "beside" && !isBeside(value.beside as Beside)),
+      (name === "beside" && !isBeside(value.beside as Beside)) ||
+      (name === "labelLook" && !isLabelLook(value.labelLook as LabelLook)),
   );
   if (wrong !== undefined) throw new Error(`its "${wrong}" is no value that a view has`);
   const colours = value.colours;

@@ -4,6 +4,7 @@ import type { Model } from "../../../../libblob/wasm/blob.mjs";
 import { branchColour, systemColour, type Rgb } from "../base/colour";
 import type { Deviation } from "../case/deviation";
 import { kNoBeside, type Beside } from "./beside";
+import { kUsualLabels, type LabelLook } from "./label_look";
 import { kNoSlabs, type Slabs } from "./slab";
 import type { OpenAs, Source } from "../net/source";
 import type { Stage } from "../drawing/stage";
@@ -71,6 +72,9 @@ interface DocumentView {
   /** A volume to look at beside the first, at its own places; nothing is tracked in it. */
   second: Volume | null;
   secondReady: number;
+  /** The places of labels in the state's list, counted from 1. */
+  labels: Volume | null;
+  labelsReady: number;
   blob: Model | null;
   distance: Float32Array | null;
   figures: Record<string, unknown> | null;
@@ -117,6 +121,11 @@ interface SlicesView {
   secondWindow: [number, number];
   /** How the second volume is seen. */
   beside: Beside;
+  labelLook: LabelLook;
+  /** Values of labels that are not shown. */
+  hiddenLabels: ReadonlySet<number>;
+  /** RGBA of each place in the list of labels, counted from 1; without opacity where it is not shown. */
+  labelPalette: Uint8Array;
   slabs: Slabs;
   interpolate: boolean;
 }
@@ -182,6 +191,8 @@ export const kInitial: View = {
     volumeReady: 0,
     second: null,
     secondReady: 0,
+    labels: null,
+    labelsReady: 0,
     blob: null,
     distance: null,
     figures: null,
@@ -213,6 +224,9 @@ export const kInitial: View = {
     window: [0, 1],
     secondWindow: [0, 1],
     beside: kNoBeside,
+    labelLook: kUsualLabels,
+    hiddenLabels: new Set(),
+    labelPalette: new Uint8Array(4),
     slabs: kNoSlabs,
     interpolate: true,
   },
@@ -253,9 +267,20 @@ export const kInitial: View = {
   },
 };
 
-/** The values that belong to a volume: two of the document, and the window of the slices. */
-export const kFirst = { volume: "volume", ready: "volumeReady", window: "window" } as const,
-  kSecond = { volume: "second", ready: "secondReady", window: "secondWindow" } as const;
+/** The values that belong to a volume: two of the document, the window of the slices, and the texture of a slice. */
+export const kFirst = {
+    volume: "volume",
+    ready: "volumeReady",
+    window: "window",
+    texture: "texture",
+  } as const,
+  kSecond = {
+    volume: "second",
+    ready: "secondReady",
+    window: "secondWindow",
+    texture: "second",
+  } as const,
+  kLabels = { volume: "labels", ready: "labelsReady", window: null, texture: "labels" } as const;
 export type VolumeKeys = typeof kFirst | typeof kSecond;
 
 interface Services {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { divide, holdsSeeds, isDicom, isVolume } from "./dropped_files";
+import { divide, holdsSeeds, isDicom, isLabelMap, isVolume } from "./dropped_files";
 
 const marked = (name: string): File => new File([new Uint8Array(128), "DICM", "more"], name);
 const plain = (name: string): File => new File(["x".repeat(200)], name);
@@ -47,5 +47,14 @@ describe("isVolume", () => {
   it("goesByTheNameOfAFile", () => {
     for (const name of ["a.nrrd", "a.nii", "a.nii.gz", "A.MHA"]) expect(isVolume(name)).toBe(true);
     for (const name of ["a.lumen", "a.gz", "nrrd", "a.vtp"]) expect(isVolume(name)).toBe(false);
+  });
+});
+
+describe("isLabelMap", () => {
+  it("goesByWordsOfTheName", () => {
+    for (const name of ["ct.seg.nrrd", "Labels.nii.gz", "sub-1_dseg.nii.gz", "SEGMENTATION.nii", "mask.mha"])
+      expect(isLabelMap(name)).toBe(true);
+    for (const name of ["ct.nrrd", "segou.nii", "labels.csv", "dseg.tsv", "stent-ct.nrrd"])
+      expect(isLabelMap(name)).toBe(false);
   });
 });

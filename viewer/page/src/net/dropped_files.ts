@@ -17,6 +17,10 @@ export async function isDicom(file: File): Promise<boolean> {
 /** Whether a file is a volume by its name. */
 export const isVolume = (name: string): boolean => /\.(nrrd|nhdr|nii|nii\.gz|hdr|mha|mhd)$/i.test(name);
 
+/** Whether the name of a volume is that of a label map, which is opened behind the volume that it is of. */
+export const isLabelMap = (name: string): boolean =>
+  isVolume(name) && /label|seg(?![a-z])|segment|mask|annot|aparc/i.test(name);
+
 export interface Dropped {
   /** Files that were dropped by themselves. */
   files: File[];

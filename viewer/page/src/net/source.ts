@@ -20,7 +20,7 @@ export class Refused extends Error {
 }
 
 /** The part that a file becomes, where its content leaves a choice. */
-export type OpenAs = "auto" | "truth" | "second";
+export type OpenAs = "auto" | "truth" | "second" | "labels";
 
 export interface Source {
   /** False: what is embedded is all there is, and nothing can be edited. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Actions of buttons and keys. */
 import type { Flight } from "../scene/flight";
-import { divide, holdsSeeds, isVolume, type Dropped } from "../net/dropped_files";
+import { divide, holdsSeeds, isLabelMap, isVolume, type Dropped } from "../net/dropped_files";
 import type { App, Tool } from "../model/model";
 import type { SceneView } from "../scene/scene_view";
 import type { SliceView } from "../slices/slice_view";
@@ -12,7 +12,8 @@ import { Refused, type OpenAs } from "../net/source";
 import { askYes, errorText, h, saveBlob, saveText } from "../base/ui";
 
 const kMostBatch = 999_999_999, // greatest number of a batch of files
-  kBetween = 100; // files between two messages
+  kBetween = 100, // files between two messages
+  kLook = 100; // ms between two looks whether a file is open
 
 export class Actions {
   private batch = -1;
@@ -119,13 +120,15 @@ export class Actions {
     }
   }
   private async openEach(files: File[], as: OpenAs): Promise<void> {
-    for (const file of files) {
+    const ordered = [...files].sort((a, b) => Number(isLabelMap(a.name)) - Number(isLabelMap(b.name)));
+    for (const [i, file] of ordered.entries()) {
+      if (i > 0) await this.opened();
       if (file.name.endsWith(kViewEnding)) {
         await this.openView(file);
         continue;
       }
       if (!(await this.mayReplaceSeeds(file))) continue;
-      const part = as === "auto" && isVolume(file.name) ? await askPart(this.app, file.name) : as;
+      const part = as === "auto" && isVolume(file.name) ? await askPart(this.app, file.name, true) : as;
       if (part === null) continue;
       try {
         this.app.inform(`Opening ${file.name}…`);
@@ -133,6 +136,15 @@ export class Actions {
       } catch (error) {
         this.app.inform(errorText(error), "error");
       }
+    }
+  }
+  /** Waits until what was sent is open: the next file is asked about what there is then. */
+  private async opened(): Promise<void> {
+    const { source, store } = this.app;
+    for (;;) {
+      const { revision, job } = await source.state();
+      if (job === null && store.get().document.state.revision >= revision) return;
+      await new Promise(resolve => window.setTimeout(resolve, kLook));
     }
   }
   /** Asks before a file of seeds takes the place of seeds that wait. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Find vessels: what the volume shows and the case lacks, as a list to accept or to reject. */
+import { systemWords } from "../base/colour";
 import type { Part } from "../model/model";
 import { goTo } from "../model/selection";
 import type { Proposal, State } from "../base/types";
@@ -106,7 +107,7 @@ function proposalRow(app: Needs, proposal: Proposal): HTMLElement {
         h(
           "span",
           { class: "note", title: parent === null ? "A tree of its own" : `It leaves ${parent}` },
-          `${proposal.kind === "aneurysm" ? "aneurysm, " : ""}${parent === null ? "own tree" : `on ${parent}`}`,
+          `${proposal.kind === "aneurysm" ? "aneurysm, " : ""}${systemWords(proposal.system)}${parent === null ? "own tree" : `on ${parent}`}`,
         ),
       ),
       h(

@@ -45,13 +45,11 @@ export function surfaceLegend(element: HTMLElement, app: Part<"document" | "scen
     scale.hide(!c.mapped);
     if (names.length > 0) element.setAttribute("aria-label", `Systems: ${names.join(", ")}`);
     systems.replaceChildren(
-      ...names.map(name =>
-        h(
-          "span",
-          { style: `color: ${toCss(systemColour(name, 1) ?? [0.7, 0.7, 0.7])}` },
-          name.replaceAll("-", " "),
-        ),
-      ),
+      ...names.map(name => {
+        const word = h("span", {}, name.replaceAll("-", " "));
+        word.style.color = toCss(systemColour(name, 1) ?? [0.7, 0.7, 0.7]); // the page's policy refuses the attribute
+        return word;
+      }),
     );
     if (c.mapped) scale.show(c.unit === "" ? c.title : `${c.title}, ${c.unit}`, c.range, c.map);
   });

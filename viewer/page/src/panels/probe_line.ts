@@ -12,6 +12,7 @@ const kTitles = {
   position: "mm",
   value: "Value",
   second: "Second",
+  label: "Label",
   distance: "Wall",
   normal: "Normal",
   node: "Node",
@@ -96,7 +97,14 @@ export class ProbeLine {
       else this.rest();
     });
     app.store.watch(
-      ["slices.crosshair", "document.blob", "motion.time", "document.volumeReady", "document.secondReady"],
+      [
+        "slices.crosshair",
+        "document.blob",
+        "motion.time",
+        "document.volumeReady",
+        "document.secondReady",
+        "document.labelsReady",
+      ],
       () => {
         if (!this.pointing) this.rest();
       },
@@ -105,6 +113,11 @@ export class ProbeLine {
     second.title = "Value of the second volume";
     app.store.watch(["document.second"], view => {
       second.hidden = view.document.second === null;
+    });
+    const label = this.fields.label.parentElement!;
+    label.title = "Label of the voxel";
+    app.store.watch(["document.labels"], view => {
+      label.hidden = view.document.labels === null;
     });
     app.store.watch(["slices.axes"], ({ slices: { axes } }) => {
       frame.textContent = axes;
@@ -132,6 +145,7 @@ export class ProbeLine {
         .join("  "),
       value: brief(a.value),
       second: brief(a.second),
+      label: a.label === null ? "–" : `${a.label.value} ${a.label.name ?? ""}`.trim(),
       distance: a.wall === null ? "–" : distanceText(a.wall),
       normal:
         a.wall === null

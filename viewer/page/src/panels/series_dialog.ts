@@ -3,6 +3,7 @@
 import type { Part } from "../model/model";
 import { Pack } from "../case/pack";
 import type { DicomSeries, SeriesList } from "../base/types";
+import { isLabelMap } from "../net/dropped_files";
 import type { OpenAs } from "../net/source";
 import { brief, button, choose, h } from "../base/ui";
 
@@ -50,19 +51,21 @@ async function fetchPicture(app: Needs, index: number, canvas: HTMLCanvasElement
 }
 
 const kParts = [
-  { value: "auto", label: "Replace it" },
-  { value: "second", label: "Put over it" },
-] as const;
+    { value: "auto", label: "Replace it" },
+    { value: "second", label: "Put over it" },
+  ] as const,
+  kLabelsOf = { value: "labels", label: "Labels of it" } as const;
 
-/** Asks whether a volume takes the place of the one that is open or is seen beside it; null: neither. Without an open
- * volume there is nothing to ask. */
-export async function askPart(app: Part<"document">, name: string): Promise<OpenAs | null> {
+/** Asks whether a volume takes the place of the one that is open or is seen beside it; a file may also hold its labels.
+ * Null: neither. Without an open volume there is nothing to ask. */
+export async function askPart(app: Part<"document">, name: string, isFile = false): Promise<OpenAs | null> {
   const { volume, state } = app.store.get().document;
   if (!state.has_volume) return "auto";
+  const parts = !isFile ? kParts : isLabelMap(name) ? [...kParts, kLabelsOf] : [kLabelsOf, ...kParts];
   return (await choose(
     "Replace the volume, or put this one over it?",
-    `${volume?.meta.name ?? "A volume"} is open. ${name} can take its place, or be seen over or beside it, where its file places it. Vessels are tracked in the first volume alone.`,
-    kParts,
+    `${volume?.meta.name ?? "A volume"} is open. ${name} can take its place, or be seen over or beside it, where its file places it${isFile ? ", or state by labels what lies where in it" : ""}. Vessels are tracked in the first volume alone.`,
+    parts,
   )) as OpenAs | null;
 }
 

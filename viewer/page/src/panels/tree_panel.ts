@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The list of vessels: a tree in the order of the case, or a table by any of its columns. */
-import { toHex, fromHex } from "../base/colour";
+import { toHex, fromHex, systemWords } from "../base/colour";
 import { colourOf, isShown, type CursorPart, type Part, type View } from "../model/model";
 import { goToNode, setOpacity, showAll, showBranch, toggleHidden, toggleSolo } from "../model/selection";
 import type { Branch, Tree } from "../case/tree";
 import { askText, brief, button, h, icon, mm, select, slider } from "../base/ui";
 
-type Sort = "tree" | "label" | "length" | "radius" | "confidence" | "stop";
+type Sort = "tree" | "label" | "system" | "length" | "radius" | "confidence" | "stop";
 const kSorts: [Sort, string][] = [
   ["tree", "As a tree"],
   ["label", "Name"],
+  ["system", "System"],
   ["length", "Length"],
   ["radius", "Radius"],
   ["confidence", "Confidence"],
@@ -17,6 +18,7 @@ const kSorts: [Sort, string][] = [
 ];
 const kOrders: Record<Exclude<Sort, "tree">, (a: Branch, b: Branch) => number> = {
   label: (a, b) => a.label.localeCompare(b.label, "en", { numeric: true }),
+  system: (a, b) => (a.system ?? "").localeCompare(b.system ?? "", "en"),
   length: (a, b) => b.length_mm - a.length_mm,
   radius: (a, b) => b.mean - a.mean,
   confidence: (a, b) => (a.confidence ?? 2) - (b.confidence ?? 2), // the doubtful first
@@ -186,7 +188,7 @@ export class TreePanel {
         id: `branch-${b.index}`,
         "aria-level": depth + 1,
         "data-branch": b.index,
-        title: `${b.label}: ${b.kind}, ${mm(b.length_mm)} long, radius ${brief(b.mean)} (${brief(b.least)} to ${brief(b.greatest)}) mm`,
+        title: `${b.label}: ${systemWords(b.system)}${b.kind}, ${mm(b.length_mm)} long, radius ${brief(b.mean)} (${brief(b.least)} to ${brief(b.greatest)}) mm`,
       },
       swatch,
       h("span", { class: "name" }, b.label),

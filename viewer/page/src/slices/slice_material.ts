@@ -17,7 +17,8 @@ import type { Frame } from "../base/vec";
 import type { Volume } from "../case/volume";
 import type { VolumeTexture } from "../drawing/volume_texture";
 
-const kVertex = `
+/** Draws on the whole viewport; `at` is the place in it, in [-1, 1]. */
+export const kVertex = `
 out vec2 at;
 void main() { at = position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 

@@ -11,6 +11,7 @@ import { drawSliceOverlay } from "./slice_overlay";
 import { drawNamesInSlice } from "../overlay/vessel_names";
 import { kMostSamples, pickInSlab, samplesOf } from "../model/slab";
 import { ScenePicture } from "../drawing/scene_picture";
+import { LabelMaterial } from "./label_material";
 import { SliceMaterial, type Plane } from "./slice_material";
 import type { StageView } from "../drawing/stage";
 import type { Vec3 } from "../base/types";
@@ -25,6 +26,7 @@ const kAcross = 7; // radii of the vessel that half a section shows
 
 export class SliceView implements StageView, SliceProjection {
   private readonly material = new SliceMaterial();
+  private readonly labelMaterial = new LabelMaterial();
   private readonly picture = new ScenePicture();
   readonly over: HTMLCanvasElement;
   /** mm that half the height shows; null: fit. */
@@ -35,6 +37,8 @@ export class SliceView implements StageView, SliceProjection {
   texture: VolumeTexture | null = null;
   /** Of the volume beside the first. */
   second: VolumeTexture | null = null;
+  /** Of the label map. */
+  labels: VolumeTexture | null = null;
   /** The next picture of a slab takes all of its places; the first after a change only some. */
   private isFine = false;
   private refining = 0;
@@ -49,7 +53,15 @@ export class SliceView implements StageView, SliceProjection {
     element.querySelector(".viewtools")!.append(slabControl(app, name));
     element.append(splitLine(app, element));
     app.store.watch(
-      ["slices", "document.tree", "document.second", "document.secondReady", "page.layout"],
+      [
+        "slices",
+        "document.tree",
+        "document.second",
+        "document.secondReady",
+        "document.labels",
+        "document.labelsReady",
+        "page.layout",
+      ],
       ({ slices }) => {
         this.texture?.interpolate(slices.interpolate);
         this.second?.interpolate(slices.interpolate);
@@ -172,6 +184,24 @@ export class SliceView implements StageView, SliceProjection {
     // without a graphics processor a thick slab costs what its pixels cost
     if (isQuick && this.app.stage.software) this.picture.draw(renderer, [width, height], true, draw);
     else draw();
+    this.drawLabels(renderer, view, plane);
+  }
+
+  private drawLabels(
+    renderer: WebGLRenderer,
+    { document: { labels, labelsReady }, slices }: Pick<View, "document" | "slices">,
+    plane: Plane,
+  ): void {
+    if (this.labels === null || labels === null || slices.labelLook.mode === "off") return;
+    this.labelMaterial.draw(
+      renderer,
+      this.labels,
+      plane,
+      [this.width, this.height],
+      labelsReady / labels.size[2],
+      slices.labelLook,
+      slices.labelPalette,
+    );
   }
 
   /** The volume, and the one beside it; with no more places through a slab than `most`. */

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The probe at a point: libblob's answer and the volume's value. */
 import { Flags, NOWHERE, State, type Batch, type Model } from "../../../../libblob/wasm/blob.mjs";
+import { labelAt } from "../model/label_look";
 import type { View } from "../model/model";
-import type { Vec3 } from "../base/types";
+import type { Label, Vec3 } from "../base/types";
 import { along } from "../base/vec";
 
 export interface Answer {
@@ -11,6 +12,8 @@ export interface Answer {
   value: number;
   /** Intensity of the volume beside the first, or NaN. */
   second: number;
+  /** Of the label map; null where it has none. */
+  label: Label | null;
   /** Null without a model, and at a time of the motion: libblob answers for the case at rest. */
   wall: Wall | null;
 }
@@ -57,6 +60,7 @@ export function probe(view: Pick<View, "document" | "motion">, p: Vec3, cursor =
     position: p,
     value: view.document.volume?.sample(p) ?? NaN,
     second: view.document.second?.sample(p) ?? NaN,
+    label: labelAt(view.document, p),
     wall:
       view.document.blob === null || view.motion.time !== null
         ? null

@@ -2,7 +2,7 @@
 /** Keeps what is shown in step with the document: fetches the packs whose revision has changed, small ones first. */
 import { load as loadBlob, type Blob as BlobLibrary } from "../../../../libblob/wasm/blob.mjs";
 import { fillValues } from "../model/colouring";
-import { kFirst, kSecond, type CursorPart, type View } from "../model/model";
+import { kFirst, kLabels, kSecond, type CursorPart, type View } from "../model/model";
 import { Pack } from "../case/pack";
 import { sameVessels } from "../model/same_vessel";
 import type { SceneView } from "../scene/scene_view";
@@ -17,10 +17,11 @@ const kOutlines = 400, // ms from one drawing of outlines to the next, while the
   kWhileMoving = 500; // ms until the scene is looked at again, where it moves
 
 export class Loader {
-  private seen = { case: -1, surface: -1, volume: -1, second: 0, proposals: -1, distance: "" };
+  private seen = { case: -1, surface: -1, volume: -1, second: 0, labels: 0, proposals: -1, distance: "" };
   private library: Promise<BlobLibrary | null> | null = null;
   private readonly volume: VolumeLoader;
   private readonly second: VolumeLoader;
+  private readonly labels: VolumeLoader;
   private quickOf = -1;
   private shown = { case: -1, kind: "", level: 0 };
   private first = true;
@@ -32,6 +33,7 @@ export class Loader {
   ) {
     this.volume = new VolumeLoader(app, kFirst, slices, scene, () => this.settle());
     this.second = new VolumeLoader(app, kSecond, slices);
+    this.labels = new VolumeLoader(app, kLabels, slices);
     app.store.watch(["scene.colourBy", "document.surface", "document.distance"], view => {
       fillValues(view);
       app.stage.invalidate(scene);
@@ -56,6 +58,10 @@ export class Loader {
     if ((r.second ?? 0) !== this.seen.second) {
       this.seen.second = r.second ?? 0;
       jobs.push(this.second.take(state.second !== null));
+    }
+    if ((r.labels ?? 0) !== this.seen.labels) {
+      this.seen.labels = r.labels ?? 0;
+      jobs.push(this.labels.take(state.labels !== null));
     }
     if ((r.proposals ?? 0) !== this.seen.proposals) {
       this.seen.proposals = r.proposals ?? 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Fetches one volume of the document and shows its slices as they arrive. */
 import { Caster } from "../scene/cast";
-import { kFirst, type Part, type VolumeKeys } from "../model/model";
+import type { kLabels, Part, VolumeKeys } from "../model/model";
 import { headerEnd, Pack } from "../case/pack";
 import type { SceneView } from "../scene/scene_view";
 import type { SliceView } from "../slices/slice_view";
@@ -19,7 +19,7 @@ export class VolumeLoader {
   /** With a scene, which the first volume has, the volume is also cast in 3D. `began`: called when its header is there. */
   constructor(
     private readonly app: Part<"document" | "slices", "source" | "stage">,
-    private readonly keys: VolumeKeys,
+    private readonly keys: VolumeKeys | typeof kLabels,
     private readonly slices: SliceView[],
     private readonly scene: SceneView | null = null,
     private readonly began: () => void = () => undefined,
@@ -61,7 +61,7 @@ export class VolumeLoader {
     const { keys } = this;
     this.app.store.set({
       document: { [keys.volume]: volume, [keys.ready]: ready },
-      slices: window === undefined ? {} : { [keys.window]: window },
+      slices: window === undefined || keys.window === null ? {} : { [keys.window]: window },
     });
   }
 
@@ -82,7 +82,7 @@ export class VolumeLoader {
   private replaceTexture(texture: VolumeTexture | null): void {
     this.texture?.dispose();
     this.texture = texture;
-    for (const slice of this.slices) slice[this.keys === kFirst ? "texture" : "second"] = texture;
+    for (const slice of this.slices) slice[this.keys.texture] = texture;
     if (this.scene === null) return;
     this.scene.caster?.dispose();
     this.scene.caster = null;
