@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "converters/stages/fitting/energy_kernels.h"
+#include "converters/stages/fitting/jacobian_sums.h"
 
 namespace lumen::convert::fitting {
 namespace {
@@ -14,7 +15,8 @@ constexpr std::size_t roundUp(std::size_t n, std::size_t to) {
 }
 
 /// Makes room for `n` values without giving memory back.
-void reserve(std::vector<double>& buffer, std::size_t n) {
+template <class T>
+void reserve(std::vector<T>& buffer, std::size_t n) {
   if (buffer.size() < n) buffer.resize(n);
 }
 
@@ -65,6 +67,9 @@ void Energy::setPoints(std::span<const formats::Vec3d> points,
                        std::span<const formats::Vec3d> seams, double seamWeight) {
   m_count = points.size();
   m_padded = roundUp(m_count + seams.size(), kLanes);
+  const std::size_t stride = std::clamp<std::size_t>(m_count / kFewestSamples, 1, kSampleStride);
+  m_samples = stride > 1 ? m_count / stride / kLanes * kLanes : m_padded;
+  m_rows = m_padded;
   m_active = 0;
   for (auto* buffer : {&m_x, &m_y, &m_z, &m_weight, &m_share, &m_field, &m_gradient2, &m_slope2}) {
     reserve(*buffer, m_padded);
@@ -73,18 +78,26 @@ void Energy::setPoints(std::span<const formats::Vec3d> points,
     reserve(sums, m_padded);
     std::fill(sums.begin(), sums.end(), 0.0);
   }
-  reserve(m_residual, 2 * m_padded);
+  reserve(m_residual, m_padded + m_samples);
   const double weight = 1.0 / std::sqrt(static_cast<double>(m_count));
+  const double share = 1.0 / std::sqrt(static_cast<double>(std::min(m_samples, m_count)));
   const double shared =
       seams.empty() ? 0.0 : std::sqrt(seamWeight / static_cast<double>(seams.size()));
+  // samples come first: k stride for k < m_samples, then all other points in their order
+  std::size_t other = 0;
   for (std::size_t k = 0; k < m_padded; ++k) {
     const bool onSeam = k >= m_count && k < m_count + seams.size();
-    const formats::Vec3d& p = onSeam ? seams[k - m_count] : points[std::min(k, m_count - 1)];
+    std::size_t from = k * stride;
+    if (k >= m_samples || k >= m_count) {
+      while (stride > 1 && other % stride == 0 && other < m_samples * stride) ++other;
+      from = std::min(other++, m_count - 1);
+    }
+    const formats::Vec3d& p = onSeam ? seams[k - m_count] : points[from];
     m_x[k] = p.x;
     m_y[k] = p.y;
     m_z[k] = p.z;
-    m_share[k] = k < m_count ? weight : 0.0;
-    m_weight[k] = onSeam ? shared : m_share[k];
+    m_share[k] = k < std::min(m_samples, m_count) ? share : 0.0;
+    m_weight[k] = onSeam ? shared : k < m_count ? weight : 0.0;
   }
 }
 
@@ -92,14 +105,15 @@ formats::Vec3d Energy::point(std::size_t k) const {
   return {m_x[k], m_y[k], m_z[k]};
 }
 
-void Energy::freeze(std::span<const Blob> blobs, std::size_t active) {
+void Energy::freeze(std::span<const Blob> blobs, std::size_t active, At at) {
   m_active = active;
+  m_rows = at == At::Samples ? m_samples : m_padded;
   double* sums[10];
   for (std::size_t i = 0; i < 10; ++i) {
     sums[i] = m_frozen[i].data();
-    std::fill_n(sums[i], m_padded, 0.0);
+    std::fill_n(sums[i], m_rows, 0.0);
   }
-  accumulateField(blockParameters(m_parameters), m_padded, m_x.data(), m_y.data(), m_z.data(),
+  accumulateField(blockParameters(m_parameters), m_rows, m_x.data(), m_y.data(), m_z.data(),
                   blobs.first(active), sums);
 }
 
@@ -108,7 +122,7 @@ double Energy::evaluate(std::span<const Blob> blobs) {
 }
 
 double Energy::linearise(std::span<const Blob> blobs) {
-  reserve(m_jacobian, 4 * (blobs.size() - m_active) * 3 * m_padded);
+  reserve(m_jacobian, 4 * (blobs.size() - m_active) * columnRows());
   return run(blobs, true);
 }
 
@@ -117,11 +131,11 @@ double Energy::run(std::span<const Blob> blobs, bool withJacobian) {
   reserve(m_scratch, unknown.size() * kScratchArrays * kBlock);
   const BlockParameters parameters = blockParameters(m_parameters);
   Block block;
-  block.columnStride = 3 * m_padded;
-  block.rowStride = m_padded;
+  block.columnStride = columnRows();
   block.scratch = m_scratch.data();
-  for (std::size_t k = 0; k < m_padded; k += kBlock) {
-    block.count = std::min(kBlock, m_padded - k);
+  for (std::size_t k = 0; k < m_rows; k += block.count) {
+    block.isSample = k < m_samples;
+    block.count = std::min(kBlock, (block.isSample ? m_samples : m_rows) - k);
     block.x = m_x.data() + k;
     block.y = m_y.data() + k;
     block.z = m_z.data() + k;
@@ -133,18 +147,20 @@ double Energy::run(std::span<const Blob> blobs, bool withJacobian) {
     block.slope2 = m_slope2.data() + k;
     block.dataResidual = m_residual.data() + k;
     block.curvatureResidual = m_residual.data() + m_padded + k;
-    block.jacobian = withJacobian ? m_jacobian.data() + k : nullptr;
+    if (withJacobian) {
+      block.dataRows = m_jacobian.data() + k;
+      block.curvatureRows = m_jacobian.data() + m_padded + k;
+      block.slopeRows = m_jacobian.data() + m_padded + m_samples + k;
+    }
     evaluateBlock(parameters, block, unknown, withJacobian);
   }
   return sumTerms(blobs);
 }
 
 double Energy::sumTerms(std::span<const Blob> blobs) {
-  const double curvature = sumOfSquares(m_residual.data() + m_padded, m_padded);
-  const double algebraic = sumOfSquares(m_residual.data(), m_padded);
+  const double curvature = sumOfSquares(m_residual.data() + m_padded, m_samples);
   m_slope = meanSlope();
-  m_terms.data = m_parameters.referenceSlope > 0 ? algebraic * m_parameters.referenceSlope / m_slope
-                                                 : algebraic;
+  m_terms.data = sumOfSquares(m_residual.data(), m_rows) * dataFactor();
   m_terms.curvature =
       m_parameters.curvatureWeight > 0 ? curvature / m_parameters.curvatureWeight : 0;
   m_terms.cohesion = 0;
@@ -167,9 +183,16 @@ double Energy::sumTerms(std::span<const Blob> blobs) {
          m_parameters.evennessWeight * m_terms.evenness;
 }
 
+double Energy::dataFactor() const {
+  const double points =
+      m_rows < m_padded ? static_cast<double>(m_count) / static_cast<double>(m_samples) : 1.0;
+  const double reference = m_parameters.referenceSlope;
+  return reference > 0 ? points * reference / m_slope : points;
+}
+
 double Energy::meanSlope() const {
   double lanes[kLanes] = {};
-  for (std::size_t k = 0; k < m_padded; k += kLanes) {
+  for (std::size_t k = 0; k < m_samples; k += kLanes) {
     for (std::size_t l = 0; l < kLanes; ++l) {
       lanes[l] += m_share[k + l] * m_share[k + l] * m_slope2[k + l];
     }
@@ -180,7 +203,7 @@ double Energy::meanSlope() const {
 double Energy::meanCurvature() const {
   if (!(m_parameters.curvatureWeight > 0)) return m_parameters.expectedCurvature;
   double lanes[kLanes] = {};
-  for (std::size_t k = 0; k < m_padded; k += kLanes) {
+  for (std::size_t k = 0; k < m_samples; k += kLanes) {
     for (std::size_t l = 0; l < kLanes; ++l) {
       lanes[l] += m_share[k + l] * m_residual[m_padded + k + l];
     }
@@ -190,13 +213,13 @@ double Energy::meanCurvature() const {
 
 void Energy::normalEquations(std::span<const Blob> blobs, std::span<double> a,
                              std::span<double> b) {
-  const std::size_t n = 4 * (blobs.size() - m_active), stride = 3 * m_padded;
+  const std::size_t n = 4 * (blobs.size() - m_active), stride = columnRows();
   std::fill_n(a.data(), n * n, 0.0);
   std::fill_n(b.data(), n, 0.0);
-  multiplyTransposed(m_jacobian.data(), stride, n, m_residual.data(), m_padded, a.data(), b.data());
-  if (m_parameters.referenceSlope > 0) normaliseData(n, a, b);
+  multiplyTransposed(m_jacobian.data(), stride, n, m_residual.data(), m_rows, a.data(), b.data());
+  if (m_parameters.referenceSlope > 0 || m_rows < m_padded) normaliseData(n, a, b);
   multiplyTransposed(m_jacobian.data() + m_padded, stride, n, m_residual.data() + m_padded,
-                     m_padded, a.data(), b.data());
+                     m_samples, a.data(), b.data());
   if (blobs.size() > 1 && m_parameters.cohesionWeight > 0) addCohesion(blobs, a, b);
   if (m_parameters.evennessWeight > 0) addEvenness(blobs, a, b);
 }
@@ -205,8 +228,9 @@ void Energy::normalEquations(std::span<const Blob> blobs, std::span<double> a,
 /// is s J + r s'^T: the normal equations change by matrices of rank one only.
 void Energy::normaliseData(std::size_t n, std::span<double> a, std::span<double> b) {
   reserve(m_slopeGradient, n);
-  sumColumns(m_jacobian.data() + 2 * m_padded, 3 * m_padded, n, m_padded, m_slopeGradient.data());
-  const double s2 = m_parameters.referenceSlope / m_slope, factor = -0.5 / m_slope;
+  sumColumns(m_jacobian.data() + m_padded + m_samples, columnRows(), n, m_samples,
+             m_slopeGradient.data());
+  const double s2 = dataFactor(), factor = m_parameters.referenceSlope > 0 ? -0.5 / m_slope : 0.0;
   const double squares = m_terms.data;  // s^2 r^T r
   for (std::size_t i = 0; i < n; ++i) {
     const double di = factor * m_slopeGradient[i];  // s' / s

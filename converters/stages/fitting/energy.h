@@ -74,6 +74,12 @@ struct EnergyParameters {
   double evenWidth = 1;           ///< w
 };
 
+/// Curvature and slope are evaluated at one point in this many. A model of a few blobs is smooth: the
+/// curvature between samples follows from that at them.
+constexpr std::size_t kSampleStride = 4;
+/// Least number of such points, if there are as many: four for each unknown of a usual model.
+constexpr std::size_t kFewestSamples = 64;
+
 /// The terms, unweighted; each is zero where its weight is, but for the evenness.
 struct EnergyTerms {
   double data = 0, cohesion = 0, curvature = 0, evenness = 0;
@@ -83,21 +89,26 @@ struct EnergyTerms {
 /// is kept per thread stops allocating after the first few nodes. Not thread-safe.
 class Energy {
 public:
+  enum class At { AllPoints, Samples };
+
   explicit Energy(const EnergyParameters& parameters) : m_parameters(parameters) {}
 
   [[nodiscard]] const EnergyParameters& parameters() const { return m_parameters; }
   void setParameters(const EnergyParameters& parameters) { m_parameters = parameters; }
   /// The points to fit, in the fit's frame; there must be at least one. Those of `seams` count in
   /// E_d only, all together as much as `seamWeight` times all points; pointCount(), slope() and the
-  /// field leave them out.
+  /// field leave them out. The curvature and the mean slope are those of every kSampleStride-th
+  /// point, or of more if that are fewer than kFewestSamples; these come first in the order of
+  /// point() and of the field.
   void setPoints(std::span<const formats::Vec3d> points, std::span<const formats::Vec3d> seams = {},
                  double seamWeight = 0);
   [[nodiscard]] std::size_t pointCount() const { return m_count; }
   [[nodiscard]] formats::Vec3d point(std::size_t k) const;
 
   /// Sums the field of blobs[0] .. blobs[active - 1] once; until the next call they must stay as
-  /// they are. evaluate() and linearise() then only visit the others, which are the unknowns.
-  void freeze(std::span<const Blob> blobs, std::size_t active);
+  /// they are. evaluate() and linearise() then only visit the others, which are the unknowns, at
+  /// all points or at the sampled ones only, which then stand for all.
+  void freeze(std::span<const Blob> blobs, std::size_t active, At at = At::AllPoints);
 
   /// The energy of all of `blobs`; fills the residuals and the field at every point.
   double evaluate(std::span<const Blob> blobs);
@@ -126,14 +137,20 @@ private:
   double run(std::span<const Blob> blobs, bool withJacobian);
   double sumTerms(std::span<const Blob> blobs);
   [[nodiscard]] double meanSlope() const;
+  /// Rows of one column of the Jacobian: those of the data, the curvature and the slope.
+  [[nodiscard]] std::size_t columnRows() const { return m_padded + 2 * m_samples; }
+  /// Factor from the plain sum of the data's squares to E_d.
+  [[nodiscard]] double dataFactor() const;
   void normaliseData(std::size_t n, std::span<double> a, std::span<double> b);
   void addEvenness(std::span<const Blob> blobs, std::span<double> a, std::span<double> b) const;
   void addCohesion(std::span<const Blob> blobs, std::span<double> a, std::span<double> b) const;
 
   EnergyParameters m_parameters;
-  std::size_t m_count = 0;   ///< points
-  std::size_t m_padded = 0;  ///< rounded up to whole lanes; the padding has weight zero
-  std::size_t m_active = 0;  ///< first unknown blob
+  std::size_t m_count = 0;    ///< points
+  std::size_t m_padded = 0;   ///< rounded up to whole lanes; the padding has weight zero
+  std::size_t m_samples = 0;  ///< points of the curvature and the slope, in whole lanes
+  std::size_t m_rows = 0;     ///< points at work: m_padded or m_samples
+  std::size_t m_active = 0;   ///< first unknown blob
   EnergyTerms m_terms;
   double m_slope = 0;
   std::vector<double> m_slopeGradient;
@@ -141,8 +158,8 @@ private:
   std::array<std::vector<double>, 10>
       m_frozen;  ///< f, G (3), Gamma (xx, yy, zz, xy, xz, yz) of the frozen blobs
   std::vector<double> m_field, m_gradient2, m_slope2;
-  std::vector<double> m_residual;  ///< data rows, then curvature rows, m_padded of each
-  std::vector<double> m_jacobian;  ///< one column of 2 m_padded rows for every unknown
+  std::vector<double> m_residual;  ///< m_padded data rows, then m_samples curvature rows
+  std::vector<float> m_jacobian;   ///< columnRows() for every unknown
   std::vector<double> m_scratch;
 };
 

@@ -70,7 +70,7 @@ LUMEN_INLINE void start(const Block& in, Sums& s) {
 /// First pass over a blob: the field, its gradient, and the data rows of the Jacobian.
 template <bool kJacobian, class Phi>
 LUMEN_INLINE void addField(double kernelScale, const Block& in, const Blob& blob, Sums& s,
-                           double* __restrict scratch, double* __restrict column) {
+                           double* __restrict scratch, float* __restrict column) {
   const std::size_t count = in.count, stride = in.columnStride;
   const double inverse = 1.0 / blob.width, width = blob.width;
   const double cx = blob.x, cy = blob.y, cz = blob.z;
@@ -96,10 +96,10 @@ LUMEN_INLINE void addField(double kernelScale, const Block& in, const Blob& blob
     scratch[6 * kBlock + k] = v.d3;
     if constexpr (kJacobian) {
       const double wd1 = weight[k] * d1;
-      column[k] = wd1 * dx;
-      column[stride + k] = wd1 * dy;
-      column[2 * stride + k] = wd1 * dz;
-      column[3 * stride + k] = wd1 * x - weight[k] * v.phi;
+      column[k] = static_cast<float>(wd1 * dx);
+      column[stride + k] = static_cast<float>(wd1 * dy);
+      column[2 * stride + k] = static_cast<float>(wd1 * dz);
+      column[3 * stride + k] = static_cast<float>(wd1 * x - weight[k] * v.phi);
     }
   }
 }
@@ -161,7 +161,9 @@ LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& 
     data[k] = weight[k] * r.value;
     slope2[k] = r.slope * r.slope * g2;
     s.dataSlope[k] = r.slope;
-    s.slopeTurn[k] = 2.0 * r.slope * r.second * g2 * share[k];
+    // the rows of the data have the weight, those of the slope the share squared
+    const double toSlope = weight[k] > 0.0 ? share[k] * share[k] / weight[k] : 0.0;
+    s.slopeTurn[k] = 2.0 * r.slope * r.second * g2 * toSlope;
     curvature[k] = scale * (kappa - expected);
     s.wx[k] = direct * s.ax[k] - radial * gx;
     s.wy[k] = direct * s.ay[k] - radial * gy;
@@ -173,12 +175,13 @@ LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& 
 /// Third pass over a blob: the curvature and slope rows of the Jacobian, and the data rows from
 /// those of T - f to those of u(f).
 LUMEN_INLINE void differentiateCurvature(const Block& in, const Blob& blob, const Sums& s,
-                                         const double* __restrict scratch,
-                                         double* __restrict data) {
+                                         const double* __restrict scratch, std::size_t unknown) {
   const std::size_t count = in.count, stride = in.columnStride;
   const double inverse = 1.0 / blob.width;
   const double* __restrict gradient2 = in.gradient2, * __restrict share = in.share;
-  double* __restrict column = data + in.rowStride, * __restrict slope = column + in.rowStride;
+  float* __restrict data = in.dataRows + unknown * stride;
+  float* __restrict column = in.curvatureRows + unknown * stride;
+  float* __restrict slope = in.slopeRows + unknown * stride;
   LUMEN_INDEPENDENT
   for (std::size_t k = 0; k < count; ++k) {
     const double dx = scratch[k], dy = scratch[kBlock + k], dz = scratch[2 * kBlock + k];
@@ -190,22 +193,24 @@ LUMEN_INLINE void differentiateCurvature(const Block& in, const Blob& blob, cons
     const double c8 = 8.0 * inverse * inverse * s.c[k];
     const double alongW = -2.0 * inverse * d1, alongG = -c8 * d2 * u;
     const double alongD = c8 * (2.0 * d2 * g2 - d3 * t) - 4.0 * inverse * d2 * wd;
-    column[k] = alongD * dx + alongW * s.wx[k] + alongG * s.gx[k];
-    column[stride + k] = alongD * dy + alongW * s.wy[k] + alongG * s.gy[k];
-    column[2 * stride + k] = alongD * dz + alongW * s.wz[k] + alongG * s.gz[k];
-    column[3 * stride + k] = -2.0 * inverse * (2.0 * d2 * x + d1) * wd +
-                             c8 * (d2 * (2.0 * g2 * x - u * u) - d3 * x * t) -
-                             0.5 * c8 * (d2 * t - d1 * g2);
+    column[k] = static_cast<float>(alongD * dx + alongW * s.wx[k] + alongG * s.gx[k]);
+    column[stride + k] = static_cast<float>(alongD * dy + alongW * s.wy[k] + alongG * s.gy[k]);
+    column[2 * stride + k] = static_cast<float>(alongD * dz + alongW * s.wz[k] + alongG * s.gz[k]);
+    column[3 * stride + k] = static_cast<float>(-2.0 * inverse * (2.0 * d2 * x + d1) * wd +
+                                                c8 * (d2 * (2.0 * g2 * x - u * u) - d3 * x * t) -
+                                                0.5 * c8 * (d2 * t - d1 * g2));
     const double w = -4.0 * inverse * share[k] * share[k], w2 = 2.0 * w * d2 * u, w1 = w * d1;
     const double d = s.dataSlope[k], d2u = d * d, turn = s.slopeTurn[k];
-    slope[k] = d2u * (w2 * dx + w1 * s.gx[k]) + turn * data[k];
-    slope[stride + k] = d2u * (w2 * dy + w1 * s.gy[k]) + turn * data[stride + k];
-    slope[2 * stride + k] = d2u * (w2 * dz + w1 * s.gz[k]) + turn * data[2 * stride + k];
-    slope[3 * stride + k] = d2u * (w2 * x + w1 * u) + turn * data[3 * stride + k];
-    data[k] *= d;
-    data[stride + k] *= d;
-    data[2 * stride + k] *= d;
-    data[3 * stride + k] *= d;
+    const double ex = double{data[k]}, ey = double{data[stride + k]};
+    const double ez = double{data[2 * stride + k]}, ew = double{data[3 * stride + k]};
+    slope[k] = static_cast<float>(d2u * (w2 * dx + w1 * s.gx[k]) + turn * ex);
+    slope[stride + k] = static_cast<float>(d2u * (w2 * dy + w1 * s.gy[k]) + turn * ey);
+    slope[2 * stride + k] = static_cast<float>(d2u * (w2 * dz + w1 * s.gz[k]) + turn * ez);
+    slope[3 * stride + k] = static_cast<float>(d2u * (w2 * x + w1 * u) + turn * ew);
+    data[k] = static_cast<float>(ex * d);
+    data[stride + k] = static_cast<float>(ey * d);
+    data[2 * stride + k] = static_cast<float>(ez * d);
+    data[3 * stride + k] = static_cast<float>(ew * d);
   }
 }
 
@@ -217,7 +222,7 @@ LUMEN_INLINE void evaluate(const BlockParameters& parameters, const Block& in,
   for (std::size_t j = 0; j < blobs.size(); ++j) {
     addField<kJacobian, Phi>(parameters.kernelScale, in, blobs[j], sums,
                              in.scratch + j * kScratchArrays * kBlock,
-                             kJacobian ? in.jacobian + 4 * j * in.columnStride : nullptr);
+                             kJacobian ? in.dataRows + 4 * j * in.columnStride : nullptr);
   }
   startCurvature(in, sums);
   for (std::size_t j = 0; j < blobs.size(); ++j) {
@@ -226,9 +231,82 @@ LUMEN_INLINE void evaluate(const BlockParameters& parameters, const Block& in,
   finishPoints<Phi>(parameters, in, sums);
   if constexpr (kJacobian) {
     for (std::size_t j = 0; j < blobs.size(); ++j) {
-      differentiateCurvature(in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock,
-                             in.jacobian + 4 * j * in.columnStride);
+      differentiateCurvature(in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock, 4 * j);
     }
+  }
+}
+
+/// The data's part of evaluate(): the field and its gradient, and the rows of the Jacobian.
+template <bool kJacobian, class Phi>
+LUMEN_INLINE void addData(double kernelScale, const Block& in, const Blob& blob, Sums& s,
+                          std::size_t unknown) {
+  const std::size_t count = in.count, stride = in.columnStride;
+  const double inverse = 1.0 / blob.width, width = blob.width;
+  const double cx = blob.x, cy = blob.y, cz = blob.z;
+  const double* __restrict px = in.x, * __restrict py = in.y, * __restrict pz = in.z;
+  float* __restrict column = kJacobian ? in.dataRows + unknown * stride : nullptr;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double dx = (px[k] - cx) * inverse, dy = (py[k] - cy) * inverse;
+    const double dz = (pz[k] - cz) * inverse;
+    const double x = dx * dx + dy * dy + dz * dz;
+    const field::KernelChain<double> v = Phi::chain(kernelScale * x, kernelScale);
+    const double d1 = 2.0 * v.d1, gx = d1 * dx, gy = d1 * dy, gz = d1 * dz;
+    s.f[k] += width * v.phi;
+    s.gx[k] += gx;
+    s.gy[k] += gy;
+    s.gz[k] += gz;
+    if constexpr (kJacobian) {
+      column[k] = static_cast<float>(gx);
+      column[stride + k] = static_cast<float>(gy);
+      column[2 * stride + k] = static_cast<float>(gz);
+      column[3 * stride + k] = static_cast<float>(d1 * x - v.phi);
+    }
+  }
+}
+
+template <class Phi>
+LUMEN_INLINE void finishData(const BlockParameters& p, const Block& in, Sums& s) {
+  const std::size_t count = in.count;
+  const double level = p.isoLevel;
+  const double* __restrict weight = in.weight;
+  double* __restrict field = in.field, * __restrict gradient2 = in.gradient2;
+  double* __restrict data = in.dataResidual;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double gx = s.gx[k], gy = s.gy[k], gz = s.gz[k];
+    const Residual r = residualOf<Phi>(s.f[k], level);
+    field[k] = s.f[k];
+    gradient2[k] = gx * gx + gy * gy + gz * gz;
+    data[k] = weight[k] * r.value;
+    s.dataSlope[k] = weight[k] * r.slope;
+  }
+}
+
+/// From the derivatives of T - f to those of the residuals.
+LUMEN_INLINE void scaleData(const Block& in, const Sums& s, std::size_t unknown) {
+  const std::size_t count = in.count, stride = in.columnStride;
+  float* __restrict column = in.dataRows + unknown * stride;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto d = static_cast<float>(s.dataSlope[k]);
+    column[k] *= d;
+    column[stride + k] *= d;
+    column[2 * stride + k] *= d;
+    column[3 * stride + k] *= d;
+  }
+}
+
+template <bool kJacobian, class Phi>
+LUMEN_INLINE void evaluateData(const BlockParameters& parameters, const Block& in,
+                               std::span<const Blob> blobs) {
+  Sums sums;
+  start(in, sums);
+  for (std::size_t j = 0; j < blobs.size(); ++j)
+    addData<kJacobian, Phi>(parameters.kernelScale, in, blobs[j], sums, 4 * j);
+  finishData<Phi>(parameters, in, sums);
+  if constexpr (kJacobian) {
+    for (std::size_t j = 0; j < blobs.size(); ++j) scaleData(in, sums, 4 * j);
   }
 }
 
@@ -272,9 +350,11 @@ void evaluateBlock(const BlockParameters& parameters, const Block& block,
   field::withKernel(
       parameters.kernel, [&](auto phi) __attribute__((always_inline)) {
         if (withJacobian) {
-          evaluate<true, decltype(phi)>(parameters, block, blobs);
+          block.isSample ? evaluate<true, decltype(phi)>(parameters, block, blobs)
+                         : evaluateData<true, decltype(phi)>(parameters, block, blobs);
         } else {
-          evaluate<false, decltype(phi)>(parameters, block, blobs);
+          block.isSample ? evaluate<false, decltype(phi)>(parameters, block, blobs)
+                         : evaluateData<false, decltype(phi)>(parameters, block, blobs);
         }
       });
 }
@@ -288,76 +368,6 @@ void accumulateField(const BlockParameters& parameters, std::size_t count, const
         for (const Blob& blob : blobs)
           accumulate<decltype(phi)>(parameters.kernelScale, count, x, y, z, blob, sums);
       });
-}
-
-namespace {
-
-/// Half of the lanes: the widest vector that the compilers keep in registers on every machine.
-using Lanes4 [[gnu::vector_size(32)]] = double;
-
-// By reference: a vector passed by value would have another calling convention on every machine.
-// A copy of bytes would be made in two halves through the stack, for which the processor waits.
-[[gnu::always_inline]] inline void load(const double* from, Lanes4& value) {
-  using Unaligned [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-  value = *reinterpret_cast<const Unaligned*>(from);
-}
-
-[[gnu::always_inline]] inline double sum(const Lanes4& v) {
-  return (v[0] + v[2]) + (v[1] + v[3]);
-}
-
-/// Dot products of the columns left[0 .. kLeft - 1] with right[0 .. kRight - 1].
-template <std::size_t kLeft, std::size_t kRight>
-[[gnu::always_inline]] inline void tile(const double* left, const double* right, std::size_t stride,
-                                        std::size_t rows, double (&out)[kLeft][kRight]) {
-  Lanes4 total[kLeft][kRight] = {};
-  for (std::size_t k = 0; k < rows; k += 4) {
-    Lanes4 a[kLeft], b[kRight];
-    for (std::size_t i = 0; i < kLeft; ++i) load(left + i * stride + k, a[i]);
-    for (std::size_t j = 0; j < kRight; ++j) load(right + j * stride + k, b[j]);
-    for (std::size_t i = 0; i < kLeft; ++i) {
-      for (std::size_t j = 0; j < kRight; ++j) total[i][j] += a[i] * b[j];
-    }
-  }
-  for (std::size_t i = 0; i < kLeft; ++i) {
-    for (std::size_t j = 0; j < kRight; ++j) out[i][j] = sum(total[i][j]);
-  }
-}
-
-}  // namespace
-
-LUMEN_SIMD_CLONES
-void multiplyTransposed(const double* jacobian, std::size_t columnStride, std::size_t n,
-                        const double* residual, std::size_t rows, double* a, double* b) {
-  // columns come in fours, one group per blob: tiles of 4 x 2 keep 8 sums in registers
-  double out[4][2];
-  double single[4][1];
-  for (std::size_t i = 0; i < n; i += 4) {
-    const double* left = jacobian + i * columnStride;
-    for (std::size_t j = i; j < n; j += 2) {
-      tile<4, 2>(left, jacobian + j * columnStride, columnStride, rows, out);
-      for (std::size_t p = 0; p < 4; ++p) {
-        for (std::size_t q = 0; q < 2; ++q) a[(i + p) * n + j + q] += out[p][q];
-      }
-    }
-    tile<4, 1>(left, residual, columnStride, rows, single);
-    for (std::size_t p = 0; p < 4; ++p) b[i + p] += single[p][0];
-  }
-}
-
-LUMEN_SIMD_CLONES
-void sumColumns(const double* jacobian, std::size_t columnStride, std::size_t n, std::size_t rows,
-                double* sums) {
-  for (std::size_t i = 0; i < n; i += 4) {
-    Lanes4 total[4] = {}, value;
-    for (std::size_t k = 0; k < rows; k += 4) {
-      for (std::size_t p = 0; p < 4; ++p) {
-        load(jacobian + (i + p) * columnStride + k, value);
-        total[p] += value;
-      }
-    }
-    for (std::size_t p = 0; p < 4; ++p) sums[i + p] = sum(total[p]);
-  }
 }
 
 }  // namespace lumen::convert::fitting

@@ -27,6 +27,8 @@ constexpr std::size_t kScratchArrays = 8;
 
 /// One block of points, and where its results go. All arrays have `count` entries.
 struct Block {
+  /// False if the data alone count at these points: then neither curvature nor slope is evaluated.
+  bool isSample = true;
   std::size_t count = 0;  ///< a multiple of kLanes, at most kBlock
   const double *x = nullptr, *y = nullptr, *z = nullptr;
   const double* weight = nullptr;  ///< square root of a point's share of E_d; 0 for padding
@@ -37,12 +39,11 @@ struct Block {
   double* slope2 = nullptr;             ///< |grad u|^2
   double* dataResidual = nullptr;       ///< weight u(f)
   double* curvatureResidual = nullptr;  ///< share sqrt(beta) (kappa - kappa_0)
-  double* jacobian = nullptr;           ///< this block's rows of the first column
-  std::size_t columnStride = 0;         ///< from one column to the next
-  /// Offset from a point's data row of a column to its curvature row, and from there to its slope
-  /// row: the derivative of share^2 |grad u|^2.
-  std::size_t rowStride = 0;
-  double* scratch = nullptr;  ///< blobs x kScratchArrays x kBlock
+  // This block's rows of the first column of the Jacobian.
+  float *dataRows = nullptr, *curvatureRows = nullptr;
+  float* slopeRows = nullptr;    ///< derivatives of share^2 |grad u|^2
+  std::size_t columnStride = 0;  ///< from one column to the next
+  double* scratch = nullptr;     ///< blobs x kScratchArrays x kBlock
 };
 
 struct BlockParameters {
@@ -61,16 +62,5 @@ void evaluateBlock(const BlockParameters& parameters, const Block& block,
 void accumulateField(const BlockParameters& parameters, std::size_t count, const double* x,
                      const double* y, const double* z, std::span<const Blob> blobs,
                      double* const (&sums)[10]);
-
-// Sums over the rows of a Jacobian, in an order that is the same on every machine.
-
-/// a += J^T J (n x n row-major, upper triangle) and b += J^T r, for n columns of `rows` values; n
-/// is a multiple of 4, `rows` of 4.
-void multiplyTransposed(const double* jacobian, std::size_t columnStride, std::size_t n,
-                        const double* residual, std::size_t rows, double* a, double* b);
-
-/// sums[i] = sum of the `rows` values of column i < n; n is a multiple of 4, `rows` of 4.
-void sumColumns(const double* jacobian, std::size_t columnStride, std::size_t n, std::size_t rows,
-                double* sums);
 
 }  // namespace lumen::convert::fitting

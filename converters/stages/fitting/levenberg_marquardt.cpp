@@ -45,7 +45,7 @@ void keepWithin(std::span<const FitBall> balls, Blob& blob) {
 
 /// The system A x = -b for n unknowns, and its solution.
 struct NormalEquations {
-  std::span<double> a, b, factor, step;
+  std::span<double> a, b, factor, right, step;
 
   [[nodiscard]] std::size_t unknowns() const { return b.size(); }
 };
@@ -54,13 +54,20 @@ struct NormalEquations {
 NormalEquations makeRoom(std::size_t n, MinimiseWorkspace& workspace) {
   for (auto* square : {&workspace.a, &workspace.factor})
     square->resize(std::max(square->size(), n * n));
-  for (auto* row : {&workspace.b, &workspace.step}) row->resize(std::max(row->size(), n));
+  for (auto* row : {&workspace.b, &workspace.right, &workspace.step})
+    row->resize(std::max(row->size(), n));
   return {std::span(workspace.a).first(n * n), std::span(workspace.b).first(n),
-          std::span(workspace.factor).first(n * n), std::span(workspace.step).first(n)};
+          std::span(workspace.factor).first(n * n), std::span(workspace.right).first(n),
+          std::span(workspace.step).first(n)};
 }
 
-/// The step of (A + damping) x = -b. False if this matrix is not positive definite.
-bool solveDamped(const NormalEquations& equations, double damping) {
+/// Stiffness of the springs that hold a centre at a wall, in largest entries of the diagonal: a step
+/// leaves the wall by a millionth of what it would move across it.
+constexpr double kStiffness = 1e6;
+
+/// The step of (A + damping) x = -b, with springs that hold some centres at walls. False if this
+/// matrix is not positive definite.
+bool solveDamped(const NormalEquations& equations, double damping, std::span<const Wall> walls) {
   const std::size_t n = equations.unknowns();
   double largest = 0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, equations.a[i * n + i]);
@@ -68,7 +75,16 @@ bool solveDamped(const NormalEquations& equations, double damping) {
   for (std::size_t i = 0; i < n; ++i) {
     equations.factor[i * n + i] += damping * equations.factor[i * n + i] + kFloor * largest;
   }
-  return solveSymmetric(equations.factor, equations.b, n, equations.step);
+  std::copy(equations.b.begin(), equations.b.end(), equations.right.begin());
+  for (const Wall& wall : walls) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      const double pull = kStiffness * largest * wall.normal[p];
+      equations.right[wall.unknown + p] -= pull * wall.distance;
+      for (std::size_t q = p; q < 3; ++q)
+        equations.factor[(wall.unknown + p) * n + wall.unknown + q] += pull * wall.normal[q];
+    }
+  }
+  return solveSymmetric(equations.factor, equations.right, n, equations.step);
 }
 
 /// Shortens the step to the bounds on moves and resizings.
@@ -83,24 +99,50 @@ void shortenStep(std::span<const Blob> unknown, std::span<double> step) {
   for (double& value : step) value /= excess;
 }
 
-/// The blobs after a step, which is shortened before; projected into the reach and the lumen.
+/// The blobs after a step, which is shortened before; projected into the reach and the lumen. Adds a
+/// wall for each centre that the projection moved.
 void moveWithinBounds(std::span<const Blob> blobs, std::size_t active,
-                      const MinimiseOptions& options, std::span<double> step,
-                      std::span<Blob> moved) {
+                      const MinimiseOptions& options, std::span<double> step, std::span<Blob> moved,
+                      std::vector<Wall>& walls) {
   shortenStep(blobs.subspan(active), step);
   for (std::size_t j = active; j < blobs.size(); ++j) {
     const double* s = step.data() + 4 * (j - active);
     const Blob& from = blobs[j];
     Blob& to = moved[j];
     to = {from.x + s[0], from.y + s[1], from.z + s[2], from.width + s[3]};
+    const Blob free = to;
     keepWithin(options.lumen, to);
     const double distance = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
-    if (distance <= options.reach) continue;
-    const double back = options.reach / distance;
-    to.x *= back;
-    to.y *= back;
-    to.z *= back;
+    if (distance > options.reach) {
+      const double back = options.reach / distance;
+      to.x *= back;
+      to.y *= back;
+      to.z *= back;
+    }
+    const double dx = free.x - to.x, dy = free.y - to.y, dz = free.z - to.z;
+    const double beyond = std::sqrt(dx * dx + dy * dy + dz * dz);
+    if (!(beyond > 0)) continue;
+    const double nx = dx / beyond, ny = dy / beyond, nz = dz / beyond;
+    walls.push_back({4 * (j - active),
+                     {nx, ny, nz},
+                     nx * (to.x - from.x) + ny * (to.y - from.y) + nz * (to.z - from.z)});
   }
+}
+
+/// Moves by the step of (A + damping) x = -b within the bounds. Where a centre would leave the lumen
+/// or the reach, its wall is part of the problem: the step is solved for anew along the wall, as
+/// projecting it alone would lower the energy by less than predicted, or raise it. False if the
+/// matrix is not positive definite.
+bool stepWithinBounds(const NormalEquations& equations, double damping, std::span<const Blob> blobs,
+                      std::size_t active, const MinimiseOptions& options, std::vector<Wall>& walls,
+                      std::span<Blob> moved) {
+  walls.clear();
+  if (!solveDamped(equations, damping, walls)) return false;
+  moveWithinBounds(blobs, active, options, equations.step, moved, walls);
+  if (walls.empty()) return true;
+  if (!solveDamped(equations, damping, walls)) return false;
+  moveWithinBounds(blobs, active, options, equations.step, moved, walls);
+  return true;
 }
 
 /// The decrease of the quadratic model, |r|^2 - |r + J step|^2.
@@ -169,12 +211,12 @@ MinimiseResult minimise(Energy& energy, std::span<Blob> blobs, std::size_t activ
   bool fresh = true;  // the field of `energy` is that of `blobs`
   while (result.iterations < options.maxIterations && damping < kLargestDamping) {
     double predicted = 0, next = result.energy;
-    if (solveDamped(equations, damping)) {
-      moveWithinBounds(blobs, active, options, equations.step, trial);
+    if (stepWithinBounds(equations, damping, blobs, active, options, workspace.walls, trial)) {
       predicted = predictDecrease(equations);
       if (predicted < kWorthTrying * options.tolerance * result.energy) break;
-      next = energy.linearise(trial);
       ++result.iterations;
+      next = result.iterations < options.maxIterations ? energy.linearise(trial)
+                                                       : energy.evaluate(trial);
       fresh = false;
     }
     if (!(next < result.energy)) {
@@ -189,7 +231,7 @@ MinimiseResult minimise(Energy& energy, std::span<Blob> blobs, std::size_t activ
     result.energy = next;
     fresh = true;
     if (trace) trace->push_back(next);
-    if (decrease < options.tolerance * next) break;
+    if (decrease < options.tolerance * next || result.iterations >= options.maxIterations) break;
     energy.normalEquations(blobs, equations.a, equations.b);
   }
   if (!fresh) energy.evaluate(blobs);

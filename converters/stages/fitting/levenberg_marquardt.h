@@ -7,6 +7,7 @@
 // with and without wide vectors, which neither of them promises.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -34,14 +35,23 @@ struct MinimiseOptions {
 
 struct MinimiseResult {
   double energy = 0;
-  int iterations = 0;  ///< evaluations of the Jacobian
+  int iterations = 0;  ///< evaluations of the energy
+};
+
+/// The wall of the lumen or of the reach that one centre has come to: along `normal` it moves by
+/// `distance`.
+struct Wall {
+  std::size_t unknown = 0;  ///< index of the centre's x
+  std::array<double, 3> normal{};
+  double distance = 0;
 };
 
 /// Buffers of minimise(), of no meaning between calls. One per thread.
 struct MinimiseWorkspace {
   std::vector<double> a, b;  ///< normal equations
-  std::vector<double> factor, step;
+  std::vector<double> factor, right, step;
   std::vector<Blob> trial;
+  std::vector<Wall> walls;
 };
 
 /// Lowers the energy by moving and resizing blobs[active ..], after energy.freeze(blobs, active).

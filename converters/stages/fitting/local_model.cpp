@@ -88,6 +88,8 @@ constexpr int kTrialPlaces = 12;
 constexpr double kTrialStride = 2.5;
 constexpr MinimiseOptions kAlone{20, 1e-3};
 constexpr MinimiseOptions kTogether{10, 1e-2};
+/// A step on all points, after those on the samples.
+constexpr MinimiseOptions kDecide{2, 1e-2};
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -162,10 +164,11 @@ double addBlob(const NodeProblem& problem, const formats::Vec3d& target, std::ve
   const std::size_t active = blobs.size();
   blobs[parent] = kept;
   blobs.push_back(added);
-  workspace.energy.freeze(blobs, active);
+  workspace.energy.freeze(blobs, active, Energy::At::Samples);
   placeNewBlob(kept, blobs, workspace.energy);
-  minimiseFrom(problem, active, kAlone, blobs, workspace);
-  const double energy = minimiseFrom(problem, 0, kTogether, blobs, workspace);
+  minimiseFrom(problem, active, kAlone, blobs, workspace, Energy::At::Samples);
+  minimiseFrom(problem, 0, kTogether, blobs, workspace, Energy::At::Samples);
+  const double energy = minimiseFrom(problem, 0, kDecide, blobs, workspace);
   return dropUseless(problem, blobs) ? workspace.energy.evaluate(blobs) : energy;
 }
 
@@ -219,7 +222,8 @@ namespace {
 /// beyond it is tried again from the inscribed balls: two blobs beside a much wider vessel may end
 /// in neither.
 constexpr double kPoorFit = 1.0 / 3.0;
-constexpr MinimiseOptions kRefine{10, 1e-4};
+/// Half of the iterations that one alone would need: the seams move with every sweep.
+constexpr MinimiseOptions kRefine{5, 1e-4};
 
 /// Fits `blobs` to the points, adding more while they help.
 LocalModel growModel(const NodeProblem& problem, std::span<const formats::Vec3d> points,

@@ -28,6 +28,9 @@ constexpr double kAtReach = 0.999;
 /// of the inside.
 constexpr double kAroundPoints = 1.5;
 constexpr MinimiseOptions kAll{60, 1e-4};
+/// Noise lowers the energy of N points by a share of 1/N for each unknown that follows it. A step
+/// that gains less than a third of this for all unknowns together decides nothing.
+constexpr double kDecidesNothing = 0.3;
 
 double farthestFromOrigin(std::span<const formats::Vec3d> points) {
   double squared = 0;
@@ -95,8 +98,10 @@ double weighPriors(const NodeProblem& problem, std::span<const Blob> blobs, Ener
 }
 
 double minimiseFrom(const NodeProblem& problem, std::size_t active, MinimiseOptions options,
-                    std::span<Blob> blobs, FitWorkspace& workspace) {
-  workspace.energy.freeze(blobs, active);
+                    std::span<Blob> blobs, FitWorkspace& workspace, Energy::At at) {
+  workspace.energy.freeze(blobs, active, at);
+  options.tolerance = std::max(
+      options.tolerance, kDecidesNothing / static_cast<double>(workspace.energy.pointCount()));
   options.reach = problem.reach;
   options.lumen = problem.lumen;
   return minimise(workspace.energy, blobs, active, options, workspace.minimiser).energy;

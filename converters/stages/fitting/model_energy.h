@@ -40,9 +40,11 @@ void beginEnergy(const NodeProblem& problem, std::span<const formats::Vec3d> poi
 /// points, and so the evenness of one blob counts as much as one of them.
 double weighPriors(const NodeProblem& problem, std::span<const Blob> blobs, Energy& energy);
 
-/// Minimises the energy over blobs[active ..]; returns the final energy.
+/// Minimises the energy over blobs[active ..], until a step gains less than noise does; returns the
+/// final energy.
 double minimiseFrom(const NodeProblem& problem, std::size_t active, MinimiseOptions options,
-                    std::span<Blob> blobs, FitWorkspace& workspace);
+                    std::span<Blob> blobs, FitWorkspace& workspace,
+                    Energy::At at = Energy::At::AllPoints);
 
 /// Minimises over all blobs until none is dropped; returns the final energy.
 double minimiseAll(const NodeProblem& problem, std::vector<Blob>& blobs, FitWorkspace& workspace);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "converters/base/vectors.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::convert::fitting {
 namespace {
@@ -71,13 +72,13 @@ private:
     for (const Blob& blob : side.blobs) {
       const double dx = p.x() - blob.x, dy = p.y() - blob.y, dz = p.z() - blob.z;
       const double x = (dx * dx + dy * dy + dz * dz) / (blob.width * blob.width);
-      f += blob.width *
-           formats::evaluateKernel(m_parameters.kernel, m_parameters.kernelParameter, x).phi;
+      f += blob.width * field::phi(m_parameters.kernel, m_scale * x);
     }
     return f;
   }
 
   const EnergyParameters& m_parameters;
+  double m_scale = field::chainScale(m_parameters.kernel, m_parameters.kernelParameter);
   Vector3d m_origin, m_direction;
   double m_unit;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/fitting/energy.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -23,11 +25,14 @@ EnergyParameters parametersFor(Kernel kernel) {
   return p;
 }
 
+/// 301 points are so many that every fourth of them is a sample, and no whole number of lanes.
+constexpr int kMany = 301;
+
 /// 101 points: not a whole number of lanes.
-std::vector<Vec3d> scatteredPoints() {
+std::vector<Vec3d> scatteredPoints(int count = 101) {
   Random random(3);
   std::vector<Vec3d> points;
-  for (int i = 0; i < 101; ++i) {
+  for (int i = 0; i < count; ++i) {
     points.push_back({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
   }
   return points;
@@ -59,10 +64,11 @@ double& coordinate(Blob& b, std::size_t i) {
 
 /// Largest difference between analytic and central differences, relative to the largest derivative.
 double derivativeError(const EnergyParameters& parameters, std::vector<Blob> blobs,
-                       std::size_t active, const std::vector<Vec3d>& seam = {}) {
+                       std::size_t active, const std::vector<Vec3d>& seam = {}, int points = 101,
+                       Energy::At where = Energy::At::AllPoints) {
   Energy energy(parameters);
-  energy.setPoints(scatteredPoints(), seam, 2);
-  energy.freeze(blobs, active);
+  energy.setPoints(scatteredPoints(points), seam, 2);
+  energy.freeze(blobs, active, where);
   const std::size_t n = 4 * (blobs.size() - active);
   std::vector<double> a(n * n), b(n);
   energy.linearise(blobs);
@@ -155,6 +161,25 @@ TEST_P(EnergyOfKernel, DerivativesOfTheUnknownBlobsDoNotChangeWhenTheOthersAreFr
   EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 3), 1e-5);
 }
 
+TEST_P(EnergyOfKernel, DerivativesOfManyPointsWithSeamsMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.referenceSlope = 0.3;
+  const std::vector<Vec3d> seam{{0.5, 0.2, 0.1}, {-0.4, 0.3, 0.9}, {0.1, -0.7, 0.3}};
+  for (const std::size_t active : {0U, 3U})
+    EXPECT_LT(derivativeError(p, scatteredBlobs(width()), active, seam, kMany), 1e-6) << active;
+}
+
+TEST_P(EnergyOfKernel, DerivativesAtTheSamplesMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  for (const double slope : {0.0, 0.3}) {
+    p.referenceSlope = slope;
+    for (const std::size_t active : {0U, 3U})
+      EXPECT_LT(derivativeError(p, scatteredBlobs(width()), active, {}, kMany, Energy::At::Samples),
+                1e-6)
+          << active << ", slope " << slope;
+  }
+}
+
 TEST_P(EnergyOfKernel, FreezingBlobsDoesNotChangeTheEnergy) {
   const std::vector<Blob> blobs = scatteredBlobs(width());
   Energy energy(parametersFor(GetParam()));
@@ -167,7 +192,7 @@ TEST_P(EnergyOfKernel, FreezingBlobsDoesNotChangeTheEnergy) {
 
 TEST_P(EnergyOfKernel, FieldAgreesWithTheScalarReference) {
   const std::vector<Blob> blobs = scatteredBlobs(width());
-  const std::vector<Vec3d> points = scatteredPoints();
+  const std::vector<Vec3d> points = scatteredPoints(kMany);
   formats::BlobbyModels models;
   models.kernel = GetParam();
   models.kernelParameter = formats::defaultKernelParameter(GetParam());
@@ -184,7 +209,7 @@ TEST_P(EnergyOfKernel, FieldAgreesWithTheScalarReference) {
   energy.setPoints(points);
   energy.evaluate(rounded);
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const formats::FieldValue expected = formats::evaluateField(models, 0, points[k]);
+    const formats::FieldValue expected = formats::evaluateField(models, 0, energy.point(k));
     const Vec3d& g = expected.gradient;
     EXPECT_NEAR(energy.field()[k], expected.f, 1e-13);
     EXPECT_NEAR(energy.gradientSquared()[k], g.x * g.x + g.y * g.y + g.z * g.z, 1e-13);
@@ -195,6 +220,55 @@ INSTANTIATE_TEST_SUITE_P(All, EnergyOfKernel,
                          testing::Values(Kernel::Cauchy, Kernel::Gaussian, Kernel::Quartic,
                                          Kernel::SoftObject),
                          [](const auto& tested) { return test::kernelName(tested.param); });
+
+TEST(Energy, CurvatureAndSlopeOfManyPointsAreThoseOfEveryFourth) {
+  const EnergyParameters p = parametersFor(Kernel::Quartic);
+  const std::vector<Vec3d> points = scatteredPoints(kMany);
+  std::vector<Vec3d> fourth;
+  for (std::size_t k = 0; k < 72; ++k) fourth.push_back(points[4 * k]);
+  const std::vector<Blob> blobs = scatteredBlobs(3);
+  Energy all(p), few(p);
+  all.setPoints(points);
+  few.setPoints(fourth);
+  for (Energy* energy : {&all, &few}) energy->evaluate(blobs);
+  EXPECT_NEAR(all.slope(), few.slope(), 1e-14);
+  EXPECT_NEAR(all.terms().curvature, few.terms().curvature, 1e-12);
+  EXPECT_NEAR(all.meanCurvature(), few.meanCurvature(), 1e-12);
+  double data = 0;
+  for (const double f : all.field()) data += (p.isoLevel - f) * (p.isoLevel - f) / kMany;
+  EXPECT_NEAR(all.terms().data, data, 1e-12 * data);
+}
+
+TEST(Energy, SamplesStandForAllPoints) {
+  std::vector<Vec3d> points;
+  for (const Vec3d& p : scatteredPoints(80)) points.insert(points.end(), 4, p);
+  const std::vector<Blob> blobs = scatteredBlobs(0.6);
+  EnergyParameters p;
+  p.referenceSlope = 0.3;
+  Energy energy(p);
+  energy.setPoints(points);
+  const double all = energy.evaluate(blobs);
+  energy.freeze(blobs, 2, Energy::At::Samples);
+  EXPECT_NEAR(energy.evaluate(blobs), all, 1e-12 * all);
+}
+
+TEST(Energy, EveryPointIsThereOnceInWhateverOrder) {
+  const std::vector<Vec3d> seam{{2, 0, 0}, {3, 0, 0}};
+  Energy energy({});
+  for (int count = 1; count < 700; count += 23) {
+    const std::vector<Vec3d> points = scatteredPoints(count);
+    energy.setPoints(points, seam, 2);
+    std::vector<std::array<double, 3>> given, found;
+    for (const Vec3d& p : points) given.push_back({p.x, p.y, p.z});
+    for (std::size_t k = 0; k < energy.pointCount(); ++k) {
+      const Vec3d p = energy.point(k);
+      found.push_back({p.x, p.y, p.z});
+    }
+    std::sort(given.begin(), given.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, given) << count;
+  }
+}
 
 TEST(Energy, DataTermIsTheMeanSquareOfTMinusF) {
   // f = 0.5 at the centre of a blob of width 0.5, and 0.5 (1 - 0.25)^2 = 0.28125 at half a width
