@@ -11,7 +11,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/case_seeds.h"
-#include "converters/operations/check_of.h"
+#include "converters/io/volume/write_volume.h"
 #include "converters/operations/label_prior.h"
 #include "converters/operations/stated_vessels.h"
 #include "converters/stages/editing/correct_topology.h"
