@@ -119,7 +119,7 @@ TEST(RealMeshes, TheAortasSurfaceStaysWithinTheErrorAsTrianglesAreDropped) {
   const TriangleMesh whole = meshOf(closedSurface(source, {}, progress).levels[0]);
   for (const double maxError : {0.05, 1.0}) {
     ClosedSurfaceOptions options;
-    options.maxError = maxError;
+    options.maxError = SurfaceError{.mm = maxError};
     options.levels = 2;
     const ClosedSurface made = closedSurface(source, options, progress);
     const TriangleMesh fewer = meshOf(made.levels[0]);
