@@ -26,16 +26,11 @@ const std::map<std::string, convert::ColorBy> kColorBy = {
 const std::map<std::string, convert::Touching> kTouching = {{"share", convert::Touching::Share},
                                                             {"apart", convert::Touching::Apart}};
 
-/// Edges of equal lengths, instead of few triangles within an error.
-void chooseEdges(convert::ClosedSurfaceOptions& surface) {
-  if (!surface.maxError) surface.maxError.emplace();
-}
-
 void setEdge(convert::ClosedSurfaceOptions& surface, const std::string& text) {
   const convert::Length length = convert::parseLength(text, "--edge");
   surface.edge.share = length.radii;
   if (length.mm > 0) surface.edge.minimum = surface.edge.maximum = length.mm;
-  chooseEdges(surface);
+  surface.isEdgeChosen = true;
 }
 
 /// A bound of edges that are shares of the radius; `bound` is a member of `edge`.
@@ -44,7 +39,7 @@ OptionRow& addBound(OptionTable& table, const std::string& name,
                     const std::string& help) {
   const convert::EdgeLength& edge = surface.edge;
   const auto store = [&surface, &edge, &bound](const std::vector<std::string>& texts) {
-    chooseEdges(surface);
+    surface.isEdgeChosen = true;
     if (edge.share > 0) bound = parsedNumber(texts.back()).value_or(bound);
   };
   return table.add(name, OptionTarget(store), "MM", help).without("patches").unusedIf([&edge] {
@@ -104,7 +99,8 @@ void addGltfRows(OptionTable& table, OutputOptions& output) {
 
 }  // namespace
 
-void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) {
+void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface,
+                    const std::string& usualError) {
   using Texts = std::vector<std::string>;
   table
       .add(
@@ -144,7 +140,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
           "LENGTH",
           "As few triangles as lie within this distance of the field: mm, or 0.1v (voxels), or "
           "0.03r (radii); 0: edges of equal lengths")
-      .defaults("0.1v or 0.03r, the larger; with a thickness, a motion, and for exports: edges")
+      .defaults(usualError)
       .without("patches");
   table
       .add("triangles", &surface.maxTriangles, "N",
@@ -157,7 +153,7 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
   convert::ClosedSurfaceOptions& surface = output.surface.closed;
   table.group("Mesh");
   table.scope(kAnyContent, kAllMeshes);
-  addSurfaceRows(table, surface);
+  addSurfaceRows(table, surface, "0.1v or 0.03r, the larger; for a wall or a case that moves: 0");
   table
       .choice(
           "touching", surface.touching, kTouching,

@@ -128,7 +128,8 @@ Surface surfaceOf(const formats::Case& value, const SurfaceOptions& options,
   if (options.isInPatches) return patchesOf(value, options, name, context);
   convert::ClosedSurfaceOptions closed = options.closed;
   // long triangles would not bend with a case that moves
-  if (!closed.maxError && !closed.maxTriangles && !closed.thickness && !value.motion)
+  if (!closed.isEdgeChosen && !closed.maxError && !closed.maxTriangles && !closed.thickness &&
+      !value.motion)
     closed.maxError = convert::kUsualSurfaceError;
   convert::ClosedSurface made = convert::closedSurface(value, closed, context.progress);
   for (const std::string& sentence : surfaceWarnings(made.report, context))

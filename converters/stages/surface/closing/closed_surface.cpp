@@ -25,7 +25,6 @@
 #include "converters/stages/surface/simplify/simplify.h"
 #include "converters/stages/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"
-#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -269,12 +268,8 @@ private:
       levels[0].error = m_result.report.fieldError->greatest;
     } else if (hasError()) {
       whole = levels[0].surface;
-      const double most = allowed().at(leastRadius());
-      levels[0].error = simplify(levels[0].surface, m_field, {most, 0}, m_progress);
-      if (levels[0].error > most)
-        throw failed("with fewer triangles the surface would lie " +
-                     formats::shortText(static_cast<float>(levels[0].error)) +
-                     " mm off, which is more than max-error");
+      levels[0].error =
+          simplify(levels[0].surface, m_field, {allowed().at(leastRadius()), 0}, m_progress);
     }
     const auto triangles =
         static_cast<std::size_t>(m_options.maxTriangles.value_or(std::numeric_limits<long>::max()));

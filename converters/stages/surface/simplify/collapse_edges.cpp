@@ -22,6 +22,7 @@ constexpr double kLeastSharp = 0.0076;   // squared sine of 5 degrees
 constexpr double kMostTurned = 0.5;      // cosine of 60 degrees
 constexpr std::size_t kLeastRim = 8;     // edges of a rim
 constexpr std::size_t kMostAround = 48;  // triangles around a vertex that is looked at
+constexpr std::size_t kFewest = 200;     // a pass that drops fewer of so many is the last
 constexpr int kShare = 3;                // a pass takes the cheapest third
 constexpr std::uint8_t kMostTries = 4;   // edges of one vertex between two changes around it
 
@@ -104,12 +105,15 @@ public:
   void run() {
     while (m_triangle.size() > m_rules.triangles) {
       m_progress.check();
+      const std::size_t before = m_triangle.size();
       findFans();
       findCandidates();
-      const std::size_t before = m_triangle.size();
-      if (m_candidates.empty() || !apply()) break;
+      if (!m_candidates.empty()) apply();
       dropTriangles();
-      if (m_rules.triangles == 0 && before - m_triangle.size() < before / 200) break;
+      // the last vertices of a bound are not worth a pass
+      const bool isEnd = m_rules.triangles == 0 ? before - m_triangle.size() < before / kFewest
+                                                : before == m_triangle.size() && isTried();
+      if (isEnd && (m_rules.triangles == 0 || !loosen())) break;
     }
     dropVertices();
   }
@@ -179,7 +183,7 @@ private:
 
   /// The edge that a vertex has to be tried next, by cost.
   [[nodiscard]] Best nextBest(std::uint32_t v) const {
-    if (m_kinds.kind(v) == Movable::Kept || m_tries[v] >= kMostTries) return {};
+    if (m_kinds.kind(v) == Movable::Kept || m_tries[v] >= m_mostTries) return {};
     std::array<Best, kMostAround> found;
     std::size_t count = 0;
     if (fan(v).size() > kMostAround) return {};
@@ -219,17 +223,31 @@ private:
     std::erase_if(m_candidates, [&](const Candidate& c) { return c.cost > *middle; });
   }
 
-  /// Collapses what may be; false if nothing was tried.
-  bool apply() {
+  /// Whether no vertex has an edge that was not tried.
+  [[nodiscard]] bool isTried() const {
+    return std::ranges::none_of(m_isDirty, [](std::uint8_t dirty) { return dirty != 0; });
+  }
+
+  /// Loosens the rules for shapes, once.
+  bool loosen() {
+    if (m_mostTurned < kMostTurned) return false;
+    m_mostTurned = kMostTurnedOfFew;
+    m_leastSharp = m_leastFlat = kLeastSharpOfFew;
+    m_mostTries = kMostAround;
+    m_tries.assign(m_tries.size(), 0);
+    m_isDirty.assign(m_isDirty.size(), 1);
+    return true;
+  }
+
+  /// Collapses what may be.
+  void apply() {
     m_isTouched.assign(m_place.size(), 0);
     m_isDropped.assign(m_triangle.size(), 0);
     std::size_t triangles = m_triangle.size();
-    bool isAny = false;
     for (const Candidate& candidate : m_candidates) {
       if (triangles <= m_rules.triangles) break;
       const std::uint32_t gone = candidate.vertex, kept = m_best[gone].onto;
       if (m_isTouched[gone] != 0 || m_isTouched[kept] != 0) continue;
-      isAny = true;
       if (!isAllowed(gone, kept)) {
         ++m_tries[gone];
         m_isDirty[gone] = 1;
@@ -238,7 +256,6 @@ private:
       collapse(gone, kept);
       triangles -= 2;
     }
-    return isAny;
   }
 
   /// Fills m_after with the triangles that would replace those around `gone`, in the order of the
@@ -251,7 +268,7 @@ private:
       Triangle t = m_triangle[f];
       if (std::find(t.begin(), t.end(), kept) != t.end()) continue;
       std::replace(t.begin(), t.end(), gone, kept);
-      if (!isWellShaped(m_triangle[f], t, m_group[f] == 0 ? kLeastSharp : kSharpSquaredSine))
+      if (!isWellShaped(m_triangle[f], t, m_group[f] == 0 ? m_leastSharp : m_leastFlat))
         return false;
       m_after.push_back({f, t});
     }
@@ -289,11 +306,11 @@ private:
     const double wasTwice = was.norm();
     for (std::size_t i = 0; i < 3; ++i) {
       const double turned = across.dot(m_normal[now[i]]) / twice;
-      if (m_kinds.kind(now[i]) != Movable::Free || turned >= kMostTurned) continue;
+      if (m_kinds.kind(now[i]) != Movable::Free || turned >= m_mostTurned) continue;
       if (!(wasTwice > 0) || turned < was.dot(m_normal[now[i]]) / wasTwice) return false;
     }
-    if (wasTwice > 0 && across.dot(was) < kMostTurned * twice * wasTwice &&
-        squaredSine(o, p, q) > kLeastSharp)
+    if (wasTwice > 0 && across.dot(was) < m_mostTurned * twice * wasTwice &&
+        squaredSine(o, p, q) > m_leastSharp)
       return false;
     const double sharp = squaredSine(a, b, c);
     return sharp >= least || sharp >= squaredSine(o, p, q);
@@ -417,6 +434,8 @@ private:
   std::vector<double> m_spacing;
   std::vector<std::uint32_t> m_offset, m_fan, m_at;  ///< CSR: triangles around each vertex
   std::vector<Best> m_best;
+  double m_leastSharp = kLeastSharp, m_leastFlat = kSharpSquaredSine, m_mostTurned = kMostTurned;
+  std::uint8_t m_mostTries = kMostTries;
   std::vector<std::uint8_t> m_tries, m_isDirty, m_isTouched, m_isDropped;
   std::vector<Candidate> m_candidates;
   std::vector<float> m_costs;

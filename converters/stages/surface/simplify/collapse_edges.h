@@ -26,7 +26,8 @@ struct CollapseRules {
 /// Vertices that stay do not move. No vertex that went lies farther from the triangles that took its
 /// place than `allowed` for it. Topology and groups are kept, at least eight edges of a rim are, and
 /// no triangle turns by more than 60 degrees from the surface's normals at its corners, or becomes
-/// sharper than kLeastSharp, unless one that it replaces did. Neighbours may cross others: see
+/// sharper than 5 degrees, unless one that it replaces did; if `triangles` cannot be reached so, than 1
+/// and 80 degrees. Neighbours may cross others: see
 /// simplify(). Deterministic. Throws Error(Cancelled).
 void collapseEdges(CaseSurface& surface, const CollapseRules& rules, const Progress& progress);
 

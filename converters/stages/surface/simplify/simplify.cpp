@@ -94,13 +94,14 @@ double simplify(CaseSurface& surface, const SeparatedField& field, const Simplif
   const CaseSurface before = surface;
   double bound = kBoundShare * options.maxError;
   for (int attempt = 1;; ++attempt) {
-    constexpr int kTries = 3;
+    constexpr int kTries = 5;
     collapse(surface, field, {bound, options.triangles}, progress);
     progress.check();
     const double error = distanceBetween(surface, before);
-    if (!(options.maxError > 0) || error <= options.maxError || attempt == kTries) return error;
+    if (!(options.maxError > 0) || error <= options.maxError) return error;
     bound *= kBoundShare * options.maxError / error;
     surface = before;
+    if (attempt == kTries) return 0;
   }
 }
 

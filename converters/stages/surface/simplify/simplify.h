@@ -37,7 +37,8 @@ struct SimplifyOptions {
 };
 
 /// Collapses edges of any surface of a case, its wall's included, without new crossings. Returns the
-/// measured distance from the given one, mm. Throws Error(Cancelled).
+/// measured distance from the given one, mm, which is never above a bound: where it cannot be kept, the
+/// surface stays as it is. Throws Error(Cancelled).
 double simplify(CaseSurface& surface, const SeparatedField& field, const SimplifyOptions& options,
                 Progress& progress);
 
