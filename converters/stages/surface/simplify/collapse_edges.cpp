@@ -18,8 +18,10 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::uint32_t kNoVertex = UINT32_MAX;
-constexpr double kLeastSharp = 0.0076;   // squared sine of 5 degrees
-constexpr double kMostTurned = 0.5;      // cosine of 60 degrees
+constexpr double kLeastSharp = 0.0076;  // squared sine of 5 degrees
+constexpr double kMostTurned = 0.5;     // cosine of 60 degrees
+// The same where a number of triangles is not reached otherwise: 1 and 80 degrees.
+constexpr double kLeastSharpOfFew = 0.0003, kMostTurnedOfFew = 0.17;
 constexpr std::size_t kLeastRim = 8;     // edges of a rim
 constexpr std::size_t kMostAround = 48;  // triangles around a vertex that is looked at
 constexpr std::size_t kFewest = 200;     // a pass that drops fewer of so many is the last
