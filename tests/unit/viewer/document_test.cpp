@@ -35,10 +35,11 @@ TEST_F(OpeningTest, TheUnitAndTheFoldersOfTheCommandLineCountForMeshes) {
   std::filesystem::create_directory(path("scene"));
   write("a.obj", "v 0 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\n");
   write("scene/a.scn", "<Node name=\"root\"><MeshOBJLoader filename=\"../a.obj\"/></Node>\n");
-  engine::VolumeArguments arguments;
+  viewer::SessionOptions options;
+  engine::VolumeArguments& arguments = options.volume;
   Progress silent;
   const auto opened = [&](const std::string& name) {
-    const Document document = viewer::withFile({}, {path(name), name}, 1, arguments, silent);
+    const Document document = viewer::withFile({}, {path(name), name}, 1, options, silent);
     return document.meshes.front().mesh->mesh.position[1].x();
   };
   EXPECT_EQ(opened("a.obj"), 3);
