@@ -14,12 +14,14 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kFirstKept = 1;     // radii around a crossing; twice as many each time
-constexpr int kMostAttempts = 7;     // then the whole surface stays
+constexpr int kMostAttempts = 9;     // then the whole surface stays
+constexpr int kPerNumber = 3;        // attempts at one number of triangles; then twice as many
 constexpr double kBoundShare = 0.9;  // share for vertices that went; the rest is for places between
 
-/// Makes a surface by make(surface, isKept, places) from `given`, again and again with more of it
-/// kept, until search(surface) finds no crossings; `places` are the boxes of what is kept. Returns
-/// the pairs that are left, none or those that `given` has.
+/// Makes a surface by make(surface, isKept, places, factor) from `given`, again and again with more of
+/// it kept, until search(surface) finds no crossings; `places` are the boxes of what is kept, and a
+/// number of triangles that is asked for counts `factor` times. Returns the pairs that are left, none
+/// or those that `given` has.
 template <class Make, class Search>
 std::size_t withoutCrossings(CaseSurface& surface, const SeparatedField& field, Progress& progress,
                              const Make& make, const Search& search) {
@@ -27,8 +29,9 @@ std::size_t withoutCrossings(CaseSurface& surface, const SeparatedField& field, 
   std::vector<Box3d> places;
   double reach = kFirstKept;
   for (int attempt = 1;; ++attempt, reach *= 2) {
+    if (attempt % kPerNumber == 1) reach = kFirstKept;
     surface = given;
-    make(surface, verticesIn(given, places), places);
+    make(surface, verticesIn(given, places), places, std::size_t{1} << (attempt - 1) / kPerNumber);
     progress.check();
     const SelfIntersections left = search(surface);
     if (left.pairs.empty()) return 0;
@@ -44,8 +47,9 @@ void collapse(CaseSurface& surface, const SeparatedField& field, const SimplifyO
   CrossingSearch crossings;
   withoutCrossings(
       surface, field, progress,
-      [&](CaseSurface& made, std::vector<std::uint8_t> isKept, const std::vector<Box3d>&) {
-        CollapseRules rules{{}, options.triangles, std::move(isKept)};
+      [&](CaseSurface& made, std::vector<std::uint8_t> isKept, const std::vector<Box3d>&,
+          std::size_t factor) {
+        CollapseRules rules{{}, factor * options.triangles, std::move(isKept)};
         if (options.maxError > 0) rules.allowed.assign(made.mesh.position.size(), options.maxError);
         collapseEdges(made, rules, progress);
       },
@@ -69,15 +73,21 @@ SimplifyReport simplifyToField(CaseSurface& surface, const SeparatedField& field
   CrossingSearch crossings;
   report.crossings = withoutCrossings(
       surface, field, progress,
-      [&](CaseSurface& made, std::vector<std::uint8_t> isKept, const std::vector<Box3d>& places) {
-        CollapseRules rules{{}, triangles, std::move(isKept)};
+      [&](CaseSurface& made, std::vector<std::uint8_t> isKept, const std::vector<Box3d>& places,
+          std::size_t factor) {
+        CollapseRules rules{{}, factor * triangles, std::move(isKept)};
         if (std::isfinite(allowed.mm))
           for (const std::uint32_t node : made.node)
             rules.allowed.push_back(kBoundShare * chordAt(field, node, allowed));
         collapseEdges(made, rules, progress);
         report.error = splitFarEdges(made, field, allowed, places, progress);
       },
-      [&](CaseSurface& made) { return mendCrossings(made, field, crossings, progress); });
+      [&](CaseSurface& made) {
+        SelfIntersections left = mendCrossings(made, field, crossings, progress);
+        if (!left.pairs.empty() && smoothCrossings(made, left, progress) > 0)
+          report.error = fieldErrorOf(made, field, allowed, progress);
+        return left;
+      });
   progress.end();
   return report;
 }

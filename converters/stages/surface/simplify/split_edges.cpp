@@ -56,11 +56,14 @@ public:
       if (addVertices() == 0) break;
       split();
     }
-    m_isNew.assign(m_triangle.size(), 1);
-    findEdges();
-    measure();
+    measureAll();
     balance();
     measure();
+    return summarise();
+  }
+
+  FieldError error() {
+    measureAll();
     return summarise();
   }
 
@@ -86,6 +89,12 @@ private:
 
   [[nodiscard]] bool isFar(const Place& place) const {
     return std::abs(place.distance) > chordAt(m_field, place.node, m_allowed);
+  }
+
+  void measureAll() {
+    m_isNew.assign(m_triangle.size(), 1);
+    findEdges();
+    measure();
   }
 
   // The edges of new triangles of the wall, each once.
@@ -340,6 +349,11 @@ FieldError splitFarEdges(CaseSurface& surface, const SeparatedField& field,
                          const SurfaceError& allowed, const std::vector<Box3d>& kept,
                          Progress& progress) {
   return FarEdges(surface, field, allowed, kept, progress).run();
+}
+
+FieldError fieldErrorOf(CaseSurface& surface, const SeparatedField& field,
+                        const SurfaceError& allowed, Progress& progress) {
+  return FarEdges(surface, field, allowed, {}, progress).error();
 }
 
 }  // namespace lumen::convert

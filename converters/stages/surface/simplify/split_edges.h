@@ -40,4 +40,8 @@ FieldError splitFarEdges(CaseSurface& surface, const SeparatedField& field,
                          const SurfaceError& allowed, const std::vector<Box3d>& kept,
                          Progress& progress);
 
+/// The distances of a surface from its field as they are.
+FieldError fieldErrorOf(CaseSurface& surface, const SeparatedField& field,
+                        const SurfaceError& allowed, Progress& progress);
+
 }  // namespace lumen::convert
