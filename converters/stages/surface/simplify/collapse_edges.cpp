@@ -113,7 +113,7 @@ public:
       if (!m_candidates.empty()) apply();
       dropTriangles();
       // the last vertices of a bound are not worth a pass
-      const bool isEnd = m_rules.triangles == 0 ? before - m_triangle.size() < before / kFewest
+      const bool isEnd = m_rules.triangles == 0 ? before - m_triangle.size() <= before / kFewest
                                                 : before == m_triangle.size() && isTried();
       if (isEnd && (m_rules.triangles == 0 || !loosen())) break;
     }
