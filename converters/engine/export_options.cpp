@@ -161,7 +161,7 @@ void addExportRows(OptionTable& table, convert::ExportOptions& options) {
   addOptionalChoice(table, "up", options.axes, kUp,
                     "Axis that looks up (superior), where the target leaves a choice");
   table.group("Surface");
-  addSurfaceRows(table, options.surface, "0");
+  addSurfaceRows(table, options.surface);
   table
       .add("max-pieces", &options.maxPieces, "N",
            "Greatest number of pieces of the wall, which is simplified until it has no more; 0: "

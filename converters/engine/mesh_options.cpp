@@ -26,20 +26,16 @@ const std::map<std::string, convert::ColorBy> kColorBy = {
 const std::map<std::string, convert::Touching> kTouching = {{"share", convert::Touching::Share},
                                                             {"apart", convert::Touching::Apart}};
 
-void setEdge(convert::ClosedSurfaceOptions& surface, const std::string& text) {
+void setEdge(convert::EdgeLength& edge, const std::string& text) {
   const convert::Length length = convert::parseLength(text, "--edge");
-  surface.edge.share = length.radii;
-  if (length.mm > 0) surface.edge.minimum = surface.edge.maximum = length.mm;
-  surface.isEdgeChosen = true;
+  edge.share = length.radii;
+  if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
 }
 
 /// A bound of edges that are shares of the radius; `bound` is a member of `edge`.
-OptionRow& addBound(OptionTable& table, const std::string& name,
-                    convert::ClosedSurfaceOptions& surface, double& bound,
-                    const std::string& help) {
-  const convert::EdgeLength& edge = surface.edge;
-  const auto store = [&surface, &edge, &bound](const std::vector<std::string>& texts) {
-    surface.isEdgeChosen = true;
+OptionRow& addBound(OptionTable& table, const std::string& name, convert::EdgeLength& edge,
+                    double& bound, const std::string& help) {
+  const auto store = [&edge, &bound](const std::vector<std::string>& texts) {
     if (edge.share > 0) bound = parsedNumber(texts.back()).value_or(bound);
   };
   return table.add(name, OptionTarget(store), "MM", help).without("patches").unusedIf([&edge] {
@@ -99,13 +95,12 @@ void addGltfRows(OptionTable& table, OutputOptions& output) {
 
 }  // namespace
 
-void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface,
-                    const std::string& usualError) {
+void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) {
   using Texts = std::vector<std::string>;
   table
       .add(
-          "edge", [&surface](const Texts& texts) { setEdge(surface, texts.back()); }, "LENGTH",
-          "Edges of equal lengths, for solvers: a share of the vessel's radius such as 0.25r, or "
+          "edge", [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
+          "Edges of equal lengths: a share of the vessel's radius such as 0.25r, or "
           "mm")
       .defaults(shownNumber(surface.edge.share) + "r")
       .without("patches");
@@ -140,7 +135,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface,
           "LENGTH",
           "As few triangles as lie within this distance of the field: mm, or 0.1v (voxels), or "
           "0.03r (radii); 0: edges of equal lengths")
-      .defaults(usualError)
+      .defaults("0")
       .without("patches");
   table
       .add("triangles", &surface.maxTriangles, "N",
@@ -153,7 +148,7 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
   convert::ClosedSurfaceOptions& surface = output.surface.closed;
   table.group("Mesh");
   table.scope(kAnyContent, kAllMeshes);
-  addSurfaceRows(table, surface, "0.1v or 0.03r, the larger; for a wall or a case that moves: 0");
+  addSurfaceRows(table, surface);
   table
       .choice(
           "touching", surface.touching, kTouching,
@@ -161,10 +156,10 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
           "asked for or more")
       .onlyWith("thickness");
   convert::EdgeLength& edge = surface.edge;
-  addBound(table, "edge-min", surface, edge.minimum, "Least length of edges")
+  addBound(table, "edge-min", edge, edge.minimum, "Least length of edges")
       .in(kNotNegative)
       .defaults("0");
-  addBound(table, "edge-max", surface, edge.maximum, "Greatest length of edges").in(kPositive);
+  addBound(table, "edge-max", edge, edge.maximum, "Greatest length of edges").in(kPositive);
   table
       .scaled("gap", surface.gap, "Distance that touching vessels keep",
               "0.1 voxels, or 0.05 of the least radius")

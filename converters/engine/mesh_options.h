@@ -2,18 +2,14 @@
 // Rows of the options of a case's surface and of mesh files.
 #pragma once
 
-#include <string>
-
 #include "converters/base/options/option_table.h"
 #include "converters/engine/file_format.h"
 #include "converters/stages/surface/closing/closed_surface.h"
 
 namespace lumen::engine {
 
-/// The closed surface: error, edges, flow extensions, a wall. `usualError`: that of a caller who
-/// states none.
-void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface,
-                    const std::string& usualError);
+/// The closed surface: edges, flow extensions, a wall, error or number of triangles.
+void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface);
 
 /// Rows for writing a mesh by `lumen convert`: the surface, its patches, and the file's own
 /// options.

@@ -126,12 +126,7 @@ void warnOfLosses(const Patches& patches, const std::string& name, double cell,
 Surface surfaceOf(const formats::Case& value, const SurfaceOptions& options,
                   const std::string& name, const Context& context) {
   if (options.isInPatches) return patchesOf(value, options, name, context);
-  convert::ClosedSurfaceOptions closed = options.closed;
-  // long triangles would not bend with a case that moves
-  if (!closed.isEdgeChosen && !closed.maxError && !closed.maxTriangles && !closed.thickness &&
-      !value.motion)
-    closed.maxError = convert::kUsualSurfaceError;
-  convert::ClosedSurface made = convert::closedSurface(value, closed, context.progress);
+  convert::ClosedSurface made = convert::closedSurface(value, options.closed, context.progress);
   for (const std::string& sentence : surfaceWarnings(made.report, context))
     context.progress.warn(formats::printable(name) + ": " + sentence);
   return {std::move(made.levels), std::move(made.report)};

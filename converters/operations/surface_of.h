@@ -15,11 +15,9 @@
 namespace lumen::operations {
 
 struct SurfaceOptions {
-  /// Its levels count for patches, too. Without a thickness, a motion, an error or a number of
-  /// triangles, the error is convert::kUsualSurfaceError; an error of 0 gives edges of equal lengths.
-  convert::ClosedSurfaceOptions closed;
-  bool isInPatches = false;            ///< pieces of the nodes that meet but are not joined
-  convert::PolygoniseOptions patches;  ///< of a surface in patches
+  convert::ClosedSurfaceOptions closed;  ///< its levels count for patches, too
+  bool isInPatches = false;              ///< pieces of the nodes that meet but are not joined
+  convert::PolygoniseOptions patches;    ///< of a surface in patches
 };
 
 struct Surface {

@@ -65,8 +65,6 @@ protected:
                                 const std::vector<std::string>& options = {}) {
     std::vector<std::string> line{"convert", name, "surface.vtp", "--json", "--quiet"};
     line.insert(line.end(), options.begin(), options.end());
-    if (std::ranges::find(line, "--edge") == line.end())
-      line.insert(line.end(), {"--edge", "0.25r"});
     const Outcome done = lumen(line);
     EXPECT_EQ(done.code, 0) << name << ": " << done.err;
     if (done.code != 0) return {};
@@ -136,7 +134,8 @@ TEST_F(ClosedFormTest, ACylinderOfFewTriangles) {
   const double length = 40 + kBeyond;
   write("shape.swc", swcOf(sampled(80, [](double t) { return Sample{0, 0, 40 * t, kRadius}; })));
   ASSERT_EQ(lumen({"convert", "shape.swc", "shape.lumen", "--quiet"}).code, 0);
-  const Outcome done = lumen({"convert", "shape.lumen", "surface.vtp", "--json", "--quiet"});
+  const Outcome done =
+      lumen({"convert", "shape.lumen", "surface.vtp", "--json", "--quiet", "--max-error", "0.03r"});
   ASSERT_EQ(done.code, 0) << done.err;
   const Json said = Json::parse(done.out)["surface"];
   const reproduce::ShapeFacts shape =

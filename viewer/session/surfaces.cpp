@@ -133,7 +133,6 @@ std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, i
     made.levels.push_back(convert::quickSurface(value, progress));
   } else {
     operations::SurfaceOptions options;
-    options.closed.isEdgeChosen = true;
     options.closed.edge.share *= 1 << level;
     made = operations::surfaceOf(value, options, "", engine::operationContext(progress));
   }

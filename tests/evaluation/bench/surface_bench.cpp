@@ -14,7 +14,9 @@ namespace {
 
 using namespace lumen;
 
-double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double processorSeconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 void measure(const formats::Case& source, const std::string& name,
              const convert::ClosedSurfaceOptions& options) {

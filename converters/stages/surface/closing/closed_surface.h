@@ -27,7 +27,6 @@ struct ClosedSurfaceOptions {
   /// the widest vessel.
   std::optional<double> gap;
   EdgeLength edge;
-  bool isEdgeChosen = false;        ///< callers that choose an error otherwise keep to the edges
   bool open = false;                ///< flat ends are left out
   std::vector<EndLength> extend;    ///< flow extensions
   std::optional<Length> thickness;  ///< thickness of a wall around the lumen: the solid is the wall
