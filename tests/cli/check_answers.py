@@ -182,6 +182,7 @@ def make_cases(lumen, folder):
     labels[-64 ** 3 // 2:] = bytes(64 ** 3 // 2)  # a map that the vessels go on beyond
     (folder / "half.nii").write_bytes(labels)
     go("convert.schema.json", "convert", "a.nrrd", "beyond.lumen", "--label-map", "half.nii", "--role", "1=artery")
+    go("measure.schema.json", "measure", "beyond.lumen")
     go("info-volume.schema.json", "info", "labels.nrrd", "--voxels", "--role", "1=artery")
     go("motion.schema.json", "motion", "tracked.lumen", "a.nrrd", "--out", "moving.lumen", "--reach", "2")
     go("phantom.schema.json", "phantom", "coronary", "beat.nrrd", "--size", "64", "--motion", "heart", "--phases", "2")

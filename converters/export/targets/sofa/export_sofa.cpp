@@ -150,7 +150,6 @@ TargetRow sofaRow() {
           .lacks = "nothing: the case lies beside the scene",
           .options = {"edge",
                       "max-error",
-                      "triangles",
                       "instrument",
                       "wall",
                       "dialect",

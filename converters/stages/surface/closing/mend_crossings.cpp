@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/remesh/mend_crossings.h"
+#include "converters/stages/surface/closing/mend_crossings.h"
 
 #include <algorithm>
 #include <bit>
@@ -239,6 +239,11 @@ std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Prog
   return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
 }
 
+namespace {
+
+constexpr int kMostRepeats = 4;
+constexpr double kFirstReach = 1;  // radii around a crossing
+
 void addPlaces(const CaseSurface& surface, const SeparatedField& field,
                const SelfIntersections& found, double radii, std::vector<Box3d>& places) {
   for (const auto& pair : found.pairs)
@@ -258,11 +263,6 @@ std::vector<std::uint8_t> verticesIn(const CaseSurface& surface, const std::vect
   });
   return isIn;
 }
-
-namespace {
-
-constexpr int kMostRepeats = 4;
-constexpr double kFirstReach = 1;  // radii around a crossing
 
 }  // namespace
 

@@ -71,13 +71,6 @@ SelfIntersections mendCrossings(CaseSurface& surface, const SeparatedField& fiel
 /// `found` becomes those. Returns the number of vertices that were moved. Throws Error(Cancelled).
 std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress);
 
-/// Adds the boxes of `radii` local radii around the corners of crossing triangles.
-void addPlaces(const CaseSurface& surface, const SeparatedField& field,
-               const SelfIntersections& found, double radii, std::vector<Box3d>& places);
-
-/// The vertices that are in one of `places`; empty if there are none of these.
-std::vector<std::uint8_t> verticesIn(const CaseSurface& surface, const std::vector<Box3d>& places);
-
 // Remeshing that does not make a surface pass through itself.
 
 /// Remaining faults after refine().
