@@ -105,7 +105,7 @@ class Input:
         coarse_map(self.map, self.true, self.true.voxel if self.volume else FINE, self.image, name.endswith("-head"))
 
     def ways(self):
-        """Who finds the tree from what, as (name, command without the output)."""
+        """Programs that find the tree, as (name, command without the output)."""
         if self.volume and not self.options: yield "lumen, volume", [self.lumen, "convert", self.volume]
         if self.volume: yield "lumen, volume and map", [self.lumen, "convert", self.volume, "--label-map", self.map, "--label-table",
                                                         self.map.with_suffix(".json"), *self.options]

@@ -25,7 +25,7 @@ EnergyParameters parametersFor(Kernel kernel) {
   return p;
 }
 
-/// 301 points are so many that every fourth of them is a sample, and no whole number of lanes.
+/// With 301 points, every fourth is a sample, and the points fill no whole number of lanes.
 constexpr int kMany = 301;
 
 /// 101 points: not a whole number of lanes.

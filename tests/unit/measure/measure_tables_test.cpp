@@ -115,7 +115,7 @@ TEST(Tables, AsCsvHaveUnitsIntervalsReasonsAndTheCase) {
   EXPECT_EQ(csvRows(measuresLongCsv(cases), "long").size(), 1 + 2 * numbers);
 }
 
-// Of two cases one states systems.
+// Two cases: one states systems, the other does not.
 TEST(Tables, OfVesselsHaveTheirSystem) {
   const formats::Case without = forkCase();
   formats::Case with = without;
