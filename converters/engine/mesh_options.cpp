@@ -100,7 +100,8 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
   table
       .add(
           "edge", [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
-          "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
+          "Edges of equal lengths: a share of the vessel's radius such as 0.25r, or "
+          "mm")
       .defaults(shownNumber(surface.edge.share) + "r")
       .without("patches");
   table
@@ -126,11 +127,20 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
           "touch it is down to half, and lumen reports where")
       .without("patches");
   table
-      .add("max-error", &surface.maxError, "MM",
-           "Drop triangles while the surface stays within this distance of the full one, both "
-           "ways; 0: none")
-      .in(kNotNegative)
+      .add(
+          "max-error",
+          [&surface](const Texts& texts) {
+            surface.maxError = convert::parseSurfaceError(texts.back(), "--max-error");
+          },
+          "LENGTH",
+          "As few triangles as lie within this distance of the field: mm, or 0.1v (voxels), or "
+          "0.03r (radii); 0: edges of equal lengths")
       .defaults("0")
+      .without("patches");
+  table
+      .add("triangles", &surface.maxTriangles, "N",
+           "Greatest number of triangles; lumen reports how far off the surface then is")
+      .in(WholeRange{1, 1 << 24})
       .without("patches");
 }
 

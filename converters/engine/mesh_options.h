@@ -8,7 +8,7 @@
 
 namespace lumen::engine {
 
-/// The closed surface: edges, flow extensions, a wall, simplification.
+/// The closed surface: edges, flow extensions, a wall, error or number of triangles.
 void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface);
 
 /// Rows for writing a mesh by `lumen convert`: the surface, its patches, and the file's own

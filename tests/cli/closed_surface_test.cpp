@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surfaces that `lumen convert` writes, from outside: shapes whose volume and area are known in closed form, every
 // phantom, and real vessels, measured on the file.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -127,6 +128,39 @@ protected:
     EXPECT_NEAR(shape.area / area, 1, 0.005);
   }
 };
+
+/// Few triangles enclose what many do: corners lie as far outside of the wall as sides inside.
+TEST_F(ClosedFormTest, ACylinderOfFewTriangles) {
+  const double length = 40 + kBeyond;
+  write("shape.swc", swcOf(sampled(80, [](double t) { return Sample{0, 0, 40 * t, kRadius}; })));
+  ASSERT_EQ(lumen({"convert", "shape.swc", "shape.lumen", "--quiet"}).code, 0);
+  const Outcome done =
+      lumen({"convert", "shape.lumen", "surface.vtp", "--json", "--quiet", "--max-error", "0.03r"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json said = Json::parse(done.out)["surface"];
+  const reproduce::ShapeFacts shape =
+      reproduce::measureShape(reproduce::readSurface(path("surface.vtp")).mesh);
+  EXPECT_TRUE(shape.isMesh && shape.closed && shape.outward);
+  EXPECT_EQ(shape.intersections, 0U);
+  EXPECT_NEAR(shape.volume / (pi * kRadius * kRadius * length), 1, 0.01);
+  EXPECT_NEAR(said["volume_mm3"].get<double>(), shape.volume, 1e-3 * shape.volume);
+  EXPECT_NEAR(said["area_mm2"].get<double>(), shape.area, 1e-3 * shape.area);
+  EXPECT_LT(said["triangles"].get<int>(), 1500);
+  EXPECT_LE(said["field_error"]["greatest_mm"].get<double>(), 1.2 * 0.03 * kRadius);
+  EXPECT_EQ(said["field_error"]["beyond"].get<int>(), 0);
+}
+
+TEST_F(ClosedFormTest, ABudgetOfTrianglesIsKept) {
+  write("shape.swc", swcOf(sampled(80, [](double t) { return Sample{0, 0, 40 * t, kRadius}; })));
+  ASSERT_EQ(lumen({"convert", "shape.swc", "shape.lumen", "--quiet"}).code, 0);
+  const Outcome done =
+      lumen({"convert", "shape.lumen", "surface.vtp", "--json", "--quiet", "--triangles", "400"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json said = Json::parse(done.out)["surface"];
+  EXPECT_LE(said["triangles"].get<int>(), 400);
+  EXPECT_GE(said["triangles"].get<int>(), 392);
+  EXPECT_GT(said["field_error"]["greatest_mm"].get<double>(), 0);
+}
 
 TEST_F(ClosedFormTest, ACylinder) {
   const double length = 40 + kBeyond;

@@ -15,18 +15,28 @@ using convert::ExportTarget;
 
 /// A value of each option that differs from its default for the case below. The edge is shorter than
 /// those that the walls of game engines and Isaac, 0.4 and 0.2 radii thick, ask for.
-const std::map<std::string, std::string> kValues = {
-    {"unit", "m"},         {"up", "y"},
-    {"edge", "0.2r"},      {"max-error", "0.3"},
-    {"extend", "2r"},      {"thickness", "0.3r"},
-    {"max-pieces", "1"},   {"grid", "0.9"},
-    {"format", "nifti"},   {"band", "0.5"},
-    {"half", "true"},      {"per-branch", "true"},
-    {"exact", "true"},     {"wall", "grid"},
-    {"dialect", "v23.06"}, {"instrument", "catheter"},
-    {"step", "0.2"},       {"inlets", "vessel1=3"},
-    {"cells", "coarse"},   {"flow", "pulsatile"},
-    {"insert", "vessel2"}};
+const std::map<std::string, std::string> kValues = {{"unit", "m"},
+                                                    {"up", "y"},
+                                                    {"edge", "0.2r"},
+                                                    {"max-error", "0.3"},
+                                                    {"triangles", "500"},
+                                                    {"extend", "2r"},
+                                                    {"thickness", "0.3r"},
+                                                    {"max-pieces", "1"},
+                                                    {"grid", "0.9"},
+                                                    {"format", "nifti"},
+                                                    {"band", "0.5"},
+                                                    {"half", "true"},
+                                                    {"per-branch", "true"},
+                                                    {"exact", "true"},
+                                                    {"wall", "grid"},
+                                                    {"dialect", "v23.06"},
+                                                    {"instrument", "catheter"},
+                                                    {"step", "0.2"},
+                                                    {"inlets", "vessel1=3"},
+                                                    {"cells", "coarse"},
+                                                    {"flow", "pulsatile"},
+                                                    {"insert", "vessel2"}};
 
 /// Options of a target that another must accompany.
 Given companionsOf(const std::string& target, const std::string& option) {

@@ -14,6 +14,14 @@
 namespace lumen::engine {
 namespace {
 
+Json fieldErrorJson(const std::optional<convert::FieldError>& error) {
+  if (!error) return nullptr;
+  return {{"greatest_mm", error->greatest},
+          {"ninetieth_mm", error->ninetieth},
+          {"places", error->places},
+          {"beyond", error->beyond}};
+}
+
 Json wallJson(const std::optional<convert::WallThickness>& wall) {
   if (!wall) return nullptr;
   return {{"least_mm", wall->least},
@@ -57,9 +65,15 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
                      counted(report->flatEnds, "flat end", "flat ends");
   if (report->roundedEnds > 0)
     text += ", " + counted(report->roundedEnds, "rounded end", "rounded ends");
-  if (!report->errors.empty() && report->errors.front() >= 0)
+  if (const auto& error = report->fieldError)
+    text += "\nerror        within " + fixedText(error->ninetieth, 3) +
+            " mm of the field at 90 %, " + fixedText(error->greatest, 3) + " mm at most; " +
+            counted(error->beyond, "place", "places") + " of " + std::to_string(error->places) +
+            " beyond what was asked for, as where the field jumps";
+  else if (!report->errors.empty() && report->errors.front() >= 0)
     text += ", within " + fixedText(report->errors.front(), 4) + " mm of that with all triangles";
-  text += "\n";
+  text += "\nshape        " + fixedText(report->volume, 1) + " mm3, " + fixedText(report->area, 1) +
+          " mm2, least angle " + fixedText(report->leastAngle, 2) + " degrees\n";
   if (report->wall) text += wallLine(*report->wall);
   constexpr std::size_t kMostOverlapLines = 5;
   const auto& branches = value.tree.branches;
@@ -89,6 +103,10 @@ Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const form
                {"off_field", report->offField},
                {"sharp_triangles", report->sharpTriangles},
                {"crossings", report->crossings},
+               {"least_angle_deg", report->leastAngle},
+               {"volume_mm3", report->volume},
+               {"area_mm2", report->area},
+               {"field_error", fieldErrorJson(report->fieldError)},
                {"wall", wallJson(report->wall)},
                {"cuts", Json::array()},
                {"overlaps", Json::array()}};

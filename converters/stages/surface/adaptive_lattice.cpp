@@ -66,12 +66,12 @@ std::uint32_t AdaptiveLattice::cubeAt(const Eigen::Vector3d& point) const {
 // Makes the leaves: level by level from the coarsest, then the balance.
 class LatticeBuilder {
 public:
-  LatticeBuilder(AdaptiveLattice& lattice, const SeparatedField& field, double share,
+  LatticeBuilder(AdaptiveLattice& lattice, const SeparatedField& field, const LatticeEdge& edge,
                  Progress& progress)
       : m_lattice(lattice),
         m_field(field),
         m_tree(field.source().tree),
-        m_share(share),
+        m_edge(edge),
         m_progress(progress) {}
 
   void run() {
@@ -117,13 +117,13 @@ private:
 
   void layOut() {
     const auto [least, greatest] = std::minmax_element(m_tree.radius.begin(), m_tree.radius.end());
-    const double finest = m_share * *least;
+    const double finest = m_edge.at(double{*least});
     Box3d box;
     for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i)
       box.add(toEigen(m_tree.centre[i]), nodeReach(i));
     m_lattice.m_step = 0.5 * finest;
     std::int32_t size = 2;
-    while (size * m_lattice.m_step < m_share * *greatest && size < kMaxPosition) size *= 2;
+    while (size * m_lattice.m_step < m_edge.at(double{*greatest}) && size < kMaxPosition) size *= 2;
     m_lattice.m_largest = size;
     const double edge = size * m_lattice.m_step;
     for (int a = 0; a < 3; ++a) box.low[a] = edge * (std::floor(box.low[a] / edge) - 1);
@@ -192,7 +192,7 @@ private:
           (kFineRadii + m_field.options().offsetShare) * r + m_field.options().offset;
       if (r < thinnest && distanceTo(cube.cube, i) < near) thinnest = r;
     }
-    if (edge <= m_share * thinnest || cube.cube.size <= 2) return true;
+    if (edge <= m_edge.at(thinnest) || cube.cube.size <= 2) return true;
     if (edge > 2 * thinnest) return false;  // a vessel might be missed
     return std::abs(m_field.deepest(middle, cube.cube.node).distance) > kSafety * half;
   }
@@ -293,12 +293,13 @@ private:
   AdaptiveLattice& m_lattice;
   const SeparatedField& m_field;
   const formats::CenterlineTree& m_tree;
-  double m_share;
+  LatticeEdge m_edge;
   Progress& m_progress;
 };
 
-AdaptiveLattice::AdaptiveLattice(const SeparatedField& field, double share, Progress& progress) {
-  LatticeBuilder(*this, field, share, progress).run();
+AdaptiveLattice::AdaptiveLattice(const SeparatedField& field, const LatticeEdge& edge,
+                                 Progress& progress) {
+  LatticeBuilder(*this, field, edge, progress).run();
 }
 
 }  // namespace lumen::convert

@@ -2,7 +2,9 @@
 // Cubes around the wall of a case, small where its vessels are thin.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +12,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/stages/surface/separated_field.h"
+#include "converters/stages/surface/surface_options.h"
 
 namespace lumen::convert {
 
@@ -29,16 +32,30 @@ struct LatticeHash {
   }
 };
 
+/// The greatest length of cubes' edges near a vessel's wall.
+struct LatticeEdge {
+  double share = 1;      ///< share of the radius
+  SurfaceError allowed;  ///< where chords will be split until they are as near to the field
+  /// Edges of that share of the radius, and no more than twice as long as a chord that leaves the
+  /// wall by `error`, so that one split of it is enough.
+  LatticeEdge(double ofRadius, const SurfaceError& error = {.mm = INFINITY})  // NOLINT: a number
+      : share(ofRadius), allowed(error) {}
+  /// mm, for a vessel of that radius; grows with it.
+  [[nodiscard]] double at(double radius) const {
+    return std::min(share * radius, 2 * std::sqrt(8 * allowed.at(radius) * radius));
+  }
+};
+
 /// The leaves of an octree. Two that share a face, an edge or a corner differ at most by a factor
 /// of two.
 class AdaptiveLattice {
 public:
   using Position = std::array<std::int32_t, 3>;
 
-  /// Cubes that cover the lumen and its surroundings. Near the wall their edges are at most `share`
-  /// radii of the thinnest vessel there, and at least half of that. Throws Error(InvalidInput) if
+  /// Cubes that cover the lumen and its surroundings. Near the wall their edges are at most `edge` of
+  /// the thinnest vessel there, and at least half of that. Throws Error(InvalidInput) if
   /// the case needs more cubes than fit into memory.
-  AdaptiveLattice(const SeparatedField& field, double share, Progress& progress);
+  AdaptiveLattice(const SeparatedField& field, const LatticeEdge& edge, Progress& progress);
 
   [[nodiscard]] const std::vector<LatticeCube>& cubes() const { return m_cubes; }
   /// mm, LPS.

@@ -51,9 +51,9 @@ constexpr std::size_t kBlock = 1024;  // vertices between two reports of progres
 
 class SurfaceExtraction {
 public:
-  SurfaceExtraction(const SeparatedField& field, double share, ExtractionReport& report,
+  SurfaceExtraction(const SeparatedField& field, const LatticeEdge& edge, ExtractionReport& report,
                     Progress& progress)
-      : m_field(field), m_report(report), m_progress(progress), m_lattice(field, share, progress) {}
+      : m_field(field), m_report(report), m_progress(progress), m_lattice(field, edge, progress) {}
 
   CaseSurface run() {
     m_progress.begin("topology", 0);
@@ -216,9 +216,9 @@ private:
 
 }  // namespace
 
-CaseSurface extractSurface(const SeparatedField& field, double share, ExtractionReport& report,
-                           Progress& progress) {
-  return SurfaceExtraction(field, share, report, progress).run();
+CaseSurface extractSurface(const SeparatedField& field, const LatticeEdge& edge,
+                           ExtractionReport& report, Progress& progress) {
+  return SurfaceExtraction(field, edge, report, progress).run();
 }
 
 }  // namespace lumen::convert

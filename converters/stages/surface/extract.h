@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
+#include "converters/stages/surface/adaptive_lattice.h"
 #include "converters/stages/surface/case_surface.h"
 #include "converters/stages/surface/separated_field.h"
 
@@ -27,14 +28,13 @@ struct ExtractionReport {
 };
 
 /// A closed, oriented 2-manifold around each connected tree of a case that has models
-/// (docs/method.md, section 5): marching tetrahedra on a lattice whose edges are about `share`
-/// local radii. Two sheets that are inside at the ends of one edge and not joined along it both
+/// (docs/method.md, section 5): marching tetrahedra on a lattice of cubes whose edges are `edge`. Two sheets that are inside at the ends of one edge and not joined along it both
 /// have their walls on it, so vessels that touch share no vertex. The genus of each surface is the
 /// number of loops that links close. A union (SeparationOptions::isUnion) has one surface around all
 /// vessels that are joined, of any genus, and none around hollows between them. Vertices are within a
 /// few per cent of a radius of the field's surface; ends bulge as the field does. All triangles are
 /// in group 0.
-CaseSurface extractSurface(const SeparatedField& field, double share, ExtractionReport& report,
-                           Progress& progress);
+CaseSurface extractSurface(const SeparatedField& field, const LatticeEdge& edge,
+                           ExtractionReport& report, Progress& progress);
 
 }  // namespace lumen::convert

@@ -6,8 +6,9 @@
 
 namespace lumen::convert {
 
-SampledLattice::SampledLattice(const SeparatedField& field, double share, Progress& progress)
-    : m_field(field), m_lattice(field, share, progress), m_vertices(m_lattice) {
+SampledLattice::SampledLattice(const SeparatedField& field, const LatticeEdge& edge,
+                               Progress& progress)
+    : m_field(field), m_lattice(field, edge, progress), m_vertices(m_lattice) {
   progress.check();
   m_distance.resize(size());
   m_node.resize(size());

@@ -24,7 +24,7 @@ public:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   using Tetrahedron = LatticeVertices::Tetrahedron;
 
-  SampledLattice(const SeparatedField& field, double share, Progress& progress);
+  SampledLattice(const SeparatedField& field, const LatticeEdge& edge, Progress& progress);
 
   [[nodiscard]] std::size_t size() const { return m_vertices.size(); }
   [[nodiscard]] Eigen::Vector3d place(std::uint32_t vertex) const {

@@ -2,6 +2,7 @@
 // Lengths as users write them: in millimetres or in radii of the vessel.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,6 +16,29 @@ struct Length {
   [[nodiscard]] double at(double radius) const { return mm + radii * radius; }
   friend bool operator==(const Length&, const Length&) = default;
 };
+
+/// The greatest distance that a surface may have from its field: the larger of both.
+struct SurfaceError {
+  double mm = 0;
+  double radii = 0;   ///< multiple of the vessel's radius
+  double voxels = 0;  ///< multiple of the voxel size; inMillimetres() adds it to `mm`
+  [[nodiscard]] double at(double radius) const { return std::max(mm, radii * radius); }
+  friend bool operator==(const SurfaceError&, const SurfaceError&) = default;
+};
+
+/// The same error with voxels of that size, mm, as millimetres.
+inline SurfaceError inMillimetres(const SurfaceError& error, double voxelSize) {
+  return {std::max(error.mm, error.voxels * voxelSize), error.radii, 0};
+}
+
+/// The usual error: a tenth of a voxel, about what a fit leaves, or what twelve edges around a
+/// vessel leave, whichever is larger.
+constexpr SurfaceError kUsualSurfaceError{0, 0.03, 0.1};
+
+/// Parses an error: "0.05" and "0.05mm" are millimetres, "0.03r" radii, "0.1v" voxels, and "0" is
+/// none. Throws Error(Usage), with `option` in the sentence, unless the number is finite and not
+/// negative.
+SurfaceError parseSurfaceError(std::string_view text, const std::string& option);
 
 /// Parses a length: "0.5" and "0.5mm" are millimetres, "5r" are radii. Throws Error(Usage), with
 /// `option` in the sentence, unless the number is finite and above 0.

@@ -48,6 +48,7 @@ VesselValues vesselAt(const formats::CenterlineTree& tree, const formats::Neighb
 namespace {
 
 constexpr std::size_t kBatch = 256;
+constexpr double kSameSide = 0.5;  // cosine: where the field jumps, its gradient is no normal
 
 Float3 toFloat3(const Eigen::Vector3d& v) {
   const Eigen::Vector3f f = v.cast<float>();
@@ -79,12 +80,16 @@ std::vector<Eigen::Vector3d> sumNormals(const CaseSurface& surface) {
 
 }  // namespace
 
-SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& field,
+SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& field, Normals normals,
                           Progress& progress) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
   const std::vector<Eigen::Vector3d> normal = sumNormals(surface);
   const std::vector<Eigen::Vector3d>& position = surface.mesh.position;
+  std::vector<std::uint8_t> isOnWall(position.size(), 0);
+  for (std::size_t i = 0; i < surface.group.size(); ++i)
+    if (surface.groups[surface.group[i]].kind == FaceKind::Wall)
+      for (const std::uint32_t v : surface.mesh.triangle[i]) isOnWall[v] = 1;
   SurfaceMesh result;
   result.triangle = surface.mesh.triangle;
   result.group = surface.group;
@@ -103,6 +108,11 @@ SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& fiel
     const VesselValues values = vesselAt(tree, edges, position[v], node);
     result.position[v] = toFloat3(position[v]);
     result.normal[v] = toFloat3(normal[v]);
+    // long triangles bend the sums of their normals
+    if (normals == Normals::OfField && isOnWall[v] != 0) {
+      const Eigen::Vector3d gradient = field.at(position[v], node).gradient;
+      if (gradient.dot(normal[v]) > kSameSide) result.normal[v] = toFloat3(gradient);
+    }
     result.radius[v] = values.radius;
     result.branch[v] = tree.branch[node];
     if (values.confidence) result.confidence[v] = *values.confidence;

@@ -30,11 +30,15 @@ struct VesselValues {
 VesselValues vesselAt(const formats::CenterlineTree& tree, const formats::Neighbours& edges,
                       const Eigen::Vector3d& point, std::uint32_t node);
 
+enum class Normals : std::uint8_t {
+  OfTriangles,  ///< the mean of those around a vertex, by area
+  OfField       ///< the field's gradient, where it looks as the triangles do
+};
+
 /// A surface as a mesh for writers: its vertices, triangles and groups, the labels of the case that
 /// `field` is of, and at each vertex the radius and the inlier rate of its place along the vessel.
-/// Normals are those of the field, outward; vertices within a flat end have the end's. Throws
-/// Error(Cancelled).
-SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& field,
+/// Normals point outward; vertices within a flat end have the end's. Throws Error(Cancelled).
+SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SeparatedField& field, Normals normals,
                           Progress& progress);
 
 // The motion of a case as bones of its surface, for programs that know linear blend skinning.

@@ -66,7 +66,7 @@ TEST(WallFiles, CathSimShowsAllTrianglesAndTouchesFewer) {
 
 TEST(WallFiles, CathSimShowsTheSimplifiedSurfaceWhereAnErrorIsAskedFor) {
   CommonOptions options;
-  options.surface.maxError = 0.05;
+  options.surface.maxError = SurfaceError{.mm = 0.05};
   const ExportResult result = write(exportCathsim, options);
   EXPECT_EQ(trianglesOf(result, "visual.stl"), trianglesOf(result, "simplified.stl"));
   options.maxPieces = trianglesOf(result, "visual.stl") / 2;

@@ -230,7 +230,7 @@ TEST(ToSurfaceMesh, KeepsFacesAndGivesVerticesWhatTheCaseSaysOfThem) {
   const SeparatedField field(source, blended, {});
   const CaseSurface surface = tubeSurface();
   Progress progress;
-  const SurfaceMesh mesh = toSurfaceMesh(surface, field, progress);
+  const SurfaceMesh mesh = toSurfaceMesh(surface, field, Normals::OfTriangles, progress);
   EXPECT_EQ(mesh.triangle, surface.mesh.triangle);
   EXPECT_EQ(mesh.group, surface.group);
   EXPECT_EQ(mesh.groups, surface.groups);

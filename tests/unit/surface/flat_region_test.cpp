@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/stages/surface/closing/mend_crossings.h"
+#include "converters/stages/surface/remesh/mend_crossings.h"
 #include "converters/stages/surface/surface_options.h"
 
 namespace lumen::convert {

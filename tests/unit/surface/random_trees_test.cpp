@@ -75,6 +75,24 @@ TEST(RandomTrees, HaveNoFoldThatOnlySmoothingUndoes) {
   EXPECT_EQ(test::faultOf(test::randomTrees(kFolded)), "");
 }
 
+TEST(RandomTrees, HaveClosedSurfacesOfFewTriangles) {
+  ClosedSurfaceOptions options;
+  for (const SurfaceError& allowed : {SurfaceError{.radii = 0.03}, SurfaceError{.mm = 0.2}}) {
+    options.maxError = allowed;
+    for (const std::uint64_t number :
+         {std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{3}, kEndBehindABend, kPinchedPiece,
+          kSmallTriangle, kFolded, kTakenNode})
+      EXPECT_EQ(test::faultOf(test::randomTrees(number), options), "") << number;
+  }
+}
+
+TEST(RandomTrees, HaveClosedSurfacesOfAGivenNumberOfTriangles) {
+  ClosedSurfaceOptions options;
+  options.maxTriangles = 3000;
+  for (std::uint64_t number = 1; number <= kCases; ++number)
+    EXPECT_EQ(test::faultOf(test::randomTrees(number), options), "") << number;
+}
+
 TEST(RandomTrees, HaveClosedWalls) {
   ClosedSurfaceOptions options;
   options.thickness = Length{0, 0.2};

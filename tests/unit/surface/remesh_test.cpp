@@ -19,9 +19,9 @@
 #include "../mesh/synthetic.h"
 #include "closed_surface.h"
 #include "converters/geometry/triangle_quality.h"
-#include "converters/stages/surface/remesh/decimate.h"
 #include "converters/stages/surface/remesh/remesh_moves.h"
 #include "converters/stages/surface/remesh/remesh_pieces.h"
+#include "converters/stages/surface/simplify/simplify.h"
 
 namespace lumen::convert {
 namespace {
@@ -321,7 +321,7 @@ TEST_P(DecimateTo, StaysWithinTheErrorAndSaysIt) {
   const std::size_t before = surface.mesh.triangle.size();
   Progress progress;
   const CaseSurface whole = surface;
-  const double error = decimate(surface, of.sheet, {maxError}, progress);
+  const double error = simplify(surface, {maxError}, progress);
   expectClosed(surface);
   EXPECT_LT(surface.mesh.triangle.size(), before / 2);
   EXPECT_LE(error, maxError);
@@ -342,7 +342,7 @@ TEST(Decimate, KeepsGroupsAndTheirPlanes) {
   const FieldOfCase of(test::tubeCase(6));
   CaseSurface surface = fineTube(of);
   Progress progress;
-  decimate(surface, of.sheet, {0.1}, progress);
+  simplify(surface, {0.1}, progress);
   std::set<std::uint32_t> found(surface.group.begin(), surface.group.end());
   EXPECT_EQ(found, (std::set<std::uint32_t>{0, 1, 2}));
   for (std::size_t t = 0; t < surface.group.size(); ++t) {
@@ -357,7 +357,7 @@ TEST(LevelsOfDetail, HaveAQuarterOfTheTrianglesEach) {
   const FieldOfCase of(test::tubeCase(6));
   Progress progress;
   std::vector<DetailLevel> levels{{fineTube(of), -1}};
-  addCoarserLevels(levels, 3, of.sheet, progress);
+  addCoarserLevels(levels, 3, progress);
   ASSERT_EQ(levels.size(), 3U);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     expectClosed(levels[i].surface);

@@ -203,7 +203,7 @@ TEST(ThickWall, IsAsThickAsWasAskedInTheCornerOfAForkToo) {
 TEST(ThickWall, GoesWithCoarserLevelsAndABoundOfTheirError) {
   ClosedSurfaceOptions options;
   options.thickness = Length{0.4, 0};
-  options.maxError = 0.05;
+  options.maxError = SurfaceError{.mm = 0.05};
   options.levels = 3;
   Progress silent;
   const ClosedSurface made = closedSurface(test::forkCase(), options, silent);

@@ -37,11 +37,12 @@ double usualError(const formats::CenterlineTree& tree) {
 }
 
 /// The surface, and behind it, if it has more triangles than either allows, the one with so few
-/// that each can be a geom: off by `maxError` mm, or as far as it takes to have `most` triangles.
-ExportedSurface surfaceInTwo(const ExportInput& input, double maxError, std::uint64_t most) {
+/// that each can be a geom: off by `maxError`, or as far as it takes to have `most` triangles.
+ExportedSurface surfaceInTwo(const ExportInput& input, const SurfaceError& maxError,
+                             std::uint64_t most) {
   CommonOptions options = input.options;
   options.surface.maxError = maxError;
-  options.surface.maxTriangles = most;
+  options.surface.maxTriangles = static_cast<long>(most);
   options.surface.withWhole = !input.options.surface.maxError;
   if (!options.surface.withWhole) {
     ExportedSurface fine = lumenSurface(input);
@@ -58,7 +59,8 @@ ExportedSurface surfaceInTwo(const ExportInput& input, double maxError, std::uin
 /// asked for. Throws Error(InvalidInput) if it has too many triangles at least.
 ExportedSurface makeSurfaces(const ExportInput& input, std::vector<std::string>& losses) {
   const std::uint64_t most = input.options.maxPieces == 0 ? kUsualPieces : input.options.maxPieces;
-  const double maxError = input.options.surface.maxError.value_or(usualError(input.source.tree));
+  const SurfaceError maxError =
+      input.options.surface.maxError.value_or(SurfaceError{.mm = usualError(input.source.tree)});
   ExportedSurface made = surfaceInTwo(input, maxError, most);
   const SurfaceMesh& coarse = made.coarser.empty() ? made.mesh : made.coarser.back();
   if (coarse.triangle.size() > most)
@@ -69,7 +71,9 @@ ExportedSurface makeSurfaces(const ExportInput& input, std::vector<std::string>&
   made.report.triangles = coarse.triangle.size();
   made.report.errors = {made.report.errors.back()};
   const double error = made.report.errors.front();
-  if (error > maxError)
+  // without a second surface, it is the field that no triangle follows
+  const bool isCut = input.options.surface.maxError ? !made.coarser.empty() : error > maxError.mm;
+  if (isCut)
     losses.push_back("the wall is simplified to at most " + std::to_string(most) +
                      " convex pieces, up to " + fixedText(error, 3) +
                      " mm off the surface; a greater " + input.field("max-pieces") +

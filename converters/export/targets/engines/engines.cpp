@@ -85,7 +85,7 @@ TargetRow godotRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid with a collider of its triangles; the ends as nodes",
           .lacks = "the tree, its radii and its models",
-          .options = {"edge", "max-error", "thickness"},
+          .options = {"edge", "max-error", "triangles", "thickness"},
           .needsVessel = false};
 }
 
@@ -97,7 +97,7 @@ TargetRow unityRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid in three levels of detail; the ends as nodes",
           .lacks = "the tree, its radii and its models; a collider, which Unity makes",
-          .options = {"edge", "max-error", "thickness"},
+          .options = {"edge", "max-error", "triangles", "thickness"},
           .needsVessel = false};
 }
 
@@ -109,7 +109,7 @@ TargetRow unrealRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid in three levels of detail; the ends as nodes",
           .lacks = "the tree, its radii and its models; a collider, which Unreal makes",
-          .options = {"edge", "max-error", "thickness"},
+          .options = {"edge", "max-error", "triangles", "thickness"},
           .needsVessel = false};
 }
 
@@ -121,7 +121,7 @@ TargetRow blenderRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid; the ends as empties",
           .lacks = "the tree, its radii and its models",
-          .options = {"edge", "max-error", "thickness"},
+          .options = {"edge", "max-error", "triangles", "thickness"},
           .needsVessel = false};
 }
 

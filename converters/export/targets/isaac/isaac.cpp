@@ -279,7 +279,7 @@ TargetRow isaacRow() {
               "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of "
               "USD, and its ends",
           .lacks = "names of branches, and that an aneurysm is one",
-          .options = {"edge", "max-error", "thickness", "grid"}};
+          .options = {"edge", "max-error", "triangles", "thickness", "grid"}};
 }
 
 }  // namespace lumen::convert

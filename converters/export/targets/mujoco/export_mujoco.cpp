@@ -284,7 +284,7 @@ TargetRow mujocoRow() {
           .axes = {Axes::Lps},
           .holds = "the wall as a solid; a guidewire at the root, pushed by an actuator; the ends",
           .lacks = "the tree and its radii",
-          .options = {"edge", "max-error", "thickness", "max-pieces", "insert"}};
+          .options = {"edge", "max-error", "triangles", "thickness", "max-pieces", "insert"}};
 }
 
 }  // namespace lumen::convert

@@ -126,7 +126,7 @@ TargetRow openFoamRow() {
       .lacks =
           "branches, radii, and that an aneurysm is one; ends that its cells cannot "
           "resolve, and parts without a path from an inlet",
-      .options = {"edge", "max-error", "extend", "inlets", "cells", "flow"}};
+      .options = {"edge", "max-error", "triangles", "extend", "inlets", "cells", "flow"}};
 }
 
 }  // namespace lumen::convert

@@ -226,7 +226,7 @@ TargetRow simVascularRow() {
               "branches as paths, radii as circles; the surface with its named ends; a volume "
               "mesh, by TetGen if it is installed",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {"edge", "max-error", "extend"}};
+          .options = {"edge", "max-error", "triangles", "extend"}};
 }
 
 }  // namespace lumen::convert

@@ -159,7 +159,7 @@ TargetRow slicerRow() {
           .axes = {Axes::Lps},
           .holds = "the surface; the branches as curves with radii; where they begin; the ends",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {"edge", "max-error"}};
+          .options = {"edge", "max-error", "triangles"}};
 }
 
 }  // namespace lumen::convert

@@ -150,6 +150,7 @@ TargetRow sofaRow() {
           .lacks = "nothing: the case lies beside the scene",
           .options = {"edge",
                       "max-error",
+                      "triangles",
                       "instrument",
                       "wall",
                       "dialect",

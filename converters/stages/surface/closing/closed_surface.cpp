@@ -3,32 +3,37 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/geometry/self_intersections.h"
+#include "converters/geometry/triangle_quality.h"
 #include "converters/stages/surface/closing/cut_ends.h"
 #include "converters/stages/surface/closing/end_planes.h"
 #include "converters/stages/surface/closing/flow_extension.h"
-#include "converters/stages/surface/closing/mend_crossings.h"
 #include "converters/stages/surface/closing/thick_wall.h"
 #include "converters/stages/surface/closing/wall_thickness.h"
 #include "converters/stages/surface/extract.h"
-#include "converters/stages/surface/remesh/decimate.h"
+#include "converters/stages/surface/remesh/mend_crossings.h"
 #include "converters/stages/surface/remesh/remesh_target.h"
 #include "converters/stages/surface/reported_places.h"
+#include "converters/stages/surface/simplify/simplify.h"
 #include "converters/stages/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"
-#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
 
 // Edges of the lattice in radii: half of them would give no truer topology, at four times the cost.
 constexpr double kLatticeShare = 1.0;
+// The same where edges are split until they follow the field, which needs chords of 75 degrees or
+// less around a vessel.
+constexpr double kErrorLatticeShare = 1.2;
 // Distance by which touching lumens are drawn apart, in wall thicknesses, so that each keeps a
 // third of it as its wall.
 constexpr double kSharedWall = 0.5;
@@ -89,8 +94,11 @@ public:
     std::vector<DetailLevel> levels = leveled(m_options.thickness ? wall() : lumen());
     for (DetailLevel& level : levels) {
       if (!m_options.extend.empty()) extend(level.surface);
+      if (m_result.levels.empty()) noteShape(level.surface.mesh);
       if (m_options.open && !m_options.thickness) openEnds(level.surface);
-      m_result.levels.push_back(toSurfaceMesh(level.surface, m_field, m_progress));
+      m_result.levels.push_back(toSurfaceMesh(level.surface, m_field,
+                                              isByError() ? Normals::OfField : Normals::OfTriangles,
+                                              m_progress));
       report.errors.push_back(level.error);
     }
     report.vertices = m_result.levels.front().position.size();
@@ -106,11 +114,11 @@ private:
     CaseSurface surface = whole;
     EndsReport ends = cut(surface, planes);
     const CaseSurface rough = surface;
-    RefineReport found = refine(surface, m_field, edgeOf(m_options), m_progress);
+    RefineReport found = giveTriangles(surface);
     if (found.crossings > 0 && keepCrossingEndsRound(rough, planes)) {
       surface = whole;
       ends = cut(surface, planes);
-      found = refine(surface, m_field, edgeOf(m_options), m_progress);
+      found = giveTriangles(surface);
     }
     noteEnds(std::move(ends));
     noteFaults(found);
@@ -118,6 +126,32 @@ private:
     m_result.report.overlaps = findOverlaps(surface, m_field);
     note(stretchesWithoutWall(surface, m_source.tree));
     return surface;
+  }
+
+  // Gives the lumen's surface the triangles that are asked for.
+  RefineReport giveTriangles(CaseSurface& surface) {
+    if (!isByError()) return refine(surface, m_field, edgeOf(m_options), m_progress);
+    const SimplifyReport made =
+        hasError() ? simplifyToField(surface, m_field, allowed(), 0, m_progress)
+                   : simplifyToField(surface, m_field, {.mm = INFINITY},
+                                     static_cast<std::size_t>(*m_options.maxTriangles), m_progress);
+    m_result.report.fieldError = made.error;
+    return {0, 0, made.crossings};
+  }
+
+  // Whether the error or a number, and not the length of edges, chooses the triangles.
+  [[nodiscard]] bool isByError() const {
+    return (hasError() || m_options.maxTriangles) && !m_options.thickness && !m_options.withWhole;
+  }
+  [[nodiscard]] bool hasError() const {
+    return m_options.maxError && *m_options.maxError != SurfaceError{};
+  }
+
+  void noteShape(const TriangleMesh& mesh) {
+    SurfaceReport& report = m_result.report;
+    report.leastAngle = triangleQuality(mesh).leastAngle;
+    report.volume = signedVolume(mesh);
+    for (const Triangle& t : mesh.triangle) report.area += vectorArea(mesh, t).norm();
   }
 
   EndsReport cut(CaseSurface& surface, const std::vector<EndPlane>& planes) {
@@ -196,7 +230,10 @@ private:
 
   CaseSurface extract(const SeparatedField& field, SurfaceReport& report) {
     ExtractionReport found;
-    CaseSurface surface = extractSurface(field, kLatticeShare, found, m_progress);
+    const LatticeEdge edge = !isByError() ? kLatticeShare
+                             : hasError() ? LatticeEdge(kErrorLatticeShare, chords())
+                                          : kErrorLatticeShare;
+    CaseSurface surface = extractSurface(field, edge, found, m_progress);
     report.trees = found.trees;
     report.openedEdges = found.openedEdges;
     report.cuts = std::move(found.cuts);
@@ -227,25 +264,35 @@ private:
   std::vector<DetailLevel> leveled(CaseSurface surface) {
     std::optional<CaseSurface> whole;
     std::vector<DetailLevel> levels{{std::move(surface), -1}};
-    if (const double most = m_options.maxError.value_or(0); most > 0) {
+    if (m_result.report.fieldError) {
+      levels[0].error = m_result.report.fieldError->greatest;
+    } else if (hasError()) {
       whole = levels[0].surface;
-      levels[0].error = decimate(levels[0].surface, m_field, {most, 0}, m_progress);
-      if (levels[0].error > most)
-        throw failed("with fewer triangles the surface would lie " +
-                     formats::shortText(static_cast<float>(levels[0].error)) +
-                     " mm off, which is more than max-error");
+      levels[0].error = simplify(levels[0].surface, {allowed().at(leastRadius()), 0}, m_progress);
     }
-    const std::size_t triangles = m_options.maxTriangles.value_or(SIZE_MAX);
+    const auto triangles =
+        static_cast<std::size_t>(m_options.maxTriangles.value_or(std::numeric_limits<long>::max()));
     if (levels[0].surface.mesh.triangle.size() > triangles) {
       if (!whole) whole = levels[0].surface;
-      decimate(levels[0].surface, m_field, {0, triangles}, m_progress);
+      simplify(levels[0].surface, {0, triangles}, m_progress);
       levels[0].error = distanceBetween(levels[0].surface, *whole);
     }
-    addCoarserLevels(levels, m_options.levels, m_field, m_progress);
+    addCoarserLevels(levels, m_options.levels, m_progress);
     for (std::size_t i = 1; i < levels.size(); ++i)
       levels[i].error = distanceBetween(levels[i].surface, whole ? *whole : levels[0].surface);
     if (whole && m_options.withWhole) levels.insert(levels.begin(), {*std::move(whole), -1});
     return levels;
+  }
+
+  [[nodiscard]] SurfaceError chords() const {
+    return {kChordShare * allowed().mm, kChordShare * allowed().radii};
+  }
+  [[nodiscard]] SurfaceError allowed() const {
+    return inMillimetres(*m_options.maxError, m_source.metadata.voxelSize.value_or(0));
+  }
+  [[nodiscard]] double leastRadius() const {
+    const auto& radius = m_source.tree.radius;
+    return double{*std::min_element(radius.begin(), radius.end())};
   }
 
   const formats::Case& m_source;
@@ -269,7 +316,8 @@ SurfaceMesh quickSurface(const formats::Case& source, Progress& progress) {
   const field::BlendedField blended = formats::caseField(source);
   const SeparatedField field(source, blended, {chooseGap(source, {}), 0, 0});
   ExtractionReport ignored;
-  return toSurfaceMesh(extractSurface(field, kQuickShare, ignored, progress), field, progress);
+  return toSurfaceMesh(extractSurface(field, kQuickShare, ignored, progress), field,
+                       Normals::OfTriangles, progress);
 }
 
 ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
@@ -278,6 +326,11 @@ ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOpti
   if (options.thickness && (options.open || !options.extend.empty()))
     throw Error(ErrorKind::Usage,
                 "thickness gives a closed wall; it goes with neither open nor extend");
+  if (options.maxError && !source.metadata.voxelSize && options.maxError->voxels > 0 &&
+      !(options.maxError->mm > 0 || options.maxError->radii > 0))
+    throw Error(ErrorKind::Usage,
+                "max-error: found a number of voxels, and the case has no voxel size; expected mm, "
+                "or a share of the radius such as 0.03r");
   requireGap(source, options);
   requireFewTriangles(source.tree, edgeOf(options), options.thickness);
   return ClosedSurfaceMaker(source, options, progress).run();

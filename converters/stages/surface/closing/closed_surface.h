@@ -15,6 +15,7 @@
 #include "converters/stages/surface/closing/wall_thickness.h"
 #include "converters/stages/surface/remesh/remesh_target.h"
 #include "converters/stages/surface/reported_places.h"
+#include "converters/stages/surface/simplify/split_edges.h"
 #include "converters/stages/surface/surface_options.h"
 #include "formats/case/case.h"
 
@@ -30,12 +31,14 @@ struct ClosedSurfaceOptions {
   std::vector<EndLength> extend;    ///< flow extensions
   std::optional<Length> thickness;  ///< thickness of a wall around the lumen: the solid is the wall
   Touching touching = Touching::Share;  ///< walls of vessels that touch
-  std::optional<double> maxError;       ///< mm: above 0, triangles are dropped within this distance
+  /// Greatest distance from the field: as few triangles as it allows, instead of edges of equal
+  /// lengths. Around a wall of some thickness, the distance from the surface with all triangles.
+  std::optional<SurfaceError> maxError;
   /// Greatest number of triangles: as many are dropped as it takes, wherever the surface may then
   /// lie, unless its topology and its rims need more.
-  std::optional<std::size_t> maxTriangles;
-  /// Adds the surface with all triangles as a level before the one that maxError or maxTriangles
-  /// simplify.
+  std::optional<long> maxTriangles;
+  /// Adds the surface with edges of equal lengths as a level before the one that maxError or
+  /// maxTriangles simplify.
   bool withWhole = false;
   int levels = 1;  ///< number of levels of detail
 };
@@ -51,11 +54,15 @@ struct SurfaceReport {
   std::vector<Overlap> overlaps;      ///< deepest first
   std::size_t offField = 0;           ///< vertices with no surface of the field near by
   std::size_t sharpTriangles = 0;     ///< with an angle under 15 degrees
+  double leastAngle = 0;              ///< degrees, of all triangles of the finest level
+  double volume = 0, area = 0;        ///< mm^3, mm^2, of the finest level, before ends are opened
   std::size_t crossings = 0;          ///< pairs of triangles that pass through each other
   std::optional<WallThickness> wall;  ///< where a thickness was asked for
-  std::vector<double> errors;         ///< by level: greatest distance from the surface with all
-                                      ///< triangles, mm; below 0: it has all
-  std::vector<std::string> messages;  ///< sentences about ends and extensions
+  /// By level: greatest distance from the surface with all triangles, mm; below 0: it has all. With
+  /// `fieldError`, that of the first level is from the field.
+  std::vector<double> errors;
+  std::optional<FieldError> fieldError;  ///< of a surface that maxError made, without a wall
+  std::vector<std::string> messages;     ///< sentences about ends and extensions
 };
 
 struct ClosedSurface {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/closing/mend_crossings.h"
+#include "converters/stages/surface/remesh/mend_crossings.h"
 
 #include <algorithm>
 #include <bit>
@@ -81,23 +81,37 @@ void moveToMiddles(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertice
 
 // Some triangles of a mesh, with their vertices alone.
 TriangleMesh partOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  std::vector<std::uint32_t> used;
-  used.reserve(3 * triangles.size());
-  for (const std::uint32_t t : triangles)
-    used.insert(used.end(), mesh.triangle[t].begin(), mesh.triangle[t].end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  constexpr std::uint32_t kUnused = UINT32_MAX;
+  std::vector<std::uint32_t> number(mesh.position.size(), kUnused);
   TriangleMesh part;
-  part.position.reserve(used.size());
-  for (const std::uint32_t v : used) part.position.push_back(mesh.position[v]);
   part.triangle.reserve(triangles.size());
   for (const std::uint32_t t : triangles) {
     Triangle& corner = part.triangle.emplace_back(mesh.triangle[t]);
-    for (std::uint32_t& v : corner)
-      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+    for (std::uint32_t& v : corner) {
+      if (number[v] == kUnused) {
+        number[v] = static_cast<std::uint32_t>(part.position.size());
+        part.position.push_back(mesh.position[v]);
+      }
+      v = number[v];
+    }
   }
   return part;
 }
+
+}  // namespace
+
+SelfIntersections crossingsAmong(const TriangleMesh& mesh, const std::vector<std::uint8_t>& isAmong,
+                                 const Progress& progress) {
+  std::vector<std::uint32_t> number;
+  for (std::uint32_t t = 0; t < isAmong.size(); ++t)
+    if (isAmong[t] != 0) number.push_back(t);
+  const TriangleMesh part = partOf(mesh, number);
+  SelfIntersections found = selfIntersections(part, kMostPairs, &progress);
+  for (auto& pair : found.pairs) pair = {number[pair[0]], number[pair[1]]};
+  return found;
+}
+
+namespace {
 
 // The crossings of a mesh in which only triangles near those that have changed can cross.
 SelfIntersections searchNear(const TriangleMesh& mesh, const std::vector<std::uint8_t>& isChanged,
@@ -110,13 +124,7 @@ SelfIntersections searchNear(const TriangleMesh& mesh, const std::vector<std::ui
   tbb::parallel_for(std::size_t{0}, isNear.size(), [&](std::size_t t) {
     isNear[t] = changed.meets(boxOf(mesh, mesh.triangle[t])) ? 1 : 0;
   });
-  std::vector<std::uint32_t> number;
-  for (std::uint32_t t = 0; t < isNear.size(); ++t)
-    if (isNear[t] != 0) number.push_back(t);
-  const TriangleMesh part = partOf(mesh, number);
-  SelfIntersections found = selfIntersections(part, kMostPairs, &progress);
-  for (auto& pair : found.pairs) pair = {number[pair[0]], number[pair[1]]};
-  return found;
+  return crossingsAmong(mesh, isNear, progress);
 }
 
 // The crossings after vertices were moved. Two triangles that cross now, and did not before, are
@@ -219,6 +227,14 @@ SelfIntersections mendCrossings(CaseSurface& surface, const SeparatedField& fiel
   return found;
 }
 
+namespace {
+
+constexpr int kMostRepeats = 4;
+constexpr double kFirstReach = 1;  // radii around a crossing
+
+// Takes the surface off its field where nothing else helps: moves the vertices of the crossing
+// triangles `found` to the middles of their neighbours until none cross. Leaves the surface as it
+// was if no fewer pairs are left; else `found` becomes those. Returns the number of moved vertices.
 std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress) {
   progress.begin("crossings", 0);
   const std::vector<bool> isFixed = isOnEnd(surface);
@@ -239,11 +255,7 @@ std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Prog
   return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
 }
 
-namespace {
-
-constexpr int kMostRepeats = 4;
-constexpr double kFirstReach = 1;  // radii around a crossing
-
+// Adds the boxes of `radii` local radii around the corners of crossing triangles.
 void addPlaces(const CaseSurface& surface, const SeparatedField& field,
                const SelfIntersections& found, double radii, std::vector<Box3d>& places) {
   for (const auto& pair : found.pairs)
@@ -252,6 +264,7 @@ void addPlaces(const CaseSurface& surface, const SeparatedField& field,
         places.emplace_back().add(surface.mesh.position[v], radii * field.radius(surface.node[v]));
 }
 
+// The vertices that are in one of `places`; empty if there are none of these.
 std::vector<std::uint8_t> verticesIn(const CaseSurface& surface, const std::vector<Box3d>& places) {
   if (places.empty()) return {};
   const BoxSet set(places);

@@ -36,6 +36,10 @@ private:
   BoxTree<double> m_tree;
 };
 
+/// The crossings among some triangles of a mesh, `isAmong` by triangle. Throws Error(Cancelled).
+SelfIntersections crossingsAmong(const TriangleMesh& mesh, const std::vector<std::uint8_t>& isAmong,
+                                 const Progress& progress);
+
 /// Finds the crossings of meshes that are made one after another and share most triangles.
 class CrossingSearch {
 public:
@@ -64,12 +68,6 @@ private:
 /// Error(Cancelled).
 SelfIntersections mendCrossings(CaseSurface& surface, const SeparatedField& field,
                                 CrossingSearch& search, Progress& progress);
-
-/// Takes the surface off its field where nothing else helps: moves the vertices of the crossing
-/// triangles `found` to the middles of their neighbours, up to thirty times, until no triangles
-/// cross. Vertices of flat ends stay. Leaves the surface as it was if no fewer pairs are left; else
-/// `found` becomes those. Returns the number of vertices that were moved. Throws Error(Cancelled).
-std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress);
 
 // Remeshing that does not make a surface pass through itself.
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/simplify/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "converters/geometry/self_intersections.h"
+#include "converters/stages/surface/deviation.h"
+#include "converters/stages/surface/simplify/close_sheets.h"
+#include "converters/stages/surface/simplify/collapse_edges.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kBoundShare = 0.9;  // share for vertices that went; the rest is for places between
+// Distance of two sheets that could meet, in allowed errors: each may bend by more than its own
+// between its vertices.
+constexpr double kCloseErrors = 2.5;
+// Distance of sheets that do not meet before a surface has an eighth of its triangles, in radii.
+constexpr double kFar = 0.5;
+constexpr std::size_t kFewerWhereFar = 8;
+constexpr std::size_t kMostCounted = 1'000'000;
+
+std::size_t countCrossings(const CaseSurface& surface, const Progress& progress) {
+  return selfIntersections(surface.mesh, kMostCounted, &progress).pairs.size();
+}
+
+/// The vertices that could meet others within bounds, by vertex.
+std::vector<std::uint8_t> closeWithin(const CaseSurface& surface, std::vector<double> allowed) {
+  for (double& mm : allowed) mm *= kCloseErrors;
+  return closeVertices(surface.mesh, allowed);
+}
+
+/// Collapses edges down to a number of triangles, wherever the surface may then lie; returns, by
+/// triangle, which are near others. Triangles far from others meet none as long as they are small.
+std::vector<std::uint8_t> collapseTo(CaseSurface& surface, const SeparatedField& field,
+                                     std::size_t triangles, Progress& progress) {
+  const std::size_t small = surface.mesh.triangle.size() / kFewerWhereFar;
+  if (triangles < small) {
+    CollapseRules rules{{}, small, {}};
+    std::vector<double> reach;
+    for (const std::uint32_t node : surface.node) reach.push_back(kFar * field.radius(node));
+    rules.isClose = closeVertices(surface.mesh, reach);
+    collapseEdges(surface, rules, progress);
+  }
+  return collapseEdges(surface, {{}, triangles, {}}, progress);
+}
+
+std::vector<bool> flatGroups(const CaseSurface& surface) {
+  std::vector<bool> isFlat(surface.groups.size(), false);
+  for (const SurfaceEnd& end : surface.ends)
+    isFlat[end.group] = surface.groups[end.group].kind != FaceKind::Cap;
+  return isFlat;
+}
+
+}  // namespace
+
+SimplifyReport simplifyToField(CaseSurface& surface, const SeparatedField& field,
+                               const SurfaceError& allowed, std::size_t triangles,
+                               Progress& progress) {
+  progress.begin("triangles", 0);
+  roundToFloats(surface.mesh);
+  const CaseSurface given = surface;
+  SimplifyReport report;
+  const bool isBounded = std::isfinite(allowed.mm);
+  CollapseRules rules{{}, triangles, {}};
+  if (isBounded)
+    for (const std::uint32_t node : surface.node)
+      rules.allowed.push_back(kBoundShare * chordAt(field, node, allowed));
+  // where crossings came up between sheets that did not seem close, once more, looking everywhere
+  for (const bool isEverywhere : {false, true}) {
+    rules.isClose = isBounded && !isEverywhere ? closeWithin(surface, rules.allowed)
+                                               : std::vector<std::uint8_t>();
+    std::vector<std::uint8_t> isClose = isBounded || isEverywhere
+                                            ? collapseEdges(surface, rules, progress)
+                                            : collapseTo(surface, field, triangles, progress);
+    report.error = splitFarEdges(surface, field, allowed, isClose, progress);
+    report.crossings = countCrossings(surface, progress);
+    if (report.crossings == 0 || isEverywhere) break;
+    surface = given;
+  }
+  if (report.crossings > 0) {
+    surface = given;
+    report.error = fieldErrorOf(surface, field, allowed, progress);
+    report.crossings = countCrossings(surface, progress);
+  }
+  progress.end();
+  return report;
+}
+
+double distanceBetween(const CaseSurface& one, const CaseSurface& other) {
+  return distanceBetween(one.mesh, one.group, other.mesh, other.group, flatGroups(one));
+}
+
+double simplify(CaseSurface& surface, const SimplifyOptions& options, Progress& progress) {
+  if (options.triangles >= surface.mesh.triangle.size() ||
+      (options.triangles == 0 && !(options.maxError > 0)))
+    return 0;
+  const CaseSurface before = surface;
+  double bound = kBoundShare * options.maxError;
+  for (int attempt = 1;; ++attempt) {
+    constexpr int kTries = 5;
+    CollapseRules rules{{}, options.triangles, {}};
+    if (bound > 0) {
+      rules.allowed.assign(surface.mesh.position.size(), bound);
+      rules.isClose = closeWithin(surface, rules.allowed);
+    }
+    collapseEdges(surface, rules, progress);
+    if (!rules.isClose.empty() && countCrossings(surface, progress) > 0) {
+      surface = before;
+      rules.isClose.clear();
+      collapseEdges(surface, rules, progress);
+    }
+    progress.check();
+    const double error = distanceBetween(surface, before);
+    if (!(options.maxError > 0) || error <= options.maxError) return error;
+    bound *= kBoundShare * options.maxError / error;
+    surface = before;
+    if (attempt == kTries) return 0;
+  }
+}
+
+void addCoarserLevels(std::vector<DetailLevel>& levels, int count, Progress& progress) {
+  while (static_cast<int>(levels.size()) < count) {
+    CaseSurface next = levels.back().surface;
+    collapseEdges(next, {{}, next.mesh.triangle.size() / 4, {}}, progress);
+    levels.push_back({std::move(next), -1});
+  }
+}
+
+}  // namespace lumen::convert
