@@ -32,11 +32,14 @@ void setEdge(convert::EdgeLength& edge, const std::string& text) {
   if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
 }
 
-/// A bound of edges that are shares of the radius; `bound` is a member of `edge`.
-OptionRow& addBound(OptionTable& table, const std::string& name, convert::EdgeLength& edge,
-                    double& bound, const std::string& help) {
-  const auto store = [&edge, &bound](const std::vector<std::string>& texts) {
-    if (edge.share > 0) bound = parsedNumber(texts.back()).value_or(bound);
+/// A bound of edges that are shares of the radius; `bound` is a member of its edge.
+OptionRow& addBound(OptionTable& table, const std::string& name,
+                    convert::ClosedSurfaceOptions& surface, double& bound,
+                    const std::string& help) {
+  convert::EdgeLength& edge = surface.edge;
+  const auto store = [&surface, &bound](const std::vector<std::string>& texts) {
+    if (surface.edge.share > 0) bound = parsedNumber(texts.back()).value_or(bound);
+    surface.fewTriangles = false;
   };
   return table.add(name, OptionTarget(store), "MM", help).without("patches").unusedIf([&edge] {
     return edge.share > 0 ? "" : "does nothing with --edge in mm";
@@ -97,13 +100,28 @@ void addGltfRows(OptionTable& table, OutputOptions& output) {
 
 void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) {
   using Texts = std::vector<std::string>;
-  table
-      .add(
-          "edge", [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
-          "Edges of equal lengths: a share of the vessel's radius such as 0.25r, or "
-          "mm")
-      .defaults(shownNumber(surface.edge.share) + "r")
-      .without("patches");
+  const bool isFew = surface.fewTriangles;
+  OptionRow& edge = table
+                        .add(
+                            "edge",
+                            [&surface](const Texts& texts) {
+                              setEdge(surface.edge, texts.back());
+                              surface.fewTriangles = false;
+                            },
+                            "LENGTH",
+                            "Edges of equal lengths: a share of the vessel's radius such as "
+                            "0.25r, or mm")
+                        .without("patches");
+  if (isFew)
+    edge.unusedIf([&surface] {
+      const bool isByError =
+          surface.maxError.value_or(convert::SurfaceError{}) != convert::SurfaceError{};
+      return !surface.thickness && (surface.maxTriangles || isByError)
+                 ? "does nothing with --max-error or --triangles"
+                 : "";
+    });
+  else
+    edge.defaults(shownNumber(surface.edge.share) + "r");
   table
       .add(
           "extend",
@@ -134,8 +152,8 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
           },
           "LENGTH",
           "As few triangles as lie within this distance of the field: mm, or 0.1v (voxels), or "
-          "0.03r (radii); 0: edges of equal lengths")
-      .defaults("0")
+          "0.03r (radii), or the larger of several; 0: edges of equal lengths")
+      .defaults(isFew ? std::string(convert::kUsualSurfaceErrorText) : "0")
       .without("patches");
   table
       .add("triangles", &surface.maxTriangles, "N",
@@ -156,10 +174,10 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
           "asked for or more")
       .onlyWith("thickness");
   convert::EdgeLength& edge = surface.edge;
-  addBound(table, "edge-min", edge, edge.minimum, "Least length of edges")
+  addBound(table, "edge-min", surface, edge.minimum, "Least length of edges")
       .in(kNotNegative)
       .defaults("0");
-  addBound(table, "edge-max", edge, edge.maximum, "Greatest length of edges").in(kPositive);
+  addBound(table, "edge-max", surface, edge.maximum, "Greatest length of edges").in(kPositive);
   table
       .scaled("gap", surface.gap, "Distance that touching vessels keep",
               "0.1 voxels, or 0.05 of the least radius")

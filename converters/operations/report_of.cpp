@@ -50,7 +50,8 @@ void addNamesOfFiles(ReportFacts& facts, const std::vector<std::string>& names) 
 /// Remarks on the surface that `lumen convert` makes by default, or the reason why there is none.
 std::vector<std::string> surfaceRemarks(const formats::Case& value, const Context& context) {
   try {
-    return surfaceWarnings(convert::closedSurface(value, {}, context.progress).report, context);
+    return surfaceWarnings(
+        convert::closedSurface(value, SurfaceOptions().closed, context.progress).report, context);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Cancelled) throw;
     return {std::string("there is no closed surface: ") + error.what()};

@@ -15,9 +15,10 @@
 namespace lumen::operations {
 
 struct SurfaceOptions {
-  convert::ClosedSurfaceOptions closed;  ///< its levels count for patches, too
-  bool isInPatches = false;              ///< pieces of the nodes that meet but are not joined
-  convert::PolygoniseOptions patches;    ///< of a surface in patches
+  /// As few triangles as the usual error allows; its levels count for patches, too.
+  convert::ClosedSurfaceOptions closed = convert::ClosedSurfaceOptions::withFewTriangles();
+  bool isInPatches = false;            ///< pieces of the nodes that meet but are not joined
+  convert::PolygoniseOptions patches;  ///< of a surface in patches
 };
 
 struct Surface {

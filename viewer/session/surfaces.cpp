@@ -133,7 +133,9 @@ std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, i
     made.levels.push_back(convert::quickSurface(value, progress));
   } else {
     operations::SurfaceOptions options;
-    options.closed.edge.share *= 1 << level;
+    constexpr convert::SurfaceError kFinest = convert::kUsualSurfaceError;
+    options.closed.maxError = {.radii = (1 << level) * kFinest.radii,
+                               .voxels = (1 << level) * kFinest.voxels};
     made = operations::surfaceOf(value, options, "", engine::operationContext(progress));
   }
   const std::optional<convert::MeshSkin> skin = skinOfFirst(value, made.levels);

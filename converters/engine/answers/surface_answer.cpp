@@ -47,7 +47,8 @@ std::string wallLine(const convert::WallThickness& wall) {
 SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
   if (!value.models || value.tree.nodeCount() == 0) return {};
   try {
-    convert::SurfaceReport report = convert::closedSurface(value, {}, progress).report;
+    convert::SurfaceReport report =
+        convert::closedSurface(value, operations::SurfaceOptions().closed, progress).report;
     std::vector<std::string> warnings =
         operations::surfaceWarnings(report, operationContext(progress));
     return {std::move(report), std::move(warnings)};

@@ -34,10 +34,11 @@ inline SurfaceError inMillimetres(const SurfaceError& error, double voxelSize) {
 /// The usual error: a tenth of a voxel, about what a fit leaves, or what twelve edges around a
 /// vessel leave, whichever is larger.
 constexpr SurfaceError kUsualSurfaceError{0, 0.03, 0.1};
+constexpr std::string_view kUsualSurfaceErrorText = "0.1v,0.03r";
 
-/// Parses an error: "0.05" and "0.05mm" are millimetres, "0.03r" radii, "0.1v" voxels, and "0" is
-/// none. Throws Error(Usage), with `option` in the sentence, unless the number is finite and not
-/// negative.
+/// Parses an error: "0.05" and "0.05mm" are millimetres, "0.03r" radii, "0.1v" voxels, "0.1v,0.03r" is
+/// the larger of both, and "0" is none. Throws Error(Usage), with `option` in the sentence, unless the
+/// numbers are finite and not negative.
 SurfaceError parseSurfaceError(std::string_view text, const std::string& option);
 
 /// Parses a length: "0.5" and "0.5mm" are millimetres, "5r" are radii. Throws Error(Usage), with

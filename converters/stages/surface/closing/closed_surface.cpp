@@ -84,6 +84,7 @@ public:
                      Progress& progress)
       : m_source(source),
         m_options(options),
+        m_error(errorOf(options)),
         m_progress(progress),
         m_blended(formats::caseField(source)),
         m_field(source, m_blended, chooseGaps(source, options)) {}
@@ -143,8 +144,11 @@ private:
   [[nodiscard]] bool isByError() const {
     return (hasError() || m_options.maxTriangles) && !m_options.thickness && !m_options.withWhole;
   }
-  [[nodiscard]] bool hasError() const {
-    return m_options.maxError && *m_options.maxError != SurfaceError{};
+  [[nodiscard]] bool hasError() const { return m_error != SurfaceError{}; }
+  static SurfaceError errorOf(const ClosedSurfaceOptions& options) {
+    if (options.maxError) return *options.maxError;
+    const bool isUsual = options.fewTriangles && !options.maxTriangles && !options.thickness;
+    return isUsual ? kUsualSurfaceError : SurfaceError{};
   }
 
   void noteShape(const TriangleMesh& mesh) {
@@ -288,7 +292,7 @@ private:
     return {kChordShare * allowed().mm, kChordShare * allowed().radii};
   }
   [[nodiscard]] SurfaceError allowed() const {
-    return inMillimetres(*m_options.maxError, m_source.metadata.voxelSize.value_or(0));
+    return inMillimetres(m_error, m_source.metadata.voxelSize.value_or(0));
   }
   [[nodiscard]] double leastRadius() const {
     const auto& radius = m_source.tree.radius;
@@ -297,6 +301,7 @@ private:
 
   const formats::Case& m_source;
   const ClosedSurfaceOptions& m_options;
+  SurfaceError m_error;
   Progress& m_progress;
   field::BlendedField m_blended;
   SeparatedField m_field;

@@ -37,10 +37,19 @@ struct ClosedSurfaceOptions {
   /// Greatest number of triangles: as many are dropped as it takes, wherever the surface may then
   /// lie, unless its topology and its rims need more.
   std::optional<long> maxTriangles;
+  /// Where neither of these is stated, and no thickness: as few triangles as kUsualSurfaceError
+  /// allows.
+  bool fewTriangles = false;
   /// Adds the surface with edges of equal lengths as a level before the one that maxError or
   /// maxTriangles simplify.
   bool withWhole = false;
   int levels = 1;  ///< number of levels of detail
+
+  static ClosedSurfaceOptions withFewTriangles() {
+    ClosedSurfaceOptions options;
+    options.fewTriangles = true;
+    return options;
+  }
 };
 
 /// Results besides the surface, and its differences from the field. Places are in mm, LPS.

@@ -32,7 +32,7 @@ struct GridVertex {
   std::uint64_t cube = 0;
   std::uint32_t vertex = 0;
   float reach = 0;
-  Eigen::Vector3f place, normal;
+  Eigen::Vector3f place = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
   bool operator<(const GridVertex& other) const {
     return cube < other.cube || (cube == other.cube && vertex < other.vertex);
   }
@@ -113,16 +113,14 @@ std::vector<std::uint8_t> closeVertices(const TriangleMesh& mesh,
   std::nth_element(sorted.begin(), middle, sorted.end());
   const VertexGrid grid(mesh, reach, *middle);
   // with so many in a cube, one side of a vessel reaches the other
-  if (reach.size() > kMostInCube * grid.cubes())
-    return std::vector<std::uint8_t>(reach.size(), 1);
+  if (reach.size() > kMostInCube * grid.cubes()) return std::vector<std::uint8_t>(reach.size(), 1);
   std::vector<std::uint8_t> isClose(reach.size(), 0);
   const auto mark = [&](std::uint32_t v) {
     std::atomic_ref(isClose[v]).store(1, std::memory_order_relaxed);
   };
   tbb::parallel_for(std::size_t{0}, grid.cubes(), [&](std::size_t cube) {
     grid.eachPair(cube, [&](const GridVertex& one, const GridVertex& other) {
-      if (!(one.normal.dot(other.normal) < 0) ||
-          !((one.place - other.place).norm() < one.reach))
+      if (!(one.normal.dot(other.normal) < 0) || !((one.place - other.place).norm() < one.reach))
         return;
       mark(one.vertex);
       mark(other.vertex);

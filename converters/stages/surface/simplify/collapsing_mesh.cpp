@@ -104,8 +104,7 @@ void CollapsingMesh::undoCrossings(const Progress& progress) {
   while (true) {
     for (std::size_t f = 0; f < isSearched.size(); ++f)
       isSearched[f] = m_isDropped[f] == 0 ? m_isCloseTriangle[f] : 0;
-    const auto crossings =
-        crossingsOfChanged(m_surface.mesh, isChanged, isSearched, progress);
+    const auto crossings = crossingsOfChanged(m_surface.mesh, isChanged, isSearched, progress);
     // what was put back may pass through what another collapse has changed
     std::fill(isChanged.begin(), isChanged.end(), std::uint8_t{0});
     bool isAny = false;

@@ -5,9 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
+
+#include <tbb/parallel_for.h>
 
 #include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/deviation.h"
+#include "converters/stages/surface/remesh/mend_crossings.h"
 #include "converters/stages/surface/simplify/close_sheets.h"
 #include "converters/stages/surface/simplify/collapse_edges.h"
 
@@ -17,10 +21,11 @@ namespace {
 constexpr double kBoundShare = 0.9;  // share for vertices that went; the rest is for places between
 // Distance of two sheets that could meet, in allowed errors: each may bend by more than its own
 // between its vertices.
-constexpr double kCloseErrors = 2.5;
+constexpr double kCloseErrors = 4;
 // Distance of sheets that do not meet before a surface has an eighth of its triangles, in radii.
 constexpr double kFar = 0.5;
 constexpr std::size_t kFewerWhereFar = 8;
+constexpr int kMostAttempts = 3;
 constexpr std::size_t kMostCounted = 1'000'000;
 
 std::size_t countCrossings(const CaseSurface& surface, const Progress& progress) {
@@ -31,6 +36,26 @@ std::size_t countCrossings(const CaseSurface& surface, const Progress& progress)
 std::vector<std::uint8_t> closeWithin(const CaseSurface& surface, std::vector<double> allowed) {
   for (double& mm : allowed) mm *= kCloseErrors;
   return closeVertices(surface.mesh, allowed);
+}
+
+/// Adds the vertices of a surface that are near crossing triangles of one made from it.
+void markNear(const CaseSurface& surface, const CaseSurface& made, const SelfIntersections& found,
+              std::vector<std::uint8_t>& isClose) {
+  std::vector<Box3d> boxes;
+  for (const auto& pair : found.pairs)
+    for (const std::uint32_t t : pair) {
+      Box3d& box = boxes.emplace_back(boxOf(made.mesh, made.mesh.triangle[t]));
+      const double margin = box.size().maxCoeff();
+      box.add(box.low, margin);
+      box.add(box.high, margin);
+    }
+  const BoxSet near(std::move(boxes));
+  isClose.resize(surface.mesh.position.size(), 0);
+  tbb::parallel_for(std::size_t{0}, isClose.size(), [&](std::size_t v) {
+    Box3d point;
+    point.add(surface.mesh.position[v]);
+    if (near.meets(point)) isClose[v] = 1;
+  });
 }
 
 /// Collapses edges down to a number of triangles, wherever the surface may then lie; returns, by
@@ -69,16 +94,20 @@ SimplifyReport simplifyToField(CaseSurface& surface, const SeparatedField& field
   if (isBounded)
     for (const std::uint32_t node : surface.node)
       rules.allowed.push_back(kBoundShare * chordAt(field, node, allowed));
-  // where crossings came up between sheets that did not seem close, once more, looking everywhere
-  for (const bool isEverywhere : {false, true}) {
-    rules.isClose = isBounded && !isEverywhere ? closeWithin(surface, rules.allowed)
-                                               : std::vector<std::uint8_t>();
-    std::vector<std::uint8_t> isClose = isBounded || isEverywhere
+  if (isBounded) rules.isClose = closeWithin(surface, rules.allowed);
+  for (int attempt = 1;; ++attempt) {
+    std::vector<std::uint8_t> isClose = isBounded || attempt == kMostAttempts
                                             ? collapseEdges(surface, rules, progress)
                                             : collapseTo(surface, field, triangles, progress);
     report.error = splitFarEdges(surface, field, allowed, isClose, progress);
-    report.crossings = countCrossings(surface, progress);
-    if (report.crossings == 0 || isEverywhere) break;
+    const SelfIntersections found = selfIntersections(surface.mesh, kMostCounted, &progress);
+    report.crossings = found.pairs.size();
+    if (report.crossings == 0 || attempt == kMostAttempts) break;
+    // between sheets that did not seem close: once more, looking there, and then everywhere
+    if (attempt + 1 == kMostAttempts)
+      rules.isClose.clear();
+    else
+      markNear(given, surface, found, rules.isClose);
     surface = given;
   }
   if (report.crossings > 0) {
