@@ -54,8 +54,9 @@ public:
   bool takeAway(const Fill& fill) {
     std::vector<Voxel> taken;
     double faces = 0;  // of voxels, between the fill and the image
+    // what another fill took is no image that this one leaves
+    const auto all = static_cast<double>(std::count(m_isImage.begin(), m_isImage.end(), true));
     const auto leavesImage = [&] {
-      const auto all = static_cast<double>(m_voxels.size());
       const double rest = all - static_cast<double>(taken.size());
       return fill.isStated || rest >= std::max(kImageThickness * faces, kLeastImage * all);
     };

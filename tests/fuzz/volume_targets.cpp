@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <unistd.h>
 
@@ -89,11 +90,18 @@ void readBoth(const InputFile& path, convert::VolumeFormat format,
 
 /// A file `name` with these bytes, in a folder of this process where the same bytes are also in the file
 /// "d", for headers that name one.
+/// From memory; from a folder only where the text may name the detached file "d" there.
 void readVolumeOf(std::span<const std::byte> input, const std::string& name,
                   convert::VolumeFormat format) {
+  const std::string_view text = textOf(input);
+  const bool mayDetach = text.find("data file") != text.npos ||
+                         text.find("datafile") != text.npos ||
+                         (text.find("ElementDataFile") != text.npos &&
+                          text.find("ElementDataFile = LOCAL") == text.npos);
+  if (!mayDetach) return readBoth(InputFile(name, text), format);
   static const Folder folder;
-  (void)folder.write("d", textOf(input));
-  readBoth(folder.write(name, textOf(input)), format);
+  (void)folder.write("d", text);
+  readBoth(folder.write(name, text), format);
 }
 
 void nrrd(std::span<const std::byte> input) {
@@ -113,17 +121,16 @@ void nifti(std::span<const std::byte> input) {
 void dicom(std::span<const std::byte> input) {
   constexpr std::string_view kNext = "#next-file#";
   constexpr std::size_t kMostFiles = 4;
-  static const Folder folder;
+  std::vector<InputFile> files;
   std::string_view rest = textOf(input);
-  fs::path file;
   for (std::size_t n = 0; n < kMostFiles; ++n) {
     const std::size_t end = rest.find(kNext);
-    file = folder.write(std::to_string(n), rest.substr(0, end));
+    files.emplace_back("folder/" + std::to_string(n), rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + kNext.size());
   }
   convert::ReadVolumeOptions filled;
   filled.fillGaps = true;
-  readBoth(file.parent_path(), convert::VolumeFormat::Dicom, filled);
+  readBoth(InputFile("folder", files), convert::VolumeFormat::Dicom, filled);
 }
 
 /// A file of DICOM that stands for itself: frames, a segmentation, a structure set; and its names.

@@ -105,6 +105,31 @@ Taps tapsAt(double place, int size) {
   return taps;
 }
 
+/// The value around labels, 0 or the only negative one, where the voxels are labels, as settleLabels()
+/// takes them: within 0.001 of whole numbers. Empty for grey values.
+std::optional<double> aroundLabels(const Voxels& all) {
+  return std::visit(
+      [](const auto& voxels) -> std::optional<double> {
+        std::vector<float> labels;
+        labels.reserve(voxels.size());
+        double around = 0;
+        bool hasZero = false;
+        for (const auto voxel : voxels) {
+          const auto value = static_cast<double>(voxel);
+          const double whole = std::round(value);
+          if (std::abs(value - whole) > kRounding || (whole < 0 && around < 0 && whole != around))
+            return std::nullopt;
+          if (whole < 0) around = whole;
+          hasZero = hasZero || whole == 0;
+          labels.push_back(static_cast<float>(std::max(whole, 0.0)));
+        }
+        if ((around < -1 && hasZero) || !holdsLabels(Voxels(std::move(labels))))
+          return std::nullopt;
+        return around;
+      },
+      all);
+}
+
 /// Samples of stored voxels at any place.
 template <class T>
 class Sampler {
@@ -264,14 +289,14 @@ std::string uprightSentence(const VolumeGeometry& stored, const VolumeGeometry& 
 
 void resampleUpright(const VolumeGeometry& stored, Volume& volume, const Progress& progress) {
   const Voxels from = std::exchange(volume.voxels, {});
-  const bool areLabels = holdsLabels(from);
+  const std::optional<double> around = aroundLabels(from);
   std::visit(
       [&]<class T>(const std::vector<T>& voxels) {
-        if (!areLabels) return resampleGrey(voxels, stored, volume, progress);
+        if (!around) return resampleGrey(voxels, stored, volume, progress);
         const Sampler<T> sampler(voxels, stored, volume.padding);
         std::vector<T> to;
         fillFrom(stored, volume.geometry, to, progress, [&](const Vector3d& index) {
-          return sampler.isInside(index) ? sampler.nearest(index) : T{};
+          return sampler.isInside(index) ? sampler.nearest(index) : static_cast<T>(*around);
         });
         volume.voxels = std::move(to);
       },

@@ -25,8 +25,9 @@ std::optional<VolumeGeometry> standUpright(VolumeGeometry& geometry);
 std::string uprightSentence(const VolumeGeometry& stored, const VolumeGeometry& upright);
 
 /// Moves the voxels of the stored grid to that of the volume, by cubic interpolation (R. G. Keys, Cubic
-/// convolution interpolation for digital image processing, 1981), and labels by their nearest voxel.
-/// Voxels beyond the stored ones become padding, or 0 among labels. A type without a value that is left
+/// convolution interpolation for digital image processing, 1981), and labels by their nearest voxel,
+/// also floats beside whole numbers and labels around which all is -1 (settleLabels()). Voxels beyond
+/// the stored ones become padding, or what is around the labels. A type without a value that is left
 /// becomes the next wider one. Throws Error(Cancelled).
 void resampleUpright(const VolumeGeometry& stored, Volume& volume, const Progress& progress);
 

@@ -11,6 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
 #include "converters/geometry/far_origin.h"
+#include "converters/voxels/label_voxels.h"
 
 namespace lumen::convert {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kMaxVoxels = 1e11;
 // Deflate expands at most 1032 times (zlib's technical notes).
 constexpr double kMaxExpansion = 1032;
 
-/// Refuses infinite values, and constant volumes unless they are allowed.
+/// Refuses a volume without a finite value, and constant ones unless they are allowed.
 template <class T>
 void checkValues(const std::vector<T>& voxels, const fs::path& path, bool allowsConstant) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -43,20 +44,36 @@ void checkValues(const std::vector<T>& voxels, const fs::path& path, bool allows
                        "; expected an image with vessels in it");
 }
 
-/// Sets voxels that are not a number to the least of the others. They stay where no other is finite.
-void padNotANumber(std::vector<float>& voxels, Volume& volume) {
-  const auto isNone = [](float v) { return std::isnan(v); };
+/// What is around labels, 0, where the finite voxels are labels from 1 on; else the least of them,
+/// and infinity if there is none.
+float aroundFinite(const std::vector<float>& voxels) {
+  constexpr double kBesideWhole = 1e-3;  // as of settleLabels()
+  std::vector<float> rounded(voxels.size());
+  float least = std::numeric_limits<float>::infinity();
+  bool areWhole = true;
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    if (!std::isfinite(voxels[i])) continue;
+    least = std::min(least, voxels[i]);
+    rounded[i] = std::round(voxels[i]);
+    areWhole = areWhole && std::abs(static_cast<double>(voxels[i] - rounded[i])) <= kBesideWhole;
+  }
+  if (!std::isfinite(least)) return least;
+  return areWhole && least > 0.5F && !isGrey(rounded) ? 0.0F : least;
+}
+
+/// Sets voxels that are not finite to what is around the others. They stay where no other is finite.
+void padNotFinite(std::vector<float>& voxels, Volume& volume) {
+  const auto isNone = [](float v) { return !std::isfinite(v); };
   const auto count = std::count_if(voxels.begin(), voxels.end(), isNone);
   if (count == 0) return;
-  float least = std::numeric_limits<float>::infinity();
-  for (const float v : voxels) least = std::min(least, isNone(v) ? least : v);
-  if (!std::isfinite(least)) return;
-  std::replace_if(voxels.begin(), voxels.end(), isNone, least);
-  volume.padding = {least, least};
+  const float around = aroundFinite(voxels);
+  if (!std::isfinite(around)) return;
+  std::replace_if(voxels.begin(), voxels.end(), isNone, around);
+  volume.padding = {around, around};
   volume.assumptions.push_back(std::to_string(count) +
-                               " of its voxels are not a number (NaN); they "
-                               "count as no image, with the least of the others, " +
-                               shownNumber(static_cast<double>(least)));
+                               " of its voxels are not finite (NaN, or infinite); they count as "
+                               "no image, with the value " +
+                               shownNumber(static_cast<double>(around)));
 }
 
 }  // namespace
@@ -148,7 +165,7 @@ std::string longNumber(double value) {
 
 void checkVoxels(Volume& volume, const fs::path& path, bool allowsConstant) {
   if (auto* const floats = std::get_if<std::vector<float>>(&volume.voxels))
-    padNotANumber(*floats, volume);
+    padNotFinite(*floats, volume);
   std::visit([&](const auto& values) { checkValues(values, path, allowsConstant); }, volume.voxels);
 }
 

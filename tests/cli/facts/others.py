@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The same voxels, lines and triangles as libraries of others write them, as far as these are installed."""
-import importlib, pathlib, tempfile
+import importlib, math, pathlib, tempfile
 
 import lines, meshes, volumes
-from turned import Turned, turn_name, turns
+from turned import AXIS_ALIGNED, Turned, grid, turn_name, turns
 
 
 def modules(*names):
@@ -53,12 +53,36 @@ def by_nibabel(g, original, where):
         yield Turned("NIfTI", f"nibabel, {kind}; {where}", written("v.nii", lambda path: nib.save(image, path)), original=original)
         image.header.set_slope_inter(0.25, -3)
         yield Turned("NIfTI", f"nibabel, {kind}, a scale; {where}", written("v.nii", lambda path: nib.save(image, path)), "warned", "as in a mask", (), original)
+    # SPM's masks: NaN outside; what programs leave where they divided by 0
+    for none in (np.nan, np.inf, -np.inf):
+        image = nib.Nifti1Image(np.where(data == 0, none, data).astype("float32"), affine(np, g))
+        image.header.set_xyzt_units("mm")
+        yield Turned("NIfTI", f"nibabel, {none} around; {where}", written("v.nii.gz", lambda path: nib.save(image, path)), words="not finite", original=original)
     image = nib.Nifti2Image(data, affine(np, g))
     yield Turned("NIfTI", f"nibabel, NIfTI-2; {where}", written("v.nii", lambda path: nib.save(image, path)), "refused", "NIfTI-1", (), original)
     image = nib.Nifti1Pair(data, affine(np, g))
     yield Turned("NIfTI", f"nibabel, a pair; {where}", written("v.hdr", lambda path: nib.save(image, path)), "refused", r"\.nii", (), original)
     image = nib.AnalyzeImage(data, affine(np, g))
     yield Turned("NIfTI", f"nibabel, ANALYZE; {where}", written("v.hdr", lambda path: nib.save(image, path)), "refused", r"nii", (), original)
+
+
+def leaning(original):
+    """Slices under a gantry tilt of `lean` degrees, as nibabel writes their affine, the sform alone (dicom2nifti, dcm2niix)."""
+    found = modules("numpy", "nibabel")
+    if not found: return
+    np, nib = found
+    for degrees in (-20, -10, 10, 20, 30):
+        lean = math.tan(math.radians(degrees))
+        low = (-24.0, 10.0 - max(lean, 0) * 16, 40.0)
+        g = grid((*AXIS_ALIGNED[:2], (0, lean / math.hypot(lean, 1), 1 / math.hypot(lean, 1))), (56, 80, 60), (0.25, 0.25, 0.35), low)
+        data = voxels(np, g, "int16").transpose(2, 1, 0)
+        for what, values in (("", data), (", -1 around", np.where(data == 0, -1, data)), (", floats", (data * 0.99999994).astype("float32")),
+                             (", NaN around", np.where(data == 0, np.nan, data).astype("float32"))):
+            image = nib.Nifti1Image(values, None)
+            image.set_sform(affine(np, g), 2)
+            image.header.set_xyzt_units("mm")
+            yield Turned("NIfTI", f"nibabel, a tilt of {degrees} degrees{what}", written("v.nii", lambda path: nib.save(image, path)),
+                         words="its axes lean", original=original, isTurned=True)
 
 
 def by_simpleitk(g, original, where):
@@ -120,6 +144,12 @@ def by_trimesh(original):
         files = written(name, lambda path: up.export(path)) if name == "m.glb" else {"m.gltf": None, **up.export(file_type="gltf")}
         if name == "m.gltf": files["m.gltf"] = files.pop("model.gltf")
         yield Turned("meshes of others", f"trimesh, {name}", files, original=original)
+    for k, unit in ((1000, "mm"), (100, "cm")):  # as programs do that do not ask for metres
+        plain = trimesh.Trimesh(np.array(meshes.up(meshes.placed(k=k / 1000))) * 1000, np.array(meshes.FACES), process=False)
+        files = written("m.glb", lambda path: plain.export(path))
+        yield Turned("meshes of others", f"trimesh, m.glb in {unit}", files, "warned", "--unit", (), original)
+        yield Turned("meshes of others", f"trimesh, m.glb in {unit}, stated", files, options=("--unit", unit), original=original)
+    yield Turned("meshes of others", "trimesh, m.3mf", written("m.3mf", lambda path: mesh.export(path)), "refused", "STL or OBJ", (), original)
 
 
 def by_vtk(of_meshes, of_lines):
@@ -127,7 +157,7 @@ def by_vtk(of_meshes, of_lines):
     if not found: return
     core, model, xml, legacy, geometry, plyio = found
 
-    def data(points, cells, radii=None, space=None):
+    def data(points, cells, radii=None, **texts):
         poly, places, array = model.vtkPolyData(), core.vtkPoints(), model.vtkCellArray()
         places.SetDataTypeToDouble()
         for p in points: places.InsertNextPoint(*p)
@@ -141,34 +171,50 @@ def by_vtk(of_meshes, of_lines):
             values.SetName("MaximumInscribedSphereRadius")
             for r in radii: values.InsertNextValue(r)
             poly.GetPointData().AddArray(values)
-        if space:
+        for name, value in texts.items():
             text = core.vtkStringArray()
-            text.SetName("SPACE")
-            text.InsertNextValue(space)
+            text.SetName(name)
+            text.InsertNextValue(value)
             poly.GetFieldData().AddArray(text)
         return poly
-    for what, original, make in (("lines", of_lines, lambda space, signs: data(*(lambda p, r, c: (p, c, r))(*lines.line_data(lines.scaled(lines.LINES, signs=signs))), space)),
-                                 ("triangles", of_meshes, lambda space, signs: data([tuple(s * x for s, x in zip(signs, p)) for p in meshes.POINTS], meshes.FACES, None, space))):
-        for space, signs in ((None, (1, 1, 1)), ("RAS", (-1, -1, 1)), ("LPS", (1, 1, 1))):
-            poly = make(space, signs)
-            for mode in ("Ascii", "Binary", "Appended"):
+    def of_lines_with(signs, k, texts):
+        points, radii, cells = lines.line_data(lines.scaled(lines.LINES, k, signs))
+        return data(points, cells, radii, **texts)
+
+    def of_triangles_with(signs, k, texts):
+        return data([tuple(s * k * x for s, x in zip(signs, p)) for p in meshes.POINTS], meshes.FACES, **texts)
+
+    def xml_by(poly, mode, packer, header):
+        def write(path):
+            w = xml.vtkXMLPolyDataWriter()
+            getattr(w, "SetDataModeTo" + mode.removesuffix("Raw"))()
+            if mode.endswith("Raw"): w.EncodeAppendedDataOff()
+            getattr(w, f"SetCompressorTypeTo{packer}")()
+            getattr(w, f"SetHeaderTypeTo{header}")()
+            w.SetInputData(poly)
+            w.SetFileName(path)
+            w.Write()
+        return written("c.vtp", write)
+
+    def legacy_by(poly, binary):
+        def write(path):
+            w = legacy.vtkPolyDataWriter()
+            (w.SetFileTypeToBinary if binary else w.SetFileTypeToASCII)()
+            w.SetInputData(poly)
+            w.SetFileName(path)
+            w.Write()
+        return written("c.vtk", write)
+    stated = (((1, 1, 1), 1, {}), ((-1, -1, 1), 1, {"SPACE": "RAS"}), ((1, 1, 1), 1, {"SPACE": "LPS"}), ((-1, -1, 1), 0.1, {"SPACE": "RAS", "Unit": "cm"}))
+    for what, original, make in (("lines", of_lines, of_lines_with), ("triangles", of_meshes, of_triangles_with)):
+        for signs, k, texts in stated:
+            poly, facts = make(signs, k, texts), f"of {what} {' '.join(texts.values())}"
+            for mode in ("Ascii", "Binary", "Appended", "AppendedRaw"):
                 for packer in ("None", "ZLib"):
-                    def write(path):
-                        w = xml.vtkXMLPolyDataWriter()
-                        getattr(w, f"SetDataModeTo{mode}")()
-                        getattr(w, f"SetCompressorTypeTo{packer}")()
-                        w.SetInputData(poly)
-                        w.SetFileName(path)
-                        w.Write()
-                    yield Turned("VTK of others", f"VTK, XML of {what} {space} {mode} {packer}", written("c.vtp", write), original=original)
+                    for header in ("UInt32", "UInt64"):
+                        yield Turned("VTK of others", f"VTK, XML {facts} {mode} {packer} {header}", xml_by(poly, mode, packer, header), original=original)
+            yield Turned("VTK of others", f"VTK, XML {facts} LZ4", xml_by(poly, "Appended", "LZ4", "UInt32"), "refused", "vtkZLibDataCompressor", (), original)
             for binary in (False, True):
-                def write(path):
-                    w = legacy.vtkPolyDataWriter()
-                    (w.SetFileTypeToBinary if binary else w.SetFileTypeToASCII)()
-                    w.SetInputData(poly)
-                    w.SetFileName(path)
-                    w.Write()
-                yield Turned("VTK of others", f"VTK, legacy of {what} {space} {binary}", written("c.vtk", write), original=original)
+                yield Turned("VTK of others", f"VTK, legacy {facts} {binary}", legacy_by(poly, binary), original=original)
 
 
 def by_pydicom(g, original, where):
@@ -218,4 +264,5 @@ def others(grids):
             if sum((a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]) * c[i] for i in range(3)) > 0: yield from by_pydicom(at, original, where)
     of_meshes, of_lines = Turned("STL", "mm, LPS", {"m.stl": meshes.stl()}), Turned("SWC", "mm, LPS", {"c.swc": lines.swc()})
     for made in (by_meshio, by_trimesh): yield from made(of_meshes)
+    yield from leaning(Turned("NRRD", f"LPS; aligned, {turn_name(turns()[0])}", volumes.nrrd(grids["aligned"])))
     yield from by_vtk(of_meshes, of_lines)

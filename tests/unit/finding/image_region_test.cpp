@@ -238,5 +238,19 @@ TEST(ImageRegion, OneVesselIsFoundFromBorderToBorder) {
     }
 }
 
+// A phantom without noise whose grid stood upright (upright_grid.h): its tissue fills it, too.
+TEST(ImageRegion, WhatThePaddingTookIsNoImageThatAnotherFillLeaves) {
+  Volume volume = drawVolume(kSize, 1, [](const Vector3d& p) {
+    return capsule(p, {-9, 20, 24}, {72, 42, 38}, 3);
+  });
+  fillOutside(
+      volume, [](const Vector3d& p) { return p.x() + p.y() > 40; }, -1024);
+  volume.padding = {-1024.0F, -1024.0F};
+  const ContinuedVolume found = continued(volume);
+  ASSERT_TRUE(found);
+  for (std::size_t i = 0; i < voxelsOf(volume).size(); ++i)
+    ASSERT_EQ((*found->geometry.image)[i], voxelsOf(volume)[i] != -1024) << i;
+}
+
 }  // namespace
 }  // namespace lumen::convert

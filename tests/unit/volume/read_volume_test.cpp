@@ -122,17 +122,34 @@ TEST_F(ReadVolume, CropOutsideIsRefused) {
                 {"from -1 to 2"});
 }
 
-TEST_F(ReadVolume, NotANumberIsPadding) {
+TEST_F(ReadVolume, VoxelsThatAreNotFiniteArePadding) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const Volume volume =
-      readQuietly(writeMeta("MET_FLOAT", bytes<float>({1, nan, -2.5F, 3, nan, 4, 5, 6})));
-  EXPECT_EQ(std::get<std::vector<float>>(volume.voxels),
-            (std::vector<float>{1, -2.5F, -2.5F, 3, -2.5F, 4, 5, 6}));
-  EXPECT_EQ(volume.padding, (std::array{-2.5F, -2.5F}));
-  ASSERT_EQ(volume.assumptions.size(), 1U);
-  EXPECT_EQ(volume.assumptions[0],
-            "2 of its voxels are not a number (NaN); they count as no image, with the least of the "
-            "others, -2.5");
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float none : {nan, infinity, -infinity}) {
+    const Volume volume =
+        readQuietly(writeMeta("MET_FLOAT", bytes<float>({1, none, -2.5F, 3, nan, 4, 5, 6})));
+    EXPECT_EQ(std::get<std::vector<float>>(volume.voxels),
+              (std::vector<float>{1, -2.5F, -2.5F, 3, -2.5F, 4, 5, 6}));
+    EXPECT_EQ(volume.padding, (std::array{-2.5F, -2.5F}));
+    ASSERT_EQ(volume.assumptions.size(), 1U);
+    EXPECT_EQ(volume.assumptions[0],
+              "2 of its voxels are not finite (NaN, or infinite); they count as no image, with the "
+              "value -2.5");
+  }
+}
+
+// SPM writes masks so: outside of the mask a float is NaN.
+TEST_F(ReadVolume, NotANumberBesideLabelsIsWhatIsAroundThem) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const auto& [one, two] : {std::pair{1.0F, 1.0F}, {1.0F, 2.0F}, {0.9999F, 2.0F}}) {
+    const Volume map =
+        readQuietly(writeMeta("MET_FLOAT", bytes<float>({nan, nan, one, one, two, two, two, nan})));
+    EXPECT_EQ(std::get<std::vector<float>>(map.voxels),
+              (std::vector<float>{0, 0, one, one, two, two, two, 0}));
+  }
+  const Volume grey =
+      readQuietly(writeMeta("MET_FLOAT", bytes<float>({nan, 7, 4, 9, 3, 8, 5, nan})));
+  EXPECT_EQ(std::get<std::vector<float>>(grey.voxels)[0], 3);
 }
 
 TEST_F(ReadVolume, Int8IsWidenedToInt16) {

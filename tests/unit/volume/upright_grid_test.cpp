@@ -99,6 +99,35 @@ TEST_F(UprightGrid, IsTheFilesOwnWhereNothingLeans) {
   EXPECT_FALSE(standUpright(geometry));
 }
 
+/// Voxels under a lean of 17 degrees: those of a box are `label`, all others `around`.
+template <class T>
+Volume leaningLabels(T label, T around) {
+  Volume volume;
+  volume.geometry.size = {6, 6, 6};
+  volume.geometry.direction.col(2) = Vector3d(0, 0.3, 1).normalized();
+  std::vector<T> voxels;
+  for (int i = 0; i < 216; ++i)
+    voxels.push_back(i % 6 > 1 && i / 6 % 6 > 1 && i / 36 > 1 ? label : around);
+  volume.voxels = voxels;
+  const VolumeGeometry stored = volume.geometry;
+  EXPECT_TRUE(standUpright(volume.geometry));
+  resampleUpright(stored, volume, Progress());
+  return volume;
+}
+
+TEST_F(UprightGrid, LabelsThatAreNoCleanWholeNumbersStayWhatTheyAre) {
+  const Volume below = leaningLabels<std::int16_t>(5, -1);
+  for (const std::int16_t voxel : std::get<std::vector<std::int16_t>>(below.voxels))
+    EXPECT_TRUE(voxel == 5 || voxel == -1) << voxel;
+  const Volume beside = leaningLabels(2.0005F, 0.0F);
+  for (const float voxel : std::get<std::vector<float>>(beside.voxels))
+    EXPECT_TRUE(voxel == 2.0005F || voxel == 0) << voxel;
+  const Volume grey = leaningLabels(2.01F, 0.0F);
+  const auto& voxels = std::get<std::vector<float>>(grey.voxels);
+  EXPECT_TRUE(
+      std::any_of(voxels.begin(), voxels.end(), [](float v) { return v > 0.5 && v < 1.5; }));
+}
+
 TEST_F(UprightGrid, WidensATypeThatHasNoValueLeftForPadding) {
   VolumeGeometry stored;
   stored.size = {6, 6, 6};
