@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 constexpr double kAir = -1000;                              // HU
 constexpr double kAirwayWall = 20, kAirwayThickness = 1.2;  // HU, mm
 constexpr double kBreath = 1.2, kBreathLength = 9;          // mm along y, and along z
-constexpr double kStreak = 15, kStreakLength = 4;           // HU, mm
+constexpr double kStreakLevel = 15, kStreakLength = 4;           // HU, mm
 constexpr double kLeastStreaked = -300;                     // HU: air shows none
 constexpr double kHangs = 2;                                // mm: a vessel that begins so near
 constexpr std::uint64_t kStreakAngles = 0x73747265616bULL;
@@ -105,7 +105,7 @@ private:
   [[nodiscard]] double streakAt(const Vector3d& place) const {
     Random random(kStreakAngles, static_cast<std::uint64_t>(std::lround(place.z() / m_voxel)));
     const double angle = random.uniform(0, std::numbers::pi);
-    return kStreak * std::cos(2 * std::numbers::pi / kStreakLength *
+    return kStreakLevel * std::cos(2 * std::numbers::pi / kStreakLength *
                               (place.x() * std::cos(angle) + place.y() * std::sin(angle)));
   }
 

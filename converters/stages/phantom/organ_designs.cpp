@@ -14,17 +14,17 @@ using Eigen::Vector3d;
 using formats::VesselSystem;
 
 constexpr double kThrough = std::numeric_limits<double>::infinity(), kBox = 8;
-constexpr double kFat = -90, kMuscle = 45, kCortex = 700, kMarrow = 180;  // HU
+constexpr double kFatLevel = -90, kMuscleLevel = 45, kCompactaLevel = 700, kMarrowLevel = 180;  // HU
 
 /// A trunk with fat under its skin, muscle, and a vertebral column.
 std::vector<OrganShape> trunk() {
-  return {{{56, 56, 56}, {52, 44, kThrough}, kFat, kBox},
-          {{56, 56, 56}, {48, 40, kThrough}, kMuscle, kBox},
-          {{56, 86, 56}, {11, 9, kThrough}, kCortex, kBox},
-          {{56, 86, 56}, {9, 7, kThrough}, kMarrow, kBox}};
+  return {{{56, 56, 56}, {52, 44, kThrough}, kFatLevel, kBox},
+          {{56, 56, 56}, {48, 40, kThrough}, kMuscleLevel, kBox},
+          {{56, 86, 56}, {11, 9, kThrough}, kCompactaLevel, kBox},
+          {{56, 86, 56}, {9, 7, kThrough}, kMarrowLevel, kBox}};
 }
 
-Organ withShapes(std::vector<OrganShape> ground, const std::vector<OrganShape>& shapes) {
+Organ organOf(std::vector<OrganShape> ground, const std::vector<OrganShape>& shapes) {
   ground.insert(ground.end(), shapes.begin(), shapes.end());
   return {std::move(ground), {}, {}};
 }
@@ -66,7 +66,7 @@ Courses onHeart(const Winding& winding) {
 
 // Three coronary arteries on a heart whose ventricle is as bright as they are, and a vein along one.
 Design designHeart(const Frame& frame) {
-  Organ heart = withShapes(
+  Organ heart = organOf(
       trunk(), {{{56, 52, 56}, {35, 30, 40}, 105}, {{56, 52, 56}, {24, 19, 28}, 370}});
   const Courses arteries =
       joined(joined(onHeart({-0.9, 1.6, -0.7, 2.2}), onHeart({-0.7, -1.8, -0.3, 2.0})),
@@ -79,7 +79,7 @@ Design designHeart(const Frame& frame) {
 // The portal tree, which comes from below and is called the artery, as blood leads into the organ by
 // it, and the hepatic veins, which cross it from above.
 Design designLiver(const Frame& frame) {
-  Organ liver = withShapes(trunk(), {{{52, 48, 58}, {40, 30, 38}, 110}});
+  Organ liver = organOf(trunk(), {{{52, 48, 58}, {40, 30, 38}, 110}});
   liver.systems = {
       {VesselSystem::Artery, forkingTree({58, 60, 22}, {-0.2, -0.3, 1}, {20, 3.4, 3}), 240},
       {VesselSystem::Vein, forkingTree({50, 54, 96}, {-0.1, -0.2, -1}, {20, 3.8, 3, 0.6, 4}), 210}};
@@ -88,7 +88,7 @@ Design designLiver(const Frame& frame) {
 
 // Pulmonary arteries along bronchi, and pulmonary veins, on both sides.
 Design designLungs(const Frame& frame) {
-  Organ lungs = withShapes(trunk(), {{{31, 54, 56}, {18, 30, 40}, -850, 4},
+  Organ lungs = organOf(trunk(), {{{31, 54, 56}, {18, 30, 40}, -850, 4},
                                      {{81, 54, 56}, {18, 30, 40}, -850, 4}});
   const Vector3d hilum(44, 48, 56), outwards(-1, 0.2, 0.3);
   lungs.airways = onBothSides(forkingTree({44, 53, 56}, outwards, {13, 3, 2}));
@@ -105,7 +105,7 @@ Design designLungs(const Frame& frame) {
 // The true lumen of an aorta, with a branch, and the wider, dimmer false one, a third of a millimetre
 // apart, beside a plaque of calcium.
 Design designDissection(const Frame& frame) {
-  Organ aorta = withShapes(trunk(), {{{64, 70, 56}, {1.4, 1.4, 3}, 900}});
+  Organ aorta = organOf(trunk(), {{{64, 70, 56}, {1.4, 1.4, 3}, 900}});
   aorta.systems = {
       {VesselSystem::TrueLumen,
        joined(line({{55, 62, 0}, {57, 60, 56}, {54, 62, kOrganEdge}}, 5),
@@ -118,7 +118,7 @@ Design designDissection(const Frame& frame) {
 
 // Kidneys whose cortex is bright, between the aorta and the lower caval vein.
 Design designKidneys(const Frame& frame) {
-  Organ kidneys = withShapes(trunk(), {});
+  Organ kidneys = organOf(trunk(), {});
   for (const double x : {30.0, 82.0}) {
     kidneys.shapes.push_back({{x, 66, 56}, {13, 12, 24}, 175});
     kidneys.shapes.push_back({{x, 66, 56}, {8, 7, 15}, 60});
@@ -140,8 +140,8 @@ Design designLegs(const Frame& frame) {
   Organ legs;
   for (const double x : {31.0, 81.0})
     for (const OrganShape& shape :
-         {OrganShape{{x, 56, 56}, {24, 30, kThrough}, kFat, kBox},
-          OrganShape{{x, 56, 56}, {21, 27, kThrough}, kMuscle, kBox},
+         {OrganShape{{x, 56, 56}, {24, 30, kThrough}, kFatLevel, kBox},
+          OrganShape{{x, 56, 56}, {21, 27, kThrough}, kMuscleLevel, kBox},
           OrganShape{{x, 56, 56}, {9, 9, kThrough}, 1200}, OrganShape{{x, 56, 56}, {5, 5, kThrough}, 60}})
       legs.shapes.push_back(shape);
   const Courses branches = joined(line({{41, 45, 38}, {30, 42, 60}, {24, 44, 88}}, 2, 1.4),

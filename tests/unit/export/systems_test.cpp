@@ -89,6 +89,15 @@ TEST(Systems, ASceneOfSofaShowsEachByASurfaceOfItsColour) {
   EXPECT_TRUE(holds(fileOf(exported("sofa", kissingCase(1)), "scene.scn"), "view_vessel"));
 }
 
+TEST(Systems, NodesOfSofaAreVariablesInPython) {
+  formats::Case value = arteryAndVein();
+  formats::setNodeSystems(
+      value, std::vector<VesselSystem>(value.tree.nodeCount(), VesselSystem::TrueLumen));
+  const std::string script = fileOf(exported("sofa", value), "scene.py");
+  EXPECT_TRUE(holds(script, "    view_true_lumen = vessel.addChild(\"view_true_lumen\")"));
+  EXPECT_TRUE(holds(script, "vessel-true-lumen.obj"));
+}
+
 TEST(Systems, EachOtherProgramGetsThemInItsOwnWords) {
   const formats::Case value = arteryAndVein();
   EXPECT_TRUE(holds(fileOf(exported("steve", value), "vessels.py"), "\"narrow\": \"vein\""));

@@ -115,8 +115,11 @@ void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOpti
 /// The surface of each system of vessels, which scenes show in its colour.
 void addSystems(ExportResult& result, SceneInput& scene, const SurfaceMesh& surface) {
   for (const SystemPart& part : splitBySystem(surface)) {
-    scene.systems.push_back({part.name(), systemColor(part.system)});
-    result.files.push_back({scene.systems.back().file(), encodeObj(part.surface),
+    std::string word = part.name();
+    std::replace(word.begin(), word.end(), '-', '_');
+    const std::string file = "vessel-" + part.name() + ".obj";
+    scene.systems.push_back({word, file, systemColor(part.system)});
+    result.files.push_back({file, encodeObj(part.surface),
                             "the part of the surface that is of the system " + part.name(), ""});
   }
 }

@@ -44,10 +44,9 @@ struct SceneGrid {
 
 /// The surface of a system of vessels, to be looked at in a colour of its own.
 struct SceneSystem {
-  std::string name;             ///< "artery"
-  std::array<double, 3> color;  ///< sRGB, 0 to 1
-
-  [[nodiscard]] std::string file() const { return "vessel-" + name + ".obj"; }
+  std::string name;               ///< "true_lumen": of nodes, which are variables in Python
+  std::string file;               ///< "vessel-true-lumen.obj"
+  std::array<double, 3> color{};  ///< sRGB, 0 to 1
 };
 
 /// The case and the instruments of a scene.

@@ -185,7 +185,7 @@ void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
   for (const SceneSystem& system : input.systems) {
     vessel.add("MeshOBJLoader", "The surface of this system of vessels, with the points of all")
         .set("name", "loader_" + system.name)
-        .setFile("filename", system.file())
+        .setFile("filename", system.file)
         .set("flipNormals", wall == WallKind::Mesh ? 1 : 0);
     addSurfaceView(vessel, system.name, "loader_" + system.name, system.color, input.moves);
   }
