@@ -71,7 +71,7 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
   for (const std::string& assumption : result.assumptions)
     result.remarks.push_back("the file of the case's volume left open: " + assumption);
   addMotion(source, result);
-  result.files.push_back({"README.md", readmeText(target, frame, result), "", ""});
+  result.files.push_back({"README.md", readmeText(target, frame, source, result), "", ""});
   result.files.push_back(
       {"lumen-export.json", makeManifest(target, frame, source, texts, result), "", ""});
   return result;

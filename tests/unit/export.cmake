@@ -51,6 +51,7 @@ lumen_test(export_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/export_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/hostile_labels_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/systems_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/shared_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/wall_files_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/named_end_test.cpp)

@@ -71,10 +71,8 @@ lumen_test(operations_test FOLDER operations
 lumen_test(phantom_test FOLDER phantom
   LABELS threads
   LIBS lumen_phantom lumen_geometry)
-if(HAS_NUMPY)
-  python_test(Finding.VesselsInDrawnOrgansStayFound nightly
-    ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/organs.py hold $<TARGET_FILE:lumen>)
-endif()
+python_test(Finding.VesselsInDrawnOrgansStayFound nightly
+  ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/organs.py hold $<TARGET_FILE:lumen>)
 # .ci/nightly makes the environment, where there is a Python that VMTK's wheel runs with.
 set(peers ${PROJECT_SOURCE_DIR}/build/peers/bin/python)
 if(EXISTS ${peers} AND EXISTS ${PROJECT_SOURCE_DIR}/../shared/data/prior AND NOT LUMEN_SANITIZE)

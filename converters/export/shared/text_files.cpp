@@ -12,8 +12,11 @@
 #include "converters/base/number_text.h"
 #include "converters/base/sha256.h"
 #include "converters/base/shown_text.h"
+#include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
 #include "converters/io/mesh/write_options.h"
 #include "formats/case/case_encoding.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -96,6 +99,43 @@ Json endsJson(const ExportFrame& frame, const std::vector<NamedEnd>& ends) {
   return list;
 }
 
+/// A system of vessels, and the branches that it has.
+struct SystemBranches {
+  formats::VesselSystem system = formats::VesselSystem::Unknown;
+  std::vector<std::string> labels;
+};
+
+/// In the order of their values; none if the case states no systems.
+std::vector<SystemBranches> systemsOf(const formats::Case& source) {
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(source);
+  std::vector<SystemBranches> all;
+  for (std::size_t i = 0; i < formats::kVesselSystemCount; ++i) {
+    SystemBranches one{static_cast<formats::VesselSystem>(i), {}};
+    for (std::size_t b = 0; b < systems.size(); ++b)
+      if (systems[b] == one.system) one.labels.push_back(source.tree.branches[b].label);
+    if (!one.labels.empty()) all.push_back(std::move(one));
+  }
+  return all;
+}
+
+Json systemsJson(const std::vector<SystemBranches>& systems) {
+  Json list = Json::array();
+  for (const SystemBranches& one : systems)
+    list.push_back({{"name", systemName(one.system)},
+                    {"color", systemColorHex(one.system)},
+                    {"branches", one.labels}});
+  return list;
+}
+
+std::string systemsTable(const std::vector<SystemBranches>& systems) {
+  if (systems.empty()) return "";
+  std::string text = "\n## Systems of vessels\n\n| system | colour | branches |\n|---|---|---|\n";
+  for (const SystemBranches& one : systems)
+    text += "| " + systemName(one.system) + " | `" + systemColorHex(one.system) + "` | " +
+            std::to_string(one.labels.size()) + " |\n";
+  return text + "\n`lumen-export.json` lists the branches by name.\n";
+}
+
 std::span<const std::byte> bytesOf(const std::string& text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
@@ -148,7 +188,7 @@ std::string endsTable(const ExportFrame& frame, const std::vector<NamedEnd>& end
 }  // namespace
 
 std::string readmeText(const TargetRow& target, const ExportFrame& frame,
-                       const ExportResult& result) {
+                       const formats::Case& source, const ExportResult& result) {
   std::string text = "# Vessels for " + std::string(target.title) + "\n\n" + result.start;
   text += "\n## Files\n\n" + filesTable(result);
   text += "\n## Units and frame\n\nLengths are in " + std::string(unitName(frame.unit)) +
@@ -160,27 +200,29 @@ std::string readmeText(const TargetRow& target, const ExportFrame& frame,
         "\n**Not certain**: the file of the case's volume left open: " + markdownText(assumption) +
         ".\n";
   for (const std::string& loss : result.losses) text += "\n" + markdownText(loss) + ".\n";
-  text += endsTable(frame, result.ends);
+  text += endsTable(frame, result.ends) + systemsTable(systemsOf(source));
   return text + "\nMade by lumen " LUMEN_VERSION ".\n";
 }
 
 std::string makeManifest(const TargetRow& target, const ExportFrame& frame,
                          const formats::Case& source, const OptionTexts& options,
                          const ExportResult& result) {
-  const Json json = {{"format", "lumen-export"},
-                     {"version", kManifestVersion},
-                     {"target", target.name},
-                     {"title", target.title},
-                     {"generator", "lumen " LUMEN_VERSION},
-                     {"case", {{"sha256", sha256(formats::encodeBinary(source))}}},
-                     {"options", options},
-                     {"unit", unitName(frame.unit)},
-                     {"axes", axesName(frame.axes)},
-                     {"transform", matrixJson(frame.matrix())},
-                     {"ends", endsJson(frame, result.ends)},
-                     {"remarks", result.remarks},
-                     {"losses", result.losses},
-                     {"files", filesJson(result.files)}};
+  Json json = {{"format", "lumen-export"},
+               {"version", kManifestVersion},
+               {"target", target.name},
+               {"title", target.title},
+               {"generator", "lumen " LUMEN_VERSION},
+               {"case", {{"sha256", sha256(formats::encodeBinary(source))}}},
+               {"options", options},
+               {"unit", unitName(frame.unit)},
+               {"axes", axesName(frame.axes)},
+               {"transform", matrixJson(frame.matrix())},
+               {"ends", endsJson(frame, result.ends)},
+               {"remarks", result.remarks},
+               {"losses", result.losses},
+               {"files", filesJson(result.files)}};
+  if (const auto systems = systemsOf(source); !systems.empty())
+    json["systems"] = systemsJson(systems);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

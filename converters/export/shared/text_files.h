@@ -28,11 +28,13 @@ std::string markdownText(std::string_view text);
 /// `version` of lumen-export.json, spec/export.md.
 inline constexpr int kManifestVersion = 1;
 
-/// README.md: title, how to start, files, units and frame, named ends.
+/// README.md: title, how to start, files, units and frame, named ends, systems of the vessels of
+/// `source`.
 std::string readmeText(const TargetRow& target, const ExportFrame& frame,
-                       const ExportResult& result);
+                       const formats::Case& source, const ExportResult& result);
 
-/// lumen-export.json, spec/export.md, with all files of `result`. Equal folders give equal bytes.
+/// lumen-export.json, spec/export.md, with all files of `result` and the systems of the vessels of
+/// `source`. Equal folders give equal bytes.
 std::string makeManifest(const TargetRow& target, const ExportFrame& frame,
                          const formats::Case& source, const OptionTexts& options,
                          const ExportResult& result);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -64,24 +65,65 @@ void useOwnVertices(const SurfaceMesh& surface, MeshPart& part, std::vector<std:
 
 }  // namespace
 
-std::vector<MeshPart> splitMesh(const SurfaceMesh& surface, MeshPer per) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, MeshPart> parts;
+std::vector<MeshPart> splitMesh(const SurfaceMesh& surface, MeshPer per, bool bySystem) {
+  std::map<std::tuple<std::uint32_t, std::uint32_t, formats::VesselSystem>, MeshPart> parts;
+  const auto systems = bySystem ? triangleSystems(surface) : std::vector<formats::VesselSystem>();
   for (std::size_t f = 0; f < surface.triangle.size(); ++f) {
     const Triangle& t = surface.triangle[f];
     const std::uint32_t branch = per == MeshPer::Branch ? branchOf(surface, t) : 0;
-    parts[{branch, surface.group[f]}].triangle.push_back(t);
+    const auto system = systems.empty() ? formats::VesselSystem::Unknown : systems[f];
+    parts[{branch, surface.group[f], system}].triangle.push_back(t);
   }
   std::vector<MeshPart> result;
   std::vector<std::uint32_t> local(surface.position.size(), kNone);
   for (auto& [key, part] : parts) {
-    part.branch = key.first;
-    part.group = key.second;
+    std::tie(part.branch, part.group, part.system) = key;
     useOwnVertices(surface, part, local);
     part.isFlat = isFlat(surface.groups[part.group].kind);
     if (part.isFlat) takeNormalsOfFaces(surface, part);
     result.push_back(std::move(part));
   }
   return result;
+}
+
+std::string systemName(formats::VesselSystem system) {
+  return std::string(formats::kVesselSystemNames[static_cast<std::size_t>(system)]);
+}
+
+std::vector<formats::VesselSystem> triangleSystems(const SurfaceMesh& surface) {
+  std::vector<formats::VesselSystem> systems;
+  if (surface.systems.empty()) return systems;
+  for (const Triangle& t : surface.triangle)
+    systems.push_back(surface.systems[branchOf(surface, t)]);
+  return systems;
+}
+
+std::optional<formats::VesselSystem> mainSystem(const SurfaceMesh& surface) {
+  std::map<formats::VesselSystem, std::size_t> counts;
+  for (const formats::VesselSystem system : triangleSystems(surface)) ++counts[system];
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == counts.end()) return std::nullopt;
+  return most->first;
+}
+
+std::vector<SystemPart> splitBySystem(const SurfaceMesh& surface) {
+  std::vector<SystemPart> parts;
+  const std::vector<formats::VesselSystem> systems = triangleSystems(surface);
+  for (const formats::VesselSystem system :
+       std::set<formats::VesselSystem>(systems.begin(), systems.end())) {
+    SurfaceMesh part = surface;
+    part.triangle.clear();
+    part.group.clear();
+    for (std::size_t f = 0; f < systems.size(); ++f) {
+      if (systems[f] != system) continue;
+      part.triangle.push_back(surface.triangle[f]);
+      part.group.push_back(surface.group[f]);
+    }
+    parts.push_back({system, std::move(part)});
+  }
+  return parts;
 }
 
 bool isClosed(const SurfaceMesh& surface) {
@@ -151,8 +193,7 @@ std::vector<std::string> distinct(const std::vector<std::string>& names,
 
 std::vector<std::string> systemNames(const SurfaceMesh& surface) {
   std::vector<std::string> names;
-  for (const formats::VesselSystem system : surface.systems)
-    names.emplace_back(formats::kVesselSystemNames[static_cast<std::size_t>(system)]);
+  for (const formats::VesselSystem system : surface.systems) names.emplace_back(systemName(system));
   return names;
 }
 

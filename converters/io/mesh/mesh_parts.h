@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,41 @@ namespace lumen::convert {
 
 /// The faces of one group, and of one branch if the surface is also cut into branches.
 struct MeshPart {
-  std::uint32_t branch = 0;           ///< index into the surface's labels; 0 if not cut by branches
-  std::uint32_t group = 0;            ///< index into the surface's groups
-  bool isFlat = false;                ///< an inlet or an outlet
+  std::uint32_t branch = 0;  ///< index into the surface's labels; 0 if not cut by branches
+  std::uint32_t group = 0;   ///< index into the surface's groups
+  formats::VesselSystem system = formats::VesselSystem::Unknown;  ///< where cut by systems
+  bool isFlat = false;                                            ///< an inlet or an outlet
   std::vector<std::uint32_t> vertex;  ///< vertices of the surface, each once
   std::vector<Float3> normal;  ///< normal of each `vertex`: a flat part's own, else the surface's
   std::vector<Triangle> triangle;  ///< indices into `vertex`
 };
 
-/// The non-empty parts, by branch and then by group. A face belongs to the branch of two of its
-/// vertices, or to that of its first.
-std::vector<MeshPart> splitMesh(const SurfaceMesh& surface, MeshPer per);
+/// The non-empty parts, by branch, then by group, and then by system of vessels if they are cut by
+/// systems, which the surface states. A face belongs to the branch of two of its vertices, or to that
+/// of its first.
+std::vector<MeshPart> splitMesh(const SurfaceMesh& surface, MeshPer per, bool bySystem = false);
+
+// Systems of vessels on a surface.
+
+/// "artery", as files name it.
+std::string systemName(formats::VesselSystem system);
+
+/// The system of each triangle; none if the surface states no systems.
+std::vector<formats::VesselSystem> triangleSystems(const SurfaceMesh& surface);
+
+/// The system of most triangles, the least value of several; none as above.
+std::optional<formats::VesselSystem> mainSystem(const SurfaceMesh& surface);
+
+/// A system, and the surface with the triangles of it alone; its vertices are all there.
+struct SystemPart {
+  formats::VesselSystem system = formats::VesselSystem::Unknown;
+  SurfaceMesh surface;
+  [[nodiscard]] std::string name() const { return systemName(system); }
+};
+
+/// One part for each system that a triangle has, in the order of their values; none if the surface
+/// states no systems.
+std::vector<SystemPart> splitBySystem(const SurfaceMesh& surface);
 
 /// Whether every edge lies between two faces that run along it in opposite directions.
 bool isClosed(const SurfaceMesh& surface);

@@ -98,6 +98,21 @@ std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& sc
   return colors;
 }
 
+std::array<double, 3> systemColor(formats::VesselSystem system) {
+  const Rgb& rgb = kSystemHues[static_cast<std::size_t>(system)];
+  return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
+}
+
+std::string systemColorHex(formats::VesselSystem system) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string text = "#";
+  for (const std::uint8_t byte : kSystemHues[static_cast<std::size_t>(system)]) {
+    text += kDigits[byte / 16];
+    text += kDigits[byte % 16];
+  }
+  return text;
+}
+
 const char* colorMapName(ColorBy by) {
   if (by == ColorBy::System)
     return "Okabe-Ito: artery vermilion, vein blue, true-lumen orange, false-lumen purple; unknown "

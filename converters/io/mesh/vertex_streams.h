@@ -41,6 +41,11 @@ ColorScale measureColorScale(const SurfaceMesh& surface, ColorBy by);
 /// each system of vessels. All colours are distinguishable with any kind of colour vision.
 std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& scale);
 
+/// The colour that stands for a system of vessels everywhere: red, green and blue of sRGB, 0 to 1.
+std::array<double, 3> systemColor(formats::VesselSystem system);
+/// The same as "#RRGGBB".
+std::string systemColorHex(formats::VesselSystem system);
+
 /// The name of the colour scheme that vertexColors() applies.
 const char* colorMapName(ColorBy by);
 

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "converters/base/error.h"
@@ -48,13 +51,27 @@ json rootNode() {
          "LPS mm"}}}};
 }
 
-// The wall is arterial red, and the lumen at an open end darker; white if vertices have colours.
-json makeMaterial(FaceKind kind, bool isOpen, bool isColored) {
+// Linear light, as glTF's factors are.
+json systemFactor(formats::VesselSystem system) {
+  SurfaceMesh one;
+  one.branch = {0};
+  one.systems = {system};
+  const Color color = vertexColors(one, {ColorBy::System, 0, 1}).front();
+  return {color[0] / 65535.0, color[1] / 65535.0, color[2] / 65535.0, 1.0};
+}
+
+// The wall is arterial red, or has the colour of its system if it states one, and the lumen at an
+// open end is darker; white if vertices have colours.
+json makeMaterial(FaceKind kind, const std::optional<formats::VesselSystem>& system, bool isOpen,
+                  bool isColored) {
   const bool isWall = kind == FaceKind::Wall;
-  const json color = isColored ? json{1.0, 1.0, 1.0, 1.0}
-                     : isWall  ? json{0.5, 0.05, 0.05, 1.0}
-                               : json{0.2, 0.01, 0.02, 1.0};
-  json material = {{"name", isWall ? "vessel wall" : faceKindName(kind)},
+  const json color = isColored          ? json{1.0, 1.0, 1.0, 1.0}
+                     : isWall && system ? systemFactor(*system)
+                     : isWall           ? json{0.5, 0.05, 0.05, 1.0}
+                                        : json{0.2, 0.01, 0.02, 1.0};
+  std::string name = isWall ? "vessel wall" : faceKindName(kind);
+  if (system) name += ", " + systemName(*system);
+  json material = {{"name", name},
                    {"pbrMetallicRoughness",
                     {{"baseColorFactor", color},
                      {"metallicFactor", 0.0},
@@ -248,7 +265,8 @@ private:
   }
 
   void addLevel(const SurfaceMesh& surface) {
-    Level level{surface, splitMesh(surface, m_options.per), {}};
+    const bool bySystem = m_layout && !surface.systems.empty();
+    Level level{surface, splitMesh(surface, m_options.per, bySystem), {}};
     if (!m_options.draco)
       for (MeshPart& part : level.parts) orderForDrawing(part);
     level.streams = vertexStreams(surface, level.parts, m_scale);
@@ -268,7 +286,7 @@ private:
       if (!m_layout)
         mesh["extras"] = meshExtras(surface, level.streams, m_scale, m_skin != nullptr);
       for (; i < primitives.size() && level.parts[i].branch == branch; ++i)
-        mesh["primitives"].push_back(finished(primitives[i], level.parts[i].group));
+        mesh["primitives"].push_back(finished(primitives[i], level.parts[i], bySystem));
       json node = {{"name", name}, {"mesh", m_document.add("meshes", std::move(mesh))}};
       if (m_skin) node["skin"] = m_skinIndex;
       m_nodes[branch].push_back(m_document.add("nodes", std::move(node)));
@@ -279,20 +297,22 @@ private:
     return m_options.per == MeshPer::Branch ? m_first.labels[branch] : "vessels";
   }
 
-  json finished(json primitive, std::uint32_t index) {
-    const FaceGroup& group = m_first.groups[index];
+  json finished(json primitive, const MeshPart& part, bool bySystem) {
+    const FaceGroup& group = m_first.groups[part.group];
     primitive["mode"] = 4;
-    primitive["material"] = materialFor(group.kind);
+    primitive["material"] =
+        materialFor(group.kind, bySystem ? std::optional(part.system) : std::nullopt);
     primitive["extras"] = {
-        {"name", group.name}, {"number", index + 1}, {"kind", faceKindName(group.kind)}};
+        {"name", group.name}, {"number", part.group + 1}, {"kind", faceKindName(group.kind)}};
+    if (bySystem) primitive["extras"]["system"] = systemName(part.system);
     return primitive;
   }
 
-  int materialFor(FaceKind kind) {
-    const auto [found, isNew] = m_materials.try_emplace(kind, 0);
+  int materialFor(FaceKind kind, const std::optional<formats::VesselSystem>& system) {
+    const auto [found, isNew] = m_materials.try_emplace({kind, system}, 0);
     if (isNew)
       found->second = m_document.add(
-          "materials", makeMaterial(kind, m_isOpen, m_options.color != ColorBy::None));
+          "materials", makeMaterial(kind, system, m_isOpen, m_options.color != ColorBy::None));
     return found->second;
   }
 
@@ -324,7 +344,7 @@ private:
   ColorScale m_scale;
   DracoGrid m_grid;
   bool m_isOpen;
-  std::map<FaceKind, int> m_materials;
+  std::map<std::pair<FaceKind, std::optional<formats::VesselSystem>>, int> m_materials;
   std::map<std::uint32_t, std::vector<int>> m_nodes;  // nodes of each mesh, in the order of levels
 };
 

@@ -55,8 +55,9 @@ struct GltfScene {
 };
 
 /// A GLB of vertices that are already in the file's frame: the root node has no matrix, vertices
-/// have POSITION and NORMAL only, and `scene` gives one name per level. Throws Error(Unsupported)
-/// above 2 GiB of vertex data.
+/// have POSITION and NORMAL only, and `scene` gives one name per level. Where the surface states
+/// systems of vessels, each has a material of its own, with its name and colour. Throws
+/// Error(Unsupported) above 2 GiB of vertex data.
 std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene);
 
 }  // namespace lumen::convert

@@ -153,7 +153,10 @@ void EditableCase::writeLinks(const Layout& layout, Case& out) const {
     if (second == kNoNode || out.tree.parent[second] == static_cast<std::int32_t>(first)) continue;
     out.tree.links.push_back({first, second});
   }
+  // links of two vessels that an edit made one may be equal
   std::sort(out.tree.links.begin(), out.tree.links.end());
+  out.tree.links.erase(std::unique(out.tree.links.begin(), out.tree.links.end()),
+                       out.tree.links.end());
 }
 
 std::vector<std::vector<std::uint32_t>> EditableCase::pointsByOwner() const {

@@ -15,6 +15,7 @@
 #include "converters/base/vectors.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/case/case.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
@@ -61,6 +62,9 @@ struct Design {
   /// Signed distance to the wall, mm, negative inside, right to first order near it and to a factor of
   /// two elsewhere; empty: the wall is that of the tree taken as tubes. Contrast is full.
   std::function<double(const Eigen::Vector3d&)> wall;
+  /// Intensity around the vessels, as a share of the full contrast; empty: none. May be negative.
+  std::function<double(const Eigen::Vector3d&)> ground;
+  std::vector<formats::VesselSystem> systems;  ///< one for each node; empty: unknown
 };
 
 /// Appends branches to a design, resampled to the frame's node spacing.
@@ -150,6 +154,13 @@ Design designSacFork(const Frame& frame);
 Design designWillis(const Frame& frame);
 Design designCoronary(const Frame& frame);
 Design designHepatic(const Frame& frame);
+Design designHeart(const Frame& frame);
+Design designLiver(const Frame& frame);
+Design designLungs(const Frame& frame);
+Design designDissection(const Frame& frame);
+Design designKidneys(const Frame& frame);
+Design designLegs(const Frame& frame);
+Design designRetina(const Frame& frame);
 Design designPatient(const Frame& frame, std::uint64_t seed, Progress& progress);
 
 }  // namespace lumen::convert

@@ -231,6 +231,9 @@ Design designIn(const PhantomOptions& options, const IntoOptions& into, const Vo
     std::vector<float>& contrast = builder.design().contrast;
     std::fill(contrast.begin() + static_cast<std::ptrdiff_t>(first), contrast.end(),
               static_cast<float>(f == 0 ? into.contrast : into.veinContrast));
+    if (hasVeins)
+      builder.design().systems.resize(
+          contrast.size(), f == 0 ? formats::VesselSystem::Artery : formats::VesselSystem::Vein);
   }
   if (builder.tree().nodeCount() == 0)
     throw invalidInput("no vessel of the trees lies in the body; " + options.word("move") +
@@ -262,6 +265,7 @@ IntoResult drawIntoScan(const PhantomOptions& options, const IntoOptions& into, 
   blend(drawVessels(design, scan.geometry, result.look, options.seed, progress), result.look, scan);
   result.phantom.seeds = clickTree(design.tree, options, scan.geometry.spacing.minCoeff());
   result.phantom.truth.tree = std::move(design.tree);
+  if (!design.systems.empty()) formats::setNodeSystems(result.phantom.truth, design.systems);
   result.phantom.truth.metadata.steps.push_back(describe(options, into, result, source));
   result.phantom.truth.metadata.voxelSize = scan.geometry.voxelSize();
   result.phantom.truth.metadata.source = describeSource(scan);

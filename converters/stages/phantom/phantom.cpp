@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 #include "converters/base/error.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/motion/posing.h"
 #include "converters/stages/phantom/clutter.h"
 #include "converters/stages/phantom/phantom_scene.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 
@@ -16,6 +19,9 @@ namespace lumen::convert {
 namespace {
 
 constexpr int kSmallestSize = 32, kLargestSize = 1024;
+constexpr double kUsualVoxel = 0.2, kOrganVoxel = 1, kLeastVoxel = 0.01, kLargestVoxel = 10;  // mm
+// Of the full contrast, which noise and bias are shares of: 220 HU in organs.
+constexpr double kOrganContrast = 0.22;
 
 void requireRange(const std::string& field, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -32,6 +38,7 @@ void checkOptions(const PhantomOptions& options) {
                 "phantom: there is no '" + formats::printable(options.name) + "'");
   if (options.size != 0)
     requireRange(options.word("size"), options.size, kSmallestSize, kLargestSize);
+  requireRange(options.word("voxel"), options.voxel, kLeastVoxel, kLargestVoxel);
   if (options.sliceThickness != 0)
     requireRange(options.word("slice-thickness"), options.sliceThickness, options.voxel,
                  100 * options.voxel);
@@ -54,6 +61,7 @@ formats::Case describeTruth(const PhantomScene& scene, const PhantomOptions& opt
   }
   step.parameters.insert(scene.design.notes.begin(), scene.design.notes.end());
   truth.metadata.steps.push_back(step);
+  if (!scene.design.systems.empty()) formats::setNodeSystems(truth, scene.design.systems);
   return truth;
 }
 
@@ -65,10 +73,27 @@ VolumeGeometry geometryOf(const PhantomScene& scene, const Image& image) {
   return geometry;
 }
 
-// Steps that drawing one phase announces: the tree, two passes of the blur, and the noise each report
-// every slice.
+// Puts the ground where no vessel is; `image` has the vessels with their contrast.
+void drawGround(const Design& design, const VolumeGeometry& grid, Image& image,
+                Progress& progress) {
+  Design full = design;
+  std::fill(full.contrast.begin(), full.contrast.end(), 1.0F);
+  const Image share = drawOccupancy(full, grid, progress);
+  tbb::parallel_for(0, grid.size[2], [&](int z) {
+    progress.check();
+    for (int y = 0; y < grid.size[1]; ++y) {
+      float* row = image.row(y, z);
+      const float* inside = share.value.data() + share.index(y, z);
+      for (int x = 0; x < grid.size[0]; ++x)
+        row[x] += (1 - inside[x]) * static_cast<float>(design.ground(grid.position({x, y, z})));
+    }
+  });
+}
+
+// Steps that drawing one phase announces: the tree, which is drawn twice above a ground, two passes of
+// the blur, and the noise each report every slice.
 std::size_t stepsOf(const PhantomScene& scene, const PhantomOptions& options) {
-  return 3 * static_cast<std::size_t>(scene.grid.size[2]) +
+  return (scene.design.ground ? 4 : 3) * static_cast<std::size_t>(scene.grid.size[2]) +
          static_cast<std::size_t>(scene.grid.size[1]) +
          clutterSteps(parseClutter(options.clutter), scene.design, scene.grid);
 }
@@ -77,6 +102,7 @@ std::size_t stepsOf(const PhantomScene& scene, const PhantomOptions& options) {
 Volume draw(const PhantomScene& scene, const Design& design, const PhantomOptions& options,
             int phase, Progress& progress) {
   Image image = drawOccupancy(design, scene.grid, progress);
+  if (design.ground) drawGround(design, scene.grid, image, progress);
   addClutter(parseClutter(options.clutter), design, scene.grid, options.seed, image, progress);
   blur(image, Eigen::Vector3d::Constant(options.psf), progress);
   if (scene.slice != 1) image = averageSlices(image, scene.slice);
@@ -84,12 +110,19 @@ Volume draw(const PhantomScene& scene, const Design& design, const PhantomOption
   volume.geometry = geometryOf(scene, image);
   // noise of its own for each phase
   const std::uint64_t seed = options.seed + 1000003 * static_cast<std::uint64_t>(phase);
-  volume.voxels = degrade(image, options.bias, options.noise, seed, scene.slice, progress);
+  const double full = design.ground ? kOrganContrast : 1;
+  volume.voxels =
+      degrade(image, full * options.bias, full * options.noise, seed, scene.slice, progress);
   return volume;
 }
 
 void requireTree(const PhantomScene& scene, const PhantomOptions& options) {
-  if (options.motion == PhantomMotion::None || !scene.design.wall) return;
+  if (options.motion == PhantomMotion::None) return;
+  if (scene.design.ground)
+    throw Error(ErrorKind::Usage, "phantom: the tissue around the vessels of '" + options.name +
+                                      "' would stand still; " + options.word("motion") +
+                                      " expects another phantom");
+  if (!scene.design.wall) return;
   throw Error(ErrorKind::Usage, "phantom: the wall of '" + options.name +
                                     "' is not that of its tree, which " + options.word("motion") +
                                     " would move; expected another phantom");
@@ -144,11 +177,14 @@ void PhantomOptions::addRows(OptionTable& table) {
   table.group("Phantom");
   table
       .add("size", &size, "N",
-           "Voxels along an edge; 0: 128, or 256 for patient and willis; not with " + word("tree"))
+           "Voxels along an edge; 0: 128, 256 for patient and willis, 112 for organs; not with " +
+               word("tree"))
       .in(WholeRange{0, kLargestSize})
       .recorded()
       .notBeside("tree");
-  table.add("voxel", &voxel, "MM", "Edge of a voxel").in(NumberRange{0.01, 10}).recorded();
+  table.add("voxel", &voxel, "MM", "Edge of a voxel; 0: 0.2, or 1 for organs")
+      .in(NumberRange{0, kLargestVoxel})
+      .recorded();
   table
       .add("slice-thickness", &sliceThickness, "MM",
            "Thickness of a slice along z, which is the mean over it; 0: a voxel, or five for "
@@ -209,8 +245,9 @@ Phantom makePhantom(const PhantomOptions& options, Progress& progress) {
       options, [](int, const Volume&) {}, progress);
 }
 
-Phantom makePhantom(const PhantomOptions& options, const PhaseReceiver& receive,
-                    Progress& progress) {
+Phantom makePhantom(const PhantomOptions& asked, const PhaseReceiver& receive, Progress& progress) {
+  PhantomOptions options = asked;
+  if (options.voxel == 0) options.voxel = isOrgan(options.name) ? kOrganVoxel : kUsualVoxel;
   checkOptions(options);
   PhantomScene scene =
       options.tree.empty() ? sceneOfName(options, progress) : sceneOfTree(options, progress);

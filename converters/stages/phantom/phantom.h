@@ -36,6 +36,11 @@
 // | willis | a circle of Willis: three inlets, and communicating arteries as links |
 // | coronary | an artery that winds over a ventricle, with three side branches |
 // | hepatic | a trunk that divides three times |
+// | heart | coronary arteries and a vein on a heart with a bright ventricle |
+// | liver | portal and hepatic venous trees that cross |
+// | lungs | pulmonary arteries along bronchi, and veins |
+// | dissection | true and false lumen of an aorta beside calcium |
+// | kidneys, legs, retina | two systems beside a bright cortex, bone, each other |
 // | patient | a random tree |
 //
 // Shapes scale with the volume's edge. Radii of the small phantoms are given for 25.4 mm (128
@@ -55,6 +60,11 @@
 // `coronary` and `hepatic` lie in the middle half of the volume, so that they can move. With --motion
 // (moving.h) there is a volume for each of the phases, evenly over a cycle, the first at rest; each has
 // noise of its own. The truth is the tree at rest with its motion.
+//
+// `heart` to `retina` are organs in computed tomography: intensities are Hounsfield units, voxels of 1
+// mm and 112 along an edge are usual, and all lengths scale with the volume's edge. Noise and bias are
+// shares of 220 HU. Edges breathe and slices have streaks. The truth states the system of each vessel;
+// branches are SYSTEM-000 and so on. They do not move.
 //
 // A tree from a file is smoothed by the rule of smooth_chain.h. Its branches are b000, b001 and so
 // on, its seeds those of the vessels that are longer than 5 mm and wide enough to be tracked
@@ -82,9 +92,9 @@ struct PhantomOptions {
   std::string name;            ///< one of phantomNames(); empty with a tree
   std::filesystem::path tree;  ///< an SWC file in mm; empty with a name
   int size =
-      0;  ///< voxels along an edge; 0: the phantom's own (128; patient and willis 256); a tree's
-          ///< box follows from it
-  double voxel = 0.2;   ///< mm
+      0;  ///< voxels along an edge; 0: the phantom's own (128; patient and willis 256; organs
+          ///< 112); a tree's box follows from it
+  double voxel = 0;     ///< mm; 0: the phantom's own (0.2; organs 1)
   double noise = 0.05;  ///< standard deviation, as a share of the vessels' contrast
   double bias = 0.1;    ///< amplitude of the slow bias field, as a share of the contrast
   double psf = 0.6;     ///< standard deviation of the Gaussian point-spread function, in voxels
@@ -114,6 +124,9 @@ constexpr int kFewestSlices = 4;
 
 /// Ways to click, by their names.
 const std::map<std::string, bool>& carelessByName();
+
+/// Whether a phantom is an organ with tissue around its vessels.
+bool isOrgan(const std::string& name);
 
 /// Names of the phantoms, in the order of the table above.
 const std::vector<std::string>& phantomNames();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "converters/base/error.h"
@@ -25,7 +26,8 @@ constexpr double kSmallestPatient = 25;    // mm
 constexpr double kMarginVoxels = 10;       // between the walls and the faces
 constexpr double kMostVoxels = 536870912;  // 2^29: 3 GiB while it is drawn
 constexpr double kMostDraws = 1e11;        // distances of voxels to pieces of wall: minutes
-constexpr double kNamedSlice = 5;          // voxels, of the phantom with thick slices
+constexpr int kOrganSize = 112;
+constexpr double kNamedSlice = 5;  // voxels, of the phantom with thick slices
 // A stream of its own, so that the clicks do not change when the drawing does.
 constexpr std::uint64_t kClicks = 0x636c69636b73ULL;
 
@@ -57,7 +59,14 @@ const std::vector<std::pair<std::string, Designer>>& designs() {
       {"sac-fork", designSacFork},
       {"willis", designWillis},
       {"coronary", designCoronary},
-      {"hepatic", designHepatic}};
+      {"hepatic", designHepatic},
+      {"heart", designHeart},
+      {"liver", designLiver},
+      {"lungs", designLungs},
+      {"dissection", designDissection},
+      {"kidneys", designKidneys},
+      {"legs", designLegs},
+      {"retina", designRetina}};
   return rows;
 }
 
@@ -167,6 +176,12 @@ const std::vector<std::string>& phantomNames() {
   return names;
 }
 
+bool isOrgan(const std::string& name) {
+  static const std::set<std::string> names = {"heart",   "liver", "lungs", "dissection",
+                                              "kidneys", "legs",  "retina"};
+  return names.contains(name);
+}
+
 Box3d boxOf(const formats::CenterlineTree& tree) {
   Box3d box;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
@@ -179,7 +194,8 @@ PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
                                   [&](const auto& row) { return row.first == options.name; });
   const bool patient = found == designs().end();
   const bool isLarge = patient || options.name == "willis";
-  const int size = options.size != 0 ? options.size : isLarge ? 256 : 128;
+  const int usual = isLarge ? 256 : isOrgan(options.name) ? kOrganSize : 128;
+  const int size = options.size != 0 ? options.size : usual;
   const Frame frame{options.voxel, options.voxel * (size - 1)};
   if (patient && frame.extent < kSmallestPatient)
     throw Error(ErrorKind::Usage, "phantom: the volume is " + fixedText(frame.extent, 6) +

@@ -254,6 +254,17 @@ TEST(CorrectTopology, TwoTracksInOneLumenBecomeOne) {
   EXPECT_EQ(value.tree.nodeCount(), 41U + 16 + 16 - 1);
 }
 
+TEST(CorrectTopology, LinksOfTwoTracksThatBecomeOneAreOneLink) {
+  Case value = doubled(10);
+  const std::uint32_t third = addBeads(value, "third", along({0, 0, 8}, {0, 0, 1}, 16), 0.5F);
+  for (std::uint32_t node = 10; node < 31; ++node) value.tree.links.push_back({node, third});
+  value.tree.links.push_back({41 + 16 + 5, third});  // in the middle of the common stretch
+  EXPECT_EQ(findFault(value), "");
+  EXPECT_EQ(correctTopology(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(findFault(value), "");
+  EXPECT_EQ(value.tree.links.size(), 21U);
+}
+
 TEST(CorrectTopology, AVesselThatIsBrieflyInAnotherCrossesIt) {
   Case value = doubled(2);
   EXPECT_TRUE(correctTopology(value, kEverywhere).empty());

@@ -17,6 +17,8 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/cathsim/wall_prisms.h"
 #include "converters/export/targets/targets.h"
+#include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
 #include "formats/case/case_encoding.h"
 
 namespace lumen::convert {
@@ -105,13 +107,22 @@ std::vector<SurfaceMesh> makeHulls(const ExportInput& input, const SurfaceMesh& 
   });
 }
 
-std::string phantomText(const ExportFrame& frame, std::size_t hulls,
+/// The attribute rgba of a piece whose system of vessels is known; else nothing.
+std::string hullColor(const SurfaceMesh& hull) {
+  const auto system = mainSystem(hull);
+  if (!system) return "";
+  const auto [red, green, blue] = systemColor(*system);
+  return " rgba=\"" + vectorText({red, green, blue}, 3) + " 1\"";
+}
+
+std::string phantomText(const ExportFrame& frame, const std::vector<SurfaceMesh>& hulls,
                         const std::vector<NamedEnd>& ends) {
   std::string meshes, geoms, sites;
-  for (std::size_t k = 0; k < hulls; ++k) {
+  for (std::size_t k = 0; k < hulls.size(); ++k) {
     const std::string name = "hull_" + std::to_string(k);
     meshes += "    <mesh name=\"" + name + "\" file=\"vessel/" + name + ".stl\"/>\n";
-    geoms += "      <geom name=\"" + name + "\" type=\"mesh\" mesh=\"" + name + "\"/>\n";
+    geoms += "      <geom name=\"" + name + "\" type=\"mesh\" mesh=\"" + name + "\"" +
+             hullColor(hulls[k]) + "/>\n";
   }
   for (const NamedEnd& end : ends) sites += "      " + endSite(frame, end);
   return exportText(
@@ -128,7 +139,7 @@ ExportResult exportCathsim(const ExportInput& input) {
   const std::vector<SurfaceMesh> hulls = makeHulls(input, coarse);
   result.ends = plainlyNamed(std::move(made.ends));
   result.files = {
-      {"phantom_assets/vessel.xml", phantomText(input.frame, hulls.size(), result.ends),
+      {"phantom_assets/vessel.xml", phantomText(input.frame, hulls, result.ends),
        "the phantom: one body, the geom `visual` without contacts, hulls, sites", ""},
       {std::string(kFolder) + "visual.stl", stlInMetres(made.mesh), "the surface", ""},
       {std::string(kFolder) + "simplified.stl", stlInMetres(coarse), "with fewer triangles", ""}};

@@ -75,6 +75,8 @@ std::vector<SurfaceMesh> wallPrisms(const SurfaceMesh& mesh, double share, doubl
     prism.group.assign(faces.size(), 0);
     for (const std::uint32_t v : mesh.triangle[t]) prism.position.push_back(mesh.position[v]);
     for (const std::uint32_t v : mesh.triangle[t]) prism.position.push_back(upper[v]);
+    prism.branch.assign(prism.position.size(), mesh.branch[mesh.triangle[t].front()]);
+    prism.systems = mesh.systems;
     if (measureVolume(prism) >= leastVolume) prisms.push_back(std::move(prism));
   }
   return prisms;

@@ -21,6 +21,8 @@
 #include "converters/export/targets/isaac/usd.h"
 #include "converters/export/targets/targets.h"
 #include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
+#include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -83,7 +85,7 @@ std::vector<std::vector<std::size_t>> collectCurves(const formats::CenterlineTre
 
 /// The branches as polylines, in the frame's unit.
 struct Curves {
-  std::vector<std::size_t> counts;
+  std::vector<std::size_t> counts, branches;
   std::vector<Eigen::Vector3d> points;
   std::vector<double> widths;
 };
@@ -92,6 +94,7 @@ Curves centerline(const formats::CenterlineTree& tree, const ExportFrame& frame)
   Curves made;
   for (const auto& curve : collectCurves(tree)) {
     made.counts.push_back(curve.size());
+    made.branches.push_back(tree.branch[curve[1]]);
     for (const std::size_t place : curve) {
       made.points.push_back(frame.position(toEigen(tree.centre[place])));
       // a branch is as wide at its parent's node as at its own first node
@@ -101,6 +104,30 @@ Curves centerline(const formats::CenterlineTree& tree, const ExportFrame& frame)
     }
   }
   return made;
+}
+
+/// The primvar of colours, in linear light, of branches: one for each vertex or each curve.
+template <class Branches>
+std::string colorsText(const Branches& branches, const SurfaceMesh& mesh,
+                       const std::string& interpolation) {
+  SurfaceMesh colored;
+  colored.systems = mesh.systems;
+  for (const auto branch : branches) colored.branch.push_back(static_cast<std::uint32_t>(branch));
+  const std::vector<Color> colors = vertexColors(colored, {ColorBy::System, 0, 1});
+  const auto text = [&](std::size_t i) {
+    const Color& c = colors[i];
+    return vectorText(Eigen::Vector3d(c[0], c[1], c[2]) / 65535, 4);
+  };
+  return "        color3f[] primvars:displayColor = " + usdList(colors.size(), text) +
+         " (\n            interpolation = \"" + interpolation + "\"\n        )\n";
+}
+
+std::string curveColors(const Curves& curves, const SurfaceMesh& mesh) {
+  const auto name = [&](std::size_t i) {
+    return usdString(systemName(mesh.systems[curves.branches[i]]));
+  };
+  return colorsText(curves.branches, mesh, "uniform") +
+         "        custom string[] lumen:systems = " + usdList(curves.branches.size(), name) + "\n";
 }
 
 std::string endPrim(const NamedEnd& end, const std::string& word, const ExportFrame& frame) {
@@ -150,6 +177,8 @@ std::string encodeUsda(const SurfaceMesh& mesh, const formats::CenterlineTree& t
         usdList(curves.points.size(), [&](std::size_t i) { return usdTuple(curves.points[i]); })},
        {"widths",
         usdList(curves.widths.size(), [&](std::size_t i) { return numberText(curves.widths[i]); })},
+       {"wallColors", mesh.systems.empty() ? "" : colorsText(mesh.branch, mesh, "vertex")},
+       {"curveColors", mesh.systems.empty() ? "" : curveColors(curves, mesh)},
        {"ends", endPrims(ends, frame)}});
 }
 

@@ -17,7 +17,8 @@ namespace lumen::convert {
 ///   centerline  linear BasisCurves, one for each branch, whose widths are the vessels' diameters,
 ///   ends        an Xform for each end: in its middle, its z axis out of the vessel.
 /// `mesh` is in `frame`, which the stage's metersPerUnit and upAxis state; tree and ends are mm,
-/// LPS. Names are made fit for USD; custom strings `lumen:name` keep them.
+/// LPS. Names are made fit for USD; custom strings `lumen:name` keep them. Where the mesh states
+/// systems of vessels, wall and curves have their colours, and the curves `lumen:systems`.
 std::string encodeUsda(const SurfaceMesh& mesh, const formats::CenterlineTree& tree,
                        const std::vector<NamedEnd>& ends, const ExportFrame& frame);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declared in targets.h.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -19,6 +20,8 @@
 #include "converters/export/targets/mujoco/wall_pieces.h"
 #include "converters/export/targets/mujoco/wire.h"
 #include "converters/export/targets/targets.h"
+#include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -141,7 +144,7 @@ void shorten(Wire& wire, const std::vector<SurfaceMesh>& pieces, const ExportInp
 struct MujocoScene {
   const ExportInput& input;
   const Solid& solid;
-  std::size_t pieces = 0;
+  const std::vector<SurfaceMesh>& pieces;
   Insertion insertion;
   Wire wire;
   /// Bodies of the pieces and of the entry in a case with a motion, and their keyframes
@@ -155,11 +158,20 @@ std::string onBody(const std::string& name, const Eigen::Vector3d& at, const std
          content + "    </body>\n";
 }
 
+/// Red, green, blue and opacity of a piece: of the system that most of its triangles have.
+std::string wallColor(const SurfaceMesh& piece) {
+  constexpr double kOpacity = 0.3;
+  const auto system = mainSystem(piece);
+  const auto [red, green, blue] = system ? systemColor(*system) : std::array{0.8, 0.3, 0.3};
+  return numberText(red, 3) + " " + numberText(green, 3) + " " + numberText(blue, 3) + " " +
+         numberText(kOpacity);
+}
+
 std::string wallGeom(const MujocoScene& scene, std::size_t k) {
   const std::string name = "wall_" + std::to_string(k);
   const auto geom = [&](const std::string& place) {
     return "    <geom name=\"" + name + "\" class=\"wall\" type=\"sdf\" mesh=\"" + name + "\"" +
-           place + " rgba=\"0.8 0.3 0.3 0.3\"/>\n";
+           place + " rgba=\"" + wallColor(scene.pieces[k]) + "\"/>\n";
   };
   if (scene.bodies.empty()) return geom("");
   const Eigen::Vector3d& at = scene.bodies[k].centre;
@@ -177,7 +189,7 @@ std::string wireText(const MujocoScene& scene, WireSprings springs) {
 std::string sceneText(const MujocoScene& scene, WireSprings springs) {
   const ExportFrame& frame = scene.input.frame;
   std::string meshes, geoms, sites;
-  for (std::size_t k = 0; k < scene.pieces; ++k) {
+  for (std::size_t k = 0; k < scene.pieces.size(); ++k) {
     const std::string name = "wall_" + std::to_string(k);
     meshes += "    <mesh name=\"" + name + "\" file=\"" + name + ".stl\" inertia=\"shell\"/>\n";
     geoms += wallGeom(scene, k);
@@ -222,9 +234,10 @@ std::vector<RidingBody> bodiesOf(const WallBodies& bodies, const std::vector<Sur
 
 std::string startPose(const MujocoScene& scene) {
   const std::string pieces =
-      scene.pieces == 1 ? "1 piece"
-                        : std::to_string(scene.pieces) +
-                              " pieces, as MuJoCo samples each in at most 64 cells along a side";
+      scene.pieces.size() == 1
+          ? "1 piece"
+          : std::to_string(scene.pieces.size()) +
+                " pieces, as MuJoCo samples each in at most 64 cells along a side";
   return exportText(
       "mujoco/README.md",
       {{"wall", scene.solid.isShell ? "The wall is a solid of the thickness that was asked for"
@@ -253,7 +266,7 @@ ExportResult exportMujoco(const ExportInput& input) {
   const std::vector<SurfaceMesh> pieces = cutIntoFew(solid.surface.mesh, input.options.maxPieces,
                                                      bodies, input.options.word, result.losses);
   shorten(wire, pieces, input, insertion);
-  MujocoScene scene{input, solid, pieces.size(), insertion, wire};
+  MujocoScene scene{input, solid, pieces, insertion, wire};
   if (bodies) {
     scene.bodies =
         bodiesOf(*bodies, pieces, input.frame.position(insertion.position), result.losses);

@@ -37,7 +37,7 @@ Corner cut(const Corner& a, const Corner& b, int axis, double at) {
   const Corner& high = ordered ? b : a;
   const double s = (at - low.position[axis]) / (high.position[axis] - low.position[axis]);
   Corner made{low.position + s * (high.position - low.position),
-              low.radius + s * (high.radius - low.radius)};
+              low.radius + s * (high.radius - low.radius), low.branch};
   made.position[axis] = at;
   return made;
 }
@@ -141,7 +141,7 @@ SurfaceMesh makeMesh(const Facets& facets) {
         mesh.position.push_back(key);
         mesh.normal.push_back({0, 0, 0});
         mesh.radius.push_back(static_cast<float>(facet[c].radius));
-        mesh.branch.push_back(0);
+        mesh.branch.push_back(facet[c].branch);
       }
       triangle[c] = place->second;
     }
@@ -161,7 +161,7 @@ std::vector<WallFacet> wallFacets(const SurfaceMesh& mesh) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = mesh.triangle[t][c];
       const Float3& p = mesh.position[v];
-      facets[t][c] = {{p[0], p[1], p[2]}, mesh.radius[v]};
+      facets[t][c] = {{p[0], p[1], p[2]}, mesh.radius[v], mesh.branch[v]};
     }
   return facets;
 }
@@ -172,7 +172,11 @@ std::vector<SurfaceMesh> cutIntoPieces(const SurfaceMesh& mesh, std::size_t cell
   split(wallFacets(mesh), {cells, share, rule}, pieces);
   if (pieces.size() == 1) return {mesh};
   std::vector<SurfaceMesh> meshes;
-  for (const Facets& piece : pieces) meshes.push_back(makeMesh(piece));
+  for (const Facets& piece : pieces) {
+    meshes.push_back(makeMesh(piece));
+    meshes.back().labels = mesh.labels;
+    meshes.back().systems = mesh.systems;
+  }
   return meshes;
 }
 

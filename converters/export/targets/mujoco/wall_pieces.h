@@ -24,6 +24,7 @@ namespace lumen::convert {
 struct WallCorner {
   Eigen::Vector3d position;
   double radius = 0;
+  std::uint32_t branch = 0;
 };
 using WallFacet = std::array<WallCorner, 3>;
 
@@ -39,7 +40,8 @@ using PieceRule = std::function<bool(std::span<const WallFacet>)>;
 /// same point on both sides. Planes avoid walls that run along them: beside such a wall a piece
 /// would not hold the wall that is nearest. One piece if nothing needs cutting: the mesh itself. A
 /// piece holds all of the surface in its box, so the side of its nearest triangle on which a point
-/// of the box lies is the side of the surface on which it lies.
+/// of the box lies is the side of the surface on which it lies. Pieces state the branches and
+/// systems of the surface.
 std::vector<SurfaceMesh> cutIntoPieces(const SurfaceMesh& mesh, std::size_t cells, double share,
                                        const PieceRule& rule = {});
 

@@ -9,7 +9,8 @@
 
 namespace lumen::convert {
 
-/// One object called `name`, in mm. Equal meshes give equal bytes, which lib3mf does not promise:
+/// One object called `name`, in mm; triangles have the material of their system of vessels, where the
+/// mesh states systems. Equal meshes give equal bytes, which lib3mf does not promise:
 /// it writes the time. Throws Error(Failed) if zlib refuses, Error(Unsupported) from 4 GiB on.
 std::string encode3mf(const SurfaceMesh& mesh, const std::string& name);
 

@@ -5,6 +5,7 @@
 // Declared in targets.h.
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,7 +21,10 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
 #include "converters/io/centerline/write_centerline.h"
+#include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
 #include "converters/io/mesh/write_plain.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
@@ -31,13 +35,16 @@ using Json = nlohmann::ordered_json;
 /// A node of the scene with where it is stored and how it is shown.
 class SceneText {
 public:
-  void addModel(const std::string& name, const std::string& file) {
+  void addModel(const std::string& name, const std::string& file, const std::string& color,
+                bool isShown) {
     add("Model", name, file, R"( coordinateSystem="LPS")",
-        R"( color="0.76 0.23 0.2" opacity="0.5" visibility="true" backfaceCulling="0")");
+        " color=\"" + color + R"(" opacity="0.5" visibility=")" + (isShown ? "true" : "false") +
+            R"(" backfaceCulling="0")");
   }
-  void addCurve(const std::string& name, const std::string& file) {
+  void addCurve(const std::string& name, const std::string& file, const std::string& color) {
     add("MarkupsCurve", name, file, R"( coordinateSystem="LPS")",
-        R"( color="1 0.85 0.2" visibility="true" pointLabelsVisibility="false" glyphScale="0.5")");
+        " color=\"" + color +
+            R"(" visibility="true" pointLabelsVisibility="false" glyphScale="0.5")");
   }
   void addPoints(const std::string& name, const std::string& file, const std::string& color) {
     add("MarkupsFiducial", name, file, R"( coordinateSystem="LPS")",
@@ -110,6 +117,26 @@ std::string seedsText(const formats::CenterlineTree& tree) {
   return markupsText("seeds", std::move(points));
 }
 
+std::string colorText(formats::VesselSystem system) {
+  const auto [red, green, blue] = systemColor(system);
+  return numberText(red, 3) + " " + numberText(green, 3) + " " + numberText(blue, 3);
+}
+
+/// The surface as a model; where it states systems of vessels, a model for each in its colour, and
+/// the whole one is hidden.
+std::vector<ExportFile> addModels(SceneText& scene, const SurfaceMesh& surface) {
+  const std::vector<SystemPart> parts = splitBySystem(surface);
+  scene.addModel("vessels", "vessels.vtp", "0.76 0.23 0.2", parts.empty());
+  std::vector<ExportFile> files;
+  for (const SystemPart& part : parts) {
+    const std::string file = "vessels-" + part.name() + ".vtp";
+    scene.addModel(part.name(), file, colorText(part.system), true);
+    files.push_back({file, encodeVtp(part.surface),
+                     "the part of the surface that is of the system " + part.name(), ""});
+  }
+  return files;
+}
+
 std::string endMarkups(const std::vector<NamedEnd>& ends) {
   Json points = Json::array();
   for (const NamedEnd& end : ends)
@@ -125,12 +152,14 @@ ExportResult exportSlicer(const ExportInput& input) {
   ExportedSurface made = lumenSurface(input);
   ExportResult result;
   SceneText scene;
-  scene.addModel("vessels", "vessels.vtp");
+  std::vector<ExportFile> models = addModels(scene, made.mesh);
+  const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(input.source);
   std::vector<ExportFile> curves;
   for (const BranchPath& path : branchPaths(tree)) {
     const formats::Branch& branch = tree.branches[path.branch];
     const std::string file = "centerlines/" + path.name + ".mrk.json";
-    scene.addCurve(branch.label, file);
+    scene.addCurve(branch.label, file,
+                   systems.empty() ? "1 0.85 0.2" : colorText(systems[path.branch]));
     curves.push_back({file, encodeCurve(tree, branch), "", ""});
   }
   scene.addPoints("seeds", "seeds.mrk.json", "0.3 0.8 0.3");
@@ -141,7 +170,8 @@ ExportResult exportSlicer(const ExportInput& input) {
                   {"seeds.mrk.json", seedsText(tree),
                    "where each branch begins; `lumen track` takes it as seeds", ""},
                   {"ends.mrk.json", endMarkups(made.ends), "the named ends", ""}};
-  result.files.insert(result.files.end(), curves.begin(), curves.end());
+  for (std::vector<ExportFile>* more : {&models, &curves})
+    std::move(more->begin(), more->end(), std::back_inserter(result.files));
   result.others.push_back(
       {"centerlines/*.mrk.json", "a curve for each branch, with the measurement Radius"});
   result.start = exportText("slicer/README.md");

@@ -15,6 +15,8 @@
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/sofa/scene.h"
+#include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/volume/write_volume.h"
 #include "formats/case/case_encoding.h"
@@ -110,6 +112,18 @@ void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOpti
       {"positions.txt", "written by a run: points along the instruments, each tenth step"});
 }
 
+/// The surface of each system of vessels, which scenes show in its colour.
+void addSystems(ExportResult& result, SceneInput& scene, const SurfaceMesh& surface) {
+  for (const SystemPart& part : splitBySystem(surface)) {
+    std::string word = part.name();
+    std::replace(word.begin(), word.end(), '-', '_');
+    const std::string file = "vessel-" + part.name() + ".obj";
+    scene.systems.push_back({word, file, systemColor(part.system)});
+    result.files.push_back({file, encodeObj(part.surface),
+                            "the part of the surface that is of the system " + part.name(), ""});
+  }
+}
+
 std::string insertedText(const SceneInput& input, const SofaOptions& options) {
   return "inserted in " + formats::printable(input.branch) + " at " +
          placeText(input.insertion.position, 2) + " mm, " +
@@ -125,6 +139,7 @@ ExportResult exportSofa(const ExportInput& input, const SofaOptions& options) {
   scene.box = boundingBox(made.mesh);
   const std::vector<std::byte> bytes = formats::encodeBinary(input.source);
   if (options.wall == WallKind::Grid) addGridFiles(result, scene, input);
+  addSystems(result, scene, made.mesh);
   addSceneFiles(result, scene, options);
   result.files.push_back({"vessel.obj", encodeObj(made.mesh),
                           "the surface of the vessels, closed, normals outwards", ""});

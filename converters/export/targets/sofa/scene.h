@@ -42,15 +42,23 @@ struct SceneGrid {
   Eigen::Vector3d first = Eigen::Vector3d::Zero(), last = Eigen::Vector3d::Zero();
 };
 
+/// The surface of a system of vessels, to be looked at in a colour of its own.
+struct SceneSystem {
+  std::string name;               ///< "true_lumen": of nodes, which are variables in Python
+  std::string file;               ///< "vessel-true-lumen.obj"
+  std::array<double, 3> color{};  ///< sRGB, 0 to 1
+};
+
 /// The case and the instruments of a scene.
 struct SceneInput {
   Insertion insertion;
   std::string branch;  ///< its label
   std::vector<Instrument> instruments;
-  Box3d box;                        ///< around the vessels, mm, LPS
-  SceneGrid grid;                   ///< grid of WallKind::Grid
-  std::vector<VesselFrame> frames;  ///< frames of WallKind::Soft
-  bool moves = false;               ///< the case's motion moves the wall
+  Box3d box;                         ///< around the vessels, mm, LPS
+  SceneGrid grid;                    ///< grid of WallKind::Grid
+  std::vector<VesselFrame> frames;   ///< frames of WallKind::Soft
+  std::vector<SceneSystem> systems;  ///< of the vessels; none if the case states none
+  bool moves = false;                ///< the case's motion moves the wall
 };
 
 /// Distance from the wall, mm, that the insertion of instruments of such a radius needs.

@@ -139,6 +139,26 @@ void addView(SceneItem& root, const Box3d& box) {
   root.add("DirectionalLight").set("name", "back").set("direction", "-0.3 1 0.2");
 }
 
+namespace {
+
+/// A surface in a node of its own, `view_NAME`, which moves with the points of the wall if it `moves`.
+void addSurfaceView(SceneItem& vessel, const std::string& name, const std::string& loader,
+                    const std::array<double, 3>& color, bool moves) {
+  constexpr double kOpacity = 0.25;  // instruments show through
+  SceneItem& view = vessel.addNode("view_" + name);
+  view.add("OglModel")
+      .set("name", "surface")
+      .set("src", "@../" + loader)
+      .set("color", sceneNumbers({color[0], color[1], color[2], kOpacity}));
+  if (moves)
+    view.add("IdentityMapping")
+        .set("name", "mapping")
+        .set("input", "@../points")
+        .set("output", "@surface");
+}
+
+}  // namespace
+
 void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
   SceneItem& vessel = root.addNode("vessel", "The wall");
   if (isOfCase(wall))
@@ -160,16 +180,15 @@ void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
   if (wall == WallKind::Mesh) addTriangles(vessel);
   if (wall == WallKind::Grid) addGrid(vessel, input.grid);
   if (input.moves) addMotion(vessel, input.insertion);
-  SceneItem& view = vessel.addNode("view_vessel");
-  view.add("OglModel")
-      .set("name", "surface")
-      .set("src", "@../loader")
-      .set("color", "0.8 0.2 0.2 0.25");
-  if (input.moves)
-    view.add("IdentityMapping")
-        .set("name", "mapping")
-        .set("input", "@../points")
-        .set("output", "@surface");
+  if (input.systems.empty())
+    addSurfaceView(vessel, "vessel", "loader", {0.8, 0.2, 0.2}, input.moves);
+  for (const SceneSystem& system : input.systems) {
+    vessel.add("MeshOBJLoader", "The surface of this system of vessels, with the points of all")
+        .set("name", "loader_" + system.name)
+        .setFile("filename", system.file)
+        .set("flipNormals", wall == WallKind::Mesh ? 1 : 0);
+    addSurfaceView(vessel, system.name, "loader_" + system.name, system.color, input.moves);
+  }
 }
 
 void addRestShape(SceneItem& root, const Instrument& instrument) {

@@ -11,7 +11,9 @@
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
+#include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/write_plain.h"
+#include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
@@ -22,9 +24,12 @@ std::string tuple(const Eigen::Vector3d& v) {
   return vectorText(v, kFloatDigits);
 }
 
-std::string moduleText(const std::vector<BranchPath>& paths) {
-  std::string branches;
+std::string moduleText(const std::vector<BranchPath>& paths,
+                       const std::vector<formats::VesselSystem>& systems) {
+  std::string branches, names;
   for (const BranchPath& path : paths) {
+    if (!systems.empty())
+      names += "    \"" + path.name + "\": \"" + systemName(systems[path.branch]) + "\",\n";
     branches += "    (\"" + path.name + "\", [\n";
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const Eigen::Vector3d& p = path.points[k];
@@ -35,7 +40,8 @@ std::string moduleText(const std::vector<BranchPath>& paths) {
   }
   return exportText("steve/vessels.py", {{"position", tuple(paths.front().points.front())},
                                          {"direction", tuple(paths.front().tangent(0))},
-                                         {"branches", branches}});
+                                         {"branches", branches},
+                                         {"systems", names}});
 }
 
 }  // namespace
@@ -46,7 +52,7 @@ ExportResult exportSteve(const ExportInput& input) {
   const ExportFrame centimetres{LengthUnit::Centimetre, Axes::Lps};
   ExportResult result;
   result.start = exportText("steve/README.md");
-  result.files = {{"vessels.py", moduleText(paths),
+  result.files = {{"vessels.py", moduleText(paths, formats::knownBranchSystems(input.source)),
                    "branches with their radii, insertion, mesh as a vessel tree", ""},
                   {"vessel.obj", encodeObj(turnedOver(made.mesh)),
                    "the closed surface of the vessels, its normals into the lumen", ""},

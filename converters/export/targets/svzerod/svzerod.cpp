@@ -53,8 +53,10 @@ std::vector<std::string> jointNames(const FlowNetwork& network) {
   return distinct(names, openFoamWord);
 }
 
+/// `systems`: of the branches of the network's tree; none if unknown.
 Json vesselJson(const FlowNetwork& network, std::size_t s, const std::string& name,
-                const std::vector<std::string>& joints) {
+                const std::vector<std::string>& joints,
+                const std::vector<formats::VesselSystem>& systems) {
   const FlowSegment& segment = network.segments[s];
   const Lumped values = lumped(segment);
   Json vessel = {{"vessel_id", s},
@@ -67,6 +69,7 @@ Json vesselJson(const FlowNetwork& network, std::size_t s, const std::string& na
                    {"L", kCgsInertance * values.inertance},
                    {"stenosis_coefficient", 0.0}}},
                  {"_label", segment.name}};
+  if (!systems.empty()) vessel["_system"] = systemName(systems[segment.branch]);
   Json ends = Json::object();
   if (network.joints[segment.from].kind == JointKind::Inlet) ends["inlet"] = joints[segment.from];
   if (network.joints[segment.to].kind == JointKind::Outlet) ends["outlet"] = joints[segment.to];
@@ -94,7 +97,7 @@ Json conditionsJson(const FlowNetwork& network, const std::vector<std::string>& 
   return list;
 }
 
-Json makeModel(const FlowNetwork& network) {
+Json makeModel(const FlowNetwork& network, const std::vector<formats::VesselSystem>& systems) {
   const std::vector<std::string> joints = jointNames(network), vessels = vesselNames(network);
   Json junctions = Json::array(), list = Json::array();
   for (std::size_t j = 0; j < network.joints.size(); ++j) {
@@ -106,7 +109,7 @@ Json makeModel(const FlowNetwork& network) {
                          {"outlet_vessels", joint.out}});
   }
   for (std::size_t s = 0; s < network.segments.size(); ++s)
-    list.push_back(vesselJson(network, s, vessels[s], joints));
+    list.push_back(vesselJson(network, s, vessels[s], joints, systems));
   return {{"description",
            {{"units", "cm, g, s, dyn"},
             {"density", 1e-3 * blood::kDensity},
@@ -129,7 +132,9 @@ ExportResult exportSvZeroD(const ExportInput& input) {
   ExportResult result;
   result.start = exportText("svzerod/README.md");
   result.files = {{"model.json",
-                   makeModel(network).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                   makeModel(network, formats::knownBranchSystems(flowing.value))
+                           .dump(2, ' ', false, Json::error_handler_t::replace) +
+                       "\n",
                    "vessels, junctions, inlets and outlets", ""}};
   result.ends = findEnds(network);
   result.losses = std::move(flowing.losses);

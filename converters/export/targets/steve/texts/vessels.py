@@ -13,6 +13,11 @@ BRANCHES = [
 {branches}
 ]
 
+# the system of vessels of each branch, such as "artery"; empty if the case states none
+SYSTEMS = {
+{systems}
+}
+
 
 def make_vessel_tree():
     """A FromMesh of stEVE with the radii of the case."""
