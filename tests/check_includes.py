@@ -40,6 +40,7 @@ ROOMS = [
     {"stages/finding": [], "stages/native": ["stages/finding"], "stages/tracking/cylinders": [], "stages/tracking": ["stages/tracking/cylinders"], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
      "stages/surface": [], "stages/surface/remesh": ["stages/surface"], "stages/surface/closing": ["stages/surface", "stages/surface/remesh"],
      "stages/surface/patches": ["stages/surface", "stages/surface/closing"],
+     "stages/volume_mesh/netgen": [], "stages/volume_mesh": ["stages/surface", "stages/surface/remesh", "stages/surface/closing", "stages/volume_mesh/netgen"],
      "stages/trees_from_surfaces": ["stages/repair"], "stages/motion": ["stages/fitting/image"], "stages/phantom": ["stages/motion"]},
     {"judge/compare": [], "judge/check": []},
     {"judge/measure": []},
