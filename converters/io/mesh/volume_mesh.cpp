@@ -19,16 +19,16 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::array<FaceCorners, 5> kPrismFaces{
-    {{0, 1, 2, kNoIndex}, {3, 5, 4, kNoIndex}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}};
+    {{0, 1, 2, kAbsent}, {3, 5, 4, kAbsent}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}};
 constexpr std::array<FaceCorners, 4> kTetrahedronFaces{
-    {{0, 2, 1, kNoIndex}, {0, 1, 3, kNoIndex}, {1, 2, 3, kNoIndex}, {0, 3, 2, kNoIndex}}};
+    {{0, 2, 1, kAbsent}, {0, 1, 3, kAbsent}, {1, 2, 3, kAbsent}, {0, 3, 2, kAbsent}}};
 
 template <std::size_t faces, std::size_t corners>
 void addFaces(const std::array<FaceCorners, faces>& table,
               const std::array<std::uint32_t, corners>& cell, std::vector<FaceCorners>& out) {
   for (FaceCorners face : table) {
     for (std::uint32_t& corner : face)
-      if (corner != kNoIndex) corner = cell[corner];
+      if (corner != kAbsent) corner = cell[corner];
     out.push_back(face);
   }
 }
@@ -36,7 +36,7 @@ void addFaces(const std::array<FaceCorners, faces>& table,
 /// Six times the volume between a face and a point.
 double pyramid(const VolumeMesh& mesh, const FaceCorners& face, const Vector3d& origin) {
   const auto at = [&](std::size_t k) -> Vector3d { return mesh.position[face[k]] - origin; };
-  if (face[3] == kNoIndex) return at(0).dot(at(1).cross(at(2)));
+  if (face[3] == kAbsent) return at(0).dot(at(1).cross(at(2)));
   const Vector3d middle = 0.25 * (at(0) + at(1) + at(2) + at(3));
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += middle.dot(at(k).cross(at((k + 1) % 4)));
@@ -53,7 +53,7 @@ double scaled(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 struct KeyedFace {
   FaceCorners key{};
   FaceCorners corner{};
-  std::uint32_t cell = 0;   // or kNoIndex: of the boundary
+  std::uint32_t cell = 0;   // or kAbsent: of the boundary
   std::uint32_t group = 0;  // of one of the boundary
 };
 
@@ -64,7 +64,7 @@ FaceCorners sortedCorners(FaceCorners corner) {
 
 /// True if both run round the same corners in the same sense.
 bool runAlike(const FaceCorners& one, const FaceCorners& other) {
-  const std::size_t count = one[3] == kNoIndex ? 3 : 4;
+  const std::size_t count = one[3] == kAbsent ? 3 : 4;
   const auto begin = other.begin(), end = begin + static_cast<std::ptrdiff_t>(count);
   const auto at = static_cast<std::size_t>(std::find(begin, end, one[0]) - begin);
   for (std::size_t k = 0; k < count; ++k)
@@ -73,7 +73,7 @@ bool runAlike(const FaceCorners& one, const FaceCorners& other) {
 }
 
 FaceCorners reversed(FaceCorners corner) {
-  std::reverse(corner.begin(), corner.begin() + (corner[3] == kNoIndex ? 3 : 4));
+  std::reverse(corner.begin(), corner.begin() + (corner[3] == kAbsent ? 3 : 4));
   return corner;
 }
 
@@ -84,7 +84,7 @@ std::vector<KeyedFace> keyedFaces(const VolumeMesh& mesh) {
     for (const FaceCorners& corner : facesOf(mesh, cell))
       faces.push_back({sortedCorners(corner), corner, cell, 0});
   for (const BoundaryFace& face : mesh.boundary)
-    faces.push_back({sortedCorners(face.corner), face.corner, kNoIndex, face.group});
+    faces.push_back({sortedCorners(face.corner), face.corner, kAbsent, face.group});
   std::sort(faces.begin(), faces.end(), [](const KeyedFace& a, const KeyedFace& b) {
     return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
   });
@@ -114,16 +114,16 @@ std::vector<CellFace> cellFaces(const VolumeMesh& mesh) {
   faces.reserve(keyed.size() / 2);
   for (std::size_t k = 0; k < keyed.size(); k += 2) {
     const KeyedFace& one = keyed[k];
-    if (k + 1 == keyed.size() || keyed[k + 1].key != one.key || one.cell == kNoIndex) refuse(mesh, one);
+    if (k + 1 == keyed.size() || keyed[k + 1].key != one.key || one.cell == kAbsent) refuse(mesh, one);
     const KeyedFace& other = keyed[k + 1];
-    const bool isInner = other.cell != kNoIndex;
+    const bool isInner = other.cell != kAbsent;
     if (k + 2 < keyed.size() && keyed[k + 2].key == one.key) refuse(mesh, one);
     if (!runAlike(one.corner, isInner ? reversed(other.corner) : other.corner)) refuse(mesh, one);
-    faces.push_back({one.corner, one.cell, other.cell, isInner ? kNoIndex : other.group});
+    faces.push_back({one.corner, one.cell, other.cell, isInner ? kAbsent : other.group});
   }
   std::sort(faces.begin(), faces.end(), [](const CellFace& a, const CellFace& b) {
     const auto key = [](const CellFace& f) {
-      return std::make_tuple(f.neighbour == kNoIndex, f.group, f.owner, f.neighbour, f.corner);
+      return std::make_tuple(f.neighbour == kAbsent, f.group, f.owner, f.neighbour, f.corner);
     };
     return key(a) < key(b);
   });

@@ -15,10 +15,10 @@
 namespace lumen::convert {
 
 /// Stands for no vertex, no cell and no group.
-inline constexpr std::uint32_t kNoIndex = UINT32_MAX;
+inline constexpr std::uint32_t kAbsent = UINT32_MAX;
 
 /// The corners of a triangle or a quadrilateral, counter-clockwise seen from outside of its cell; the
-/// last one of a triangle is kNoIndex.
+/// last one of a triangle is kAbsent.
 using FaceCorners = std::array<std::uint32_t, 4>;
 
 /// A face of the boundary and its group.
@@ -46,8 +46,8 @@ struct VolumeMesh {
 struct CellFace {
   FaceCorners corner{};             ///< seen from outside of the owner
   std::uint32_t owner = 0;          ///< the cell with the lesser number
-  std::uint32_t neighbour = kNoIndex;  ///< the other cell
-  std::uint32_t group = kNoIndex;      ///< of a face of the boundary
+  std::uint32_t neighbour = kAbsent;  ///< the other cell
+  std::uint32_t group = kAbsent;      ///< of a face of the boundary
 };
 
 /// All faces of a mesh: those between two cells, then the boundary's by group; each kind ordered by

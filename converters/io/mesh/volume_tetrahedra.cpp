@@ -50,14 +50,14 @@ VolumeMesh asTetrahedra(const VolumeMesh& mesh) {
                             mesh.tetrahedron.end());
   for (const BoundaryFace& face : mesh.boundary) {
     const FaceCorners& c = face.corner;
-    if (c[3] == kNoIndex) {
+    if (c[3] == kAbsent) {
       result.boundary.push_back(face);
       continue;
     }
     const auto at = static_cast<std::size_t>(std::min_element(c.begin(), c.end()) - c.begin());
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
       result.boundary.push_back(
-          {{c[at], c[(at + k) % 4], c[(at + k + 1) % 4], kNoIndex}, face.group});
+          {{c[at], c[(at + k) % 4], c[(at + k + 1) % 4], kAbsent}, face.group});
   }
   return result;
 }

@@ -25,7 +25,7 @@ struct VtkCells {
   template <class Corners>
   void add(const Corners& corners, std::uint8_t kind, std::int32_t group) {
     for (const std::uint32_t c : corners)
-      if (c != kNoIndex) corner.push_back(c);
+      if (c != kAbsent) corner.push_back(c);
     end.push_back(static_cast<std::int64_t>(corner.size()));
     type.push_back(kind);
     face.push_back(group);
@@ -37,7 +37,7 @@ VtkCells cellsOf(const VolumeMesh& mesh) {
   for (const auto& prism : mesh.prism) cells.add(prism, kVtkWedge, 0);
   for (const auto& tetrahedron : mesh.tetrahedron) cells.add(tetrahedron, kVtkTetra, 0);
   for (const BoundaryFace& face : mesh.boundary)
-    cells.add(face.corner, face.corner[3] == kNoIndex ? kVtkTriangle : kVtkQuad,
+    cells.add(face.corner, face.corner[3] == kAbsent ? kVtkTriangle : kVtkQuad,
               static_cast<std::int32_t>(face.group) + 1);
   return cells;
 }

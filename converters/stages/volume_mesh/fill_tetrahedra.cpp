@@ -50,17 +50,17 @@ std::vector<Part> connectedParts(const TriangleMesh& surface) {
   for (const Triangle& t : surface.triangle)
     for (const std::uint32_t v : t) sets.join(t[0], v);
   std::vector<Part> parts;
-  std::vector<std::uint32_t> partOf(surface.position.size(), kNoIndex), local(partOf);
+  std::vector<std::uint32_t> partOf(surface.position.size(), kAbsent), local(partOf);
   for (const Triangle& t : surface.triangle) {
     std::uint32_t& number = partOf[sets.find(t[0])];
-    if (number == kNoIndex) {
+    if (number == kAbsent) {
       number = static_cast<std::uint32_t>(parts.size());
       parts.emplace_back();
     }
     Part& part = parts[number];
     Triangle& triangle = part.surface.cell.emplace_back(t);
     for (std::uint32_t& v : triangle) {
-      if (local[v] == kNoIndex) {
+      if (local[v] == kAbsent) {
         local[v] = static_cast<std::uint32_t>(part.vertex.size());
         part.vertex.push_back(v);
         const Vector3d& p = surface.position[v];

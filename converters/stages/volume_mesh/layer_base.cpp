@@ -108,12 +108,12 @@ Vector3d turned(Vector3d direction, const std::vector<Vector3d>& normals, const 
 
 LayerBase layerBase(const SurfaceMesh& surface) {
   LayerBase base;
-  std::vector<std::uint32_t> inBase(surface.position.size(), kNoIndex);
+  std::vector<std::uint32_t> inBase(surface.position.size(), kAbsent);
   for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
     if (isFlat(surface, t)) continue;
     Triangle triangle = surface.triangle[t];
     for (std::uint32_t& v : triangle) {
-      if (inBase[v] == kNoIndex) {
+      if (inBase[v] == kAbsent) {
         inBase[v] = static_cast<std::uint32_t>(base.vertex.size());
         base.vertex.push_back(v);
         base.mesh.position.push_back(toEigen(surface.position[v]));
@@ -123,11 +123,11 @@ LayerBase layerBase(const SurfaceMesh& surface) {
     base.mesh.triangle.push_back(triangle);
     base.group.push_back(surface.group[t]);
   }
-  base.rimOf.assign(base.vertex.size(), kNoIndex);
+  base.rimOf.assign(base.vertex.size(), kAbsent);
   for (const auto& [group, next] : rimEdges(surface, inBase)) {
     base.rims.push_back(rimOf(next, group, base.mesh));
     for (const std::uint32_t v : base.rims.back().loop) {
-      if (base.rimOf[v] != kNoIndex) throw failed("two flat ends of the surface meet");
+      if (base.rimOf[v] != kAbsent) throw failed("two flat ends of the surface meet");
       base.rimOf[v] = static_cast<std::uint32_t>(base.rims.size() - 1);
     }
   }
@@ -149,7 +149,7 @@ std::vector<Vector3d> layerDirections(const LayerBase& base, const SurfaceMesh& 
     Vector3d out = toEigen(surface.normal[base.vertex[v]]);
     if (isOnField && sample.gradient.norm() > 0) out = sample.gradient;
     const Vector3d* const plane =
-        base.rimOf[v] == kNoIndex ? nullptr : &base.rims[base.rimOf[v]].normal;
+        base.rimOf[v] == kAbsent ? nullptr : &base.rims[base.rimOf[v]].normal;
     direction[v] = -turned(inPlane(out, plane), normals[v], plane);
   });
   return direction;

@@ -27,7 +27,7 @@ struct LayerBase {
   TriangleMesh mesh;
   std::vector<std::uint32_t> group;   ///< of each triangle
   std::vector<std::uint32_t> vertex;  ///< of the surface, for each of the base
-  std::vector<std::uint32_t> rimOf;   ///< index into `rims` of each vertex, or kNoIndex
+  std::vector<std::uint32_t> rimOf;   ///< index into `rims` of each vertex, or kAbsent
   std::vector<LayerRim> rims;
 };
 

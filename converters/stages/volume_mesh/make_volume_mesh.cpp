@@ -38,7 +38,7 @@ WallLayers noLayers(const SurfaceMesh& surface) {
   layers.inner = std::move(mesh.triangle);
   for (std::size_t t = 0; t < layers.inner.size(); ++t) {
     const Triangle& c = layers.inner[t];
-    layers.mesh.boundary.push_back({{c[0], c[1], c[2], kNoIndex}, surface.group[t]});
+    layers.mesh.boundary.push_back({{c[0], c[1], c[2], kAbsent}, surface.group[t]});
   }
   return layers;
 }

@@ -75,7 +75,7 @@ private:
     whole.triangle = surface.triangle;
     const TriangleTree tree(whole);
     tbb::parallel_for(std::size_t{0}, m_height.size(), [&](std::size_t v) {
-      if (m_base.rimOf[v] != kNoIndex) return;
+      if (m_base.rimOf[v] != kAbsent) return;
       const double near = 1e-3 * static_cast<double>(surface.radius[m_base.vertex[v]]);
       const auto hit = tree.firstHit(m_base.mesh.position[v], m_direction[v], near);
       if (hit) m_height[v] = std::min(m_height[v], kShareOfWidth * hit->distance);
@@ -218,7 +218,7 @@ private:
     const auto count = static_cast<std::uint32_t>(m_height.size());
     for (std::size_t t = 0; t < m_base.mesh.triangle.size(); ++t) {
       const Triangle& c = m_base.mesh.triangle[t];
-      boundary.push_back({{c[0], c[1], c[2], kNoIndex}, m_base.group[t]});
+      boundary.push_back({{c[0], c[1], c[2], kAbsent}, m_base.group[t]});
     }
     std::size_t next = m_base.mesh.triangle.size();
     for (std::size_t r = 0; r < m_base.rims.size(); ++r) {
@@ -230,7 +230,7 @@ private:
       }
       for (std::size_t k = 0; k < m_caps[r].triangle.size(); ++k, ++next) {
         const Triangle& c = made.inner[next];
-        boundary.push_back({{c[0], c[1], c[2], kNoIndex}, rim.group});
+        boundary.push_back({{c[0], c[1], c[2], kAbsent}, rim.group});
       }
     }
   }
