@@ -23,16 +23,26 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Greatest height of all layers as a share of the distance to the opposite wall, so that a third
-// is left between layers that meet.
-constexpr double kShareOfWidth = 1.0 / 3;
-// Least quality of a prism as a share of that of an upright prism on its triangle.
-constexpr double kLeastQuality = 0.25;
+// Greatest height of all layers as a share of the distance to the opposite wall, so that half of it
+// is left between layers that face each other.
+constexpr double kShareOfWidth = 0.25;
+// Least quality of a prism as a share of that of an upright prism on its triangle, and, where the surface
+// is so sharp that no prism stands upright, of that of the thinnest one.
+constexpr double kLeastQuality = 0.25, kLeastOfSharp = 0.5;
 // Factor of heights at a fault, and the number of times that they may shrink: to a thousandth.
 constexpr double kShrink = 0.75;
 constexpr int kMostRounds = 60;
 constexpr double kLeastShare = 1e-3;
 constexpr std::size_t kMostCrossings = 100'000;
+
+/// The fault of a vertex for which its height shrinks.
+enum class Fault : std::uint8_t { None, Prism, Rim, Crossing };
+
+std::string reasonOf(Fault fault) {
+  if (fault == Fault::Rim) return "where they make the rim of a flat end cross itself";
+  if (fault == Fault::Crossing) return "where they pass through one another";
+  return "where the surface is too sharp for them";
+}
 
 class LayerMaker {
 public:
@@ -46,6 +56,7 @@ public:
     for (const std::uint32_t v : base.vertex)
       m_asked.push_back(heights * options.height.at(static_cast<double>(surface.radius[v])));
     m_height = m_asked;
+    findSharp();
     keepFromOpposite(surface);
   }
 
@@ -53,12 +64,12 @@ public:
     gradeLengths(m_base.mesh, m_height);
     for (int round = 0; round < kMostRounds; ++round) {
       m_progress.check();
-      std::vector<bool> isBad(m_height.size(), false);
-      bool isAny = markPrisms(isBad);
-      isAny = markRims(isBad) || isAny;
-      if (!isAny) isAny = markCrossings(isBad);
+      std::vector<Fault> faults(m_height.size(), Fault::None);
+      bool isAny = markPrisms(faults);
+      isAny = markRims(faults) || isAny;
+      if (!isAny) isAny = markCrossings(faults);
       if (!isAny) return result();
-      shrink(isBad);
+      shrink(faults);
     }
     throw failed("the layers could not be made: they cross one another even when they are thin; another " +
                  m_options.word("edge") + " may help");
@@ -80,6 +91,16 @@ private:
       const auto hit = tree.firstHit(m_base.mesh.position[v], m_direction[v], near);
       if (hit) m_height[v] = std::min(m_height[v], kShareOfWidth * hit->distance);
     });
+  }
+
+  /// Finds the least cosine between the direction at each vertex and the normals of its triangles.
+  void findSharp() {
+    m_cosine.assign(m_height.size(), 1);
+    for (const Triangle& t : m_base.mesh.triangle) {
+      const Vector3d inward = -vectorArea(m_base.mesh, t).stableNormalized();
+      for (const std::uint32_t v : t)
+        m_cosine[v] = std::min(m_cosine[v], inward.dot(m_direction[v]));
+    }
   }
 
   [[nodiscard]] VolumeMesh prismsAlone() const {
@@ -107,28 +128,32 @@ private:
     return area / (side[1] * side[2]) * 2 / std::sqrt(3.0);
   }
 
-  bool markPrisms(std::vector<bool>& isBad) const {
+  bool markPrisms(std::vector<Fault>& faults) const {
     const VolumeMesh mesh = prismsAlone();
     const std::size_t layers = m_level.size();
     std::vector<char> fails(m_base.mesh.triangle.size(), 0);
     tbb::parallel_for(std::size_t{0}, fails.size(), [&](std::size_t t) {
-      const double least = kLeastQuality * uprightQuality(m_base.mesh.triangle[t]);
+      const Triangle& corners = m_base.mesh.triangle[t];
+      const double thinnest = std::min({m_cosine[corners[0]], m_cosine[corners[1]], m_cosine[corners[2]]});
+      const double least =
+          std::min(kLeastQuality, kLeastOfSharp * thinnest) * uprightQuality(corners);
       for (std::size_t layer = 0; layer < layers; ++layer) {
         const std::size_t cell = t * layers + layer;
-        if (!(cellQuality(mesh, cell) >= least && cellVolume(mesh, cell) > 0)) fails[t] = 1;
+        const double quality = cellQuality(mesh, cell);
+        if (!(quality > 0 && quality >= least && cellVolume(mesh, cell) > 0)) fails[t] = 1;
       }
     });
     bool isAny = false;
     for (std::size_t t = 0; t < fails.size(); ++t)
       if (fails[t] != 0) {
         isAny = true;
-        for (const std::uint32_t v : m_base.mesh.triangle[t]) isBad[v] = true;
+        for (const std::uint32_t v : m_base.mesh.triangle[t]) faults[v] = Fault::Prism;
       }
     return isAny;
   }
 
   /// Cuts the inner ends into triangles; marks the rims of those that cannot be cut.
-  bool markRims(std::vector<bool>& isBad) {
+  bool markRims(std::vector<Fault>& faults) {
     m_caps.clear();
     bool isAny = false;
     for (const LayerRim& rim : m_base.rims) {
@@ -148,20 +173,23 @@ private:
         cap = triangulateRegion(inner, {}, around / static_cast<double>(inner.size() - 1));
       if (cap.triangle.empty()) {
         isAny = true;
-        for (const std::uint32_t w : rim.loop) isBad[w] = true;
+        for (const std::uint32_t w : rim.loop) faults[w] = Fault::Rim;
       }
       m_caps.push_back(std::move(cap));
     }
     return isAny;
   }
 
-  bool markCrossings(std::vector<bool>& isBad) {
+  bool markCrossings(std::vector<Fault>& faults) {
     makeInner();
     bool isAny = false;
     for (const auto& pair : selfIntersections(m_inner, kMostCrossings, &m_progress).pairs)
       for (const std::uint32_t t : pair)
         for (const std::uint32_t v : m_inner.triangle[t])
-          if (v < m_height.size()) isAny = isBad[v] = true;
+          if (v < m_height.size()) {
+            faults[v] = Fault::Crossing;
+            isAny = true;
+          }
     return isAny;
   }
 
@@ -185,14 +213,14 @@ private:
     }
   }
 
-  void shrink(const std::vector<bool>& isBad) {
+  void shrink(const std::vector<Fault>& faults) {
     for (std::size_t v = 0; v < m_height.size(); ++v) {
-      if (!isBad[v]) continue;
+      if (faults[v] == Fault::None) continue;
       m_height[v] *= kShrink;
       if (m_height[v] < kLeastShare * m_asked[v])
         throw failed("the layers could not be made at " +
                      joinedNumbers(m_base.mesh.position[v], ", ", 5) +
-                     " mm, where the surface is too sharp for them; another " +
+                     " mm, " + reasonOf(faults[v]) + "; another " +
                      m_options.word("edge") + " may help, or no " + m_options.word("layers"));
     }
     gradeLengths(m_base.mesh, m_height);
@@ -242,6 +270,7 @@ private:
   std::vector<double> m_level;   // height at the end of each layer, as a share of all
   std::vector<double> m_asked;   // mm, of all layers at each vertex
   std::vector<double> m_height;  // as it is
+  std::vector<double> m_cosine;  // least, of the direction with normals around
   std::vector<FlatMesh> m_caps;  // of the rims
   TriangleMesh m_inner;
 };
@@ -249,8 +278,8 @@ private:
 }  // namespace
 
 double VolumeMeshOptions::heights() const {
-  double sum = 0, height = 1;
-  for (int layer = 0; layer < layers; ++layer, height *= growth) sum += height;
+  double sum = 0, next = 1;
+  for (int layer = 0; layer < layers; ++layer, next *= growth) sum += next;
   return sum;
 }
 

@@ -25,8 +25,9 @@ struct WallLayers {
 };
 
 /// Layers on the base along `direction`. Heights are those of the options for the radius at each vertex
-/// of the surface. They are less where the opposite wall is near, at most a third of the distance to
-/// it, and shrink until each prism keeps a quarter of the quality that its triangle allows, inner ends
+/// of the surface. They are less where the opposite wall is near, at most a quarter of the distance to
+/// it, and shrink until each prism keeps a quarter of the quality that its triangle allows, or half of that of the
+/// thinnest prism where the surface is sharper, inner ends
 /// can be cut into triangles, and the inner surface crosses itself nowhere; they change by a
 /// quarter of the distance between vertices at most. So layers end nowhere. Throws Error(Failed) with the place where no height is
 /// small enough, and Error(Cancelled).
