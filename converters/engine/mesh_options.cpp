@@ -142,9 +142,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
 
 void addLayerRows(OptionTable& table, convert::VolumeMeshOptions& cells) {
   cells.word = optionWord();
-  const auto noLayers = [&cells] {
-    return cells.layers > 0 ? "" : "does nothing with --layers 0";
-  };
+  const auto noLayers = [&cells] { return cells.layers > 0 ? "" : "does nothing with --layers 0"; };
   table
       .add("layers", &cells.layers, "N",
            "Layers of prisms at the wall, with tetrahedra within; 0: tetrahedra alone")

@@ -35,10 +35,14 @@ const std::vector<NamedContent> kInputNames = {
     {kFittedCase, "cases that are taken as they are"},
 };
 const std::vector<NamedContent> kOutputNames = {
-    {kAllMeshes, "meshes"},       {kAllSurfaces, "surfaces"},
-    {kBinaryCase, ".lumen"},      {kJsonCase, ".lumen.json"},
-    {kGltf, "glTF (.glb, .gltf)"}, {kStl, "STL"},
-    {kOtherMesh, "meshes but glTF and STL"}, {kTree, "centerlines"},
+    {kAllMeshes, "meshes"},
+    {kAllSurfaces, "surfaces"},
+    {kBinaryCase, ".lumen"},
+    {kJsonCase, ".lumen.json"},
+    {kGltf, "glTF (.glb, .gltf)"},
+    {kStl, "STL"},
+    {kOtherMesh, "meshes but glTF and STL"},
+    {kTree, "centerlines"},
     {kCells, "volume meshes (.vtu)"},
 };
 

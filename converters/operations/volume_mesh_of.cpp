@@ -16,8 +16,9 @@ VolumeMesh volumeMeshOf(const formats::Case& value, const convert::ClosedSurface
   options.closed.levels = 1;
   Surface closed = surfaceOf(value, options, name, context);
   if (closed.report->crossings > 0)
-    throw failed("the surface crosses itself, so it has no inside that cells could fill; a greater " +
-                 context.field("gap") + " or a smaller " + context.field("edge") + " may help");
+    throw failed(
+        "the surface crosses itself, so it has no inside that cells could fill; a greater " +
+        context.field("gap") + " or a smaller " + context.field("edge") + " may help");
   convert::MadeVolumeMesh made = convert::makeVolumeMesh(
       value, closed.levels.front(), closed.report->gap, cells, context.progress);
   return {std::move(made.mesh), std::move(closed.report), made.report};

@@ -13,7 +13,7 @@ std::string volumeMeshLines(const std::optional<convert::VolumeMeshReport>& repo
   if (report->prisms > 0) text += counted(report->prisms, "prism", "prisms") + " and ";
   text += counted(report->tetrahedra, "tetrahedron", "tetrahedra") + ", " +
           shownNumber(report->volume) + " mm^3, least quality " +
-          fixedText(report->leastQuality, 3) + " at " + placeText(report->leastPlace) +
+          fixedText(report->leastQuality, 3) + " at " + convert::placeText(report->leastPlace) +
           "\n";
   if (report->prisms > 0 && report->fullLayers < 1)
     text += "layers       of full height at " + fixedText(100 * report->fullLayers, 1) +

@@ -177,9 +177,8 @@ private:
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
                 frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
                 convert::reachLine(reach) + surfaceLines(meshes.surface, made.value) +
-                volumeMeshLines(meshes.cells) +
-                repetitionLines(made.repetition) + inventoryLines(made.labels) +
-                nativeLines(made.native) + endLines(made.remarks)};
+                volumeMeshLines(meshes.cells) + repetitionLines(made.repetition) +
+                inventoryLines(made.labels) + nativeLines(made.native) + endLines(made.remarks)};
   }
 
   InputFile m_input;

@@ -40,7 +40,7 @@ struct CommonOptions {
   std::optional<Axes> axes;        ///< one of the target's; none: the first of these
   ClosedSurfaceOptions surface = exportedSurfaceOptions();
   VolumeMeshOptions volume{};  ///< of cells within it
-  double spacing = 0;  ///< mm between samples of grids; 0: by the size of the vessels
+  double spacing = 0;          ///< mm between samples of grids; 0: by the size of the vessels
   /// Inlets of a flow, as statedInlets() takes them; empty: found by the case.
   std::vector<std::string> inlets;
   /// Greatest number of pieces of a wall that is divided; 0: the target's own.

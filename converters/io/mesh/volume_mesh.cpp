@@ -93,8 +93,10 @@ std::vector<KeyedFace> keyedFaces(const VolumeMesh& mesh) {
 
 [[noreturn]] void refuse(const VolumeMesh& mesh, const KeyedFace& face) {
   const Vector3d& at = mesh.position[face.corner[0]];
-  throw failed("the volume mesh has a face that is neither shared by two cells nor part of the surface, at " +
-               joinedNumbers(at, ", ", 6) + " mm");
+  throw failed(
+      "the volume mesh has a face that is neither shared by two cells nor part of the surface, "
+      "at " +
+      joinedNumbers(at, ", ", 6) + " mm");
 }
 
 }  // namespace
@@ -114,7 +116,8 @@ std::vector<CellFace> cellFaces(const VolumeMesh& mesh) {
   faces.reserve(keyed.size() / 2);
   for (std::size_t k = 0; k < keyed.size(); k += 2) {
     const KeyedFace& one = keyed[k];
-    if (k + 1 == keyed.size() || keyed[k + 1].key != one.key || one.cell == kAbsent) refuse(mesh, one);
+    if (k + 1 == keyed.size() || keyed[k + 1].key != one.key || one.cell == kAbsent)
+      refuse(mesh, one);
     const KeyedFace& other = keyed[k + 1];
     const bool isInner = other.cell != kAbsent;
     if (k + 2 < keyed.size() && keyed[k + 2].key == one.key) refuse(mesh, one);
@@ -147,9 +150,9 @@ double cellQuality(const VolumeMesh& mesh, std::size_t cell) {
     const auto& p = mesh.prism[cell];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
-      least = std::min({least, scaled(edge(p[k], p[last]), edge(p[k], p[next]), edge(p[k], p[k + 3])),
-                        scaled(edge(p[k + 3], p[last + 3]), edge(p[k + 3], p[next + 3]),
-                               edge(p[k], p[k + 3]))});
+      least = std::min(
+          {least, scaled(edge(p[k], p[last]), edge(p[k], p[next]), edge(p[k], p[k + 3])),
+           scaled(edge(p[k + 3], p[last + 3]), edge(p[k + 3], p[next + 3]), edge(p[k], p[k + 3]))});
     }
     return least * 2 / std::sqrt(3.0);
   }
@@ -157,8 +160,8 @@ double cellQuality(const VolumeMesh& mesh, std::size_t cell) {
   constexpr std::array<std::array<std::size_t, 4>, 4> kCorners{
       {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 2, 1, 0}}};
   for (const auto& c : kCorners)
-    least = std::min(least, scaled(edge(t[c[0]], t[c[1]]), edge(t[c[0]], t[c[2]]),
-                                   edge(t[c[0]], t[c[3]])));
+    least = std::min(
+        least, scaled(edge(t[c[0]], t[c[1]]), edge(t[c[0]], t[c[2]]), edge(t[c[0]], t[c[3]])));
   return least * std::sqrt(2.0);
 }
 

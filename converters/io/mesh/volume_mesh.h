@@ -44,8 +44,8 @@ struct VolumeMesh {
 
 /// A face between two cells, or one of the boundary.
 struct CellFace {
-  FaceCorners corner{};             ///< seen from outside of the owner
-  std::uint32_t owner = 0;          ///< the cell with the lesser number
+  FaceCorners corner{};               ///< seen from outside of the owner
+  std::uint32_t owner = 0;            ///< the cell with the lesser number
   std::uint32_t neighbour = kAbsent;  ///< the other cell
   std::uint32_t group = kAbsent;      ///< of a face of the boundary
 };

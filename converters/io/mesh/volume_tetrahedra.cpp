@@ -22,7 +22,8 @@ std::array<std::uint32_t, 6> turned(const std::array<std::uint32_t, 6>& p) {
                                                               {3, 5, 4, 0, 2, 1},
                                                               {4, 3, 5, 1, 0, 2},
                                                               {5, 4, 3, 2, 1, 0}}};
-  const auto& turn = kTurns[static_cast<std::size_t>(std::min_element(p.begin(), p.end()) - p.begin())];
+  const auto& turn =
+      kTurns[static_cast<std::size_t>(std::min_element(p.begin(), p.end()) - p.begin())];
   std::array<std::uint32_t, 6> result{};
   for (std::size_t k = 0; k < 6; ++k) result[k] = p[turn[k]];
   return result;

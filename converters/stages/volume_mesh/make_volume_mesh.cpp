@@ -47,8 +47,8 @@ WallLayers layersOn(const formats::Case& source, const SurfaceMesh& surface, dou
                     const VolumeMeshOptions& options, Progress& progress) {
   progress.begin("layers", 0);
   const LayerBase base = layerBase(surface);
-  WallLayers layers = wallLayers(base, layerDirections(base, surface, source, gap), surface,
-                                 options, progress);
+  WallLayers layers =
+      wallLayers(base, layerDirections(base, surface, source, gap), surface, options, progress);
   progress.end();
   return layers;
 }
@@ -89,8 +89,8 @@ void check(const VolumeMesh& mesh, VolumeMeshReport& report) {
 
 MadeVolumeMesh makeVolumeMesh(const formats::Case& source, const SurfaceMesh& surface, double gap,
                               const VolumeMeshOptions& options, Progress& progress) {
-  WallLayers layers = options.layers > 0 ? layersOn(source, surface, gap, options, progress)
-                                         : noLayers(surface);
+  WallLayers layers =
+      options.layers > 0 ? layersOn(source, surface, gap, options, progress) : noLayers(surface);
   const TriangleMesh space{layers.mesh.position, layers.inner};
   Tetrahedra inside = fillTetrahedra(space, options.word, progress);
   MadeVolumeMesh made{std::move(layers.mesh), {}};

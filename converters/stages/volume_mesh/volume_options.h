@@ -25,9 +25,9 @@ struct VolumeMeshOptions {
 /// Facts of a volume mesh. Lengths are in mm.
 struct VolumeMeshReport {
   std::size_t points = 0, prisms = 0, tetrahedra = 0;
-  double volume = 0;         ///< sum over cells, mm^3
-  double surfaceVolume = 0;  ///< enclosed by the surface, mm^3
-  double leastQuality = 0;   ///< least scaled Jacobian of a cell
+  double volume = 0;                                     ///< sum over cells, mm^3
+  double surfaceVolume = 0;                              ///< enclosed by the surface, mm^3
+  double leastQuality = 0;                               ///< least scaled Jacobian of a cell
   Eigen::Vector3d leastPlace = Eigen::Vector3d::Zero();  ///< a corner of that cell, LPS
   double fullLayers = 1;   ///< share of the wall's vertices where layers have the height asked for
   double leastLayers = 1;  ///< least height of all layers at a vertex, as a share of that asked for

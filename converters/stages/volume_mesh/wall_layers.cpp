@@ -71,8 +71,9 @@ public:
       if (!isAny) return result();
       shrink(faults);
     }
-    throw failed("the layers could not be made: they cross one another even when they are thin; another " +
-                 m_options.word("edge") + " may help");
+    throw failed(
+        "the layers could not be made: they cross one another even when they are thin; another " +
+        m_options.word("edge") + " may help");
   }
 
 private:
@@ -112,8 +113,8 @@ private:
     for (const Triangle& t : m_base.mesh.triangle)
       for (std::uint32_t layer = 0; layer < m_level.size(); ++layer) {
         const std::uint32_t outer = layer * count, inner = outer + count;
-        mesh.prism.push_back({t[0] + outer, t[1] + outer, t[2] + outer, t[0] + inner, t[1] + inner,
-                              t[2] + inner});
+        mesh.prism.push_back(
+            {t[0] + outer, t[1] + outer, t[2] + outer, t[0] + inner, t[1] + inner, t[2] + inner});
       }
     return mesh;
   }
@@ -134,7 +135,8 @@ private:
     std::vector<char> fails(m_base.mesh.triangle.size(), 0);
     tbb::parallel_for(std::size_t{0}, fails.size(), [&](std::size_t t) {
       const Triangle& corners = m_base.mesh.triangle[t];
-      const double thinnest = std::min({m_cosine[corners[0]], m_cosine[corners[1]], m_cosine[corners[2]]});
+      const double thinnest =
+          std::min({m_cosine[corners[0]], m_cosine[corners[1]], m_cosine[corners[2]]});
       const double least =
           std::min(kLeastQuality, kLeastOfSharp * thinnest) * uprightQuality(corners);
       for (std::size_t layer = 0; layer < layers; ++layer) {
@@ -219,9 +221,9 @@ private:
       m_height[v] *= kShrink;
       if (m_height[v] < kLeastShare * m_asked[v])
         throw failed("the layers could not be made at " +
-                     joinedNumbers(m_base.mesh.position[v], ", ", 5) +
-                     " mm, " + reasonOf(faults[v]) + "; another " +
-                     m_options.word("edge") + " may help, or no " + m_options.word("layers"));
+                     joinedNumbers(m_base.mesh.position[v], ", ", 5) + " mm, " +
+                     reasonOf(faults[v]) + "; another " + m_options.word("edge") +
+                     " may help, or no " + m_options.word("layers"));
     }
     gradeLengths(m_base.mesh, m_height);
   }

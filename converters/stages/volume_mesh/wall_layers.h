@@ -18,10 +18,11 @@ namespace lumen::convert {
 /// Prisms at the wall, and the closed surface of the lumen within them. Vertices of the layers come first: the
 /// base's, then those of each layer towards the axis; then new ones of the inner flat ends.
 struct WallLayers {
-  VolumeMesh mesh;                ///< prisms, with the faces of the boundary that they and inner ends have
-  std::vector<Triangle> inner;    ///< faces of the space within, counter-clockwise seen from the layers
-  std::vector<double> share;      ///< height of all layers at each vertex of the base, as a share of
-                                  ///< that asked for
+  VolumeMesh mesh;  ///< prisms, with the faces of the boundary that they and inner ends have
+  std::vector<Triangle>
+      inner;                  ///< faces of the space within, counter-clockwise seen from the layers
+  std::vector<double> share;  ///< height of all layers at each vertex of the base, as a share of
+                              ///< that asked for
 };
 
 /// Layers on the base along `direction`. Heights are those of the options for the radius at each vertex

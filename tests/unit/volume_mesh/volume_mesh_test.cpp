@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/volume_mesh/make_volume_mesh.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -16,6 +14,7 @@
 #include "converters/base/run_program.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/surface/closing/closed_surface.h"
+#include "converters/stages/volume_mesh/make_volume_mesh.h"
 
 namespace lumen::convert {
 namespace {
@@ -33,8 +32,8 @@ Filled filled(const formats::Case& source, const VolumeMeshOptions& options,
               ClosedSurfaceOptions closed = {}) {
   Progress silent;
   Filled result{source, closedSurface(source, closed, silent), {}};
-  result.made = makeVolumeMesh(source, result.surface.levels[0], result.surface.report.gap, options,
-                               silent);
+  result.made =
+      makeVolumeMesh(source, result.surface.levels[0], result.surface.report.gap, options, silent);
   return result;
 }
 
@@ -238,8 +237,8 @@ VolumeMesh smallMesh() {
   mesh.prism = {{0, 1, 2, 3, 4, 5}};
   mesh.tetrahedron = {{3, 5, 4, 6}};
   mesh.groups = {{"wall", FaceKind::Wall}, {"inlet", FaceKind::Inlet}};
-  mesh.boundary = {{{0, 1, 2, kAbsent}, 0}, {{0, 3, 4, 1}, 1},          {{1, 4, 5, 2}, 1},
-                   {{2, 5, 3, 0}, 1},        {{3, 6, 4, kAbsent}, 1}, {{4, 6, 5, kAbsent}, 1},
+  mesh.boundary = {{{0, 1, 2, kAbsent}, 0}, {{0, 3, 4, 1}, 1},       {{1, 4, 5, 2}, 1},
+                   {{2, 5, 3, 0}, 1},       {{3, 6, 4, kAbsent}, 1}, {{4, 6, 5, kAbsent}, 1},
                    {{3, 5, 6, kAbsent}, 1}};
   return mesh;
 }

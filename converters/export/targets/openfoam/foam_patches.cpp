@@ -275,14 +275,13 @@ std::string pressure(const std::vector<FoamPatch>& patches) {
 
 ExportFile allrun(const FoamCase& foam) {
   const bool isSteady = foam.flow == FoamFlow::Steady;
-  ExportFile file{
-      "Allrun",
-      exportText("openfoam/Allrun",
-                 {{"mesh", foam.isMeshed ? "run renumberMesh -overwrite" : kSnappyMesh},
-                  {"solver", solverOf(foam.flow)},
-                  {"verdict", exportText(isSteady ? "openfoam/verdict-steady"
-                                                  : "openfoam/verdict-pulsatile")}}),
-      "makes the mesh, runs the flow, writes `wall-TIME.vtp`", ""};
+  ExportFile file{"Allrun",
+                  exportText("openfoam/Allrun",
+                             {{"mesh", foam.isMeshed ? "run renumberMesh -overwrite" : kSnappyMesh},
+                              {"solver", solverOf(foam.flow)},
+                              {"verdict", exportText(isSteady ? "openfoam/verdict-steady"
+                                                              : "openfoam/verdict-pulsatile")}}),
+                  "makes the mesh, runs the flow, writes `wall-TIME.vtp`", ""};
   file.isProgram = true;
   return file;
 }

@@ -146,22 +146,28 @@ ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options
 }
 
 TargetRow openFoamRow() {
-  return {
-      .name = "openfoam",
-      .title = "OpenFOAM",
-      .files = {"Allrun", "system/controlDict", "constant/triSurface/vessel.stl", "0/U", "0/p", "expected.csv"},
-      .units = {LengthUnit::Metre},
-      .axes = {Axes::Lps},
-      .holds =
-          "the surface with its named ends; prisms at the wall and tetrahedra within, if they are asked "
-          "for; a steady flow, or one of two heartbeats",
-      .lacks =
-          "branches, radii, and that an aneurysm is one; ends that its cells cannot "
-          "resolve, and parts without a path from an inlet",
-      .options = {"edge", "max-error", "extend", "inlets", "cells", "flow",
-                  {"layers", "cells", "prisms"},
-                  {"growth", "cells", "prisms"},
-                  {"layer-height", "cells", "prisms"}}};
+  return {.name = "openfoam",
+          .title = "OpenFOAM",
+          .files = {"Allrun", "system/controlDict", "constant/triSurface/vessel.stl", "0/U", "0/p",
+                    "expected.csv"},
+          .units = {LengthUnit::Metre},
+          .axes = {Axes::Lps},
+          .holds =
+              "the surface with its named ends; prisms at the wall and tetrahedra within, if they "
+              "are asked "
+              "for; a steady flow, or one of two heartbeats",
+          .lacks =
+              "branches, radii, and that an aneurysm is one; ends that its cells cannot "
+              "resolve, and parts without a path from an inlet",
+          .options = {"edge",
+                      "max-error",
+                      "extend",
+                      "inlets",
+                      "cells",
+                      "flow",
+                      {"layers", "cells", "prisms"},
+                      {"growth", "cells", "prisms"},
+                      {"layer-height", "cells", "prisms"}}};
 }
 
 }  // namespace lumen::convert

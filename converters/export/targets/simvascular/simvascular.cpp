@@ -192,17 +192,18 @@ void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const Num
                      const std::vector<std::string>& names) {
   const auto isWall = [&](std::uint32_t g) { return surface.groups[g].kind == FaceKind::Wall; };
   const std::string folder = "mesh-complete/";
-  result.files.push_back(
-      {folder + "mesh-complete.mesh.vtu", encodeCells(volume), "tetrahedra, in layers at the wall", ""});
+  result.files.push_back({folder + "mesh-complete.mesh.vtu", encodeCells(volume),
+                          "tetrahedra, in layers at the wall", ""});
   result.files.push_back({folder + "mesh-complete.exterior.vtp",
-                          encodeFaces(volume, [](std::uint32_t) { return true; }), "their boundary", ""});
+                          encodeFaces(volume, [](std::uint32_t) { return true; }), "their boundary",
+                          ""});
   result.files.push_back(
       {folder + "walls_combined.vtp", encodeFaces(volume, isWall), "the wall of it", ""});
   for (std::uint32_t g = 0; g < names.size(); ++g)
     if (std::find(surface.group.begin(), surface.group.end(), g) != surface.group.end())
       result.files.push_back({folder + "mesh-surfaces/" + names[g] + ".vtp",
-                              encodeFaces(volume, [g](std::uint32_t other) { return other == g; }), "",
-                              ""});
+                              encodeFaces(volume, [g](std::uint32_t other) { return other == g; }),
+                              "", ""});
   result.others.push_back({folder + "mesh-surfaces/*.vtp", "each face of the model"});
   result.remarks.push_back(std::to_string(volume.mesh.tetrahedron.size()) + " tetrahedra, " +
                            std::to_string(volume.mesh.position.size()) + " nodes");
