@@ -101,8 +101,10 @@ def check_flow(program, folder):
     flow, case = 0.25, folder / "flow"  # ml/s: a Reynolds number of 21
     tube_file(folder / "long.swc", 40, 2)
     lumen(program, folder, "convert", "long.swc", "long.lumen", "--quiet")
-    label = json.loads(lumen(program, folder, "info", "long.lumen", "--json", "--quiet").stdout)["branches"][0]["label"]
-    lumen(program, folder, "export", "openfoam", "long.lumen", "flow", "--cells", "prisms", "--edge", "0.15r", "--layers", "4", "--growth", "1.3", "--inlets", f"{label}={flow}", "--quiet")
+    label = json.loads(lumen(program, folder, "info", "long.lumen", "--json", "--quiet").stdout)["branch_table"][0]["label"]
+    size = ["--edge", "0.15r", "--layers", "4", "--growth", "1.3"]
+    filled = json.loads(lumen(program, folder, "convert", "long.lumen", "long.vtu", "--json", "--quiet", *size).stdout)["volume_mesh"]["volume_mm3"]
+    lumen(program, folder, "export", "openfoam", "long.lumen", "flow", "--cells", "prisms", "--inlets", f"{label}={flow}", "--quiet", *size)
     done = run(case, "./Allrun")
     expect(done.returncode == 0 and "converged in" in done.stdout, f"flow: {done.stdout} {done.stderr}")
     reader = vtkXMLPolyDataReader()
@@ -115,12 +117,9 @@ def check_flow(program, folder):
     stress = numpy.linalg.norm(vtk_to_numpy(table.GetCellData().GetArray("wall_shear_stress_Pa")), axis=1)
     away = numpy.hypot(middle[:, 0], middle[:, 1])
     inner = (middle[:, 2] > 12) & (middle[:, 2] < 32) & (away > 1.5)
-    section = place[(place[:, 2] > 12) & (place[:, 2] < 32) & (numpy.hypot(place[:, 0], place[:, 1]) > 1.5)]
     fall = -numpy.polyfit(1e-3 * middle[inner, 2], pressure[inner], 1)[0]
-    vertex = numpy.hypot(section[:, 0], section[:, 1]).mean()
-    # triangles cut corners off the circle through their vertices: the area of the section is that of the volume
-    edges = 2 * math.pi / 0.15
-    radius = 1e-3 * vertex * math.sqrt(math.sin(2 * math.pi / edges) / (2 * math.pi / edges))
+    # triangles cut corners off the circle, so its radius is that of a cylinder with the volume of the cells
+    radius = 1e-3 * math.sqrt(filled / (math.pi * numpy.ptp(place[:, 2])))
     law, wall = 8 * VISCOSITY * 1e-6 * flow / (math.pi * radius ** 4), 4 * VISCOSITY * 1e-6 * flow / (math.pi * radius ** 3)
     print(f"flow: pressure falls {fall / law:.4f} times as Poiseuille's law states, stress at the wall {stress[inner].mean() / wall:.4f}, radius {1e3 * radius:.4f} mm")
     near(fall, law, 0.01, "flow: fall of the pressure, Pa/m")
