@@ -23,6 +23,7 @@ packages=(
   libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
+  libnglib-dev netgen-headers
   libgtest-dev libbenchmark-dev libcgal-dev libbullet-dev python3-vtk9 tetgen
 )
 

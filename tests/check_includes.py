@@ -41,6 +41,7 @@ ROOMS = [
      "stages/surface": [], "stages/surface/remesh": ["stages/surface"], "stages/surface/simplify": ["stages/surface", "stages/surface/remesh"],
      "stages/surface/closing": ["stages/surface", "stages/surface/remesh", "stages/surface/simplify"],
      "stages/surface/patches": ["stages/surface", "stages/surface/closing"],
+     "stages/volume_mesh/netgen": [], "stages/volume_mesh": ["stages/surface", "stages/surface/remesh", "stages/surface/closing", "stages/volume_mesh/netgen"],
      "stages/trees_from_surfaces": ["stages/repair"], "stages/motion": ["stages/fitting/image"], "stages/phantom": ["stages/motion"]},
     {"judge/compare": [], "judge/check": []},
     {"judge/measure": []},

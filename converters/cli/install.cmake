@@ -24,6 +24,9 @@ add_custom_target(lumen_program ALL DEPENDS lumen ${man_page} ${completion})
 add_dependencies(lumen_program answer_schemas)
 
 install(TARGETS lumen COMPONENT lumen)
+if(LUMEN_FILLS)
+  install(TARGETS lumen_netgen COMPONENT lumen)
+endif()
 install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT lumen)
 install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT lumen)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md ${PROJECT_SOURCE_DIR}/CITATION.cff

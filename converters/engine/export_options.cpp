@@ -42,7 +42,8 @@ const std::map<std::string, convert::GridFormat> kGridFormats = {
 
 const std::map<std::string, convert::FoamGrain> kGrains = {{"coarse", convert::FoamGrain::Coarse},
                                                            {"medium", convert::FoamGrain::Medium},
-                                                           {"fine", convert::FoamGrain::Fine}};
+                                                           {"fine", convert::FoamGrain::Fine},
+                                                           {"prisms", convert::FoamGrain::Prisms}};
 const std::map<std::string, convert::FoamFlow> kFlows = {
     {"steady", convert::FoamFlow::Steady}, {"pulsatile", convert::FoamFlow::Pulsatile}};
 
@@ -79,7 +80,9 @@ void addFlowRows(OptionTable& table, convert::ExportOptions& options) {
       .delimiter = ',';
   table.choice(
       "cells", options.foam.cells, kGrains,
-      "Cells of the mesh: 6, 9 or 14 across each vessel, and 0.3, 1.2 or 5 million at most");
+      "Cells of the mesh: 6, 9 or 14 across each vessel, and 0.3, 1.2 or 5 million at most, by "
+      "snappyHexMesh; or layers of prisms and tetrahedra, by lumen");
+  addLayerRows(table, options.volume);
   table.choice("flow", options.foam.flow, kFlows,
                "Flow at the ends: its mean, or two cycles of the heart");
 }

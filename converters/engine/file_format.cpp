@@ -78,7 +78,15 @@ EncodedCase encodeMeshAs(const formats::Case& value, const fs::path& file,
   surface.closed.levels = 1;
   operations::Surface mesh =
       operations::surfaceOf(value, surface, file.string(), operationContext(progress));
-  return {encode(mesh.levels, options.mesh), std::move(mesh.report)};
+  return {encode(mesh.levels, options.mesh), {std::move(mesh.report), {}}};
+}
+
+/// The encoder of volume meshes.
+EncodedCase encodeCells(const formats::Case& value, const fs::path& file,
+                        const OutputOptions& options, Progress& progress) {
+  operations::VolumeMesh made = operations::volumeMeshOf(
+      value, options.surface.closed, options.cells, file.string(), operationContext(progress));
+  return {convert::encodeVtu(made.mesh), {std::move(made.surface), made.cells}};
 }
 
 /// The encoder of glTF, which alone holds the motion of a case.
@@ -90,7 +98,7 @@ EncodedCase encodeGltfAs(const formats::Case& value, const fs::path& file,
   std::optional<convert::MeshSkin> skin;
   if (value.motion && options.mesh.skin) skin = convert::skinOf(value, mesh.levels);
   return {convert::encodeGltf(mesh.levels, binary, options.mesh, skin ? &*skin : nullptr),
-          std::move(mesh.report)};
+          {std::move(mesh.report), {}}};
 }
 
 constexpr auto kEncodeGlb = encodeGltfAs<true>;
@@ -136,6 +144,7 @@ std::vector<FileFormat> makeTable() {
        .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
       {.name = "dicom-surface", .title = "surfaces of DICOM", .kind = Mesh, .endings = {".surface.dcm"},
        .readMesh = readMeshAs<MeshFormat::DicomSurface>},
+      {.name = "vtu", .title = "cells of VTK", .kind = VolumeMesh, .endings = {".vtu"}, .encodeCase = encodeCells},
       // centerlines
       {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc,
        .encodeCase = encodeTreeAs<convert::encodeSwc>},
@@ -287,13 +296,11 @@ std::string joined(const std::vector<std::string>& words, const std::string& las
 
 }  // namespace
 
-std::optional<convert::SurfaceReport> FileFormat::writeCase(const formats::Case& value,
-                                                            const OutputFile& file,
-                                                            const OutputOptions& options,
-                                                            Progress& progress) const {
+MeshReports FileFormat::writeCase(const formats::Case& value, const OutputFile& file,
+                                  const OutputOptions& options, Progress& progress) const {
   EncodedCase encoded = encodeCase(value, file.path(), options, progress);
   writeText(encoded.bytes, file);
-  return std::move(encoded.surface);
+  return std::move(encoded.reports);
 }
 
 void FileFormat::writeVolume(const convert::Volume& volume, const OutputFile& file) const {
@@ -314,6 +321,7 @@ convert::ContentKind contentKind(const FileFormat& format) {
     case FormatKind::Volume:
       return convert::ContentKind::Volume;
     case FormatKind::Mesh:
+    case FormatKind::VolumeMesh:
       return convert::ContentKind::Mesh;
     case FormatKind::Centerline:
       return convert::ContentKind::Centerline;
@@ -354,6 +362,14 @@ bool canWriteCase(const FileFormat& format) {
 
 bool canWriteMesh(const FileFormat& format) {
   return format.kind == FormatKind::Mesh && canWrite(format);
+}
+
+bool canWriteVolumeMesh(const FileFormat& format) {
+  return format.kind == FormatKind::VolumeMesh && canWrite(format);
+}
+
+bool needsModels(const FileFormat& format) {
+  return canWriteMesh(format) || canWriteVolumeMesh(format);
 }
 
 bool canWriteVolume(const FileFormat& format) {

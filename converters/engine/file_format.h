@@ -17,25 +17,32 @@
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/io/volume/read_volume.h"
-#include "converters/operations/surface_of.h"
+#include "converters/operations/volume_mesh_of.h"
 #include "formats/case/case.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::engine {
 
-enum class FormatKind { Volume, Case, Mesh, Centerline };
+enum class FormatKind { Volume, Case, Mesh, VolumeMesh, Centerline };
 
 /// Options for writing a case; each format takes those that concern it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
   operations::SurfaceOptions surface;
   convert::WriteMeshOptions mesh;
+  convert::VolumeMeshOptions cells;
 };
 
-/// A case, its surface or its tree as the bytes of a file.
+/// Facts of a mesh that was made of a case.
+struct MeshReports {
+  std::optional<convert::SurfaceReport> surface;   ///< of a closed surface
+  std::optional<convert::VolumeMeshReport> cells;  ///< of a volume mesh
+};
+
+/// A case, its surface, its inside or its tree as the bytes of a file.
 struct EncodedCase {
   std::string bytes;
-  std::optional<convert::SurfaceReport> surface;  ///< of a closed surface
+  MeshReports reports{};
 };
 
 /// One row. A function is null where the format cannot do its work; each throws lumen::Error with
@@ -70,11 +77,9 @@ struct FileFormat {
   CaseEncoder encodeCase = nullptr;
   VolumeEncoder encodeVolume = nullptr;
 
-  /// Writes what encodeCase gives atomically. The report is that of the surface, if one was made.
-  std::optional<convert::SurfaceReport> writeCase(const formats::Case& value,
-                                                  const OutputFile& file,
-                                                  const OutputOptions& options,
-                                                  Progress& progress) const;
+  /// Writes what encodeCase gives atomically. The reports are those of the mesh, if one was made.
+  MeshReports writeCase(const formats::Case& value, const OutputFile& file,
+                        const OutputOptions& options, Progress& progress) const;
   /// Writes what encodeVolume gives atomically.
   void writeVolume(const convert::Volume& volume, const OutputFile& file) const;
 };
@@ -96,6 +101,8 @@ bool canReadCenterline(const FileFormat& format);
 bool canWrite(const FileFormat& format);  ///< a case, in whatever form
 bool canWriteCase(const FileFormat& format);
 bool canWriteMesh(const FileFormat& format);
+bool canWriteVolumeMesh(const FileFormat& format);
+bool needsModels(const FileFormat& format);  ///< a mesh of either kind, which is made of models
 bool canWriteCenterline(const FileFormat& format);
 bool canWriteVolume(const FileFormat& format);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/mesh_options.h"
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -22,6 +23,10 @@ const std::map<std::string, convert::ColorBy> kColorBy = {
     {"radius", convert::ColorBy::Radius},
     {"confidence", convert::ColorBy::Confidence},
     {"system", convert::ColorBy::System}};
+
+// Bounds of layers that keep numbers of cells and heights within reason.
+constexpr std::int64_t kMostLayers = 50;
+constexpr double kMostGrowth = 3;
 
 const std::map<std::string, convert::Touching> kTouching = {{"share", convert::Touching::Share},
                                                             {"apart", convert::Touching::Apart}};
@@ -143,6 +148,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
           "Thickness of a solid wall around the lumen, such as 0.5 (mm) or 0.2r; between lumens "
           "that "
           "touch it is down to half, and lumen reports where")
+      .forOutputs(kAllSurfaces)
       .without("patches");
   table
       .add(
@@ -162,6 +168,31 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
       .without("patches");
 }
 
+void addLayerRows(OptionTable& table, convert::VolumeMeshOptions& cells) {
+  cells.word = optionWord();
+  const auto noLayers = [&cells] { return cells.layers > 0 ? "" : "does nothing with --layers 0"; };
+  table
+      .add("layers", &cells.layers, "N",
+           "Layers of prisms at the wall, with tetrahedra within; 0: tetrahedra alone")
+      .in(WholeRange{0, kMostLayers});
+  table
+      .add("growth", &cells.growth, "FACTOR",
+           "Height of a layer over that of the one before it, away from the wall")
+      .in(NumberRange{1, kMostGrowth})
+      .unusedIf(noLayers);
+  table
+      .add(
+          "layer-height",
+          [&cells](const std::vector<std::string>& texts) {
+            cells.height = convert::parseLength(texts.back(), "--layer-height");
+          },
+          "LENGTH",
+          "Height of the layer at the wall, as a share of the vessel's radius such as 0.05r, or in "
+          "mm; layers are thinner where they would meet")
+      .defaults(shownNumber(cells.height.radii) + "r")
+      .unusedIf(noLayers);
+}
+
 void addMeshFileRows(OptionTable& table, OutputOptions& output) {
   convert::ClosedSurfaceOptions& surface = output.surface.closed;
   table.group("Mesh");
@@ -172,6 +203,7 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
           "touching", surface.touching, kTouching,
           "Walls of vessels that touch: they share one, or keep apart, each a sixth as thick as "
           "asked for or more")
+      .forOutputs(kAllSurfaces)
       .onlyWith("thickness");
   convert::EdgeLength& edge = surface.edge;
   addBound(table, "edge-min", surface, edge.minimum, "Least length of edges")
@@ -182,6 +214,7 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
       .scaled("gap", surface.gap, "Distance that touching vessels keep",
               "0.1 voxels, or 0.05 of the least radius")
       .without("patches");
+  table.scope(kAnyContent, kAllSurfaces);
   table.flag("open", surface.open, "Leave the flat ends of vessels open").without("patches");
   addPatchRows(table, output);
   addGltfRows(table, output);
@@ -189,6 +222,8 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
   table.flag("stl-solids", output.mesh.stlSolids,
              "Write STL as text with one named solid for each group of faces, as OpenFOAM takes "
              "it");
+  table.scope(kAnyContent, kCells);
+  addLayerRows(table, output.cells);
   table.scope(kAnyContent);
   table.group("");
 }

@@ -11,6 +11,9 @@ namespace lumen::engine {
 /// The closed surface: edges, flow extensions, a wall, error or number of triangles.
 void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface);
 
+/// Layers of prisms of a volume mesh.
+void addLayerRows(OptionTable& table, convert::VolumeMeshOptions& cells);
+
 /// Rows for writing a mesh by `lumen convert`: the surface, its patches, and the file's own
 /// options.
 void addMeshFileRows(OptionTable& table, OutputOptions& output);

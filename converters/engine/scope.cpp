@@ -35,9 +35,15 @@ const std::vector<NamedContent> kInputNames = {
     {kFittedCase, "cases that are taken as they are"},
 };
 const std::vector<NamedContent> kOutputNames = {
-    {kAllMeshes, "meshes"},        {kBinaryCase, ".lumen"}, {kJsonCase, ".lumen.json"},
-    {kGltf, "glTF (.glb, .gltf)"}, {kStl, "STL"},           {kOtherMesh, "meshes but glTF and STL"},
+    {kAllMeshes, "meshes"},
+    {kAllSurfaces, "surfaces"},
+    {kBinaryCase, ".lumen"},
+    {kJsonCase, ".lumen.json"},
+    {kGltf, "glTF (.glb, .gltf)"},
+    {kStl, "STL"},
+    {kOtherMesh, "meshes but glTF and STL"},
     {kTree, "centerlines"},
+    {kCells, "volume meshes (.vtu)"},
 };
 
 std::string namesIn(ContentMask mask, const std::vector<NamedContent>& names) {
@@ -84,6 +90,7 @@ ContentMask inputContent(const FileFormat& format, bool holdsLabels) {
       return format.readScene != nullptr ? kScene : kPlainMesh;
     case FormatKind::Centerline:
       return kCenterline;
+    case FormatKind::VolumeMesh:
     case FormatKind::Case:
       break;
   }
@@ -92,6 +99,7 @@ ContentMask inputContent(const FileFormat& format, bool holdsLabels) {
 
 ContentMask outputContent(const FileFormat& format) {
   if (format.kind == FormatKind::Centerline) return kTree;
+  if (format.kind == FormatKind::VolumeMesh) return kCells;
   if (format.kind == FormatKind::Case) return format.name == "lumen" ? kBinaryCase : kJsonCase;
   if (format.name == "glb" || format.name == "gltf") return kGltf;
   return format.name == "stl" ? kStl : kOtherMesh;

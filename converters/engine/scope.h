@@ -36,8 +36,10 @@ constexpr ContentMask kJsonCase = 1 << 1;    ///< .lumen.json
 constexpr ContentMask kGltf = 1 << 2;
 constexpr ContentMask kStl = 1 << 3;
 constexpr ContentMask kOtherMesh = 1 << 4;
-constexpr ContentMask kAllMeshes = kGltf | kStl | kOtherMesh;
-constexpr ContentMask kTree = 1 << 5;                                    ///< a centerline
+constexpr ContentMask kAllSurfaces = kGltf | kStl | kOtherMesh;
+constexpr ContentMask kTree = 1 << 5;   ///< a centerline
+constexpr ContentMask kCells = 1 << 6;  ///< a volume mesh
+constexpr ContentMask kAllMeshes = kAllSurfaces | kCells;
 constexpr ContentMask kModelled = kBinaryCase | kJsonCase | kAllMeshes;  ///< models show in them
 
 /// Contents of the files that are read and written; any where they do not matter.

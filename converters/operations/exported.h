@@ -20,9 +20,8 @@ struct ExportPlan {
 
 /// The files of the folder as bytes by name, in the target's unit and axes (spec/export.md): the
 /// target's own, README.md and lumen-export.json. Warns, with the folder's name first, of the
-/// surface and of parts of the case that the folder lacks. Takes seconds to minutes, on all threads;
-/// the target simvascular runs TetGen in a private folder where it is installed. Throws
-/// Error(InvalidInput), with `name` first, for a case that the target cannot hold, Error(Usage) for
+/// surface and of parts of the case that the folder lacks. Takes seconds to minutes, on all threads.
+/// The program lumen-netgen fills volume meshes, in a private folder. Throws Error(InvalidInput), with `name` first, for a case that the target cannot hold, Error(Usage) for
 /// options that do not fit it, Error(Unsupported) for a format that lumen was built without, and
 /// Error(Cancelled).
 convert::ExportResult exported(const formats::Case& value, const std::string& name, ExportPlan plan,

@@ -195,6 +195,7 @@ def make_cases(lumen, folder):
     go("info-case.schema.json", "info", "moving.lumen.json")
     go("convert.schema.json", "convert", "moving.lumen.json", "posed.lumen", "--time", "0.5")
     go("convert.schema.json", "convert", "fitted.lumen", "wall.ply", "--thickness", "0.2r")
+    if shutil.which("lumen-netgen"): go("convert.schema.json", "convert", "fitted.lumen", "cells.vtu", "--layers", "2")
     go("convert.schema.json", "convert", "fitted.lumen", "rounded.lumen", "--point-bits", "12", "--compress")
     go("compare.schema.json", "compare", "fitted.lumen", "truth.lumen")
     go("compare.schema.json", "compare", "truth.lumen", "tracked.lumen")

@@ -155,7 +155,7 @@ constexpr const char* kSamples = R"(convert
   --max-error 0.02 --triangles 500 --edge-min 0.6 --edge-max 0.08 --gap 0.3 --open true --patches true --cell 0.3
   --lod 2 --mesh-per branch --colour radius --meshopt true --draco true
   --draco-position-bits 12 --draco-normal-bits 8 --stl-solids true --compress true
-  --point-bits 12 --time 0.5 --skin false
+  --point-bits 12 --time 0.5 --skin false --layers 2 --growth 1.6 --layer-height 0.02r
 )";
 
 }  // namespace

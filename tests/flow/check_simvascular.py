@@ -139,6 +139,9 @@ def check_mesh(name, out, faces, surface, parts):
     print(name, len(tetrahedra), "tetrahedra")
 
 
+def has_netgen(program): return (pathlib.Path(program).parent / "lumen-netgen").exists()
+
+
 def export(program, folder, case, name, *options):
     lumen(program, folder, "export", "simvascular", str(case), name, "--quiet", *options)
     return folder / name, json.loads((folder / name / "lumen-export.json").read_text())
@@ -151,27 +154,28 @@ def check_case(name, program, folder, case, parts, *options):
     lumen(program, folder, "convert", str(case), f"{name}.lumen.json", "--quiet")
     check_lines(name, out, json.loads((folder / f"{name}.lumen.json").read_text())["tree"])
     faces, *surface = check_model(name, out, manifest)
-    if shutil.which("tetgen"): check_mesh(name, out, faces, surface, parts)
+    if has_netgen(program): check_mesh(name, out, faces, surface, parts)
 
 
-def without_tetgen(program, folder, case):
-    done = subprocess.run([program, "export", "simvascular", str(case), "bare", "--json"], cwd=folder, capture_output=True, text=True, env={"PATH": "/nowhere"})
+def without_netgen(program, folder, case):
+    """A copy of the program with nothing beside it writes all but the volume mesh."""
+    (folder / "alone").mkdir()
+    shutil.copy(program, folder / "alone" / "lumen")
+    done = subprocess.run([folder / "alone" / "lumen", "export", "simvascular", str(case), "bare", "--json"], cwd=folder, capture_output=True, text=True, env={"PATH": "/nowhere"})
     said = json.loads((folder / "bare" / "lumen-export.json").read_text())
-    expect(done.returncode == 0 and "TetGen is not installed" in done.stderr, f"without TetGen: {done.stderr}")
-    expect(any("TetGen" in loss for loss in said["losses"]) and not (folder / "bare" / "mesh-complete").exists(), "without TetGen the folder says so")
+    expect(done.returncode == 0 and "needs the program lumen-netgen" in done.stderr, f"without lumen-netgen: {done.stderr}")
+    expect(any("lumen-netgen" in loss for loss in said["losses"]) and not (folder / "bare" / "mesh-complete").exists(), "without lumen-netgen the folder says so")
 
 
-def broken_tetgen(program, folder, case):
+def broken_netgen(program, folder, case):
     """A program of that name that fails, or writes nonsense, costs only the volume mesh."""
-    for k, script in enumerate(("exit 3", "kill -9 $$", "echo '9999999999 3 0 0' > surface.1.node; echo x > surface.1.ele")):
-        tools = folder / f"tools{k}"
-        tools.mkdir()
-        (tools / "tetgen").write_text(f"#!/bin/sh\n{script}\n")
-        (tools / "tetgen").chmod(0o755)
-        env = {"PATH": f"{tools}:{os.environ['PATH']}"}
-        done = subprocess.run([program, "export", "simvascular", str(case), f"broken{k}"], cwd=folder, capture_output=True, text=True, env=env)
-        expect(done.returncode == 0 and "could not fill" in done.stderr, f"tetgen that says {script}: {done.returncode} {done.stderr}")
-        expect(not (folder / f"broken{k}" / "mesh-complete").exists(), f"no mesh of a tetgen that says {script}")
+    for k, script in enumerate(("exit 3", "kill -9 $$", "head -c 99 /dev/zero > volume", "echo 9999999999999999 > volume")):
+        netgen = folder / "alone" / "lumen-netgen"
+        netgen.write_text(f"#!/bin/sh\n{script}\n")
+        netgen.chmod(0o755)
+        done = subprocess.run([folder / "alone" / "lumen", "export", "simvascular", str(case), f"broken{k}"], cwd=folder, capture_output=True, text=True)
+        expect(done.returncode == 0 and "could not fill" in done.stderr, f"lumen-netgen that says {script}: {done.returncode} {done.stderr}")
+        expect(not (folder / f"broken{k}" / "mesh-complete").exists(), f"no mesh of a lumen-netgen that says {script}")
 
 
 def check(program, folder, cases):
@@ -179,14 +183,14 @@ def check(program, folder, cases):
         lumen(program, folder, "phantom", design, f"{design}.nrrd", "--size", "64", "--seeds", f"{design}.json", "--quiet")
         lumen(program, folder, "convert", f"{design}.nrrd", f"{design}.lumen", "--seeds", f"{design}.json", "--seeds-only", "--quiet")
         check_case(design, program, folder, f"{design}.lumen", parts)
-    without_tetgen(program, folder, "bifurcation.lumen")
-    broken_tetgen(program, folder, "bifurcation.lumen")
+    without_netgen(program, folder, "bifurcation.lumen")
+    broken_netgen(program, folder, "bifurcation.lumen")
     for k, case in enumerate(cases): check_case(f"case{k}", program, folder, pathlib.Path(case).resolve(), 1)
 
 
 def main():
     if numpy is None: skip("Python's VTK (python3-vtk9) or NumPy is not installed")
-    if not shutil.which("tetgen"): print("TetGen is not installed: mesh-complete is not tested")
+    if not has_netgen(sys.argv[1]): print("lumen-netgen is not built: mesh-complete is not tested")
     with tempfile.TemporaryDirectory() as folder: check(str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(folder), sys.argv[2:])
     return 1 if failures else 0
 

@@ -48,6 +48,10 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/validate_test.cpp)
 target_compile_definitions(cli_test PRIVATE LUMEN_EXECUTABLE="$<TARGET_FILE:lumen>")
 add_dependencies(cli_test lumen)
+if(LUMEN_FILLS)
+  add_dependencies(cli_test lumen_netgen)
+  set_tests_properties(cli_test PROPERTIES ENVIRONMENT "PATH=$<TARGET_FILE_DIR:lumen_netgen>:$ENV{PATH}")
+endif()
 # begun first, the longest does not run alone at the end
 set_tests_properties(cli_test PROPERTIES COST 1000)
 
@@ -72,6 +76,9 @@ if(HAS_VTK)
 endif()
 if(HAS_JSONSCHEMA)
   python_test(Answers.AreWhatTheirSchemasSay slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_answers.py $<TARGET_FILE:batch_lumen> ${PROJECT_BINARY_DIR})
+  if(LUMEN_FILLS)
+    set_tests_properties(Answers.AreWhatTheirSchemasSay PROPERTIES ENVIRONMENT "PATH=$<TARGET_FILE_DIR:lumen_netgen>:$ENV{PATH}")
+  endif()
 endif()
 
 # Facts that files state, turned one at a time; and words that no output may hold.

@@ -15,3 +15,5 @@ python_test(Flow.SvZeroDSolverConservesFlow nightly
 python_test(Flow.OpenFoamMeshesAndRuns foreign ${flow}/check_openfoam.py $<TARGET_FILE:lumen>)
 python_test(Flow.OneDimensionalInputsAreBalanced slow ${flow}/check_oned.py $<TARGET_FILE:lumen>)
 python_test(Flow.SimVascularProjectsOpenInVtk foreign ${flow}/check_simvascular.py $<TARGET_FILE:lumen>)
+python_test(Flow.VolumeMeshesPassCheckMesh foreign ${flow}/check_volume_mesh.py $<TARGET_FILE:lumen>)
+python_test(Flow.TubeOfPrismsFollowsPoiseuille nightly ${flow}/check_volume_mesh.py $<TARGET_FILE:lumen> --flow)

@@ -183,6 +183,7 @@ FileRole openingRole(const Opening& opening) {
              : opening.as == OpenAs::Labels ? FileRole::Labels
                                             : FileRole::Volume;
     case engine::FormatKind::Mesh:
+    case engine::FormatKind::VolumeMesh:
       return FileRole::Mesh;
     case engine::FormatKind::Case:
     case engine::FormatKind::Centerline:

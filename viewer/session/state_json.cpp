@@ -60,7 +60,7 @@ Json formatsJson(const Document& document) {
   Json list = Json::array();
   if (document.value)
     for (const engine::FileFormat& format : engine::fileFormats())
-      if (engine::canWrite(format) && (!engine::canWriteMesh(format) || document.hasModels() ||
+      if (engine::canWrite(format) && (!engine::needsModels(format) || document.hasModels() ||
                                        document.value->points.has_value()))
         list.push_back(format.name);
   if (!document.seeds->empty()) list.push_back("seeds");

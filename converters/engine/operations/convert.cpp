@@ -13,6 +13,7 @@
 #include "converters/engine/answers/native_answer.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/answers/track_answer.h"
+#include "converters/engine/answers/volume_mesh_answer.h"
 #include "converters/engine/convert_options.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
@@ -50,6 +51,7 @@ public:
   [[nodiscard]] std::string example() const override {
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
            "  lumen convert head.lumen head.glb --colour radius\n"
+           "  lumen convert head.lumen head.vtu --layers 5 --growth 1.2\n"
            "  lumen convert aorta.stl aorta.lumen --centerline aorta-centerline.vtp\n"
            "  lumen convert labels.nii.gz arteries.lumen --labels 1=ica,2=mca\n"
            "  lumen convert arteries.swc arteries.lumen\n"
@@ -65,7 +67,8 @@ public:
     table.argument("OUTPUT", &m_output,
                    "Case, " + formatEndings(canWriteCase) +
                        "; or mesh, which holds the surface of the " + "vessels and no more, " +
-                       formatEndings(canWriteMesh) +
+                       formatEndings(canWriteMesh) + "; or volume mesh, " +
+                       formatEndings(canWriteVolumeMesh) +
                        "; or centerline, which holds the tree and its radii and no more, " +
                        formatEndings(canWriteCenterline));
     addFormatRow(table, "from", m_from, "INPUT");
@@ -134,7 +137,7 @@ private:
     source.value = atTime(isOther ? readParentCase(m_input) : from.readCase(m_input), m_time,
                           m_input.name(), *context.table, context.progress);
     requireContent(*source.value, context);
-    if (to.kind == FormatKind::Mesh && !source.value->models) {
+    if (needsModels(to) && !source.value->models) {
       if (!source.value->points)
         throw invalidInput(m_input.name() +
                            ": this case has neither models nor wall points to fit them to, "
@@ -158,10 +161,11 @@ private:
 
   [[nodiscard]] Answer report(const operations::MadeCase& made,
                               const std::optional<convert::Reach>& reach,
-                              const std::optional<convert::SurfaceReport>& surface) const {
+                              const MeshReports& meshes) const {
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(reach);
-    json["surface"] = surfaceJson(surface, made.value);
+    json["surface"] = surfaceJson(meshes.surface, made.value);
+    json["volume_mesh"] = volumeMeshJson(meshes.cells);
     json["mesh"] = frameJson(made.meshFrame);
     json["centerline"] = frameJson(made.centerlineFrame);
     json["repeats"] = repetitionJson(made.repetition, made.value);
@@ -172,9 +176,9 @@ private:
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
                 frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
-                convert::reachLine(reach) + surfaceLines(surface, made.value) +
-                repetitionLines(made.repetition) + inventoryLines(made.labels) +
-                nativeLines(made.native) + endLines(made.remarks)};
+                convert::reachLine(reach) + surfaceLines(meshes.surface, made.value) +
+                volumeMeshLines(meshes.cells) + repetitionLines(made.repetition) +
+                inventoryLines(made.labels) + nativeLines(made.native) + endLines(made.remarks)};
   }
 
   InputFile m_input;

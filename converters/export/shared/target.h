@@ -17,6 +17,7 @@
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/stages/surface/closing/closed_surface.h"
+#include "converters/stages/volume_mesh/volume_options.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -38,7 +39,8 @@ struct CommonOptions {
   std::optional<LengthUnit> unit;  ///< one of the target's; none: the first of these
   std::optional<Axes> axes;        ///< one of the target's; none: the first of these
   ClosedSurfaceOptions surface = exportedSurfaceOptions();
-  double spacing = 0;  ///< mm between samples of grids; 0: by the size of the vessels
+  VolumeMeshOptions volume{};  ///< of cells within it
+  double spacing = 0;          ///< mm between samples of grids; 0: by the size of the vessels
   /// Inlets of a flow, as statedInlets() takes them; empty: found by the case.
   std::vector<std::string> inlets;
   /// Greatest number of pieces of a wall that is divided; 0: the target's own.

@@ -70,8 +70,8 @@ TargetRow printRow();
 // A case as a project of SimVascular.
 
 /// vessels.svproj, Paths/NAME.pth and Segmentations/NAME.ctgr of each branch, with circles at its
-/// nodes, about a radius apart, Models/vessel.mdl and .vtp, and, if TetGen is installed,
-/// mesh-complete, all in cm, LPS. Throws as lumenSurface() and branchPaths().
+/// nodes, about a radius apart, Models/vessel.mdl and .vtp, and, if the surface can be
+/// filled with cells, mesh-complete, all in cm, LPS. Throws as lumenSurface() and branchPaths().
 ExportResult exportSimVascular(const ExportInput& input);
 
 TargetRow simVascularRow();

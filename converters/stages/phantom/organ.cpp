@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 constexpr double kAir = -1000;                              // HU
 constexpr double kAirwayWall = 20, kAirwayThickness = 1.2;  // HU, mm
 constexpr double kBreath = 1.2, kBreathLength = 9;          // mm along y, and along z
-constexpr double kStreakLevel = 15, kStreakLength = 4;           // HU, mm
+constexpr double kStreakLevel = 15, kStreakLength = 4;      // HU, mm
 constexpr double kLeastStreaked = -300;                     // HU: air shows none
 constexpr double kHangs = 2;                                // mm: a vessel that begins so near
 constexpr std::uint64_t kStreakAngles = 0x73747265616bULL;
@@ -106,7 +106,7 @@ private:
     Random random(kStreakAngles, static_cast<std::uint64_t>(std::lround(place.z() / m_voxel)));
     const double angle = random.uniform(0, std::numbers::pi);
     return kStreakLevel * std::cos(2 * std::numbers::pi / kStreakLength *
-                              (place.x() * std::cos(angle) + place.y() * std::sin(angle)));
+                                   (place.x() * std::cos(angle) + place.y() * std::sin(angle)));
   }
 
   std::vector<OrganShape> m_shapes;
@@ -121,8 +121,7 @@ Design designOrgan(const Organ& organ, const Frame& frame) {
   Design& design = builder.design();
   for (const OrganSystem& part : organ.systems) {
     const auto before = static_cast<std::ptrdiff_t>(design.contrast.size());
-    addCourses(part.courses, systemLabel(part.system),
-               frame.extent / kOrganEdge, builder);
+    addCourses(part.courses, systemLabel(part.system), frame.extent / kOrganEdge, builder);
     design.systems.resize(builder.tree().nodeCount(), part.system);
     std::fill(design.contrast.begin() + before, design.contrast.end(),
               static_cast<float>(shareOfLevel(part.level)));

@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 using formats::VesselSystem;
 
 constexpr double kThrough = std::numeric_limits<double>::infinity(), kBox = 8;
-constexpr double kFatLevel = -90, kMuscleLevel = 45, kCompactaLevel = 700, kMarrowLevel = 180;  // HU
+constexpr double kFatLevel = -90, kMuscleLevel = 45, kCompactaLevel = 700,
+                 kMarrowLevel = 180;  // HU
 
 /// A trunk with fat under its skin, muscle, and a vertebral column.
 std::vector<OrganShape> trunk() {
@@ -54,8 +55,7 @@ Courses onHeart(const Winding& winding) {
     const double t = i / 24.0;
     const double angle = winding.angle + winding.turn * t + 0.1 * std::sin(9 * t);
     const double height = kBase - (kBase - winding.lowest) * t;
-    const double across =
-        (kAcross + winding.apart) * std::sqrt(1 - 0.85 * 0.85 * height * height);
+    const double across = (kAcross + winding.apart) * std::sqrt(1 - 0.85 * 0.85 * height * height);
     places.emplace_back(56 + across * std::cos(angle), 52 + 0.85 * across * std::sin(angle),
                         56 + 38 * height);
   }
@@ -66,8 +66,8 @@ Courses onHeart(const Winding& winding) {
 
 // Three coronary arteries on a heart whose ventricle is as bright as they are, and a vein along one.
 Design designHeart(const Frame& frame) {
-  Organ heart = organOf(
-      trunk(), {{{56, 52, 56}, {35, 30, 40}, 105}, {{56, 52, 56}, {24, 19, 28}, 370}});
+  Organ heart =
+      organOf(trunk(), {{{56, 52, 56}, {35, 30, 40}, 105}, {{56, 52, 56}, {24, 19, 28}, 370}});
   const Courses arteries =
       joined(joined(onHeart({-0.9, 1.6, -0.7, 2.2}), onHeart({-0.7, -1.8, -0.3, 2.0})),
              onHeart({1.6, 0.9, -0.5, 2.0}));
@@ -88,17 +88,16 @@ Design designLiver(const Frame& frame) {
 
 // Pulmonary arteries along bronchi, and pulmonary veins, on both sides.
 Design designLungs(const Frame& frame) {
-  Organ lungs = organOf(trunk(), {{{31, 54, 56}, {18, 30, 40}, -850, 4},
-                                     {{81, 54, 56}, {18, 30, 40}, -850, 4}});
+  Organ lungs = organOf(
+      trunk(), {{{31, 54, 56}, {18, 30, 40}, -850, 4}, {{81, 54, 56}, {18, 30, 40}, -850, 4}});
   const Vector3d hilum(44, 48, 56), outwards(-1, 0.2, 0.3);
   lungs.airways = onBothSides(forkingTree({44, 53, 56}, outwards, {13, 3, 2}));
-  lungs.systems = {
-      {VesselSystem::Artery,
-       onBothSides(joined(line({{56, 46, 28}, {50, 46, 48}, hilum}, 4),
-                          forkingTree(hilum, outwards, {14, 3, 3}))),
-       365},
-      {VesselSystem::Vein, onBothSides(forkingTree({46, 60, 38}, {-1, 0, 0.6}, {14, 3, 3, 0.6, 3})),
-       285}};
+  lungs.systems = {{VesselSystem::Artery,
+                    onBothSides(joined(line({{56, 46, 28}, {50, 46, 48}, hilum}, 4),
+                                       forkingTree(hilum, outwards, {14, 3, 3}))),
+                    365},
+                   {VesselSystem::Vein,
+                    onBothSides(forkingTree({46, 60, 38}, {-1, 0, 0.6}, {14, 3, 3, 0.6, 3})), 285}};
   return designOrgan(lungs, frame);
 }
 
@@ -106,13 +105,12 @@ Design designLungs(const Frame& frame) {
 // apart, beside a plaque of calcium.
 Design designDissection(const Frame& frame) {
   Organ aorta = organOf(trunk(), {{{64, 70, 56}, {1.4, 1.4, 3}, 900}});
-  aorta.systems = {
-      {VesselSystem::TrueLumen,
-       joined(line({{55, 62, 0}, {57, 60, 56}, {54, 62, kOrganEdge}}, 5),
-              line({{57, 60.5, 56}, {70, 54, 58}, {84, 56, 62}}, 2.5, 2)),
-       375},
-      {VesselSystem::FalseLumen,
-       line({{67.2, 66, 0}, {69, 64.5, 56}, {66, 66, kOrganEdge}}, 7.5), 255}};
+  aorta.systems = {{VesselSystem::TrueLumen,
+                    joined(line({{55, 62, 0}, {57, 60, 56}, {54, 62, kOrganEdge}}, 5),
+                           line({{57, 60.5, 56}, {70, 54, 58}, {84, 56, 62}}, 2.5, 2)),
+                    375},
+                   {VesselSystem::FalseLumen,
+                    line({{67.2, 66, 0}, {69, 64.5, 56}, {66, 66, kOrganEdge}}, 7.5), 255}};
   return designOrgan(aorta, frame);
 }
 
@@ -139,10 +137,10 @@ Design designKidneys(const Frame& frame) {
 Design designLegs(const Frame& frame) {
   Organ legs;
   for (const double x : {31.0, 81.0})
-    for (const OrganShape& shape :
-         {OrganShape{{x, 56, 56}, {24, 30, kThrough}, kFatLevel, kBox},
-          OrganShape{{x, 56, 56}, {21, 27, kThrough}, kMuscleLevel, kBox},
-          OrganShape{{x, 56, 56}, {9, 9, kThrough}, 1200}, OrganShape{{x, 56, 56}, {5, 5, kThrough}, 60}})
+    for (const OrganShape& shape : {OrganShape{{x, 56, 56}, {24, 30, kThrough}, kFatLevel, kBox},
+                                    OrganShape{{x, 56, 56}, {21, 27, kThrough}, kMuscleLevel, kBox},
+                                    OrganShape{{x, 56, 56}, {9, 9, kThrough}, 1200},
+                                    OrganShape{{x, 56, 56}, {5, 5, kThrough}, 60}})
       legs.shapes.push_back(shape);
   const Courses branches = joined(line({{41, 45, 38}, {30, 42, 60}, {24, 44, 88}}, 2, 1.4),
                                   line({{41, 46, 68}, {50, 52, 80}}, 1.4));

@@ -83,7 +83,8 @@ TEST(Systems, ASceneOfSofaShowsEachByASurfaceOfItsColour) {
     EXPECT_TRUE(holds(scene, "filename=\"vessel-" + name + ".obj\"")) << name;
     EXPECT_TRUE(holds(fileOf(result, "vessel-" + name + ".obj"), "\nf ")) << name;
   }
-  EXPECT_TRUE(holds(scene, "color=\"0.835294118 0.368627451 0 0.25\"")) << lineWith(scene, "color=");
+  EXPECT_TRUE(holds(scene, "color=\"0.835294118 0.368627451 0 0.25\""))
+      << lineWith(scene, "color=");
   EXPECT_TRUE(holds(scene, "color=\"0 0.447058824 0.698039216 0.25\""));
   EXPECT_FALSE(holds(scene, "view_vessel"));
   EXPECT_TRUE(holds(fileOf(exported("sofa", kissingCase(1)), "scene.scn"), "view_vessel"));

@@ -52,22 +52,25 @@ TEST(Organs, HaveVoxelsOfAMillimetreAndTwoSystems) {
     EXPECT_EQ(std::set(systems.begin(), systems.end()).size(), 2U) << name;
     EXPECT_EQ(std::count(systems.begin(), systems.end(), VesselSystem::Unknown), 0) << name;
     for (const formats::Branch& branch : phantom.truth.tree.branches)
-      EXPECT_EQ(branch.label.rfind(
-                    std::string(formats::kVesselSystemNames[std::size_t(systems[branch.firstNode])]) + "-", 0),
-                0U)
+      EXPECT_EQ(
+          branch.label.rfind(
+              std::string(formats::kVesselSystemNames[std::size_t(systems[branch.firstNode])]) +
+                  "-",
+              0),
+          0U)
           << name << ' ' << branch.label;
   }
 }
 
 TEST(Organs, ShowTissueInHounsfieldUnits) {
   const Phantom heart = made(organ("heart"));
-  EXPECT_NEAR(around(heart, {2, 2, 56}), -1000, 5);     // air
-  EXPECT_NEAR(around(heart, {56, 52, 56}), 370, 5);     // ventricle
-  EXPECT_NEAR(around(heart, {56, 20, 15}), 45, 5);      // muscle
-  EXPECT_NEAR(around(heart, {56, 86, 30}), 180, 12);    // marrow
+  EXPECT_NEAR(around(heart, {2, 2, 56}), -1000, 5);   // air
+  EXPECT_NEAR(around(heart, {56, 52, 56}), 370, 5);   // ventricle
+  EXPECT_NEAR(around(heart, {56, 20, 15}), 45, 5);    // muscle
+  EXPECT_NEAR(around(heart, {56, 86, 30}), 180, 12);  // marrow
   const Phantom lungs = made(organ("lungs"));
   EXPECT_NEAR(around(lungs, {25, 44, 85}), -850, 10);
-  EXPECT_NEAR(around(lungs, {56, 46, 30}), 365, 12);    // pulmonary artery, 4 mm in radius
+  EXPECT_NEAR(around(lungs, {56, 46, 30}), 365, 12);  // pulmonary artery, 4 mm in radius
 }
 
 TEST(Organs, ScaleWithTheVolume) {

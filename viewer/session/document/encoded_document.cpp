@@ -63,7 +63,7 @@ std::string encoded(const Document& document, const std::string& format,
   const engine::OutputOptions output = outputOptions(options, writer, progress);
   const std::string name = "case" + std::string(writer.endings.front());
   const auto value = caseWithSeeds(document);
-  if (!engine::canWriteMesh(writer) || value->models)
+  if (!engine::needsModels(writer) || value->models)
     return writer.encodeCase(*value, name, output, progress).bytes;
   const formats::Case fitted =
       operations::fitted(*value, {settings.fit}, engine::operationContext(progress));

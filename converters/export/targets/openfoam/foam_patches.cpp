@@ -172,6 +172,10 @@ std::string foamVector(const Eigen::Vector3d& v) {
   return "(" + joinedNumbers(v, " ", kFoamDigits) + ")";
 }
 
+/// The programs that make the mesh.
+constexpr const char* kSnappyMesh =
+    "run surfaceFeatureExtract\nrun blockMesh\nrun snappyHexMesh -overwrite";
+
 const char* solverOf(FoamFlow flow) {
   return flow == FoamFlow::Steady ? "simpleFoam" : "pimpleFoam";
 }
@@ -269,16 +273,24 @@ std::string pressure(const std::vector<FoamPatch>& patches) {
   return exportText("openfoam/p", {{"ends", ends}});
 }
 
-ExportFile allrun(FoamFlow flow) {
-  ExportFile file{
-      "Allrun",
-      exportText("openfoam/Allrun", {{"solver", solverOf(flow)},
-                                     {"verdict", exportText(flow == FoamFlow::Steady
-                                                                ? "openfoam/verdict-steady"
-                                                                : "openfoam/verdict-pulsatile")}}),
-      "makes the mesh, runs the flow, writes `wall-TIME.vtp`", ""};
+ExportFile allrun(const FoamCase& foam) {
+  const bool isSteady = foam.flow == FoamFlow::Steady;
+  ExportFile file{"Allrun",
+                  exportText("openfoam/Allrun",
+                             {{"mesh", foam.isMeshed ? "run renumberMesh -overwrite" : kSnappyMesh},
+                              {"solver", solverOf(foam.flow)},
+                              {"verdict", exportText(isSteady ? "openfoam/verdict-steady"
+                                                              : "openfoam/verdict-pulsatile")}}),
+                  "makes the mesh, runs the flow, writes `wall-TIME.vtp`", ""};
   file.isProgram = true;
   return file;
+}
+
+std::vector<ExportFile> snappyDictionaries(const FoamCase& foam) {
+  return {{"system/blockMeshDict", blockMeshDict(foam.block), "cubes around the vessels", ""},
+          {"system/surfaceFeatureExtractDict", exportText("openfoam/surfaceFeatureExtractDict"),
+           "the rims of flat ends", ""},
+          {"system/snappyHexMeshDict", snappyHexMeshDict(foam), "the mesh of the inside", ""}};
 }
 
 }  // namespace
@@ -286,11 +298,7 @@ ExportFile allrun(FoamFlow flow) {
 std::vector<ExportFile> foamDictionaries(const FoamCase& foam) {
   const bool isSteady = foam.flow == FoamFlow::Steady;
   std::vector<ExportFile> files = {
-      allrun(foam.flow),
-      {"system/blockMeshDict", blockMeshDict(foam.block), "cubes around the vessels", ""},
-      {"system/surfaceFeatureExtractDict", exportText("openfoam/surfaceFeatureExtractDict"),
-       "the rims of flat ends", ""},
-      {"system/snappyHexMeshDict", snappyHexMeshDict(foam), "the mesh of the inside", ""},
+      allrun(foam),
       {"system/controlDict", controlDict(foam),
        "steps; flow and pressure at ends, stress at the wall", ""},
       {"system/fvSchemes",
@@ -307,6 +315,8 @@ std::vector<ExportFile> foamDictionaries(const FoamCase& foam) {
        exportText("openfoam/pascals.awk", {{"density", numberText(blood::kDensity)}}), "", ""},
       {"0/U", velocity(foam), "flows through ends", ""},
       {"0/p", pressure(foam.patches), "pressures at ends", ""}};
+  if (!foam.isMeshed)
+    for (ExportFile& file : snappyDictionaries(foam)) files.push_back(std::move(file));
   if (!isSteady)
     files.push_back({"constant/cycle.awk",
                      exportText("openfoam/cycle.awk", {{"period", numberText(kCycle)}}), "", ""});

@@ -52,6 +52,7 @@ struct FoamCase {
   int layers = 0;
   std::vector<Eigen::Vector3d> inside;  ///< a point in each connected part
   FoamFlow flow = FoamFlow::Steady;
+  bool isMeshed = false;  ///< constant/polyMesh is there: block, layers and inside do not count
 };
 
 /// Allrun and all dictionaries.

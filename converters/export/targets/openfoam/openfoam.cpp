@@ -10,12 +10,14 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
+#include "converters/export/shared/cells.h"
 #include "converters/export/shared/flow_inlets.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/openfoam/foam_patches.h"
+#include "converters/export/targets/openfoam/poly_mesh.h"
 #include "converters/io/mesh/write_plain.h"
 
 namespace lumen::convert {
@@ -77,34 +79,63 @@ SurfaceReport asInCase(SurfaceReport report, const formats::CenterlineTree& part
 
 }  // namespace
 
+namespace {
+
+/// The surface with the cells that snappyHexMesh is going to make of it.
+ExportedSurface cutByOpenFoam(const ExportInput& input, FoamGrain grain, FoamCase& foam,
+                              ExportResult& result) {
+  const FoamCells cells = foamCells(input.source.tree, grain);
+  ExportedSurface made = lumenSurface(input);
+  const std::vector<int> levels = divideWall(made.mesh, cells, input.frame.scale());
+  foam.patches = foamPatches(made.mesh, levels, made.ends);
+  foam.block = foamBlock(boundingBox(made.mesh), input.frame.length(cells.edge));
+  foam.layers = cells.layers;
+  foam.inside = deepestPoints(input.source.tree, made.mesh, input.frame, input.progress);
+  result.remarks.push_back(cellsRemark(cells));
+  return made;
+}
+
+/// The surface with the cells within it, which are written.
+ExportedSurface cutByLumen(const ExportInput& input, FoamCase& foam, VolumeMesh& cells,
+                           ExportResult& result) {
+  ExportedSurface made = lumenSurface({input.source, input.options, {}, input.progress});
+  MadeVolumeMesh within = cellsWithin(input, made.mesh, made.report.gap);
+  made.mesh = input.frame.of(std::move(made.mesh));
+  foam.isMeshed = true;
+  foam.patches = foamPatches(made.mesh, std::vector<int>(made.mesh.groups.size(), 0), made.ends);
+  cells = std::move(within.mesh);
+  result.remarks.push_back(cellsSentence(within.report));
+  return made;
+}
+
+}  // namespace
+
 ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options) {
   const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets, input.options.word);
   FlowCase flowing = flowCase(input.source, inlets, input.options.word);
   ExportResult result;
   result.losses = std::move(flowing.losses);
-  reportTrimmed(trimToCells(flowing.value, options.cells), options.cells, input.options.word,
-                result);
+  const bool isFilled = options.cells == FoamGrain::Prisms;
+  if (!isFilled)
+    reportTrimmed(trimToCells(flowing.value, options.cells), options.cells, input.options.word,
+                  result);
   const formats::Case& source = flowing.value;
-  const FoamCells cells = foamCells(source.tree, options.cells);
-
-  ExportedSurface made = lumenSurface({source, input.options, input.frame, input.progress});
-  const std::vector<int> levels = divideWall(made.mesh, cells, input.frame.scale());
+  const ExportInput cut{source, input.options, input.frame, input.progress};
   FoamCase foam;
-  foam.patches = foamPatches(made.mesh, levels, made.ends);
+  foam.flow = options.flow;
+  VolumeMesh cells;
+  ExportedSurface made = isFilled ? cutByLumen(cut, foam, cells, result)
+                                  : cutByOpenFoam(cut, options.cells, foam, result);
   for (std::string& loss : assignFlows(foam.patches, flowNetwork(source.tree, inlets)))
     result.losses.push_back(std::move(loss));
-  foam.block = foamBlock(boundingBox(made.mesh), input.frame.length(cells.edge));
-  foam.layers = cells.layers;
-  foam.inside = deepestPoints(source.tree, made.mesh, input.frame, input.progress);
-  foam.flow = options.flow;
-
   result.start = startText(options.flow);
   result.files = foamDictionaries(foam);
+  if (isFilled)
+    for (ExportFile& file : polyMesh(cells, foam.patches)) result.files.push_back(std::move(file));
   result.files.push_back({"constant/triSurface/vessel.stl", encodeStl(made.mesh, true),
                           "the closed surface: solids `wall*`, `inlet*`, `outlet*`", ""});
   result.files.push_back({"expected.csv", expectedTable(foam.patches),
                           "flow through each end, and its pressure by Poiseuille", ""});
-  result.remarks.push_back(cellsRemark(cells));
   for (const FaceGroup& group : made.mesh.groups)
     if (group.kind == FaceKind::Cap)
       result.losses.push_back(
@@ -115,18 +146,29 @@ ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options
 }
 
 TargetRow openFoamRow() {
-  return {
-      .name = "openfoam",
-      .title = "OpenFOAM",
-      .files = {"Allrun", "system/blockMeshDict", "system/snappyHexMeshDict", "system/controlDict",
-                "constant/triSurface/vessel.stl", "0/U", "0/p", "expected.csv"},
-      .units = {LengthUnit::Metre},
-      .axes = {Axes::Lps},
-      .holds = "the surface with its named ends; a steady flow, or one of two heartbeats",
-      .lacks =
-          "branches, radii, and that an aneurysm is one; ends that its cells cannot "
-          "resolve, and parts without a path from an inlet",
-      .options = {"edge", "max-error", "triangles", "extend", "inlets", "cells", "flow"}};
+  return {.name = "openfoam",
+          .title = "OpenFOAM",
+          .files = {"Allrun", "system/controlDict", "constant/triSurface/vessel.stl", "0/U", "0/p",
+                    "expected.csv"},
+          .units = {LengthUnit::Metre},
+          .axes = {Axes::Lps},
+          .holds =
+              "the surface with its named ends; prisms at the wall and tetrahedra within, if they "
+              "are asked "
+              "for; a steady flow, or one of two heartbeats",
+          .lacks =
+              "branches, radii, and that an aneurysm is one; ends that its cells cannot "
+              "resolve, and parts without a path from an inlet",
+          .options = {"edge",
+                      "max-error",
+                      "triangles",
+                      "extend",
+                      "inlets",
+                      "cells",
+                      "flow",
+                      {"layers", "cells", "prisms"},
+                      {"growth", "cells", "prisms"},
+                      {"layer-height", "cells", "prisms"}}};
 }
 
 }  // namespace lumen::convert

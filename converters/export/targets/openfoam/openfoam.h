@@ -10,7 +10,8 @@ namespace lumen::convert {
 
 // Options of `lumen export openfoam` alone.
 
-enum class FoamGrain : std::uint8_t { Coarse, Medium, Fine };
+/// Cells of snappyHexMesh in three sizes, or prisms and tetrahedra, which lumen makes.
+enum class FoamGrain : std::uint8_t { Coarse, Medium, Fine, Prisms };
 enum class FoamFlow : std::uint8_t { Steady, Pulsatile };
 
 struct FoamOptions {
@@ -23,7 +24,8 @@ struct FoamOptions {
 /// without a path from an inlet, and ends that the cells cannot resolve, are left out; an end that is
 /// not flat is wall. Inlets get the flows of flowNetwork(), which outlets share by murrayShare().
 /// Throws as flowCase() and lumenSurface(), and Error(InvalidInput) for a surface that nothing can
-/// flow through.
+/// flow through. With FoamGrain::Prisms, constant/polyMesh holds the cells of lumenCells(), no end is left
+/// out, and it throws as that does.
 ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options);
 
 TargetRow openFoamRow();

@@ -32,7 +32,8 @@ struct FoamCells {
   [[nodiscard]] double edgeAt(int level) const { return edge / (1 << level); }
 };
 
-/// The cells for a tree: as many across each vessel as `grain` asks for. Their number is estimated.
+/// The cells of snappyHexMesh for a tree: as many across each vessel as `grain` asks for, which is not
+/// Prisms. Their number is estimated.
 FoamCells foamCells(const formats::CenterlineTree& tree, FoamGrain grain);
 
 /// Cells that a preset may have: more take hours.

@@ -5,21 +5,27 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
+#include "converters/export/shared/cells.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/targets.h"
+#include "converters/geometry/disjoint_sets.h"
 #include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/volume_mesh.h"
 #include "converters/io/mesh/vtk_array.h"
 #include "converters/io/mesh/write_plain.h"
 
@@ -88,61 +94,79 @@ std::string encodeMdl(const SurfaceMesh& mesh, const std::vector<std::string>& n
   return exportText("simvascular/vessel.mdl", {{"faces", faces}});
 }
 
-/// Some of the surface's triangles, with the numbers that they and their points have in the volume
-/// mesh, from 1.
-class Faces {
-public:
-  Faces(const SurfaceMesh& surface, const VolumeMesh& volume)
-      : m_surface(surface), m_volume(volume) {}
-
-  template <class Takes>
-  std::string encode(const Takes& takesGroup) const {
-    std::vector<std::uint32_t> at(m_surface.position.size(), UINT32_MAX);
-    std::vector<std::array<double, 3>> position;
-    std::vector<std::int32_t> node, elementOf, face, region;
-    std::vector<std::int64_t> corner, end;
-    for (std::size_t t = 0; t < m_surface.triangle.size(); ++t) {
-      if (!takesGroup(m_surface.group[t])) continue;
-      for (const std::uint32_t v : m_surface.triangle[t]) {
-        if (at[v] == UINT32_MAX) {
-          at[v] = static_cast<std::uint32_t>(position.size());
-          position.push_back(m_volume.position[v]);
-          node.push_back(static_cast<std::int32_t>(v + 1));
-        }
-        corner.push_back(at[v]);
-      }
-      end.push_back(static_cast<std::int64_t>(corner.size()));
-      const std::uint32_t e = m_volume.elementOf[t];
-      elementOf.push_back(static_cast<std::int32_t>(e + 1));
-      face.push_back(static_cast<std::int32_t>(m_surface.group[t] + 1));
-      region.push_back(static_cast<std::int32_t>(m_volume.region[e]));
-    }
-    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-           "byte_order=\"LittleEndian\" "
-           "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n<Piece "
-           "NumberOfPoints=\"" +
-           std::to_string(position.size()) +
-           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-           std::to_string(end.size()) + "\">\n<PointData>\n" +
-           dataArray("Int32", "GlobalNodeID", 1, node) + "</PointData>\n<CellData>\n" +
-           dataArray("Int32", "GlobalElementID", 1, elementOf) +
-           dataArray("Int32", "ModelFaceID", 1, face) +
-           dataArray("Int32", "ModelRegionID", 1, region) + "</CellData>\n<Points>\n" +
-           dataArray("Float64", "Points", 3, position) + "</Points>\n<Polys>\n" +
-           dataArray("Int64", "connectivity", 1, corner) + dataArray("Int64", "offsets", 1, end) +
-           "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-  }
-
-private:
-  const SurfaceMesh& m_surface;
-  const VolumeMesh& m_volume;
+/// Tetrahedra with the owner of each face of their boundary and their connected parts.
+struct NumberedMesh {
+  VolumeMesh mesh;
+  std::vector<CellFace> boundary;
+  std::vector<std::int32_t> region;  // of each cell: 1, 2, ...
 };
 
-std::string encodeVtu(const VolumeMesh& mesh) {
+NumberedMesh numbered(VolumeMesh mesh) {
+  NumberedMesh result{std::move(mesh), {}, {}};
+  for (const CellFace& face : cellFaces(result.mesh))
+    if (face.neighbour == kAbsent) result.boundary.push_back(face);
+  DisjointSets sets(result.mesh.position.size());
+  for (const auto& t : result.mesh.tetrahedron)
+    for (const std::uint32_t v : t) sets.join(t[0], v);
+  std::map<std::uint32_t, std::int32_t> numbers;
+  for (const auto& t : result.mesh.tetrahedron)
+    result.region.push_back(
+        numbers.emplace(sets.find(t[0]), static_cast<std::int32_t>(numbers.size() + 1))
+            .first->second);
+  return result;
+}
+
+/// Some faces of the boundary as triangles, with the numbers that they and their points have in the
+/// volume mesh, from 1.
+template <class Takes>
+std::string encodeFaces(const NumberedMesh& volume, const Takes& takesGroup) {
+  std::vector<std::uint32_t> at(volume.mesh.position.size(), kAbsent);
+  std::vector<std::array<double, 3>> position;
+  std::vector<std::int32_t> node, elementOf, number, region;
+  std::vector<std::int64_t> corner, end;
+  for (const CellFace& face : volume.boundary) {
+    if (!takesGroup(face.group)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = face.corner[k];
+      if (at[v] == kAbsent) {
+        at[v] = static_cast<std::uint32_t>(position.size());
+        const Eigen::Vector3d& p = volume.mesh.position[v];
+        position.push_back({p.x(), p.y(), p.z()});
+        node.push_back(static_cast<std::int32_t>(v + 1));
+      }
+      corner.push_back(at[v]);
+    }
+    end.push_back(static_cast<std::int64_t>(corner.size()));
+    elementOf.push_back(static_cast<std::int32_t>(face.owner + 1));
+    number.push_back(static_cast<std::int32_t>(face.group + 1));
+    region.push_back(volume.region[face.owner]);
+  }
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+         "byte_order=\"LittleEndian\" "
+         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n<Piece "
+         "NumberOfPoints=\"" +
+         std::to_string(position.size()) +
+         "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+         std::to_string(end.size()) + "\">\n<PointData>\n" +
+         dataArray("Int32", "GlobalNodeID", 1, node) + "</PointData>\n<CellData>\n" +
+         dataArray("Int32", "GlobalElementID", 1, elementOf) +
+         dataArray("Int32", "ModelFaceID", 1, number) +
+         dataArray("Int32", "ModelRegionID", 1, region) + "</CellData>\n<Points>\n" +
+         dataArray("Float64", "Points", 3, position) + "</Points>\n<Polys>\n" +
+         dataArray("Int64", "connectivity", 1, corner) + dataArray("Int64", "offsets", 1, end) +
+         "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+std::string encodeCells(const NumberedMesh& volume) {
   constexpr std::uint8_t kTetrahedron = 10;  // VTK's number
-  std::vector<std::int32_t> node(mesh.position.size()), elementOf(mesh.tetrahedron.size()),
-      region(mesh.region.begin(), mesh.region.end());
-  for (std::size_t k = 0; k < node.size(); ++k) node[k] = static_cast<std::int32_t>(k + 1);
+  const VolumeMesh& mesh = volume.mesh;
+  std::vector<std::int32_t> node(mesh.position.size()), elementOf(mesh.tetrahedron.size());
+  std::vector<std::array<double, 3>> position;
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    node[k] = static_cast<std::int32_t>(k + 1);
+    const Eigen::Vector3d& p = mesh.position[k];
+    position.push_back({p.x(), p.y(), p.z()});
+  }
   std::vector<std::int64_t> corner, end;
   for (std::size_t k = 0; k < elementOf.size(); ++k) {
     elementOf[k] = static_cast<std::int32_t>(k + 1);
@@ -157,41 +181,57 @@ std::string encodeVtu(const VolumeMesh& mesh) {
          std::to_string(node.size()) + "\" NumberOfCells=\"" + std::to_string(elementOf.size()) +
          "\">\n<PointData>\n" + dataArray("Int32", "GlobalNodeID", 1, node) +
          "</PointData>\n<CellData>\n" + dataArray("Int32", "GlobalElementID", 1, elementOf) +
-         dataArray("Int32", "ModelRegionID", 1, region) + "</CellData>\n<Points>\n" +
-         dataArray("Float64", "Points", 3, mesh.position) + "</Points>\n<Cells>\n" +
+         dataArray("Int32", "ModelRegionID", 1, volume.region) + "</CellData>\n<Points>\n" +
+         dataArray("Float64", "Points", 3, position) + "</Points>\n<Cells>\n" +
          dataArray("Int64", "connectivity", 1, corner) + dataArray("Int64", "offsets", 1, end) +
          dataArray("UInt8", "types", 1, types) +
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const VolumeMesh& volume,
+void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const NumberedMesh& volume,
                      const std::vector<std::string>& names) {
-  const Faces faces(surface, volume);
   const auto isWall = [&](std::uint32_t g) { return surface.groups[g].kind == FaceKind::Wall; };
   const std::string folder = "mesh-complete/";
-  result.files.push_back(
-      {folder + "mesh-complete.mesh.vtu", encodeVtu(volume), "tetrahedra, by TetGen", ""});
+  result.files.push_back({folder + "mesh-complete.mesh.vtu", encodeCells(volume),
+                          "tetrahedra, in layers at the wall", ""});
   result.files.push_back({folder + "mesh-complete.exterior.vtp",
-                          faces.encode([](std::uint32_t) { return true; }), "their boundary", ""});
+                          encodeFaces(volume, [](std::uint32_t) { return true; }), "their boundary",
+                          ""});
   result.files.push_back(
-      {folder + "walls_combined.vtp", faces.encode(isWall), "the wall of it", ""});
+      {folder + "walls_combined.vtp", encodeFaces(volume, isWall), "the wall of it", ""});
   for (std::uint32_t g = 0; g < names.size(); ++g)
     if (std::find(surface.group.begin(), surface.group.end(), g) != surface.group.end())
       result.files.push_back({folder + "mesh-surfaces/" + names[g] + ".vtp",
-                              faces.encode([g](std::uint32_t other) { return other == g; }), "",
-                              ""});
+                              encodeFaces(volume, [g](std::uint32_t other) { return other == g; }),
+                              "", ""});
   result.others.push_back({folder + "mesh-surfaces/*.vtp", "each face of the model"});
-  result.remarks.push_back(std::to_string(volume.tetrahedron.size()) + " tetrahedra, " +
-                           std::to_string(volume.position.size()) + " nodes");
+  result.remarks.push_back(std::to_string(volume.mesh.tetrahedron.size()) + " tetrahedra, " +
+                           std::to_string(volume.mesh.position.size()) + " nodes");
+}
+
+/// The cells within the surface in mm, in the target's frame; nothing, and the reason among the losses, if
+/// there are none.
+std::optional<MadeVolumeMesh> cellsOrWhy(const ExportInput& input, const ExportedSurface& surface,
+                                         ExportResult& result) {
+  try {
+    return cellsWithin(input, surface.mesh, surface.report.gap);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Cancelled) throw;
+    result.losses.push_back(std::string("there is no volume mesh: ") + error.what());
+    return {};
+  }
 }
 
 }  // namespace
 
 ExportResult exportSimVascular(const ExportInput& input) {
   const std::vector<BranchPath> paths = branchPaths(input.source.tree);
-  ExportedSurface made = lumenSurface(input);
-  const std::vector<std::string> names = distinct(plainGroupNames(made.mesh.groups), openFoamWord);
+  const ExportInput inMillimetres{input.source, input.options, {}, input.progress};
+  ExportedSurface made = lumenSurface(inMillimetres);
   ExportResult result;
+  const std::optional<MadeVolumeMesh> cells = cellsOrWhy(input, made, result);
+  made.mesh = input.frame.of(std::move(made.mesh));
+  const std::vector<std::string> names = distinct(plainGroupNames(made.mesh.groups), openFoamWord);
   result.start = exportText("simvascular/README.md");
   result.files = {
       {"vessels.svproj", exportText("simvascular/vessels.svproj"), "the project", ""},
@@ -205,28 +245,29 @@ ExportResult exportSimVascular(const ExportInput& input) {
   }
   result.others = {{"Paths/*.pth", "centerlines"},
                    {"Segmentations/*.ctgr", "circles of the nodes' radii"}};
-  result.losses = treeLosses(input.source.tree);
-  std::string why;
-  if (const auto volume = volumeMesh(made.mesh, input.options.word, input.progress, why))
-    addMeshComplete(result, made.mesh, *volume, names);
-  else
-    result.losses.push_back(why);
+  for (std::string& loss : treeLosses(input.source.tree)) result.losses.push_back(std::move(loss));
+  if (cells) {
+    result.remarks.push_back(cellsSentence(cells->report) +
+                             ", each prism divided into three tetrahedra");
+    addMeshComplete(result, made.mesh, numbered(asTetrahedra(cells->mesh)), names);
+  }
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;
 }
 
 TargetRow simVascularRow() {
-  return {.name = "simvascular",
-          .title = "SimVascular",
-          .files = {"vessels.svproj", "Models/vessel.mdl", "Models/vessel.vtp"},
-          .units = {LengthUnit::Centimetre},
-          .axes = {Axes::Lps},
-          .holds =
-              "branches as paths, radii as circles; the surface with its named ends; a volume "
-              "mesh, by TetGen if it is installed",
-          .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {"edge", "max-error", "triangles", "extend"}};
+  return {
+      .name = "simvascular",
+      .title = "SimVascular",
+      .files = {"vessels.svproj", "Models/vessel.mdl", "Models/vessel.vtp"},
+      .units = {LengthUnit::Centimetre},
+      .axes = {Axes::Lps},
+      .holds =
+          "branches as paths, radii as circles; the surface with its named ends; a volume "
+          "mesh with layers at the wall, by Netgen if lumen has it",
+      .lacks = "links that close loops, and that an aneurysm is one",
+      .options = {"edge", "max-error", "triangles", "extend", "layers", "growth", "layer-height"}};
 }
 
 }  // namespace lumen::convert
