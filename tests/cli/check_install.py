@@ -141,7 +141,8 @@ def main():
         work = pathlib.Path(name)
         installed = install(cmake, build, work / "first")
         # the page, where npm has built it
-        expected = EXPECTED | {f"share/lumen/viewer/{page.name}" for page in (ROOT / "viewer/page/dist").glob("*")}
+        netgen = {"bin/lumen-netgen"} if (build / "converters/cli/lumen-netgen").exists() else set()
+        expected = EXPECTED | netgen | {f"share/lumen/viewer/{page.name}" for page in (ROOT / "viewer/page/dist").glob("*")}
         for file in sorted(expected - installed): check(False, f"{file} is not installed")
         for file in sorted(installed - expected): check(False, f"{file} is installed, but not expected")
         manifest = (build / "install_manifest_lumen.txt").read_text().split("\n")

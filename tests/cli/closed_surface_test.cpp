@@ -60,10 +60,11 @@ std::vector<Sample> sampled(int count, const std::function<Sample(double)>& at) 
 class ClosedSurfaceTest : public CliTest {
 protected:
   /// The case as a surface, by its file. Fails unless that is a closed, oriented manifold of the topology of the case's
-  /// graph, without self-intersections, whose vertices lie on the field and whose ends are flat.
+  /// graph, without self-intersections, whose vertices lie on the field and whose ends are flat, with edges of one length.
   reproduce::ShapeFacts convert(const std::string& name,
                                 const std::vector<std::string>& options = {}) {
     std::vector<std::string> line{"convert", name, "surface.vtp", "--json", "--quiet"};
+    if (options.empty()) line.insert(line.end(), {"--edge", "0.25r"});
     line.insert(line.end(), options.begin(), options.end());
     const Outcome done = lumen(line);
     EXPECT_EQ(done.code, 0) << name << ": " << done.err;
@@ -267,6 +268,25 @@ TEST_P(PhantomSurfaceTest, IsClosedAndOnItsField) {
   // In the creases of forks, too, nothing is farther off than an edge is long.
   EXPECT_LT(facts().middle.radii, 0.25) << facts().middle.place.transpose();
   EXPECT_LT(facts().field.radii, 0.25) << facts().field.place.transpose();
+}
+
+TEST_P(PhantomSurfaceTest, IsClosedWithFewTriangles) {
+  const std::string name = GetParam();
+  ASSERT_EQ(lumen({"phantom", name, "x.nrrd", "--seeds", "s.json", "--quiet"}).code, 0);
+  ASSERT_EQ(
+      lumen({"convert", "x.nrrd", "case.lumen", "--seeds", "s.json", "--seeds-only", "--quiet"})
+          .code,
+      0);
+  const Outcome done = lumen({"convert", "case.lumen", "surface.vtp", "--json", "--quiet"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const reproduce::ShapeFacts shape =
+      reproduce::measureShape(reproduce::readSurface(path("surface.vtp")).mesh);
+  EXPECT_TRUE(shape.isMesh && shape.closed && shape.outward);
+  EXPECT_EQ(shape.euler, reproduce::eulerOfTrees(*formats::readCaseFile(path("case.lumen"))));
+  EXPECT_EQ(shape.cgalIntersections, 0U);
+  const Json said = Json::parse(done.out)["surface"];
+  EXPECT_LT(said["field_error"]["beyond"].get<double>(),
+            0.05 * said["field_error"]["places"].get<double>());
 }
 
 /// Vessels that are found have twice as many nodes. Their surface is closed, and no vertex is farther

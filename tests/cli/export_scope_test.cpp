@@ -50,7 +50,10 @@ Given companionsOf(const std::string& target, const std::string& option) {
   if (option == "half") return {{"format", "vdb"}};
   if (option == "unit" && target == "grid") return {{"format", "cdf"}};
   if (option == "grid" && target == "sofa") return {{"wall", "grid"}};
-  if (kOfCells.contains(option) && target == "openfoam") return {{"cells", "prisms"}};
+  // edges of half a radius leave rims too sharp for layers
+  if (kOfCells.contains(option) && target == "openfoam")
+    return {{"cells", "prisms"}, {"edge", "0.2r"}};
+  if (kOfCells.contains(option)) return {{"edge", "0.2r"}};
   return {};
 }
 

@@ -76,7 +76,7 @@ TEST_F(ReachableTest, ValidateCountsClosedWaysThatItDoesNotList) {
 }
 
 TEST_F(ReachableTest, ValidateReportsTheSurfacesWarningsWhenAskedFor) {
-  const char* const opened = "edges of the tree had no lumen and were opened in the mesh";
+  const char* const opened = "of the tree had no lumen and were opened in the mesh";
   const Outcome plain = lumen({"validate", "closed.lumen"});
   EXPECT_FALSE(contains(plain.out, "SURFACE")) << plain.out;
   const Outcome asked = lumen({"validate", "closed.lumen", "--surface"});
@@ -91,7 +91,7 @@ TEST_F(ReachableTest, ValidateReportsTheSurfacesWarningsWhenAskedFor) {
 }
 
 TEST_F(ReachableTest, InfoReportsTheSurfaceAndItsWarningsWhenAskedFor) {
-  const char* const opened = "edges of the tree had no lumen and were opened in the mesh";
+  const char* const opened = "of the tree had no lumen and were opened in the mesh";
   const Json plain = Json::parse(lumen({"info", "closed.lumen", "--json"}).out);
   EXPECT_TRUE(plain["surface"].is_null());
   EXPECT_TRUE(plain["surface_warnings"].empty());
@@ -110,7 +110,7 @@ TEST_F(ReachableTest, InfoReportsTheSurfaceAndItsWarningsWhenAskedFor) {
 TEST_F(ReachableTest, TheReportListsTheWarningsOfTheSurfaceThatConvertMakes) {
   const Outcome converted = lumen({"convert", "closed.lumen", "closed.stl"});
   ASSERT_EQ(converted.code, 0) << converted.err;
-  const char* const opened = "edges of the tree had no lumen and were opened in the mesh";
+  const char* const opened = "of the tree had no lumen and were opened in the mesh";
   ASSERT_TRUE(contains(converted.err, opened)) << converted.err;
   ASSERT_EQ(lumen({"report", "closed.lumen", "closed.html"}).code, 0);
   const std::string page = read("closed.html");

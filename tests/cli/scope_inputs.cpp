@@ -152,7 +152,7 @@ constexpr const char* kSamples = R"(convert
   --cohesion-weight 1e-4 --curvature-weight 1e-2 --cohesion-scale 3 --max-subdivisions 2
   --neighbourhood 1 --seam-sweeps 1 --seam-weight 32 --iso-level 0.15 --accuracy 0.5
   --max-distance 30 --min-width 0.03 --edge 0.4r --extend 2r --thickness 0.2r --touching apart
-  --max-error 0.02 --triangles 500 --edge-min 0.6 --edge-max 0.08 --gap 0.3 --open true --patches true --cell 0.3
+  --max-error 0.05 --triangles 500 --edge-min 0.6 --edge-max 0.08 --gap 0.3 --open true --patches true --cell 0.3
   --lod 2 --mesh-per branch --colour radius --meshopt true --draco true
   --draco-position-bits 12 --draco-normal-bits 8 --stl-solids true --compress true
   --point-bits 12 --time 0.5 --skin false --layers 2 --growth 1.6 --layer-height 0.02r

@@ -17,6 +17,10 @@ lumen_test(viewer_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/source_match_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/work_list_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/surroundings_test.cpp)
+if(LUMEN_FILLS)
+  add_dependencies(viewer_test lumen_netgen)
+  set_tests_properties(viewer_test PROPERTIES ENVIRONMENT "PATH=$<TARGET_FILE_DIR:lumen_netgen>:$ENV{PATH}")
+endif()
 
 # The page's own units, types and style, where its packages are installed (./bootstrap.sh does it).
 if(NPM AND EXISTS ${PROJECT_SOURCE_DIR}/viewer/page/node_modules/.package-lock.json)

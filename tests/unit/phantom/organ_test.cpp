@@ -99,7 +99,7 @@ TEST(Organs, AVesselThatBeginsOnAnothersAxisHangsOnIt) {
   two.systems = {{VesselSystem::Artery,
                   {courseThrough({{56, 56, 10}, {56, 56, 100}}, 3, 3),
                    courseThrough({{57, 56, 50}, {80, 56, 60}}, 2, 1),
-                   courseThrough({{59, 56, 50}, {80, 56, 40}}, 2, 1)},
+                   courseThrough({{56, 59, 50}, {80, 80, 40}}, 2, 1)},
                   300}};
   const Design design = designOrgan(two, Frame{1, kOrganEdge});
   ASSERT_EQ(design.tree.branches.size(), 3U);

@@ -112,7 +112,8 @@ std::string hullColor(const SurfaceMesh& hull) {
   const auto system = mainSystem(hull);
   if (!system) return "";
   const auto [red, green, blue] = systemColor(*system);
-  return " rgba=\"" + vectorText({red, green, blue}, 3) + " 1\"";
+  return " rgba=\"" + numberText(red, 3) + " " + numberText(green, 3) + " " + numberText(blue, 3) +
+         " 1\"";
 }
 
 std::string phantomText(const ExportFrame& frame, const std::vector<SurfaceMesh>& hulls,

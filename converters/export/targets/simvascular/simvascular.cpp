@@ -209,17 +209,27 @@ void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const Num
                            std::to_string(volume.mesh.position.size()) + " nodes");
 }
 
-/// The cells within the surface in mm, in the target's frame; nothing, and the reason among the losses, if
-/// there are none.
+/// The cells within the surface in mm, in the target's frame: without layers where there can be none;
+/// nothing where there are none either. The reasons are among the losses.
 std::optional<MadeVolumeMesh> cellsOrWhy(const ExportInput& input, const ExportedSurface& surface,
                                          ExportResult& result) {
-  try {
-    return cellsWithin(input, surface.mesh, surface.report.gap);
-  } catch (const Error& error) {
-    if (error.kind() == ErrorKind::Cancelled) throw;
-    result.losses.push_back(std::string("there is no volume mesh: ") + error.what());
-    return {};
+  CommonOptions options = input.options;
+  const ExportInput other{input.source, options, input.frame, input.progress};
+  std::string why;
+  while (true) {
+    try {
+      MadeVolumeMesh made = cellsWithin(other, surface.mesh, surface.report.gap);
+      if (!why.empty()) result.losses.push_back("the volume mesh has no layers: " + why);
+      return made;
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::Cancelled) throw;
+      why = error.what();
+    }
+    if (options.volume.layers == 0) break;
+    options.volume.layers = 0;
   }
+  result.losses.push_back("there is no volume mesh: " + why);
+  return {};
 }
 
 }  // namespace
