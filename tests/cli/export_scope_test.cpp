@@ -50,10 +50,7 @@ Given companionsOf(const std::string& target, const std::string& option) {
   if (option == "half") return {{"format", "vdb"}};
   if (option == "unit" && target == "grid") return {{"format", "cdf"}};
   if (option == "grid" && target == "sofa") return {{"wall", "grid"}};
-  // edges of half a radius leave rims too sharp for layers
-  if (kOfCells.contains(option) && target == "openfoam")
-    return {{"cells", "prisms"}, {"edge", "0.2r"}};
-  if (kOfCells.contains(option)) return {{"edge", "0.2r"}};
+  if (kOfCells.contains(option) && target == "openfoam") return {{"cells", "prisms"}};
   return {};
 }
 
@@ -98,7 +95,7 @@ protected:
 
   /// A bound on pieces counts for a vessel that is longer than one piece.
   [[nodiscard]] static std::string caseFor(const std::string& option) {
-    return option == "max-pieces" ? "long.lumen" : "fork.lumen";
+    return option == "max-pieces" || kOfCells.contains(option) ? "long.lumen" : "fork.lumen";
   }
 
   [[nodiscard]] Effect exported(const ExportTarget& target, const Given& given,
