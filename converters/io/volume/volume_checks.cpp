@@ -44,7 +44,7 @@ void checkValues(const std::vector<T>& voxels, const fs::path& path, bool allows
                        "; expected an image with vessels in it");
 }
 
-/// What is around labels, 0, where the finite voxels are labels from 1 on; else the least of them,
+/// The value around labels, 0, where the finite voxels are labels from 1 on; else the least of them,
 /// and infinity if there is none.
 float aroundFinite(const std::vector<float>& voxels) {
   constexpr double kBesideWhole = 1e-3;  // as of settleLabels()

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kSmallestSize = 32, kLargestSize = 1024;
 constexpr double kUsualVoxel = 0.2, kOrganVoxel = 1, kLeastVoxel = 0.01, kLargestVoxel = 10;  // mm
-// Of the full contrast, which noise and bias are shares of: 220 HU in organs.
+// The full contrast, of which noise and bias are shares: 220 HU in organs.
 constexpr double kOrganContrast = 0.22;
 
 void requireRange(const std::string& field, double value, double low, double high) {

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
+
+#include "converters/geometry/triangle_tree.h"
 
 namespace lumen::convert {
 namespace {

@@ -159,9 +159,9 @@ private:
     m_caps.clear();
     bool isAny = false;
     for (const LayerRim& rim : m_base.rims) {
-      const auto [u, v] = planeBasis(rim.normal);
+      const auto basis = planeBasis(rim.normal);
       const auto flat = [&](const Vector3d& p) {
-        return Vector2d((p - rim.centre).dot(u), (p - rim.centre).dot(v));
+        return Vector2d((p - rim.centre).dot(basis.first), (p - rim.centre).dot(basis.second));
       };
       Loop2 outer, inner;
       double around = 0;

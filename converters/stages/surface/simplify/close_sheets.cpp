@@ -112,7 +112,7 @@ std::vector<std::uint8_t> closeVertices(const TriangleMesh& mesh,
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   const VertexGrid grid(mesh, reach, *middle);
-  // with so many in a cube, one side of a vessel reaches the other
+  // in fuller cubes one side of a vessel reaches the other
   if (reach.size() > kMostInCube * grid.cubes()) return std::vector<std::uint8_t>(reach.size(), 1);
   std::vector<std::uint8_t> isClose(reach.size(), 0);
   const auto mark = [&](std::uint32_t v) {
