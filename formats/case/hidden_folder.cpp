@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -58,15 +59,29 @@ bool writeProof(const fs::path& folder) {
   return open.isOpen() && writeAll(std::as_bytes(std::span(kProofText)), open.get());
 }
 
-bool hasProof(const fs::path& folder) {
+// The start of the file that proves a folder to be lumen's; nothing where there is no such file.
+std::optional<std::string> proofIn(const fs::path& folder) {
   const FileDescriptor open = openForReading(folder / kProof, O_NOFOLLOW);
   struct stat info {};
-  if (!open.isOpen() || ::fstat(open.get(), &info) != 0 || !S_ISREG(info.st_mode)) return false;
+  if (!open.isOpen() || ::fstat(open.get(), &info) != 0 || !S_ISREG(info.st_mode)) return {};
   std::string text(kProofText.size() + 1, '\0');  // a longer text is another one
   const ssize_t count =
       uninterrupted([&] { return ::pread(open.get(), text.data(), text.size(), 0); });
-  return count >= 0 &&
-         std::string_view(text).substr(0, static_cast<std::size_t>(count)) == kProofText;
+  if (count < 0) return {};
+  text.resize(static_cast<std::size_t>(count));
+  return text;
+}
+
+bool hasProof(const fs::path& folder) {
+  return proofIn(folder) == kProofText;
+}
+
+// Whether the writer was killed while it wrote the proof, which is the first thing in a folder.
+bool hasBegunProofAlone(const fs::path& folder) {
+  const auto text = proofIn(folder);
+  if (!text || !kProofText.starts_with(*text)) return false;
+  std::error_code error;
+  return std::distance(fs::directory_iterator(folder, error), {}) == 1;
 }
 
 // Hidden files and folders of this process that are not in their place yet.
@@ -81,12 +96,6 @@ OwnTemporaries& ownTemporaries() {
 
 bool tryLock(int descriptor) {
   return uninterrupted([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == 0;
-}
-
-// Whether no process holds a lock on the folder; its writer would.
-bool isAbandoned(const fs::path& path) {
-  const FileDescriptor open = openForReading(path, O_NOFOLLOW);
-  return open.isOpen() && tryLock(open.get());
 }
 
 // Removes a hidden folder. The proof goes last, so that the next write can finish what a kill ends.
@@ -119,12 +128,16 @@ Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string&
                     error);
 }
 
+// The lock, which a living writer would hold, is held until the folder is gone: a writer that made
+// its folder just now waits, and finds that it has to make another one.
 void removeAbandoned(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const fs::path& path = it->path();
-    if (!isTemporaryName(path.filename().string()) || !isAbandoned(path)) continue;
-    if (hasProof(path))
+    if (!isTemporaryName(path.filename().string())) continue;
+    const FileDescriptor open = openForReading(path, O_NOFOLLOW);
+    if (!open.isOpen() || !tryLock(open.get())) continue;
+    if (hasProof(path) || hasBegunProofAlone(path))
       removeHidden(path);
     else
       ::rmdir(path.c_str());

@@ -252,6 +252,10 @@ TEST_F(AtomicOutput, AbandonedFoldersAreRemovedToo) {
 
 TEST_F(AtomicOutput, WhatAKillBesideTheProofLeavesIsRemoved) {
   fs::create_directory(path(".lumen-1234-0000000000"));
+  fs::create_directory(path(".lumen-1234-0000000001"));
+  fs::create_directory(path(".lumen-1234-0000000002"));
+  put(path(".lumen-1234-0000000001/.lumen-temporary"), "");
+  put(path(".lumen-1234-0000000002/.lumen-temporary"), "lumen writes in");
   ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
   EXPECT_EQ(names(), Names{"a"});
 }
@@ -266,6 +270,8 @@ TEST_F(AtomicOutput, FoldersAndFilesOfAPersonStayWhateverTheirNames) {
   put(path(".lumen-1234-0000000002/.lumen-temporary"),
       get(".lumen-1234-0000000002/.lumen-temporary") + "and mine");
   fs::create_symlink(path(".lumen-1234-0000000001"), path(".lumen-1234-0000000003"));
+  fs::create_directories(path(".lumen-1234-0000000004") / "old");
+  put(path(".lumen-1234-0000000004/.lumen-temporary"), "");
   put(path(".lumen-2026-11-29-notes.txt"), "my notes");
   fs::create_directory(path(".lumen-2024-1"));
   Names expected = names();
