@@ -155,11 +155,19 @@ std::vector<NodePose> posesAt(const CenterlineTree& tree, const Motion& motion, 
 
 MotionFigures motionFigures(const CenterlineTree& tree, const Motion& motion) {
   MotionFigures figures;
-  for (std::size_t t = 0; t < motion.time.size(); ++t) {
+  const std::size_t times = motion.time.size();
+  for (std::size_t t = 0; t < times; ++t) {
+    const std::size_t next = t + 1 < times ? t + 1 : motion.period > 0 ? 0 : t;
+    const double pause = motion.time[next] - motion.time[t] + (next <= t ? motion.period : 0);
     const std::vector<NodePose> poses = posesOf(tree, motion, {t, t, 0});
-    for (const std::uint32_t node : motion.node)
-      figures.displacement =
-          std::max(figures.displacement, field::norm(poses[node].centre - vec(tree.centre[node])));
+    const std::vector<NodePose> later = posesOf(tree, motion, {next, next, 0});
+    for (const std::uint32_t node : motion.node) {
+      const auto way = [&](const field::Vec& from) {
+        return field::norm(poses[node].centre - from);
+      };
+      figures.displacement = std::max(figures.displacement, way(vec(tree.centre[node])));
+      if (pause > 0) figures.speed = std::max(figures.speed, way(later[node].centre) / pause);
+    }
     figures.strain = std::max(figures.strain, greatestStrain(tree, poses));
   }
   return figures;

@@ -46,6 +46,7 @@ std::vector<field::NodePose> posesAt(const CenterlineTree& tree, const Motion& m
 /// Figures of a motion over all of its times.
 struct MotionFigures {
   double displacement = 0;  ///< mm: longest distance of a node's centre from its centre at rest
+  double speed = 0;         ///< mm/s: greatest of a node's centre, from time to time
   double strain = 0;        ///< greatest strain of an edge, as the specification defines it
 };
 MotionFigures motionFigures(const CenterlineTree& tree, const Motion& motion);

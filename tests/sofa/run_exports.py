@@ -10,7 +10,7 @@ which each record is measured against at its time. For each scene: what SOFA com
 (errors and warnings must be none), whether a position is no number, how deep the instrument was in the wall of the case's
 blended field, its radius included (at most 0.1 mm in 99 % of the records), and how far it came. Exit status: 0 all
 held, 1 something did not, 77 there is no SOFA."""
-import argparse, pathlib, subprocess, sys, tempfile
+import argparse, pathlib, re, subprocess, sys, tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import engine
@@ -74,7 +74,9 @@ def check(options, sofa, model_of, folder, case, wall, instrument):
     recorded = scene_folder / "positions.txt"
     if not recorded.exists(): return dict(result, problems=problems + ["no positions were recorded"])
     times, points = engine.positions(recorded)
-    if len(points) < options.steps // 10: problems.append(f"{len(points)} records of {options.steps} steps")
+    text = (scene_folder / "scene.scn").read_text()
+    step, period = (float(re.search(pattern, text)[1]) for pattern in (r'<Node name="root" dt="([^"]*)"', r' period="([^"]*)"'))
+    if len(points) < int(options.steps * step / period): problems.append(f"{len(points)} records of {options.steps} steps")
     if not all(np.isfinite(p).all() for p in points): return dict(result, problems=problems + ["a position is no number"])
     depth = np.array(depths(options, model_of, folder, case, times, points, engine.Tools(scene_folder / "scene.scn")))
     length = float(np.linalg.norm(np.diff(points[-1], axis=0), axis=1).sum())

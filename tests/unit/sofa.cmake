@@ -16,7 +16,7 @@ if(HAS_NUMPY)
       --plugin $<TARGET_FILE:LumenSofa>)
     python_test(Sofa.RunsAVesselThatBeats foreign
       ${CMAKE_CURRENT_SOURCE_DIR}/sofa/run_exports.py --lumen $<TARGET_FILE:lumen>
-      --steps 160 --case coronary-beating --wall implicit --instrument guidewire
+      --steps 800 --case coronary-beating --wall implicit --instrument guidewire
       --plugin $<TARGET_FILE:LumenSofa>)
   endif()
   foreach(test RunsScenesAndInstrumentsStayInside RunsAVesselThatGivesWay RunsAVesselThatBeats)

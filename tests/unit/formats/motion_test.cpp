@@ -370,6 +370,9 @@ TEST(Strain, IsTheGreatestOfStretchAndTurn) {
   const MotionFigures figures = motionFigures(value.tree, *value.motion);
   EXPECT_NEAR(figures.displacement, 0.5, 1e-6);
   EXPECT_NEAR(figures.strain, 0.25, 1e-6);  // a turn of 0.1 has 3 * 0.1 / 2
+  EXPECT_NEAR(figures.speed, 0.5, 1e-6);
+  value.motion->period = 1.25;  // back in a quarter of a second
+  EXPECT_NEAR(motionFigures(value.tree, *value.motion).speed, 2, 1e-6);
 }
 
 // spec: M53

@@ -191,6 +191,31 @@ TEST(Scene, AVesselThatMovesHasTheMotionAndASurfaceThatGoesAlong) {
   EXPECT_EQ(count(makeScene(in, options), "BlobMotion"), 0U);
 }
 
+// Contacts see the wall as planes, so it goes at most a fiftieth of the least radius in a step.
+TEST(Scene, AVesselThatMovesFastHasShorterSteps) {
+  formats::CenterlineTree tree;
+  addBranch(tree, "a", -1, {0, 0, 0}, {0, 0, 2}, 3, 1);
+  tree.radius[0] = 0.5f;
+  formats::Motion motion{{0, 1}, 0, {2}, {{{0, 0, 4}}, {{0, 4.5f, 4}}}};  // 4.5 mm/s
+  const std::vector<std::uint32_t> wide{1, 2}, all{0, 1, 2};
+  EXPECT_EQ(stepsPerPush(tree, motion, wide), 3);  // 0.045 mm from push to push, 0.02 in a step
+  EXPECT_EQ(stepsPerPush(tree, motion, all), 5);   // 0.01 mm in a step
+  motion.pose.back().centre.y = 40;
+  EXPECT_EQ(stepsPerPush(tree, motion, all), 10);
+  motion.pose.back().centre.y = 0;
+  EXPECT_EQ(stepsPerPush(tree, motion, all), 1);
+  SceneInput in = input(InstrumentKind::Catheter);
+  const SofaOptions options{.wall = WallKind::Implicit};
+  const int pushes = stepCount(in, options);
+  in.stepsPerPush = 4;
+  EXPECT_EQ(stepCount(in, options), 4 * pushes);
+  const SceneItem scene = makeScene(in, options);
+  EXPECT_EQ(scene.value("dt"), "0.0025");
+  EXPECT_EQ(valueOf(scene, "BeamAdapterActionController", "timeSteps").substr(0, 14),
+            "0 0.005 0.015 ");
+  EXPECT_EQ(valueOf(scene, "WriteState", "period"), "0.1");
+}
+
 TEST(Scene, NamesThePluginsOfItsComponents) {
   const SceneItem mesh = makeScene(input(InstrumentKind::Guidewire), {});
   const SceneItem implicit =

@@ -48,6 +48,8 @@ SceneInput makeSceneInput(const ExportInput& asked, const SofaOptions& options) 
   if (options.instrument == InstrumentKind::Coil)
     input.insertion.pathLength = input.instruments.front().length();
   input.moves = asked.source.motion && options.wall == WallKind::Implicit;
+  if (input.moves)
+    input.stepsPerPush = stepsPerPush(tree, *asked.source.motion, input.insertion.path);
   if (options.wall == WallKind::Soft) input.frames = framesAlong(tree, input.insertion.path);
   // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil,
   // whose beams are short and soft, is pressed through with shorter ones (tests/sofa/results.md)

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "converters/base/number_text.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/export/targets/sofa/scene_parts.h"
 #include "converters/export/targets/sofa/scene_tree.h"
+#include "formats/case/motion.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -67,12 +69,11 @@ void addActions(SceneItem& node, const SceneInput& input, const SofaOptions& opt
   for (std::size_t k = 0; k < list.size(); ++k) {
     // half a step early, so that a sum of time steps that was rounded down is not late
     if (k > 0) times += ' ', actions += ' ';
-    times += numberText(k == 0 ? 0 : (static_cast<double>(k) - 0.5) * kTimeStep);
+    times += numberText(k == 0 ? 0 : (static_cast<double>(k) - 0.5) * kPushTime);
     actions += std::to_string(list[k]);
   }
   node.add("BeamAdapterActionController",
-           "Pushes, one action in a time step: 1 forward by the controller's step, 8 and 9 choose "
-           "the "
+           "Pushes, one action in 0.01 s: 1 forward by the controller's step, 8 and 9 choose the "
            "instrument. Without it the controller listens to the arrow keys.")
       .set("name", "script")
       .set("interventionController", "@controller")
@@ -131,12 +132,23 @@ double clearanceFor(double radius) {
 }
 
 int stepCount(const SceneInput& input, const SofaOptions& options) {
-  return static_cast<int>(planActions(input, options.step).size());
+  return static_cast<int>(planActions(input, options.step).size()) * input.stepsPerPush;
+}
+
+int stepsPerPush(const formats::CenterlineTree& tree, const formats::Motion& motion,
+                 std::span<const std::uint32_t> path) {
+  // of the least radius of the path; more steps than kMost make a scene slow for a thin vessel
+  constexpr double kShare = 0.02;
+  constexpr int kMost = 10;
+  double radius = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t node : path) radius = std::min<double>(radius, tree.radius[node]);
+  const double way = formats::motionFigures(tree, motion).speed * kPushTime;
+  return std::clamp(static_cast<int>(std::ceil(way / (kShare * radius))), 1, kMost);
 }
 
 SceneItem makeScene(const SceneInput& input, const SofaOptions& options) {
   SceneItem root{"Node", ""};
-  root.set("name", "root").set("dt", kTimeStep).set("gravity", "0 0 0");
+  root.set("name", "root").set("dt", kPushTime / input.stepsPerPush).set("gravity", "0 0 0");
   addLoop(root, options.wall, greatestRadius(input), kAlarm);
   addView(root, input.box);
   addVessel(root, options.wall, input);
@@ -155,9 +167,9 @@ std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& 
           formats::printable(input.branch) + ".",
       "Positions are those of the case: patient coordinates, LPS, in mm. Masses are in kg and time",
       "is in s, so moduli are in kPa (kg / (mm s^2)), forces in mN and densities in kg / mm^3.",
-      "The instrument advances " + numberText(options.step) + " mm in a time step of " +
-          numberText(kTimeStep) + " s, for " + std::to_string(stepCount(input, options)) +
-          " steps.",
+      "The instrument advances " + numberText(options.step) + " mm in " + numberText(kPushTime) +
+          " s, for " + std::to_string(stepCount(input, options)) + " time steps of " +
+          numberText(kPushTime / input.stepsPerPush) + " s.",
       "Sources of the instruments' values: docs/sofa.md of lumen."};
   if (input.moves)
     lines.emplace_back(

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,10 +60,19 @@ struct SceneInput {
   std::vector<VesselFrame> frames;   ///< frames of WallKind::Soft
   std::vector<SceneSystem> systems;  ///< of the vessels; none if the case states none
   bool moves = false;                ///< the case's motion moves the wall
+  int stepsPerPush = 1;              ///< time steps of a scene from push to push
 };
+
+/// s: an instrument that is pushed by 0.1 mm in it moves at 10 mm / s, as a hand moves it.
+inline constexpr double kPushTime = 0.01;
 
 /// Distance from the wall, mm, that the insertion of instruments of such a radius needs.
 double clearanceFor(double radius);
+
+/// Number of time steps from push to push in which the wall moves so little in each that contacts,
+/// which see it as planes, hold an instrument: see docs/sofa.md, "A vessel that moves".
+int stepsPerPush(const formats::CenterlineTree& tree, const formats::Motion& motion,
+                 std::span<const std::uint32_t> path);
 
 /// Number of time steps of the insertion.
 int stepCount(const SceneInput& input, const SofaOptions& options);

@@ -293,7 +293,7 @@ void addContactPoints(SceneItem& node, WallKind wall, double proximity) {
       .setFile("filename", "positions.txt")
       .set("writeX", 1)
       .set("time", 0)
-      .set("period", 10 * kTimeStep);
+      .set("period", 10 * kPushTime);
 }
 
 void addInstrumentView(SceneItem& node, const Instrument& instrument) {

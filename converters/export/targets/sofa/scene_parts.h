@@ -6,9 +6,6 @@
 
 namespace lumen::convert {
 
-/// s: an instrument that advances 0.1 mm in it moves at 10 mm / s, as a hand moves it.
-inline constexpr double kTimeStep = 0.01;
-
 /// Where the instruments enter: mm, and a quaternion that turns x into their direction.
 std::string entryPlace(const Insertion& insertion);
 /// The animation loop, constraint solver and collision detection. Lengths in mm: the instruments'
