@@ -124,10 +124,13 @@ TEST(RealMeshes, TheAortasSurfaceStaysWithinTheErrorAsTrianglesAreDropped) {
     const ClosedSurface made = closedSurface(source, options, progress);
     const TriangleMesh fewer = meshOf(made.levels[0]);
     EXPECT_LT(fewer.triangle.size(), whole.triangle.size() * 9 / 10);
-    EXPECT_LE(made.report.fieldError.value().ninetieth, maxError);
+    const FieldError& error = made.report.fieldError.value();
+    EXPECT_LE(error.ninetieth, maxError);
+    EXPECT_LE(error.beyond, error.places / 20);  // where models of neighbouring nodes disagree
     constexpr double kChords = 0.15;  // mm, of the other surface's: r/128 of the widest vessel
-    EXPECT_LE(farthest(fewer, whole), maxError + kChords);
-    EXPECT_LE(farthest(whole, fewer), maxError + kChords);
+    const double stated = std::max(maxError, error.greatest);
+    EXPECT_LE(farthest(fewer, whole), stated + kChords);
+    EXPECT_LE(farthest(whole, fewer), stated + kChords);
     for (const SurfaceMesh& level : made.levels)
       EXPECT_EQ(selfIntersections(meshOf(level), 5).pairs.size(), 0U);
   }
