@@ -33,6 +33,12 @@ inline formats::Vec3d toVec3d(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+/// Whether all coordinates are numbers of that magnitude or less. Eigen's maxCoeff() may pass over a
+/// NaN.
+inline bool isWithin(const Eigen::Vector3d& v, double greatest) {
+  return (v.array().abs() <= greatest).all();
+}
+
 /// Two unit vectors that span the plane normal to the unit vector `axis`; (u, v, axis) is
 /// right-handed.
 inline std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& axis) {

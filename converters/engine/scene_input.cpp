@@ -4,6 +4,7 @@
 #include "converters/base/error.h"
 #include "converters/base/files.h"
 #include "converters/base/text.h"
+#include "converters/base/vectors.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/sofa_scene.h"
@@ -29,7 +30,7 @@ convert::MeshFile readSceneMesh(const InputFile& file, const SceneArguments& arg
       convert::readMesh(mesh, isObj ? convert::MeshFormat::Obj : convert::MeshFormat::Stl);
   for (Eigen::Vector3d& p : read.mesh.position) {
     p = loader.toScene * p;
-    if (!(p.cwiseAbs().maxCoeff() < 1e12))
+    if (!isWithin(p, 1e12))
       throw invalidInput(name + ": line " + std::to_string(loader.line) +
                          ": places the mesh farther away than 1e12");
   }

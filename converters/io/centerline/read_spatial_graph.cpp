@@ -14,6 +14,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/base/vectors.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/network.h"
 #include "converters/io/centerline/spatial_graph_data.h"
@@ -101,7 +102,7 @@ private:
                                    double radius) const {
     const double* at = &field.values[3 * index];
     const Eigen::Vector3d place(at[0], at[1], at[2]);
-    if (!(place.cwiseAbs().maxCoeff() <= kLargestAmira))
+    if (!isWithin(place, kLargestAmira))
       refuse(field.name + " has a number beyond 1e9; expected coordinates");
     return {place, radius};
   }
@@ -137,7 +138,7 @@ void applyTransform(const AmiraFile& data, CenterlineFile& file, const std::stri
   for (CenterlinePoint& point : file.points) {
     point.position = turn * point.position + matrix.topRightCorner<3, 1>();
     point.radius *= scale;
-    if (!(point.position.cwiseAbs().maxCoeff() <= kLargestAmira))
+    if (!isWithin(point.position, kLargestAmira))
       throw invalidInput(name + ": TransformationMatrix places points beyond 1e9");
   }
   file.remarks.emplace_back("its TransformationMatrix is applied, as Amira shows the graph");

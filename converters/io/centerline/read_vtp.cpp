@@ -13,6 +13,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/options/stated_unit.h"
 #include "converters/base/shown_text.h"
+#include "converters/base/vectors.h"
 #include "converters/geometry/far_origin.h"
 #include "converters/io/centerline/centerline_readers.h"
 #include "converters/io/centerline/join_curves.h"
@@ -80,7 +81,7 @@ std::vector<std::vector<std::size_t>> whole(const VtkPolyData& data) {
 CurvePoint pointOf(const VtkPolyData& data, const VtkArray* radii, std::uint32_t index,
                    const std::string& name) {
   CurvePoint point{data.position[index], radii == nullptr ? 0.0 : radii->values[index]};
-  if (!(point.position.cwiseAbs().maxCoeff() <= kLargestVtp))
+  if (!isWithin(point.position, kLargestVtp))
     throw invalidInput(name + ": point " + std::to_string(index) +
                        " is not finite or beyond 1e9; expected coordinates");
   if (!(std::abs(point.radius) <= kLargestVtp))

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/shown_text.h"
+#include "converters/base/vectors.h"
 #include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::convert {
@@ -65,9 +66,7 @@ public:
   MeshFile finish(bool flipXy = false);
 
 private:
-  static bool isSound(const Eigen::Vector3d& point) {
-    return point.cwiseAbs().maxCoeff() <= kLargestCoordinate;  // false for NaN, too
-  }
+  static bool isSound(const Eigen::Vector3d& point) { return isWithin(point, kLargestCoordinate); }
   [[noreturn]] void refusePoint(const Eigen::Vector3d& point, const std::string& place) const;
   std::uint32_t sharedIndex(const Eigen::Vector3d& point);
   void growTable();

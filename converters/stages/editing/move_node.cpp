@@ -81,8 +81,7 @@ std::string placeAndRadius(const Vector3d& p, double radius) {
 
 Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, double radius) {
   requireNode(target, node);
-  if (!position.allFinite() || !(position.cwiseAbs().maxCoeff() <= kFarthest) ||
-      !(static_cast<float>(radius) > 0) || !(radius <= kFarthest))
+  if (!isWithin(position, kFarthest) || !(static_cast<float>(radius) > 0) || !(radius <= kFarthest))
     throw invalidInput("found " + placeAndRadius(position, radius) + " for " +
                        nodeText(target, node) +
                        ", expected a position within a kilometre and a radius above 0");

@@ -181,8 +181,7 @@ std::size_t pushPoints(const Case& value, std::uint32_t node, const Stroke& stro
 
 Change pushWall(Case& target, std::uint32_t node, const Stroke& stroke) {
   requireNode(target, node);
-  if (!stroke.at.allFinite() || !(stroke.by.cwiseAbs().maxCoeff() <= kFarthest) ||
-      !isLength(stroke.radius))
+  if (!stroke.at.allFinite() || !isWithin(stroke.by, kFarthest) || !isLength(stroke.radius))
     throw invalidInput("found a brush of radius " + shownNumber(stroke.radius, 4) +
                        " mm that moves by " + vectorText(stroke.by) +
                        " mm, expected a radius above 0 and lengths within a kilometre");

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -359,6 +361,20 @@ TEST(VtpLines, CenterlinesOfSimVascularAreInCentimetresIfThatIsPlausible) {
   };
   EXPECT_EQ(unitOf(test::array("Int64", "BranchId", 1, ids), 1), 10);
   EXPECT_EQ(unitOf("", 1), 1);  // a remark states that cm is plausible, too
+}
+
+TEST(LineGraph, APlaceThatIsNoNumberIsRefusedOnEveryAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    LineFile file = test::fork();
+    file.points[4][axis] = std::numeric_limits<double>::quiet_NaN();
+    try {
+      parseVtkCenterline(test::legacyOf(file, true, true), "t.vtk");
+      ADD_FAILURE() << axis;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("point 4 is not finite"), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -66,10 +66,13 @@ TEST(ReadStl, ACountBeyondTheBytesIsRefusedAtOnce) {
 }
 
 TEST(ReadStl, WhatIsNoNumberIsRefusedWithItsPlace) {
-  TriangleMesh mesh = tetrahedron();
-  mesh.position[1].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusal(binaryStl(mesh, 4), MeshFormat::Stl),
-            "3: a: byte 120: the x of a point is nan; expected a finite number, at most 1e12");
+  for (int axis = 0; axis < 3; ++axis) {
+    TriangleMesh mesh = tetrahedron();
+    mesh.position[1][axis] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(refusal(binaryStl(mesh, 4), MeshFormat::Stl),
+              "3: a: byte 120: the " + std::string(1, "xyz"[axis]) +
+                  " of a point is nan; expected a finite number, at most 1e12");
+  }
   EXPECT_EQ(refusal("solid\nfacet\nouter loop\nvertex 0 zero 0\n", MeshFormat::Stl),
             "3: a: line 4: a coordinate is \"zero\"; expected a number");
   EXPECT_EQ(refusal("solid\nfacet\nouter loop\nvertex 0 inf 0\n", MeshFormat::Stl),

@@ -14,6 +14,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/base/vectors.h"
 #include "converters/io/volume/dicom/dicom_stack.h"
 #include "converters/io/volume/dicom/dicom_tree.h"
 #include "converters/io/volume/dicom/painted_labels.h"
@@ -59,10 +60,10 @@ Contour pointsOf(const DicomItem& item, const InputFile& file) {
   Contour points;
   for (std::size_t n = 0; n < numbers.size(); n += 3) {
     points.emplace_back(numbers[n], numbers[n + 1], numbers[n + 2]);
-    if (points.back().cwiseAbs().maxCoeff() > 1e9)
+    if (!isWithin(points.back(), 1e9))
       throw invalidInput(file.path().string() + ": its contour data " + tagText(kPoints) +
-                         " have a point at " + shownNumber(points.back().cwiseAbs().maxCoeff()) +
-                         " mm; expected places of a body");
+                         " have a point that is not finite or beyond 1e9 mm; expected places of a "
+                         "body");
   }
   return points;
 }
