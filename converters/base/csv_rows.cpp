@@ -82,4 +82,14 @@ std::vector<CsvRow> csvRows(const std::string& text, const std::string& name, ch
   return std::move(reader.rows);
 }
 
+std::string csvCell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
 }  // namespace lumen::convert

@@ -17,4 +17,7 @@ struct CsvRow {
 /// Error(InvalidInput), with the line, for breaches of RFC 4180. `separator`: between cells.
 std::vector<CsvRow> csvRows(const std::string& text, const std::string& name, char separator = ',');
 
+/// A text as a cell: in quotes where it has a comma, a quote or an end of line.
+std::string csvCell(const std::string& text);
+
 }  // namespace lumen::convert

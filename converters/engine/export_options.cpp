@@ -78,6 +78,10 @@ void addFlowRows(OptionTable& table, convert::ExportOptions& options) {
            "at the volume's border, 20 cm/s]")
       .many()
       .delimiter = ',';
+  table.flag(
+      "keep-ends", options.keepEnds,
+      "Keep the ends of vessels as they are: by default tapers (tips thinner than 0.7 of the "
+      "vessel by them) and stubs (shorter than they are wide, within the volume) are left out");
   table.choice(
       "cells", options.foam.cells, kGrains,
       "Cells of the mesh: 6, 9 or 14 across each vessel, and 0.3, 1.2 or 5 million at most, by "

@@ -148,6 +148,8 @@ trim ends.lumen out/t.lumen.json --min-length 1
   --min-radius 0.5
 trim ends.lumen out/t.lumen.json --min-radius 0.1
   --min-length 3
+  --taper 0.9
+  --stub 3
 trim ends.lumen out/t.data --min-radius 0.1
   --to lumen
 measure case.lumen

@@ -36,6 +36,7 @@ const std::map<std::string, std::string> kValues = {{"unit", "m"},
                                                     {"instrument", "catheter"},
                                                     {"step", "0.2"},
                                                     {"inlets", "vessel1=3"},
+                                                    {"keep-ends", "true"},
                                                     {"cells", "coarse"},
                                                     {"flow", "pulsatile"},
                                                     {"insert", "vessel2"},
@@ -83,6 +84,8 @@ protected:
     make({"convert", "fork.swc", "fork.lumen"});
     write("long.swc", "1 0 0 0 0 .6 -1\n2 0 30 0 0 .6 1\n3 0 60 0 0 .6 2\n");
     make({"convert", "long.swc", "long.lumen"});
+    write("taper.swc", "1 0 0 0 0 2 -1\n2 0 20 0 0 2 1\n3 0 28 0 0 2 2\n4 0 30 0 0 1 3\n");
+    make({"convert", "taper.swc", "taper.lumen"});
   }
 
   /// Those of the targets. --time is one of the case: motion_test.cpp.
@@ -95,6 +98,7 @@ protected:
 
   /// A bound on pieces counts for a vessel that is longer than one piece.
   [[nodiscard]] static std::string caseFor(const std::string& option) {
+    if (option == "keep-ends") return "taper.lumen";
     return option == "max-pieces" || kOfCells.contains(option) ? "long.lumen" : "fork.lumen";
   }
 

@@ -162,7 +162,9 @@ protected:
                                const std::string& output) {
     if (!row.recordKey.empty() && !kShowsItsStage.contains(row.name))
       return output != kOutputs.front();
-    if ((row.name == "label-table" || row.name == "role") && output.ends_with(".stl")) return true;
+    const bool isOfNames =
+        row.name == "label-map" || row.name == "label-table" || row.name == "role";
+    if (isOfNames && output.ends_with(".stl")) return true;
     const ContentMask written = detectContent(output);
     if (row.outputs == kAnyContent && row.name != "label-table" &&
         (written & (engine::kBinaryCase | engine::kGltf | engine::kOtherMesh | engine::kCells)) !=

@@ -272,7 +272,7 @@ void ScopeTest::makeSurfaces() const {
   make({"convert", "truth.lumen", "truth.swc"});
   write("ends.swc",
         "1 0 0 0 0 1.5 -1\n2 0 0 0 2 1.5 1\n3 0 0 0 4 1.5 2\n4 0 0 0 6 1.5 3\n5 0 0 0 8 1.5 4\n"
-        "6 0 0 0 10 1.5 5\n7 0 0 0 12 1.5 6\n8 0 3 0 5 0.3 3\n9 0 6 0 6 0.3 8\n"
+        "6 0 0 0 10 1.5 5\n7 0 0 0 12 1.2 6\n8 0 3 0 5 0.3 3\n9 0 6 0 6 0.3 8\n"
         "10 0 9 0 7 0.3 9\n11 0 0 2 8 1 5\n12 0 0 4 8 1 11\n");
   make({"convert", "ends.swc", "ends.lumen"});
   write("table.csv", "value,name\n1,ica\n2,mca\n");

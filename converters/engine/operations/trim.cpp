@@ -53,13 +53,24 @@ public:
     table.argument("OUT", &m_output,
                    "Case to write, " + formatEndings(canWriteCase) + "; may be CASE");
     table
-        .add("min-radius", &m_minRadius, "MM",
+        .add("min-radius", &m_limits.minRadius, "MM",
              "Remove the end of a vessel, from its tip to its first node of this radius, in mm")
         .in(kPositive);
     table
-        .add("min-length", &m_minLength, "MM",
+        .add("min-length", &m_limits.minLength, "MM",
              "Remove the end of a vessel behind its last branch if it is shorter than this, in mm")
         .in(kPositive);
+    table
+        .add("taper", &m_limits.taper, "SHARE",
+             "Remove the tip of a vessel that is thinner than this share of the vessel's radius by "
+             "it, as where a track runs out, such as 0.7")
+        .in(NumberRange{0, 1});
+    table
+        .add("stub", &m_limits.stub, "N",
+             "Remove the end of a vessel behind its last branch if it is shorter than this number "
+             "of "
+             "its diameters, unless it leaves the volume, such as 1")
+        .in(NumberRange{0, 100});
     addFormatRow(table, "to", m_to, "OUT");
   }
 
@@ -68,14 +79,13 @@ public:
     const FileFormat& to = caseOutputFormat(m_output, m_to, "the trimmed tree");
     requireInput(m_input, "case file");
     requireInScope(*context.table, {}, context.progress);
-    if (!m_minRadius && !m_minLength)
+    if (m_limits == convert::TrimLimits{})
       throw Error(ErrorKind::Usage,
-                  "nothing to trim by; expected --min-radius, --min-length or both");
+                  "nothing to trim by; expected --min-radius, --min-length, --taper or --stub");
     requireWritable(m_output, convert::ContentKind::Case);
 
     const operations::TrimmedCase trimmed = operations::trimmed(
-        readParentCase(m_input), {m_minRadius.value_or(0), m_minLength.value_or(0)}, m_input.name(),
-        operationContext(context));
+        readParentCase(m_input), m_limits, m_input.name(), operationContext(context));
     const std::optional<convert::Reach> reach =
         convert::measureReach(trimmed.value, context.progress);
     convert::warnOfClosed(reach, context.progress);
@@ -91,7 +101,7 @@ private:
   InputFile m_input;
   OutputFile m_output;
   std::string m_to;
-  std::optional<double> m_minRadius, m_minLength;
+  convert::TrimLimits m_limits;
 };
 
 }  // namespace

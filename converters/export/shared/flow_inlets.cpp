@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
@@ -17,6 +16,7 @@
 #include "converters/base/vectors.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/stages/editing/selection.h"
+#include "converters/stages/editing/trim.h"
 #include "formats/case/topology.h"
 #include "formats/container/printable.h"
 
@@ -31,6 +31,9 @@ constexpr double kMillilitre = 1e-6;   // m^3
 constexpr double kAtBorder = 1.5;      // radii from the border at which a vessel comes in
 constexpr double kFragment = 0.1;      // of the length of the longest part
 constexpr std::size_t kMostNamed = 3;  // parts that messages name one by one
+// A length of the tip has four times the resistance or more of one of the vessel.
+constexpr double kTaper = 0.7;
+constexpr double kStub = 1;  // diameters: nobody sees which way it would run on
 
 /// A connected part of a case.
 struct Part {
@@ -60,20 +63,6 @@ std::vector<Part> findParts(const CenterlineTree& tree) {
     part.length += formats::branchLength(tree, tree.branches[b]);
   }
   return parts;
-}
-
-/// Whether a place lies within `reach` mm of the border of a volume, or outside.
-bool isAtBorder(const formats::SourceVolume& volume, const Eigen::Vector3d& place, double reach) {
-  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> direction(
-      volume.direction.data());
-  const Eigen::Vector3d along =
-      direction.inverse() * (place - Eigen::Vector3d(volume.origin.data()));
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double at = along[static_cast<Eigen::Index>(a)];
-    const double far = (static_cast<double>(volume.size[a]) - 1) * volume.spacing[a] - at;
-    if (std::min(at, far) <= reach) return true;
-  }
-  return false;
 }
 
 void markStated(const CenterlineTree& tree, const std::vector<StatedInlet>& inlets,
@@ -153,8 +142,30 @@ std::vector<StatedInlet> statedInlets(const std::vector<std::string>& words,
   return inlets;
 }
 
+namespace {
+
+// Flow goes by r^4 through an end and by r^3 out of it: its tip must not decide.
+void trimTips(FlowCase& made, const FieldWord& word) {
+  constexpr std::size_t kMostShown = 10;
+  std::vector<TrimmedEnd> ends;
+  try {
+    ends = trimEnds(made.value, {.taper = kTaper, .stub = kStub}).ends;
+  } catch (const Error&) {
+    return;  // nothing would be left
+  }
+  for (std::size_t k = 0; k < ends.size() && k < kMostShown; ++k)
+    made.losses.push_back(trimmedText(ends[k]) + ": left out as a " +
+                          (ends[k].isWhole ? "stub" : "taper, or a stub") + "; " +
+                          word("keep-ends") + " keeps it");
+  if (ends.size() > kMostShown)
+    made.losses.push_back(counted(ends.size() - kMostShown, "more end", "more ends") +
+                          " left out as tapers and stubs");
+}
+
+}  // namespace
+
 FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& inlets,
-                  const FieldWord& word) {
+                  const FieldWord& word, bool keepEnds) {
   FlowCase made{source, {}};
   std::vector<Part> parts = findParts(source.tree);
   if (inlets.empty())
@@ -166,6 +177,7 @@ FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& i
     for (const std::uint32_t b : part.branches) goes[b] = !part.hasInlet;
   made.losses = lossesOf(source.tree, parts, word);
   leaveOutBranches(made.value, goes);
+  if (!keepEnds) trimTips(made, word);
   return made;
 }
 

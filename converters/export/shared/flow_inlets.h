@@ -35,8 +35,10 @@ struct FlowCase {
 ///   part is the longest: a vessel does not begin there;
 /// - parts shorter than a tenth of the longest: fragments.
 ///
-/// Throws Error(Usage), with the labels that there are, for a stated label that is not of a root.
+/// Ends lose their tapers, and stubs go (trimEnds()), with a sentence each, unless `keepEnds`; models
+/// stay as they are. Throws Error(Usage), with the labels that there are, for a stated label that is
+/// not of a root.
 FlowCase flowCase(const formats::Case& source, const std::vector<StatedInlet>& inlets,
-                  const FieldWord& word = {});
+                  const FieldWord& word = {}, bool keepEnds = false);
 
 }  // namespace lumen::convert

@@ -8,12 +8,15 @@
 #include <numeric>
 #include <utility>
 
+#include "converters/base/csv_rows.h"
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/frame.h"
 #include "converters/geometry/disjoint_sets.h"
+#include "converters/stages/editing/trim.h"
 
 namespace lumen::convert {
 
@@ -253,7 +256,7 @@ private:
     for (std::uint32_t j = 0; j < m_made.joints.size(); ++j) {
       FlowJoint& joint = m_made.joints[j];
       if (joint.kind != JointKind::Inlet) continue;
-      joint.inflow = blood::meanFlow(kMetres * endRadius(m_made, j));
+      joint.inflow = blood::meanFlow(kMetres * endCalibre(m_made, j));
       for (const StatedInlet& inlet : stated)
         if (inlet.label == labelAt(j) && inlet.flow > 0) joint.inflow = inlet.flow;
     }
@@ -348,16 +351,81 @@ double endRadius(const FlowNetwork& network, std::uint32_t joint) {
                                       : network.segments[end.in.front()].radii.back();
 }
 
-std::vector<double> outletResistances(const FlowNetwork& network, const FlowTree& tree) {
-  double flow = 0, shares = 0;
-  for (const std::uint32_t inlet : tree.inlets) flow += network.joints[inlet].inflow;
-  std::vector<double> share;
-  for (const std::uint32_t outlet : tree.outlets) {
-    share.push_back(blood::murrayShare(kMetres * endRadius(network, outlet)));
-    shares += share.back();
+double endCalibre(const FlowNetwork& network, std::uint32_t joint) {
+  const FlowJoint& end = network.joints[joint];
+  const bool isInlet = end.kind == JointKind::Inlet;
+  const FlowSegment& segment = network.segments[isInlet ? end.out.front() : end.in.front()];
+  std::vector<double> radii = segment.radii, steps;
+  for (std::size_t k = 0; k + 1 < segment.points.size(); ++k)
+    steps.push_back((segment.points[k + 1] - segment.points[k]).norm());
+  if (!isInlet) {
+    std::reverse(radii.begin(), radii.end());
+    std::reverse(steps.begin(), steps.end());
   }
-  for (double& s : share) s = blood::kMeanPressure / (flow * s / shares);
-  return share;
+  return calibre(radii, steps);
+}
+
+std::vector<double> outletShares(const FlowNetwork& network, const FlowTree& tree) {
+  double sum = 0;
+  std::vector<double> shares;
+  for (const std::uint32_t outlet : tree.outlets) {
+    shares.push_back(blood::murrayShare(kMetres * endCalibre(network, outlet)));
+    sum += shares.back();
+  }
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+namespace {
+
+double inflowOf(const FlowNetwork& network, const FlowTree& tree) {
+  double flow = 0;
+  for (const std::uint32_t inlet : tree.inlets) flow += network.joints[inlet].inflow;
+  return flow;
+}
+
+}  // namespace
+
+std::vector<double> outletResistances(const FlowNetwork& network, const FlowTree& tree) {
+  std::vector<double> values = outletShares(network, tree);
+  for (double& value : values) value = blood::kMeanPressure / (inflowOf(network, tree) * value);
+  return values;
+}
+
+std::string outletTable(const FlowNetwork& network) {
+  constexpr double kMillilitres = 1e6;  // in a m^3
+  std::string text = "outlet,radius_mm,tip_radius_mm,share,flow_ml_s\n";
+  for (const FlowTree& tree : network.trees) {
+    const std::vector<double> shares = outletShares(network, tree);
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      const std::uint32_t outlet = tree.outlets[k];
+      text += csvCell(network.joints[outlet].name) + "," + numberText(endCalibre(network, outlet)) +
+              "," + numberText(endRadius(network, outlet)) + "," + numberText(shares[k]) + "," +
+              numberText(kMillilitres * inflowOf(network, tree) * shares[k]) + "\n";
+    }
+  }
+  return text;
+}
+
+std::vector<std::string> outletWarnings(const FlowNetwork& network) {
+  constexpr double kShort = 0.02, kMuch = 0.25;  // of the tree's length, and of its flow
+  std::vector<double> length(network.trees.size(), 0.0);
+  for (const FlowSegment& segment : network.segments)
+    length[network.joints[segment.to].tree] += segment.length();
+  std::vector<std::string> warnings;
+  for (std::size_t t = 0; t < network.trees.size(); ++t) {
+    const FlowTree& tree = network.trees[t];
+    const std::vector<double> shares = outletShares(network, tree);
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      const FlowJoint& outlet = network.joints[tree.outlets[k]];
+      const double own = network.segments[outlet.in.front()].length();
+      if (shares[k] <= kMuch || own >= kShort * length[t]) continue;
+      warnings.push_back(outlet.name + " takes " + fixedText(100 * shares[k], 0) +
+                         " % of the flow of its tree, and its vessel is " + shownFigure(own) +
+                         " mm of " + shownFigure(length[t]) + " mm");
+    }
+  }
+  return warnings;
 }
 
 }  // namespace lumen::convert

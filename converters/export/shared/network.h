@@ -82,11 +82,23 @@ struct Lumped {
 };
 Lumped lumped(const FlowSegment& segment);
 
-/// The resistance that lets each outlet of a tree take its share of the flow from all inlets of the
-/// tree, by murrayShare(), at blood::kMeanPressure: Pa s/m^3, in the order of `outlets`.
+/// The share of its tree's flow that each outlet takes, by murrayShare() of its endCalibre(), in the
+/// order of `outlets`.
+std::vector<double> outletShares(const FlowNetwork& network, const FlowTree& tree);
+
+/// The resistance that lets each outlet of a tree take its outletShares() of the flow from all inlets
+/// of the tree, at blood::kMeanPressure: Pa s/m^3, in the order of `outlets`.
 std::vector<double> outletResistances(const FlowNetwork& network, const FlowTree& tree);
 
 /// mm: of the segment's end at an inlet or outlet.
 double endRadius(const FlowNetwork& network, std::uint32_t joint);
+/// mm: calibre() of the segment at an inlet or outlet.
+double endCalibre(const FlowNetwork& network, std::uint32_t joint);
+
+/// Outlets as CSV: name, radius by which it takes its share, radius of its tip, share and flow.
+std::string outletTable(const FlowNetwork& network);
+
+/// A sentence for each outlet of a short vessel that takes much of its tree's flow.
+std::vector<std::string> outletWarnings(const FlowNetwork& network);
 
 }  // namespace lumen::convert

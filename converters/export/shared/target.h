@@ -43,6 +43,7 @@ struct CommonOptions {
   double spacing = 0;          ///< mm between samples of grids; 0: by the size of the vessels
   /// Inlets of a flow, as statedInlets() takes them; empty: found by the case.
   std::vector<std::string> inlets;
+  bool keepEnds = false;  ///< of a flow: tapers and stubs at the ends of vessels stay
   /// Greatest number of pieces of a wall that is divided; 0: the target's own.
   std::uint64_t maxPieces = 0;
   std::string insert;  ///< label of the branch where an instrument enters; empty: the root

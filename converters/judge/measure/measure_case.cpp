@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include "converters/base/csv_rows.h"
 #include "converters/base/number_text.h"
 #include "converters/judge/measure/vessel_course.h"
 #include "converters/judge/measure/vessel_measures.h"
@@ -154,16 +155,6 @@ std::string placeKey(std::string_view name) {
   if (text == "tangent" || text == "normal") return text;
   if (text.ends_with("_vector")) return text + "_mm";
   return text + "_place_mm";
-}
-
-std::string csvCell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
 }
 
 std::string cell(double value) {

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <utility>
+
+#include <Eigen/LU>
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
@@ -18,12 +22,35 @@ namespace {
 using formats::Branch;
 using formats::CenterlineTree;
 
+/// The median by length; `weight`: of each value.
+double medianOf(std::vector<std::pair<double, double>> values) {
+  std::sort(values.begin(), values.end());
+  double all = 0, sum = 0;
+  for (const auto& [value, weight] : values) all += weight;
+  for (const auto& [value, weight] : values)
+    if ((sum += weight) >= 0.5 * all) return value;
+  return values.back().first;
+}
+
+/// The median over the first `reach` mm.
+double medianWithin(std::span<const double> radius, std::span<const double> step, double reach) {
+  std::vector<std::pair<double, double>> values;
+  double way = 0;
+  for (std::size_t i = 0; i < radius.size() && way <= reach; ++i) {
+    const double before = i > 0 ? step[i - 1] : 0, after = i < step.size() ? step[i] : 0;
+    values.emplace_back(radius[i], std::max(0.5 * (before + after), 1e-12));
+    way += after;
+  }
+  return medianOf(std::move(values));
+}
+
 /// The nodes of each branch that are left.
 class Trimmer {
 public:
   Trimmer(const formats::Case& value, const TrimLimits& limits)
       : m_tree(value.tree),
         m_limits(limits),
+        m_volume(value.metadata.source ? &*value.metadata.source : nullptr),
         m_origins(formats::readNodeOrigins(value)),
         m_holds(m_tree.nodeCount(), 0) {
     for (const Branch& branch : m_tree.branches) {
@@ -65,8 +92,26 @@ private:
   /// Nodes left of a branch whose tip is as wide as it must be.
   [[nodiscard]] std::uint32_t withoutThin(const Branch& branch, std::uint32_t held,
                                           std::uint32_t left) const {
-    while (left > held && radius(branch.firstNode + left - 1) < m_limits.minRadius) --left;
+    double least = m_limits.minRadius;
+    if (m_limits.taper > 0 && left > held)
+      least = std::max(least, m_limits.taper * calibreOf(branch, held, left));
+    while (left > held && radius(branch.firstNode + left - 1) < least) --left;
     return left;
+  }
+
+  [[nodiscard]] double calibreOf(const Branch& branch, std::uint32_t held,
+                                 std::uint32_t left) const {
+    std::vector<double> radii, steps;
+    for (std::uint32_t k = left; k-- > held;) {
+      radii.push_back(radius(branch.firstNode + k));
+      if (k > held) steps.push_back(formats::edgeLength(m_tree, branch.firstNode + k));
+    }
+    return calibre(radii, steps);
+  }
+
+  [[nodiscard]] bool leavesVolume(std::uint32_t node) const {
+    return m_volume != nullptr &&
+           isAtBorder(*m_volume, toEigen(m_tree.centre[node]), kAtBorder * radius(node));
   }
 
   /// Nodes left of a branch whose end is as long as it must be, and lies outside of its parent.
@@ -81,13 +126,19 @@ private:
     }
     if (held > 0) length -= radius(branch.firstNode + held - 1);
     if (length < m_limits.minLength) return held;
+    if (m_limits.stub > 0 && length < 2 * m_limits.stub * calibreOf(branch, held, left) &&
+        !leavesVolume(branch.firstNode + left - 1))
+      return held;
     // of a vessel whose end went, neither a part within its parent nor a single root stays
     const bool isNothing = isBridged || (branch.parentNode < 0 && held == 0 && left < 2);
     return isNothing && left < branch.nodeCount ? held : left;
   }
 
+  static constexpr double kAtBorder = 1.5;  // radii
+
   const CenterlineTree& m_tree;
   const TrimLimits& m_limits;
+  const formats::SourceVolume* m_volume;  ///< null if the case states none
   std::vector<formats::NodeOrigin> m_origins;
   std::vector<std::uint32_t> m_holds;  ///< branches and links at each node
   std::vector<std::uint32_t> m_left;   ///< nodes left of each branch
@@ -109,10 +160,35 @@ std::string limitsText(const TrimLimits& limits) {
   if (limits.minLength > 0)
     text +=
         (text.empty() ? "" : " or ") + ("shorter than " + shownNumber(limits.minLength)) + " mm";
+  if (limits.taper > 0)
+    text += (text.empty() ? "" : " or ") + ("thinner than " + shownNumber(limits.taper)) +
+            " of their vessel's radius";
+  if (limits.stub > 0)
+    text +=
+        (text.empty() ? "" : " or ") + ("shorter than " + shownNumber(limits.stub)) + " diameters";
   return text;
 }
 
 }  // namespace
+
+double calibre(std::span<const double> radius, std::span<const double> step) {
+  constexpr double kStretch = 10;  // radii
+  const double all = medianWithin(radius, step, std::numeric_limits<double>::infinity());
+  return medianWithin(radius, step, kStretch * all);
+}
+
+bool isAtBorder(const formats::SourceVolume& volume, const Eigen::Vector3d& place, double reach) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> direction(
+      volume.direction.data());
+  const Eigen::Vector3d along =
+      direction.inverse() * (place - Eigen::Vector3d(volume.origin.data()));
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double at = along[static_cast<Eigen::Index>(a)];
+    const double far = (static_cast<double>(volume.size[a]) - 1) * volume.spacing[a] - at;
+    if (std::min(at, far) <= reach) return true;
+  }
+  return false;
+}
 
 TrimResult trimEnds(formats::Case& target, const TrimLimits& limits) {
   TrimResult result;

@@ -81,6 +81,32 @@ TEST(FlowInlets, AStatedFlowEntersAtItsInlet) {
     }
 }
 
+TEST(FlowInlets, TapersAndStubsAreLeftOutUnlessTheyAreKept) {
+  formats::Case value;
+  addBranch(value.tree, "trunk", -1, {15, 5, 3}, {0, 0, 1}, 31, 2);
+  addBranch(value.tree, "stub", 15, {17, 5, 18}, {1, 0, 0}, 2, 1);  // 1 mm outside of the trunk
+  addBranch(value.tree, "side", 20, {17, 5, 23}, {1, 0, 0}, 6, 1);
+  value.tree.radius[30] = value.tree.radius[29] = 0.5F;
+  value.tree.radius[28] = 1.5F;  // three quarters of the calibre
+  EXPECT_EQ(labels(flowCase(value, {}, {}, true).value), (Labels{"trunk", "stub", "side"}));
+  const FlowCase made = flowCase(value, {});
+  EXPECT_EQ(labels(made.value), (Labels{"trunk", "side"}));
+  EXPECT_EQ(made.value.tree.branches[0].nodeCount, 29U);
+  ASSERT_EQ(made.losses.size(), 2U);
+  EXPECT_EQ(made.losses[0].find("trunk: 2.00 mm of its end"), 0U) << made.losses[0];
+  EXPECT_EQ(made.losses[1].find("stub: "), 0U) << made.losses[1];
+}
+
+TEST(FlowInlets, AShortVesselThatLeavesTheVolumeIsNoStub) {
+  formats::Case value;
+  addBranch(value.tree, "trunk", -1, {15, 5, 3}, {0, 0, 1}, 31, 2);
+  addBranch(value.tree, "short", 15, {17, 5, 18}, {1, 0, 0}, 2, 1);
+  value.metadata.source = volume();
+  EXPECT_EQ(labels(flowCase(value, {}).value), (Labels{"trunk"}));
+  value.metadata.source->size[0] = 19;  // its tip is in the last voxel
+  EXPECT_EQ(labels(flowCase(value, {}).value), (Labels{"trunk", "short"}));
+}
+
 TEST(FlowInlets, RefusesLabelsThatAreNoRootsAndFlowsThatAreNone) {
   EXPECT_THROW(flowCase(makeParts(), statedInlets({"nowhere"})), Error);
   for (const char* word : {"long=", "long=fast", "long=-1", "long=0"})

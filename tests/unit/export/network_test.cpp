@@ -185,6 +185,38 @@ TEST(OutletResistances, LetAFlowSplitByTheCubesOfRadii) {
   EXPECT_NEAR(blood::kMeanPressure * (1 / resistance[0] + 1 / resistance[1]), flow, 1e-9 * flow);
 }
 
+// The last node of a vessel is often the tip of a taper.
+TEST(OutletShares, GoByTheRadiusOfTheLastStretchAndNotOfTheTip) {
+  formats::CenterlineTree tree = fork();
+  const FlowNetwork whole = flowNetwork(tree);
+  const std::vector<double> before = outletShares(whole, whole.trees[0]);
+  const formats::Branch& trunk = tree.branches[0];
+  tree.radius[trunk.firstNode + trunk.nodeCount - 1] /= 5;
+  const FlowNetwork network = flowNetwork(tree);
+  const std::vector<double> shares = outletShares(network, network.trees[0]);
+  ASSERT_EQ(shares.size(), 2U);
+  EXPECT_NEAR(shares[0], before[0], 1e-9);
+  EXPECT_NEAR(shares[0] + shares[1], 1, 1e-12);
+  EXPECT_NEAR(endCalibre(network, network.trees[0].outlets[0]) /
+                  endRadius(network, network.trees[0].outlets[0]),
+              5, 1e-5);
+  EXPECT_EQ(outletTable(network).find("outlet,radius_mm,tip_radius_mm,share,flow_ml_s\noutlet-"),
+            0U);
+}
+
+TEST(OutletWarnings, NameAShortVesselThatTakesMuchOfTheFlow) {
+  formats::CenterlineTree tree;
+  addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 201, 2);
+  addBranch(tree, "side", 100, {2, 0, 100}, {1, 0, 0}, 3, 2);
+  const FlowNetwork network = flowNetwork(tree);
+  const std::vector<std::string> warnings = outletWarnings(network);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].find("outlet-side takes 50 % of the flow"), 0U) << warnings[0];
+  tree.radius.back() = tree.radius[tree.radius.size() - 2] = tree.radius[tree.radius.size() - 3] =
+      1;
+  EXPECT_TRUE(outletWarnings(flowNetwork(tree)).empty());  // a ninth
+}
+
 namespace {
 
 using formats::CenterlineTree;
@@ -236,7 +268,7 @@ TEST(FlowPressure, BeyondNatureIsReportedWithTheThinVesselThatCausesIt) {
   const auto warnings = pressureWarnings(withTail(0.155));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("mmHg"), std::string::npos) << warnings[0];
-  EXPECT_NE(warnings[0].find("tail, which thins to a radius of 0.155 mm"), std::string::npos)
+  EXPECT_NE(warnings[0].find("trunk_2, which thins to a radius of 0.155 mm"), std::string::npos)
       << warnings[0];
 }
 

@@ -139,7 +139,7 @@ void addTree(ExportResult& result, const OneDNetwork& network, const std::string
 
 ExportResult exportOneD(const ExportInput& input) {
   const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets, input.options.word);
-  FlowCase flowing = flowCase(input.source, inlets, input.options.word);
+  FlowCase flowing = flowCase(input.source, inlets, input.options.word, input.options.keepEnds);
   const FlowNetwork network = flowNetwork(flowing.value.tree, inlets);
   ExportResult result;
   result.start = exportText("oned/README.md");
@@ -155,6 +155,9 @@ ExportResult exportOneD(const ExportInput& input) {
   result.losses.insert(result.losses.end(), network.messages.begin(), network.messages.end());
   for (std::string& warning : pressureWarnings(network))
     result.losses.push_back(std::move(warning));
+  for (std::string& warning : outletWarnings(network)) result.losses.push_back(std::move(warning));
+  result.files.push_back(
+      {"outlets.csv", outletTable(network), "radius, share and flow of each outlet, ml/s", ""});
   if (lengthened > 0)
     result.losses.push_back("segments that are shorter than their radius are as long as it here: " +
                             std::to_string(lengthened));
@@ -171,7 +174,7 @@ TargetRow oneDRow() {
           .axes = {Axes::Lps},
           .holds = "lengths, radii, junctions; svOneDSolver also positions of junctions",
           .lacks = "aneurysms; the shape of sections; of vessels all but a cone",
-          .options = {"inlets"},
+          .options = {"inlets", "keep-ends"},
           .needsModels = false};
 }
 

@@ -47,9 +47,12 @@ FlowPart partOf(std::vector<FoamPatch>& patches, const FlowNetwork& network, con
         part.flow += patch.flow;
         part.inlets.push_back(&patch);
       }
-    if (patch.kind == FaceKind::Outlet &&
-        std::any_of(tree.outlets.begin(), tree.outlets.end(), isAt))
-      part.outlets.push_back(&patch);
+    if (patch.kind == FaceKind::Outlet)
+      if (const auto at = std::find_if(tree.outlets.begin(), tree.outlets.end(), isAt);
+          at != tree.outlets.end()) {
+        patch.calibre = endCalibre(network, *at);
+        part.outlets.push_back(&patch);
+      }
   }
   return part;
 }
@@ -57,10 +60,10 @@ FlowPart partOf(std::vector<FoamPatch>& patches, const FlowNetwork& network, con
 /// Outlets share the flow of their part.
 void share(FlowPart& part) {
   double shares = 0;
-  for (const FoamPatch* outlet : part.outlets) shares += blood::murrayShare(outlet->radius);
+  for (const FoamPatch* outlet : part.outlets) shares += blood::murrayShare(outlet->calibre);
   FoamPatch* widest = part.outlets.front();
   for (FoamPatch* outlet : part.outlets) {
-    outlet->flow = part.flow * blood::murrayShare(outlet->radius) / shares;
+    outlet->flow = part.flow * blood::murrayShare(outlet->calibre) / shares;
     if (outlet->radius > widest->radius) widest = outlet;
   }
   widest->holdsPressure = true;

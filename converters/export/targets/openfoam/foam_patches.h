@@ -22,6 +22,7 @@ struct FoamPatch {
   std::string name;                ///< as OpenFOAM takes it
   FaceKind kind = FaceKind::Wall;  ///< an end that is not flat is a wall
   double radius = 0;               ///< mm, of an end
+  double calibre = 0;              ///< mm, of an outlet: endCalibre()
   int level = 0;                   ///< halvings of cells there
   double flow = 0;                 ///< m^3/s, in or out
   bool holdsPressure = false;      ///< an outlet of pressure 0, through which the rest flows
@@ -38,7 +39,7 @@ std::vector<FoamPatch> foamPatches(const SurfaceMesh& mesh, const std::vector<in
                                    const std::vector<NamedEnd>& ends);
 
 /// Sets flows and drops: each connected part of the network takes in the flows of its inlets, and its
-/// outlets share them by blood::murrayShare() of their radii; the widest one holds the pressure.
+/// outlets share them by blood::murrayShare() of endCalibre(); the widest one holds the pressure.
 /// Inlets without an outlet, and outlets without an inlet, become walls, for which a sentence is
 /// returned. Throws Error(InvalidInput) if nothing flows.
 std::vector<std::string> assignFlows(std::vector<FoamPatch>& patches, const FlowNetwork& network);

@@ -112,7 +112,7 @@ ExportedSurface cutByLumen(const ExportInput& input, FoamCase& foam, VolumeMesh&
 
 ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options) {
   const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets, input.options.word);
-  FlowCase flowing = flowCase(input.source, inlets, input.options.word);
+  FlowCase flowing = flowCase(input.source, inlets, input.options.word, input.options.keepEnds);
   ExportResult result;
   result.losses = std::move(flowing.losses);
   const bool isFilled = options.cells == FoamGrain::Prisms;
@@ -164,6 +164,7 @@ TargetRow openFoamRow() {
                       "triangles",
                       "extend",
                       "inlets",
+                      "keep-ends",
                       "cells",
                       "flow",
                       {"layers", "cells", "prisms"},

@@ -127,7 +127,7 @@ Json makeModel(const FlowNetwork& network, const std::vector<formats::VesselSyst
 
 ExportResult exportSvZeroD(const ExportInput& input) {
   const std::vector<StatedInlet> inlets = statedInlets(input.options.inlets, input.options.word);
-  FlowCase flowing = flowCase(input.source, inlets, input.options.word);
+  FlowCase flowing = flowCase(input.source, inlets, input.options.word, input.options.keepEnds);
   const FlowNetwork network = flowNetwork(flowing.value.tree, inlets);
   ExportResult result;
   result.start = exportText("svzerod/README.md");
@@ -141,6 +141,9 @@ ExportResult exportSvZeroD(const ExportInput& input) {
   result.losses.insert(result.losses.end(), network.messages.begin(), network.messages.end());
   for (std::string& warning : pressureWarnings(network))
     result.losses.push_back(std::move(warning));
+  for (std::string& warning : outletWarnings(network)) result.losses.push_back(std::move(warning));
+  result.files.push_back(
+      {"outlets.csv", outletTable(network), "radius, share and flow of each outlet, ml/s", ""});
   result.remarks = {networkSummary(network)};
   return result;
 }
@@ -155,7 +158,7 @@ TargetRow svZeroDRow() {
               "lengths, radii, junctions and loops, as resistance, compliance and inertance of "
               "each segment",
           .lacks = "aneurysms; the shape of sections",
-          .options = {"inlets"},
+          .options = {"inlets", "keep-ends"},
           .needsModels = false};
 }
 
