@@ -3,7 +3,7 @@
 // vessels that are found have the names and systems of their labels, as `lumen convert` gives them.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
-import { openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
+import { frames, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
 import { document, dropFiles, lookAt, phantom, placeIn, reported, step, undo, vessel } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
@@ -72,6 +72,7 @@ async function seeLabels(page, corner) {
   assert.deepEqual(roles, ["artery", "vessel", "organ"]);
   assert.match(await page.locator("#role-2").getAttribute("title"), /its header, its name/);
   await page.keyboard.press("4"); // the axial slice alone
+  await frames(page, 3);
   const at = await placeIn(page, "axial", corner);
   await page.mouse.move(at.x, at.y);
   await page.locator("#probe-label").filter({ hasText: "7 muscle" }).waitFor();
