@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 
 #include <Eigen/Core>
@@ -150,8 +151,9 @@ void trimTips(FlowCase& made, const FieldWord& word) {
   std::vector<TrimmedEnd> ends;
   try {
     ends = trimEnds(made.value, {.taper = kTaper, .stub = kStub}).ends;
-  } catch (const Error&) {
-    return;  // nothing would be left
+  } catch (const Error& error) {
+    made.losses.push_back(std::string("ends stay as they are: ") + error.what());
+    return;
   }
   for (std::size_t k = 0; k < ends.size() && k < kMostShown; ++k)
     made.losses.push_back(trimmedText(ends[k]) + ": left out as a " +

@@ -84,9 +84,12 @@ TEST(FlowInlets, AStatedFlowEntersAtItsInlet) {
 TEST(FlowInlets, TapersAndStubsAreLeftOutUnlessTheyAreKept) {
   formats::Case value;
   addBranch(value.tree, "trunk", -1, {15, 5, 3}, {0, 0, 1}, 31, 2);
-  addBranch(value.tree, "stub", 15, {17, 5, 18}, {1, 0, 0}, 2, 1);  // 1 mm outside of the trunk
-  addBranch(value.tree, "side", 20, {17, 5, 23}, {1, 0, 0}, 6, 1);
-  value.tree.radius[30] = value.tree.radius[29] = 0.5F;
+  addBranch(value.tree, "stub", 15, {17, 5, 18}, {0.95F, 0, 0}, 3, 1);  // 1.9 mm
+  addBranch(value.tree, "side", 20, {17, 5, 23}, {1.1F, 0, 0}, 3, 1);   // 2.2 mm
+  value.tree.radius[30] = 0.5F;
+  value.tree.radius[29] = 1.3F;
+  for (auto& direction : value.tree.direction)
+    if (direction.x > 0) direction = {1, 0, 0};
   value.tree.radius[28] = 1.5F;  // three quarters of the calibre
   EXPECT_EQ(labels(flowCase(value, {}, {}, true).value), (Labels{"trunk", "stub", "side"}));
   const FlowCase made = flowCase(value, {});

@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/export/shared/flow_pressure.h"
+#include "converters/stages/editing/trim.h"
 #include "tests/unit/export/made_tree.h"
 
 namespace lumen::convert {
@@ -204,17 +205,30 @@ TEST(OutletShares, GoByTheRadiusOfTheLastStretchAndNotOfTheTip) {
             0U);
 }
 
+// Ten radii: the first five millimetres of a vessel of 1 mm are .9 wide, or a little less of them.
+TEST(Calibre, IsTheMedianOverTheLastTenRadii) {
+  std::vector<double> radii(50, 1.0);
+  const std::vector<double> steps(49, 1.0);
+  std::fill(radii.begin(), radii.begin() + 6, 0.9);
+  EXPECT_EQ(calibre(radii, steps), 0.9);
+  radii[5] = 1;
+  EXPECT_EQ(calibre(radii, steps), 1);
+  EXPECT_EQ(calibre(std::vector<double>{2}, {}), 2);
+}
+
 TEST(OutletWarnings, NameAShortVesselThatTakesMuchOfTheFlow) {
-  formats::CenterlineTree tree;
-  addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 201, 2);
-  addBranch(tree, "side", 100, {2, 0, 100}, {1, 0, 0}, 3, 2);
-  const FlowNetwork network = flowNetwork(tree);
-  const std::vector<std::string> warnings = outletWarnings(network);
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_EQ(warnings[0].find("outlet-side takes 50 % of the flow"), 0U) << warnings[0];
-  tree.radius.back() = tree.radius[tree.radius.size() - 2] = tree.radius[tree.radius.size() - 3] =
-      1;
-  EXPECT_TRUE(outletWarnings(flowNetwork(tree)).empty());  // a ninth
+  const auto warnings = [](float radius, float length) {
+    formats::CenterlineTree tree;
+    addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 201, 2);
+    addBranch(tree, "side", 100, {2, 0, 100}, {length / 3, 0, 0}, 4, radius);
+    return outletWarnings(flowNetwork(tree));
+  };
+  // shares of .5, .27 and .23; a fiftieth of the length is 4.1 mm
+  ASSERT_EQ(warnings(2, 3.8F).size(), 1U);
+  EXPECT_EQ(warnings(2, 3.8F)[0].find("outlet-side takes 50 % of the flow"), 0U);
+  EXPECT_EQ(warnings(1.436F, 3.8F).size(), 1U);
+  EXPECT_TRUE(warnings(1.337F, 3.8F).empty());
+  EXPECT_TRUE(warnings(2, 4.5F).empty());
 }
 
 namespace {
