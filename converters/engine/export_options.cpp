@@ -63,7 +63,7 @@ void addSofaRows(OptionTable& table, convert::ExportOptions& options) {
       "Wall that it touches: triangles, the models by the plugin LumenSofa, distances on a "
       "grid, or the models of vessels that give way (soft), by LumenSofa");
   table.choice("dialect", sofa.dialect, kDialects, "Version of SOFA");
-  table.add("step", &sofa.step, "MM", "Distance that it advances in a time step of 0.01 s")
+  table.add("step", &sofa.step, "MM", "Distance that it advances in 0.01 s")
       .in(NumberRange{0.001, 1});
   table.add("insert", &options.insert, "LABEL",
             "Branch at whose beginning it is inserted [the root]");

@@ -67,8 +67,7 @@ public:
         .in(NumberRange{0, 1});
     table
         .add("stub", &m_limits.stub, "N",
-             "Remove the end of a vessel behind its last branch if it is shorter than this number "
-             "of "
+             "Remove the end of a vessel behind its last branch if it is shorter than this many of "
              "its diameters, unless it leaves the volume, such as 1")
         .in(NumberRange{0, 100});
     addFormatRow(table, "to", m_to, "OUT");

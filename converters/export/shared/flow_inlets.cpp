@@ -29,7 +29,6 @@ using formats::Branch;
 using formats::CenterlineTree;
 
 constexpr double kMillilitre = 1e-6;   // m^3
-constexpr double kAtBorder = 1.5;      // radii from the border at which a vessel comes in
 constexpr double kFragment = 0.1;      // of the length of the longest part
 constexpr std::size_t kMostNamed = 3;  // parts that messages name one by one
 // A length of the tip has four times the resistance or more of one of the vessel.
@@ -91,9 +90,7 @@ void markUsual(const formats::Case& source, std::vector<Part>& parts) {
     const bool begins = std::any_of(part.branches.begin(), part.branches.end(), [&](auto b) {
       const std::uint32_t node = tree.branches[b].firstNode;
       return isRoot(tree.branches[b]) &&
-             (!source.metadata.source ||
-              isAtBorder(*source.metadata.source, toEigen(tree.centre[node]),
-                         kAtBorder * static_cast<double>(tree.radius[node])));
+             (!source.metadata.source || isAtBorder(*source.metadata.source, tree, node));
     });
     part.hasInlet = &part == &*longest || (begins && part.length >= kFragment * longest->length);
   }

@@ -110,8 +110,7 @@ private:
   }
 
   [[nodiscard]] bool leavesVolume(std::uint32_t node) const {
-    return m_volume != nullptr &&
-           isAtBorder(*m_volume, toEigen(m_tree.centre[node]), kAtBorder * radius(node));
+    return m_volume != nullptr && isAtBorder(*m_volume, m_tree, node);
   }
 
   /// Nodes left of a branch whose end is as long as it must be, and lies outside of its parent.
@@ -133,8 +132,6 @@ private:
     const bool isNothing = isBridged || (branch.parentNode < 0 && held == 0 && left < 2);
     return isNothing && left < branch.nodeCount ? held : left;
   }
-
-  static constexpr double kAtBorder = 1.5;  // radii
 
   const CenterlineTree& m_tree;
   const TrimLimits& m_limits;
@@ -177,11 +174,14 @@ double calibre(std::span<const double> radius, std::span<const double> step) {
   return medianWithin(radius, step, kStretch * all);
 }
 
-bool isAtBorder(const formats::SourceVolume& volume, const Eigen::Vector3d& place, double reach) {
+bool isAtBorder(const formats::SourceVolume& volume, const CenterlineTree& tree,
+                std::uint32_t node) {
+  constexpr double kAtBorder = 1.5;  // radii
+  const double reach = kAtBorder * double{tree.radius[node]};
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> direction(
       volume.direction.data());
   const Eigen::Vector3d along =
-      direction.inverse() * (place - Eigen::Vector3d(volume.origin.data()));
+      direction.inverse() * (toEigen(tree.centre[node]) - Eigen::Vector3d(volume.origin.data()));
   for (std::size_t a = 0; a < 3; ++a) {
     const double at = along[static_cast<Eigen::Index>(a)];
     const double far = (static_cast<double>(volume.size[a]) - 1) * volume.spacing[a] - at;

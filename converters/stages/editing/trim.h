@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "converters/stages/editing/selection.h"
 #include "formats/case/case.h"
@@ -29,8 +28,10 @@ struct TrimLimits {
 /// each to the next one; mm.
 double calibre(std::span<const double> radius, std::span<const double> step);
 
-/// Whether a place (mm, LPS) lies within `reach`, mm, of the border of a volume, or outside.
-bool isAtBorder(const formats::SourceVolume& volume, const Eigen::Vector3d& place, double reach);
+/// Whether a node lies within one and a half of its radii of the border of a volume, or outside: there
+/// a vessel goes on, and the volume does not.
+bool isAtBorder(const formats::SourceVolume& volume, const formats::CenterlineTree& tree,
+                std::uint32_t node);
 
 /// The part of a branch that was removed.
 struct TrimmedEnd {

@@ -54,9 +54,14 @@ TEST(FlowInlets, APartThatBeginsWithinTheVolumeHasNoInlet) {
   formats::Case value = makeParts();
   value.metadata.source = volume();
   EXPECT_EQ(labels(flowCase(value, {}).value), (Labels{"long"}));
-  // "short" begins 1.4 mm from the border, and its radius is 1 mm
-  for (auto& centre : value.tree.centre)
-    if (centre.x == 15) centre.z -= 8.6F;
+  // "short" begins 1.6 mm from the border, then 1.4 mm, and its radius is 1 mm
+  const auto shift = [&](float by) {
+    for (auto& centre : value.tree.centre)
+      if (centre.x == 15) centre.z -= by;
+  };
+  shift(8.4F);
+  EXPECT_EQ(labels(flowCase(value, {}).value), (Labels{"long"}));
+  shift(0.2F);
   EXPECT_EQ(labels(flowCase(value, {}).value), (Labels{"long", "short"}));
 }
 
