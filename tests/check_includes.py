@@ -55,7 +55,7 @@ ROOMS = [
                                                "simvascular", "slicer", "sofa", "steve", "svzerod")},
     {"export": []},
     {"operations": []},
-    {"library/index": [], "library/publish": ["library/index"], "library/rows": ["library/index"], "library/site": ["library/index"]},
+    {"library/index": [], "library/publish": ["library/index"], "library/rows": ["library/index"], "library/site": ["library/index"], "library/batch": ["library/rows", "library/index"]},
     {"engine/answers": []},
     {"engine": []},
     {"engine/operations": []},

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -31,6 +32,24 @@ inline std::string placeText(const Eigen::Vector3d& place, int decimals = 1) {
   text.append(fixedText(place.x(), decimals)).append(", ");
   text.append(fixedText(place.y(), decimals)).append(", ");
   return text.append(fixedText(place.z(), decimals)).append(")");
+}
+
+/// A word as a shell reads it: in quotes where it has more than letters, digits and -_./+:,=%@.
+inline std::string shellWord(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+:,=%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// A command as a shell reads it.
+inline std::string shellLine(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words)
+    line.append(line.empty() ? "" : " ").append(shellWord(word));
+  return line;
 }
 
 /// "0.5 x 0.5 x 1", each number with at most `digits` significant digits.

@@ -121,7 +121,7 @@ Json resultJson(const RowResult& result) {
 
 /// The line below a row's reason: its log, or the command that shows its worst place.
 std::string placeToLook(const RowResult& result) {
-  if (!result.view.empty()) return Lines().add("  " + shellLine(result.view)).text();
+  if (!result.view.empty()) return Lines().add("  " + convert::shellLine(result.view)).text();
   return result.log.empty() ? "" : Lines().add("  see " + result.log.string()).text();
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "converters/base/shown_lines.h"
+#include "converters/base/shown_text.h"
 
 namespace lumen::engine {
 
@@ -19,24 +20,16 @@ constexpr std::array<std::string_view, 9> kShared = {
 
 }  // namespace
 
-std::string shellWord(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+:,=%@";
-  if (!word.empty() && word.find_first_not_of(kPlain) == word.npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string convertCommand(const OptionTable& table, const std::string& file,
                            const std::string& stem) {
-  std::string command = "lumen convert " + shellWord(file) + " " + shellWord(stem + ".lumen");
+  std::string command =
+      "lumen convert " + convert::shellWord(file) + " " + convert::shellWord(stem + ".lumen");
   for (const OptionRow& row : table.rows()) {
     if (!row.isOn() || row.isPreference ||
         std::find(kShared.begin(), kShared.end(), row.name) == kShared.end())
       continue;
     for (const std::string& value : row.givenValues)
-      command += " " + shellWord(row.shownName() + "=" + value);
+      command += " " + convert::shellWord(row.shownName() + "=" + value);
   }
   return command;
 }

@@ -16,10 +16,6 @@ struct NextStep {
   std::string command;               ///< as people type it
 };
 
-/// A word as a shell reads it: in quotation marks where it holds anything but letters, digits and a few
-/// signs.
-std::string shellWord(const std::string& word);
-
 /// "lumen convert FILE STEM.lumen", with the options of `table` that were given and that both commands
 /// have. `stem`: of the output, in the folder where the command is typed.
 std::string convertCommand(const OptionTable& table, const std::string& file,

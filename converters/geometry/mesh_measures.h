@@ -22,9 +22,16 @@ struct TriangleMesh {
   std::vector<Triangle> triangle;
 };
 
+/// The float next to a number. Debian 12's gcc (12.2, from -O2 on) takes neither of the two conversions
+/// of numbers side by side, so each float lies in memory between them.
+inline double roundedToFloat(double number) {
+  const volatile float rounded = static_cast<float>(number);
+  return static_cast<double>(rounded);
+}
+
 /// A place as files of meshes hold it.
 inline Eigen::Vector3d roundedToFloats(const Eigen::Vector3d& place) {
-  return place.cast<float>().cast<double>();
+  return {roundedToFloat(place.x()), roundedToFloat(place.y()), roundedToFloat(place.z())};
 }
 
 /// Rounds all positions to floats, so that the mesh has the shape that its file will have: a

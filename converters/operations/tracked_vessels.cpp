@@ -101,7 +101,7 @@ convert::TrackResult findAndTrack(const convert::Volume& volume, const std::stri
   std::string whyNone;
   convert::TrackResult result = findAndTrackIfAny(volume, options, whyNone, context);
   if (result.result.tree.nodeCount() == 0)
-    throw failed(formats::printable(name) + ": no vessels are found in it, as " + whyNone + "; " +
+    throw failed(formats::printable(name) + ": " + kNoVesselsFound + ", as " + whyNone + "; " +
                  context.field("seeds") + " states where vessels begin, and " +
                  context.field("dark") + " that they are darker than their background");
   return result;

@@ -28,6 +28,9 @@ struct VesselOptions {
   std::vector<formats::Case> stated = {};   ///< the trees of these maps
 };
 
+/// Words of the message of findAndTrack() where none is left.
+inline constexpr const char* kNoVesselsFound = "no vessels are found in it";
+
 /// Finds the vessels of `volume`, called `name`, without seeds, and tracks them. Vessels of which
 /// the volume shows no wall are left out, and are details for the listener. Throws Error(Failed) if
 /// none is left.

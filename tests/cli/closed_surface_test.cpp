@@ -320,7 +320,9 @@ protected:
   }
   void expectFilled(const std::string& name) {
     convert(name);
-    ASSERT_EQ(lumen({"convert", name, "surface.stl", "--stl-solids", "--quiet"}).code, 0);
+    ASSERT_EQ(
+        lumen({"convert", name, "surface.stl", "--edge", "0.25r", "--stl-solids", "--quiet"}).code,
+        0);
     EXPECT_GT(tetrahedra("surface.stl"), 1000) << name << ": " << read("tetgen.log");
   }
 };

@@ -152,6 +152,16 @@ trim ends.lumen out/t.lumen.json --min-radius 0.1
   --stub 3
 trim ends.lumen out/t.data --min-radius 0.1
   --to lumen
+ends case.lumen --root 2 --out out/e.lumen.json
+  --root 1 --out out/f.lumen.json
+ends case.lumen --root 2 --out out/e.data
+  --to lumen
+names case.lumen
+  --table out/n.csv
+names case.lumen --rename root=a --out out/n.lumen.json
+  --rename root=b --out out/o.lumen.json
+names case.lumen --rename root=a --out out/n.data
+  --to lumen
 measure case.lumen
   --out out/measures.csv --step 0.3 --against tracked.lumen
 measure moving-case.lumen.json
@@ -202,6 +212,8 @@ const std::map<std::string, std::set<std::string>> kElsewhere = {
       "seeds fill-gaps", "track fill-gaps"}},
     {"needs another volume, or bounds work that ends before",
      {"seeds max-trials", "seeds aneurysm-gradient", "seeds even-blur"}},
+    {"batch_test and names_test",
+     {"batch jobs", "batch profile", "batch accept", "batch option", "names names"}},
     {"tests/library and tests/pipelines",
      {"motion out",
       "library build jobs",

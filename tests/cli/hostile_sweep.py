@@ -49,6 +49,8 @@ def roles(file, seeds, good):
     yield "track", ["track", file, "out.lumen", "--seeds", seeds]
     yield "fit", ["fit", file, "out.lumen"]
     yield "trim", ["trim", file, "out.lumen", "--min-length", "1"]
+    yield "ends", ["ends", file, "--root", "1", "--out", "out.lumen"]
+    yield "names", ["names", file, "--table", "out.csv"]
     yield "compare", ["compare", file, file]
     yield "track --seeds", ["track", good / "tube.nrrd", "out.lumen", "--seeds", file]
     yield "--config", ["info", good / "case.lumen", "--config", file]

@@ -43,6 +43,9 @@ track IN/tube.nrrd OUT/t.lumen.json --seeds IN/seeds.json
 seeds IN/tube.nrrd OUT/s.json
 seeds IN/tube.nrrd OUT/s.mrk.json
 fit IN/tube.lumen OUT/f.lumen.json --image IN/tube.nrrd
+ends IN/tube.lumen --root 2 --out OUT/ends.lumen.json
+names IN/tube.lumen --table OUT/names.csv
+batch IN/series OUT/batch
 trim IN/tube.lumen OUT/trimmed.lumen.json --min-length 1
 check IN/tube.nrrd IN/tube.lumen --mask OUT/m.nrrd --overlay OUT/o.png
 check IN/tube.nii IN/tube.lumen --mask OUT/m.nii

@@ -18,10 +18,12 @@ lumen_test(cli_test
     ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfAPatient ToolTest.OfTwoHundredPointsArrivesAtEveryTipOfARealAngiogram
   LIBS run_here lumen_options lumen_terminal lumen_case lumen_base lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/batch_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/command_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/config_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_format_test.cpp
@@ -31,6 +33,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/motion_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/names_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/option_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp

@@ -1,7 +1,8 @@
 lumen_test(library_test
   LABELS memory_slow
-  LIBS lumen_library
+  LIBS lumen_batch lumen_library
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/batch_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/build_list_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/build_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/change_test.cpp

@@ -37,6 +37,7 @@ Json provenanceJson(const formats::Metadata& metadata) {
 Json branchJson(const convert::BranchInfo& branch) {
   Json json;
   json["label"] = branch.label;
+  json["parent"] = branch.parent.empty() ? Json(nullptr) : Json(branch.parent);
   json["kind"] = branch.kind;
   json["nodes"] = branch.nodes;
   json["length_mm"] = jsonNumber(branch.length);
@@ -49,17 +50,17 @@ Json branchJson(const convert::BranchInfo& branch) {
 
 std::string branchTable(const convert::CaseInfo& info) {
   std::vector<std::vector<std::string>> rows;
-  rows.push_back(
-      {"branch", "kind", "nodes", "length", "radius", "min", "max", "inliers", "stopped by"});
+  rows.push_back({"branch", "from", "kind", "nodes", "length", "radius", "min", "max", "inliers",
+                  "stopped by"});
   for (const auto& b : info.branches)
-    rows.push_back({b.label, b.kind, std::to_string(b.nodes), fixedText(b.length, 1),
-                    fixedText(b.radius.mean, 3), fixedText(b.radius.min, 3),
+    rows.push_back({b.label, b.parent.empty() ? "-" : b.parent, b.kind, std::to_string(b.nodes),
+                    fixedText(b.length, 1), fixedText(b.radius.mean, 3), fixedText(b.radius.min, 3),
                     fixedText(b.radius.max, 3), fixedText(b.inlierRate, 2), b.stopReason});
   for (std::size_t b = 0; b < info.branches.size(); ++b)
     if (const std::string& system = info.branches[b].system; !system.empty())
-      rows[b + 1].insert(rows[b + 1].begin() + 2, system);
+      rows[b + 1].insert(rows[b + 1].begin() + 3, system);
   if (rows.size() > 1 && rows[1].size() > rows[0].size())
-    rows[0].insert(rows[0].begin() + 2, "system");
+    rows[0].insert(rows[0].begin() + 3, "system");
   return alignColumns(rows);
 }
 
@@ -76,6 +77,12 @@ std::string stepText(const formats::Step& step) {
 std::string sourceText(const formats::SourceVolume& source) {
   return joinedNumbers(source.size, " x ") + " voxels of " + joinedNumbers(source.spacing, " x ") +
          " mm, sha256 " + source.sha256;
+}
+
+/// "3, 1 network by 2 links".
+std::string networkText(const convert::CaseInfo& info) {
+  return std::to_string(info.trees) + ", " + counted(info.networks, "network", "networks") +
+         (info.links > 0 ? " by " + counted(info.links, "link", "links") : "");
 }
 
 std::string motionText(const convert::MotionInfo& motion) {
@@ -100,7 +107,6 @@ Json motionJson(const convert::MotionInfo& motion) {
 /// Adds lines for facts that few cases have.
 void addExtras(const convert::CaseInfo& info, Lines& lines) {
   const formats::Metadata& metadata = info.metadata;
-  if (info.links > 0) lines.add("links", std::to_string(info.links));
   if (const auto& rounded = metadata.pointQuantisation)
     lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
                             shownNumber(rounded->step) + " mm");
@@ -121,6 +127,8 @@ Json caseInfoJson(const convert::CaseInfo& info) {
   json["branches"] = info.branches.size();
   json["nodes"] = info.nodes;
   json["links"] = info.links;
+  json["trees"] = info.trees;
+  json["networks"] = info.networks;
   json["points"] = info.points;
   json["blobs"] = info.blobs.value_or(0);
   json["blobs_per_node"] = perNode ? jsonNumber(*perNode) : Json(nullptr);
@@ -152,6 +160,7 @@ std::string caseInfoText(const convert::CaseInfo& info) {
   std::string blobs = std::to_string(info.blobs.value_or(0));
   if (const auto perNode = blobsPerNode(info)) blobs += " (" + fixedText(perNode, 1) + " per node)";
   lines.add("branches", std::to_string(info.branches.size()))
+      .add("trees", networkText(info))
       .add("nodes", std::to_string(info.nodes))
       .add("points", std::to_string(info.points))
       .add("blobs", blobs)
@@ -199,6 +208,7 @@ Json reachJson(const std::optional<convert::Reach>& reach) {
   return {{"length_mm", jsonNumber(reach->length)},
           {"of_mm", jsonNumber(reach->of)},
           {"trees", reach->trees},
+          {"networks", reach->networks},
           {"longest_tree_mm", jsonNumber(reach->longest)},
           {"closed", std::move(closed)}};
 }

@@ -274,11 +274,6 @@ std::string sentenceOf(const convert::GateVerdict& verdict) {
   return text;
 }
 
-bool isPlain(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-         std::string_view("-_./,:=+@%").find(c) != std::string_view::npos;
-}
-
 }  // namespace
 
 std::vector<std::string> viewCommand(const convert::GateVerdict& verdict, const std::string& volume,
@@ -315,23 +310,8 @@ std::string verdictText(const convert::GateVerdict& verdict, const formats::Cent
   if (verdict.worst)
     text += "the worst place is at " + convert::placeText(verdict.worst->position) + ", at " +
             formats::printable(convert::labelOf(tree, verdict.worst->node)) + ":\n  " +
-            formats::printable(shellLine(view)) + "\n";
+            formats::printable(convert::shellLine(view)) + "\n";
   return text;
-}
-
-std::string shellLine(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) {
-    line += line.empty() ? "" : " ";
-    if (!word.empty() && std::all_of(word.begin(), word.end(), isPlain)) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
-  return line;
 }
 
 namespace {

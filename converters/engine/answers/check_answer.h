@@ -37,9 +37,6 @@ Json verdictJson(const convert::GateVerdict& verdict, const formats::CenterlineT
 std::string verdictText(const convert::GateVerdict& verdict, const formats::CenterlineTree& tree,
                         const std::vector<std::string>& view);
 
-/// Words as a line for a shell.
-std::string shellLine(const std::vector<std::string>& words);
-
 // Answer of `lumen compare --json`.
 
 /// spec/answers/compare.schema.json.

@@ -11,6 +11,7 @@
 #include "converters/base/error.h"
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_lines.h"
+#include "converters/base/shown_text.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/chunk_info.h"
@@ -130,8 +131,8 @@ private:
       return {loaded.file.remarks, "a case of its points and radii",
               convertCommand(table, m_input.name(), stem())};
     return {loaded.file.remarks, "a case of the surface that it lies in, as it has no radii",
-            "lumen convert SURFACE.stl " + shellWord(stem() + ".lumen") + " --centerline " +
-                shellWord(m_input.name())};
+            "lumen convert SURFACE.stl " + convert::shellWord(stem() + ".lumen") +
+                " --centerline " + convert::shellWord(m_input.name())};
   }
 
   /// The answer about seeds, which are no input of their own; refuses a library of cases.
@@ -143,7 +144,7 @@ private:
         return {};
       throw unsupported(formats::printable(m_input.name()) +
                         ": this is a library of cases; lumen library verify " +
-                        shellWord(m_input.name()) +
+                        convert::shellWord(m_input.name()) +
                         " checks it, and lumen info describes each of the .lumen files in it");
     }
     if (!m_from.empty() || convert::detectContent(m_input).kind != convert::ContentKind::Seeds)
@@ -176,8 +177,8 @@ private:
     return withNext({json, lines.text(), 0, true},
                     {{},
                      "a case of the vessels that begin at these places of a volume",
-                     "lumen track VOLUME.nrrd " + shellWord(stem() + ".lumen") + " --seeds " +
-                         shellWord(m_input.name())},
+                     "lumen track VOLUME.nrrd " + convert::shellWord(stem() + ".lumen") +
+                         " --seeds " + convert::shellWord(m_input.name())},
                     kNarrowColumn);
   }
 
@@ -234,15 +235,16 @@ private:
     json["surface_warnings"] = found.warnings;
     std::string text = caseInfoText(info) + surfaceLines(found.report, value);
     for (const std::string& sentence : found.warnings) text += "warning      " + sentence + "\n";
-    const std::string name = shellWord(m_input.name());
-    return withNext({std::move(json), std::move(text), 0, true},
-                    value.models
-                        ? NextStep{recordedAssumptions(value.metadata),
-                                   "the closed surface of its vessels, as a mesh",
-                                   "lumen convert " + name + " " + shellWord(stem() + ".glb")}
-                        : NextStep{recordedAssumptions(value.metadata), "models of its vessels",
-                                   "lumen fit " + name + " " + shellWord(stem() + "-fitted.lumen")},
-                    kColumn);
+    const std::string name = convert::shellWord(m_input.name());
+    return withNext(
+        {std::move(json), std::move(text), 0, true},
+        value.models
+            ? NextStep{recordedAssumptions(value.metadata),
+                       "the closed surface of its vessels, as a mesh",
+                       "lumen convert " + name + " " + convert::shellWord(stem() + ".glb")}
+            : NextStep{recordedAssumptions(value.metadata), "models of its vessels",
+                       "lumen fit " + name + " " + convert::shellWord(stem() + "-fitted.lumen")},
+        kColumn);
   }
 
   InputFile m_input;

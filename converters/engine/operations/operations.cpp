@@ -8,13 +8,13 @@ Engine makeEngine() {
   Engine engine;
   for (const auto make :
        {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand,
-        makeMotionCommand, makeTrimCommand, makeInfoCommand, makeValidateCommand,
-        makeCompareCommand, makeCheckCommand, makeMeasureCommand, makePictureCommand,
-        makeReportCommand, makePhantomCommand})
+        makeMotionCommand, makeTrimCommand, makeEndsCommand, makeNamesCommand, makeInfoCommand,
+        makeValidateCommand, makeCompareCommand, makeCheckCommand, makeMeasureCommand,
+        makePictureCommand, makeReportCommand, makePhantomCommand})
     engine.add(make);
 #ifdef LUMEN_WITH_LIBRARY
   for (const auto make :
-       {makeLibraryInitCommand, makeLibraryAddCommand, makeLibraryUpdateCommand,
+       {makeBatchCommand, makeLibraryInitCommand, makeLibraryAddCommand, makeLibraryUpdateCommand,
         makeLibraryRemoveCommand, makeLibraryExtractCommand, makeLibraryListCommand,
         makeLibraryCheckCommand, makeLibrarySignCommand, makeLibraryVerifyCommand,
         makeLibraryIndexCommand, makeLibraryBuildCommand, makeLibrarySampleCommand})

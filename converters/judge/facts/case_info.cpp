@@ -22,6 +22,8 @@ BranchInfo describeBranch(const formats::CenterlineTree& tree, const formats::Br
     info.radius = radiusRange(std::span(tree.radius).subspan(branch.firstNode, branch.nodeCount));
   info.stopReason = formats::enumName(formats::kStopReasonNames, branch.stopReason);
   info.inlierRate = branch.meanInlierRate;
+  if (branch.parentNode != formats::kNoParent)
+    info.parent = tree.branches[tree.branch[static_cast<std::size_t>(branch.parentNode)]].label;
   return info;
 }
 
@@ -38,6 +40,8 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   if (value.points) info.points = value.points->position.size();
   if (value.models) info.blobs = value.models->centre.size();
   info.links = value.tree.links.size();
+  info.trees = formats::listTrees(value.tree).size();
+  info.networks = countNetworks(value.tree);
   if (value.motion) info.motion = describeMotion(value.tree, *value.motion);
   for (const auto& array : value.nodeArrays) info.nodeArrays.push_back(array.name);
   try {

@@ -25,6 +25,7 @@ struct BranchInfo {
   std::string stopReason;  ///< such as no-valid-cylinder
   std::optional<float> inlierRate;
   std::string system;  ///< such as artery; empty if the case states none
+  std::string parent;  ///< label of the branch that it leaves; empty for a root
 };
 
 struct MotionInfo {
@@ -39,6 +40,8 @@ struct CaseInfo {
   std::size_t points = 0;
   std::optional<std::size_t> blobs;
   std::size_t links = 0;
+  std::size_t trees = 0;
+  std::size_t networks = 0;             ///< parts that neither trees nor links join
   std::vector<std::string> nodeArrays;  ///< names
   std::optional<MotionInfo> motion;
   std::optional<SeedCounts> seeds;              ///< absent if they cannot be read

@@ -7,6 +7,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/geometry/disjoint_sets.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
 #include "formats/case/topology.h"
@@ -14,13 +15,28 @@
 
 namespace lumen::convert {
 
+std::size_t countNetworks(const formats::CenterlineTree& tree) {
+  DisjointSets parts(tree.branches.size());
+  for (std::uint32_t b = 0; b < tree.branches.size(); ++b)
+    if (const std::int32_t parent = tree.branches[b].parentNode; parent != formats::kNoParent)
+      parts.join(b, tree.branch[static_cast<std::size_t>(parent)]);
+  for (const auto& link : tree.links) parts.join(tree.branch[link[0]], tree.branch[link[1]]);
+  std::size_t count = 0;
+  for (std::uint32_t b = 0; b < tree.branches.size(); ++b) count += parts.find(b) == b ? 1 : 0;
+  return count;
+}
+
 std::optional<Reach> measureReach(const formats::Case& value, const Progress& progress) {
   if (!value.models) return std::nullopt;
   const auto found = formats::measureReachability(value.tree, formats::caseField(value),
                                                   [&progress] { progress.check(); });
   const auto trees = formats::listTrees(value.tree);
-  Reach reach{
-      found.reachable, found.total, trees.size(), trees.empty() ? 0 : trees.front().length, {}};
+  Reach reach{found.reachable,
+              found.total,
+              trees.size(),
+              countNetworks(value.tree),
+              trees.empty() ? 0 : trees.front().length,
+              {}};
   for (const formats::Barrier& barrier : found.barriers)
     reach.closed.push_back({value.tree.branches[value.tree.branch[barrier.node]].label,
                             barrier.node, barrier.place, barrier.beyond});
@@ -33,7 +49,9 @@ std::string reachText(const std::optional<Reach>& reach) {
   if (!reach) return "not known, as there are no models (lumen fit makes them)";
   const std::string text = fixedText(reach->length, 1) + " of " + fixedText(reach->of, 1) + " mm";
   if (reach->trees < 2) return text;
-  return text + ", from the roots of " + std::to_string(reach->trees) + " trees; the longest has " +
+  return text + ", from the roots of " + std::to_string(reach->trees) +
+         " trees, each of which is reached from its own; they hang together in " +
+         counted(reach->networks, "network", "networks") + ", and the longest tree has " +
          fixedText(reach->longest, 1) + " mm";
 }
 

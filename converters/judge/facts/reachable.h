@@ -24,9 +24,13 @@ struct ClosedPath {
 struct Reach {
   double length = 0, of = 0;       ///< mm
   std::size_t trees = 0;           ///< that are reached each from its own root
+  std::size_t networks = 0;        ///< parts that neither a parent nor a link joins
   double longest = 0;              ///< mm of the longest tree
   std::vector<ClosedPath> closed;  ///< the one with the greatest length beyond it first
 };
+
+/// Number of parts of a tree that neither a parent nor a link joins.
+std::size_t countNetworks(const formats::CenterlineTree& tree);
 
 /// The reachable length of a valid case; empty for a case without models.
 std::optional<Reach> measureReach(const formats::Case& value, const Progress& progress);

@@ -191,10 +191,6 @@ namespace {
 using Eigen::Vector3d;
 using formats::CenterlineTree;
 
-/// Least ratio of the radii of both arms of a fork and of an inlet to that of the vessel between: by
-/// Murray's law an arm of a fork is no wider than what feeds it, and half of the flow takes 1.26
-/// times the radius.
-constexpr double kWider = 1.26;
 constexpr std::size_t kWidthNodes = 8;  // of an arm, or of an end, that show its radius
 constexpr double kBeyondRadii = 2;      // from an end on, outside of the volume
 
@@ -278,7 +274,7 @@ private:
     if (before.empty() || isTaken[fork]) return false;
     m_feeding = medianRadius(before);
     return std::all_of(m_children[fork].begin(), m_children[fork].end(), [&](std::uint32_t child) {
-      return medianRadius(arm(fork, child)) > kWider * m_feeding;
+      return medianRadius(arm(fork, child)) > kHalfFlowRadii * m_feeding;
     });
   }
 
@@ -286,7 +282,7 @@ private:
   [[nodiscard]] std::optional<std::uint32_t> widestEnd(std::uint32_t fork,
                                                        const std::vector<bool>& isTaken) const {
     std::optional<std::uint32_t> best;
-    double widest = kWider * m_feeding;
+    double widest = kHalfFlowRadii * m_feeding;
     std::vector<std::uint32_t> below(1, fork);
     for (std::size_t k = 0; k < below.size(); ++k) {
       const std::uint32_t i = below[k];

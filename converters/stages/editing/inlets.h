@@ -39,6 +39,11 @@ std::vector<std::size_t> beginAt(formats::Case& target, std::span<const Eigen::V
 
 // Inlets of a tree besides its root (docs/method.md, section 1.14).
 
+/// Ratio of the radii of two vessels of which one takes twice the flow of the other, by Murray's law:
+/// the cube root of two. An arm of a fork is no wider than what feeds it, and one that is less than
+/// this much narrower takes over half of the flow.
+inline constexpr double kHalfFlowRadii = 1.26;
+
 /// Ends at which blood comes into a tree besides its root. A vessel feeds no wider ones: where both
 /// arms of a fork are wider than the whole vessel that leads to it, as behind a communicating artery,
 /// blood comes from the widest end of the volume beyond that fork. `isInside`: a point, mm, LPS,

@@ -210,10 +210,11 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
       above = parent[static_cast<std::size_t>(above)];
     parent[i] = above;
   }
+  // a sac bulges out of a vessel: one whose vessel was none, such as marrow in its bone, is none
   forEach(false, [&](std::size_t i, TrackRun& run) {
-    const TrackedBranch* above =
-        parent[i] < 0 ? nullptr : &tree.branches[static_cast<std::size_t>(parent[i])];
-    tree.branches[i] = captureAneurysm(run, tree.seeds[i], above);
+    if (parent[i] < 0) return;
+    tree.branches[i] =
+        captureAneurysm(run, tree.seeds[i], &tree.branches[static_cast<std::size_t>(parent[i])]);
   });
   for (std::size_t i = tree.known; i < count; ++i) {
     tree.branches[i].parentBranch = parent[i];

@@ -18,8 +18,8 @@ from drawn_into import run, score
 from forks import Found, tree_of
 
 ORGANS = ("heart", "liver", "lungs", "dissection", "kidneys", "legs", "retina")
-# The least share that is found, and the greatest that is false.
-HELD = {"liver": (0.95, 0.01), "dissection": (0.95, 0.01), "legs": (0.90, 0.02)}
+# The least share that is found, and the greatest that is false. The femoral arteries lie on the bone for a quarter of their length.
+HELD = {"liver": (0.95, 0.01), "dissection": (0.95, 0.01), "legs": (0.80, 0.02)}
 
 
 def count_joins(lumen, case, truth):

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen names: the names of a case's branches, as a list or a table, and other ones.
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/base/csv_rows.h"
+#include "converters/base/error.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/vectors.h"
+#include "converters/engine/answers/answer_text.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/scope.h"
+#include "converters/engine/stage_options.h"
+#include "converters/operations/renamed.h"
+#include "formats/case/topology.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+
+namespace {
+
+using formats::CenterlineTree;
+using operations::NewName;
+
+constexpr std::uint64_t kMostTable = std::uint64_t{16} << 20;  // bytes
+
+/// What a person knows a branch by.
+struct NameRow {
+  std::string label, from;
+  double length = 0, radius = 0;  ///< mm; the radius is that of its middle node
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+};
+
+std::vector<NameRow> nameRows(const CenterlineTree& tree) {
+  std::vector<NameRow> rows;
+  for (const formats::Branch& branch : tree.branches) {
+    NameRow& row = rows.emplace_back();
+    row.label = branch.label;
+    if (branch.parentNode != formats::kNoParent)
+      row.from = tree.branches[tree.branch[static_cast<std::size_t>(branch.parentNode)]].label;
+    row.length = formats::branchLength(tree, branch);
+    if (branch.nodeCount == 0) continue;
+    const std::uint32_t node = branch.firstNode + branch.nodeCount / 2;
+    row.radius = double{tree.radius[node]};
+    row.middle = toEigen(tree.centre[node]);
+  }
+  return rows;
+}
+
+std::string nameTable(const std::vector<NameRow>& rows) {
+  std::string table = "name,new_name,from,length_mm,radius_mm,x_mm,y_mm,z_mm\n";
+  for (const NameRow& row : rows)
+    table += convert::csvCell(row.label) + ",," + convert::csvCell(row.from) + "," +
+             fixedText(row.length, 1) + "," + fixedText(row.radius, 2) + "," +
+             fixedText(row.middle.x(), 1) + "," + fixedText(row.middle.y(), 1) + "," +
+             fixedText(row.middle.z(), 1) + "\n";
+  return table;
+}
+
+Json nameRowsJson(const std::vector<NameRow>& rows) {
+  Json list = Json::array();
+  for (const NameRow& row : rows)
+    list.push_back({{"name", row.label},
+                    {"from", row.from.empty() ? Json(nullptr) : Json(row.from)},
+                    {"length_mm", jsonNumber(row.length)},
+                    {"radius_mm", jsonNumber(row.radius)},
+                    {"middle", vectorJson(row.middle)}});
+  return list;
+}
+
+std::string nameText(const std::vector<NameRow>& rows) {
+  std::vector<std::vector<std::string>> table{
+      {"name", "from", "length", "radius", "x", "y", "z"}};
+  for (const NameRow& row : rows)
+    table.push_back({formats::printable(row.label),
+                     row.from.empty() ? "-" : formats::printable(row.from),
+                     fixedText(row.length, 1), fixedText(row.radius, 2),
+                     fixedText(row.middle.x(), 1), fixedText(row.middle.y(), 1),
+                     fixedText(row.middle.z(), 1)});
+  return alignColumns(std::move(table)) +
+         "Lengths, and radii and places of the middle, in mm, LPS.\n";
+}
+
+std::string renamingFault(const std::string& text) {
+  const std::size_t at = text.find('=');
+  const bool isPair = at != std::string::npos && at > 0 && at + 1 < text.size();
+  return isPair ? "" : foundText(text, "NAME=NEW, such as vessel-4=ICA_L");
+}
+
+/// The rows of a table whose new name is not empty and another one.
+std::vector<NewName> namesOfTable(const InputFile& file) {
+  const std::string name = formats::printable(file.name());
+  const auto rows = convert::csvRows(file.read("table of names", kMostTable), name);
+  if (rows.empty()) throw invalidInput(name + ": is empty; expected a row of names first");
+  const auto columnOf = [&](const char* title) {
+    const auto& titles = rows.front().cells;
+    const auto found = std::find(titles.begin(), titles.end(), title);
+    if (found == titles.end())
+      throw invalidInput(name + ": line 1: found no column " + title +
+                         ", expected name and new_name, as --table writes them");
+    return static_cast<std::size_t>(found - titles.begin());
+  };
+  const std::size_t label = columnOf("name"), becomes = columnOf("new_name");
+  std::vector<NewName> names;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const std::vector<std::string>& cells = rows[i].cells;
+    if (cells.size() <= label || cells.size() <= becomes || cells[becomes].empty()) continue;
+    if (cells[label] != cells[becomes]) names.push_back({cells[label], cells[becomes]});
+  }
+  return names;
+}
+
+class NamesCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "names"; }
+  [[nodiscard]] std::string summary() const override {
+    return "List the names of a case's vessels, and give them others";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen names head.lumen --table names.csv            # fill in its column new_name\n"
+           "  lumen names head.lumen --names names.csv --out named.lumen\n"
+           "  lumen names head.lumen --rename vessel-4=ICA_L --out head.lumen";
+  }
+
+  void addRows(OptionTable& table) override {
+    table.argument("CASE", &m_input, "Case");
+    table.file("table", m_table,
+               "Also write the names as comma-separated values, with an empty column new_name");
+    table.file("names", m_names,
+               "Table with the columns name and new_name; an empty new name keeps the old one");
+    table
+        .add("rename", &m_renames, "NAME=NEW", "Name of a vessel, and its new one; may be repeated")
+        .many()
+        .checkedBy(&renamingFault);
+    table.file("out", m_output,
+               "Case to write with the new names, " + formatEndings(canWriteCase) +
+                   "; may be CASE");
+    for (const char* const option : {"names", "rename"}) table.find(option)->onlyWith("out");
+    addFormatRow(table, "to", m_to, "--out");
+    table.find("to")->onlyWith("out");
+  }
+
+  Answer run(const RunContext& context) override {
+    requireInput(m_input, "case file");
+    requireInScope(*context.table, {}, context.progress);
+    const FileFormat* to = nullptr;
+    if (!m_output.empty()) {
+      requireOrder(m_input, m_output);
+      to = &caseOutputFormat(m_output, m_to, "the case with other names");
+      if (m_names.empty() && m_renames.empty())
+        throw Error(ErrorKind::Usage,
+                    m_output.name() + ": nothing to write; expected --rename or --names");
+      requireWritable(m_output, convert::ContentKind::Case);
+    }
+    if (!m_table.empty()) requireWritable(m_table, convert::ContentKind::Other);
+    const std::vector<NewName> names = newNames();
+    formats::Case value = to == nullptr ? readCase(m_input) : readParentCase(m_input);
+    if (to != nullptr) {
+      value = operations::renamed(std::move(value), names, m_input.name());
+      to->writeCase(value, m_output, {}, context.progress);
+    }
+    const std::vector<NameRow> rows = nameRows(value.tree);
+    if (!m_table.empty()) writeText(nameTable(rows), m_table);
+    return {Json{{"renamed", names.size()}, {"names", nameRowsJson(rows)}}, nameText(rows), 0,
+            to == nullptr && m_table.empty()};
+  }
+
+private:
+  [[nodiscard]] std::vector<NewName> newNames() const {
+    std::vector<NewName> names;
+    if (!m_names.empty()) names = namesOfTable(m_names);
+    for (const std::string& text : m_renames) {
+      const std::size_t at = text.find('=');
+      names.push_back({text.substr(0, at), text.substr(at + 1)});
+    }
+    return names;
+  }
+
+  InputFile m_input, m_names;
+  OutputFile m_output, m_table;
+  std::string m_to;
+  std::vector<std::string> m_renames;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeNamesCommand() {
+  return std::make_unique<NamesCommand>();
+}
+
+}  // namespace lumen::engine
