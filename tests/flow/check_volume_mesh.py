@@ -103,7 +103,7 @@ def check_flow(program, folder):
     tube_file(folder / "long.swc", 40, 2)
     lumen(program, folder, "convert", "long.swc", "long.lumen", "--quiet")
     label = json.loads(lumen(program, folder, "info", "long.lumen", "--json", "--quiet").stdout)["branch_table"][0]["label"]
-    size = ["--edge", "0.15r", "--layers", "4", "--growth", "1.3"]
+    size = ["--edge", "0.15r", "--layers", "6", "--growth", "1.2"]
     filled = json.loads(lumen(program, folder, "convert", "long.lumen", "long.vtu", "--json", "--quiet", *size).stdout)["volume_mesh"]["volume_mm3"]
     lumen(program, folder, "export", "openfoam", "long.lumen", "flow", "--cells", "prisms", "--inlets", f"{label}={flow}", "--quiet", *size)
     done = run(case, "./Allrun")

@@ -41,7 +41,7 @@ CheckReport goodReport() {
   return report;
 }
 
-const Reach kAllReached{100, 100, 1, 100, {}};
+const Reach kAllReached{100, 100, 1, 1, 100, {}};
 
 GateVerdict judged(const std::string& profile, const CheckReport& report,
                    const std::optional<Reach>& reach = kAllReached) {
@@ -132,7 +132,7 @@ TEST(Gate, AMeasureThatIsNotKnownDoesNotPass) {
 }
 
 TEST(Gate, AClosedPathIsThePlaceOfWhatIsNotReached) {
-  Reach reach{10, 100, 1, 100, {}};
+  Reach reach{10, 100, 1, 1, 100, {}};
   reach.closed.push_back({"b", 7, {}, 90});
   const GateVerdict verdict = judged("flow", goodReport(), reach);
   ASSERT_TRUE(verdict.worst);
