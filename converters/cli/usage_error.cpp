@@ -55,8 +55,12 @@ std::string unknownOption(const CLI::App& app, const std::string& word,
 }
 
 std::string superfluous(const std::string& word, const engine::BoundCommand& command) {
+  std::error_code ignored;
+  const bool isOfMany =
+      command.command->name() == "convert" && std::filesystem::exists(word, ignored);
   return word + ": one argument too many for " + usageLine(command) +
-         " (a name with spaces needs quotes)";
+         (isOfMany ? " (lumen batch FOLDER OUT makes a case of every volume of a folder)"
+                   : " (a name with spaces needs quotes)");
 }
 
 /// The option that an error's text begins with; null if there is none.

@@ -82,8 +82,8 @@ private:
       (entry->is_directory(ignored) ? folders : files).push_back(entry->path());
     }
     if (error)
-      throw invalidInput(formats::printable(folder.string()) + ": this folder cannot be read: " +
-                         error.message());
+      throw invalidInput(formats::printable(folder.string()) +
+                         ": this folder cannot be read: " + error.message());
     std::sort(files.begin(), files.end());
     bool hasDicom = false;
     for (const fs::path& file : files) hasDicom = look(file) || hasDicom;

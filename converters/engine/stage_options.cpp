@@ -75,6 +75,14 @@ std::string spacingFault(const std::string& text) {
 
 }  // namespace
 
+ValueCheck pairText(std::string expected) {
+  return [expected = std::move(expected)](const std::string& text) -> std::string {
+    const std::size_t at = text.find('=');
+    const bool isPair = at != std::string::npos && at > 0 && at + 1 < text.size();
+    return isPair ? "" : foundText(text, expected);
+  };
+}
+
 std::string placeFault(const std::string& text) {
   return coordinatesFault(text, kPlace);
 }

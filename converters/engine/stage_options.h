@@ -73,6 +73,9 @@ void addEncodingRows(OptionTable& table, formats::EncodeOptions& encoding);
 void addFormatRow(OptionTable& table, const std::string& name, std::string& value,
                   const std::string& argument);
 
+/// A name, "=", and another text; `expected` in the message: "NAME=VALUE, such as dark=true".
+ValueCheck pairText(std::string expected);
+
 /// Why a text is no place, three coordinates in mm with commas between them; empty if it is one.
 std::string placeFault(const std::string& text);
 /// The place that a text without such a fault is.

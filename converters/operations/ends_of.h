@@ -18,10 +18,10 @@ namespace lumen::operations {
 /// An end of a vessel at which nothing else begins.
 struct OpenEnd {
   std::uint32_t branch = 0, node = 0;
-  bool isInlet = false;                                ///< the root of a tree
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< mm, LPS
-  double radius = 0;                                   ///< mm, calibre() of the vessel there
-  std::optional<bool> leavesVolume;                    ///< absent if the case states no volume
+  bool isInlet = false;                             ///< the root of a tree
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< mm, LPS
+  double radius = 0;                                ///< mm, calibre() of the vessel there
+  std::optional<bool> leavesVolume;                 ///< absent if the case states no volume
   std::string why;  ///< reason why blood may come in here; empty for an inlet, and where none is
 };
 

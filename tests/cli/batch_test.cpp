@@ -126,8 +126,7 @@ TEST_F(BatchTest, ARowThatNeedsAPersonPassesOnceOneHasLooked) {
   EXPECT_EQ(made.rows.at("one")["end"], "needs_person");
   EXPECT_TRUE(contains(made.rows.at("one")["why"], "expected at most 0"));
   EXPECT_TRUE(contains(made.rows.at("two")["why"], "there is no"));
-  const Batch accepted =
-      batch({"list.csv", "out", "--profile", "strict.json", "--accept", "one"});
+  const Batch accepted = batch({"list.csv", "out", "--profile", "strict.json", "--accept", "one"});
   EXPECT_EQ(accepted.rows.at("one")["end"], "passed");
   const Batch unjudged = batch({"list.csv", "out", "--profile", "none"});
   EXPECT_EQ(unjudged.rows.at("one")["end"], "passed");
@@ -149,6 +148,9 @@ TEST_F(BatchTest, MistakesAreRefusedBeforeAnyWork) {
   const Outcome option = lumen({"batch", "scans", "out", "--option", "cropp=1"});
   EXPECT_EQ(option.code, 2) << option.err;
   EXPECT_TRUE(contains(option.err, "crop")) << option.err;
+  const Outcome many = lumen({"convert", "scans/Tube A.nrrd", "scans/deep/b.nrrd", "scans"});
+  EXPECT_EQ(many.code, 2);
+  EXPECT_TRUE(contains(many.err, "lumen batch FOLDER OUT")) << many.err;
   fs::create_directories(path("empty"));
   EXPECT_EQ(lumen({"batch", "empty", "out"}).code, 3);
   EXPECT_FALSE(exists("out"));

@@ -126,7 +126,7 @@ TEST_F(EndsTest, AWideEndOfTheVolumeMayBeAnInletAndANarrowOneNot) {
       if (end["position"][0].get<double>() > 15 && end["why"].is_string()) ++reasons;
     return reasons;
   };
-  EXPECT_EQ(written("wide.lumen.json", 0.82), 2);    // over half of the flow: 1 / 1.26 = 0.79
+  EXPECT_EQ(written("wide.lumen.json", 0.82), 2);  // over half of the flow: 1 / 1.26 = 0.79
   EXPECT_EQ(written("narrow.lumen.json", 0.77), 0);
 }
 

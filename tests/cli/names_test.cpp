@@ -56,9 +56,8 @@ TEST_F(NamesTest, ATableGoesOutAndComesBackFilledIn) {
 }
 
 TEST_F(NamesTest, TwoNamesMayChangePlaces) {
-  const Json answer =
-      names({"y.lumen", "--rename", m_names[0] + "=" + m_names[1], "--rename",
-             m_names[1] + "=" + m_names[0], "--out", "y.lumen"});
+  const Json answer = names({"y.lumen", "--rename", m_names[0] + "=" + m_names[1], "--rename",
+                             m_names[1] + "=" + m_names[0], "--out", "y.lumen"});
   EXPECT_EQ(answer["names"][0]["name"], m_names[1]);
   EXPECT_EQ(answer["names"][1]["name"], m_names[0]);
   EXPECT_EQ(lumen({"validate", "y.lumen"}).code, 0);
@@ -73,7 +72,8 @@ TEST_F(NamesTest, MistakesAreRefusedAndNothingIsWritten) {
     EXPECT_TRUE(contains(outcome.err, why)) << outcome.err;
     EXPECT_FALSE(exists("out.lumen"));
   };
-  refused({"--rename", m_names[1].substr(0, m_names[1].size() - 1) + "x=ICA"}, "there is no branch");
+  refused({"--rename", m_names[1].substr(0, m_names[1].size() - 1) + "x=ICA"},
+          "there is no branch");
   refused({"--rename", m_names[1] + "=" + m_names[0]}, "two branches would be called");
   refused({"--rename", m_names[1] + "=a", "--rename", m_names[1] + "=b"}, "two new names");
   refused({"--rename", "ICA"}, "NAME=NEW");

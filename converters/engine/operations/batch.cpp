@@ -19,6 +19,7 @@
 #include "converters/engine/library_build.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/stage_options.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -78,13 +79,13 @@ std::string batchText(const std::vector<BatchResult>& results) {
 
 /// A line for each case that did not pass, and the command that shows its worst place.
 std::string batchReasons(const std::vector<BatchResult>& results, const fs::path& inputs,
-                      const fs::path& out) {
+                         const fs::path& out) {
   std::string text;
   for (const BatchResult& r : results) {
     if (r.end == BatchEnd::Passed) continue;
     text += Lines().add(formats::printable(r.name) + ": " + batchWord(r.end) + ": " + r.why).text();
-    const auto view =
-        convert::viewWords(r, (inputs / r.name).string(), (out / convert::batchCase(r.id)).string());
+    const auto view = convert::viewWords(r, (inputs / r.name).string(),
+                                         (out / convert::batchCase(r.id)).string());
     if (!view.empty()) text += Lines().add("  " + convert::shellLine(view)).text();
   }
   return text;
@@ -103,7 +104,7 @@ int batchCode(const std::vector<BatchResult>& results) {
 }
 
 Answer batchAnswer(const std::vector<BatchResult>& results, std::size_t passedOver,
-                const fs::path& inputs, const std::string& out) {
+                   const fs::path& inputs, const std::string& out) {
   Json json = Json::object();
   std::string counts;
   for (const auto& [end, key] : kEnds) {
@@ -111,10 +112,11 @@ Answer batchAnswer(const std::vector<BatchResult>& results, std::size_t passedOv
                                      [end = end](const BatchResult& r) { return r.end == end; });
     json[key] = count;
     if (count > 0)
-      counts.append(counts.empty() ? "" : ", ").append(std::to_string(count) + " " + batchWord(end));
+      counts.append(counts.empty() ? "" : ", ")
+          .append(std::to_string(count) + " " + batchWord(end));
   }
-  json["kept"] = std::count_if(results.begin(), results.end(),
-                               [](const BatchResult& r) { return r.isKept; });
+  json["kept"] =
+      std::count_if(results.begin(), results.end(), [](const BatchResult& r) { return r.isKept; });
   json["passed_over"] = passedOver;
   json["rows"] = Json::array();
   for (const BatchResult& result : results) json["rows"].push_back(batchRow(result));
@@ -124,12 +126,6 @@ Answer batchAnswer(const std::vector<BatchResult>& results, std::size_t passedOv
               counted(results.size(), "input", "inputs") + ": " + counts + "; see " +
               formats::printable((fs::path(out) / "index.html").string()) + "\n",
           code, code != 0};
-}
-
-/// "NAME=VALUE", or the name of a flag.
-std::string settingFault(const std::string& text) {
-  const bool isNamed = !text.empty() && text.front() != '=' && text.front() != '-';
-  return isNamed ? "" : foundText(text, "NAME=VALUE, such as crop=0,99,0,99,0,40");
 }
 
 class BatchCommand : public Command {
@@ -169,7 +165,7 @@ public:
         .add("option", &m_settings, "NAME=VALUE",
              "Option of lumen convert for every input whose row does not state it; may be repeated")
         .many()
-        .checkedBy(&settingFault);
+        .checkedBy(pairText("NAME=VALUE, such as dark=true"));
   }
 
   Answer run(const RunContext& context) override {
@@ -182,20 +178,19 @@ public:
       throw Error(ErrorKind::Usage,
                   formats::printable(m_out) + ": found a file, expected a folder for the cases");
     if (m_arguments.profile == "none") m_arguments.profile.clear();
-    FoundInputs found = isFolder ? volumesBelow(m_inputs, m_out, context.progress)
-                                 : inputsOfList(m_inputs);
+    FoundInputs found =
+        isFolder ? volumesBelow(m_inputs, m_out, context.progress) : inputsOfList(m_inputs);
     chooseJobs(found.inputs.size(), context.threads);
     const convert::BuildOptions options = buildOptions(m_out, m_arguments, context);
     completeInputs(settings(), context.engine, found.inputs, context.progress);
     for (const std::string& file : found.passedOver)
       context.progress.detail(formats::printable(file) + ": passed over, as it is no volume");
     if (!found.passedOver.empty())
-      context.progress.warn(
-          counted(found.passedOver.size(), "file is", "files are") +
-          " passed over, as no volume that can be read; --verbose names them");
+      context.progress.warn(counted(found.passedOver.size(), "file is", "files are") +
+                            " passed over, as no volume that can be read; --verbose names them");
     return batchAnswer(convert::makeBatch(found.inputs, m_out, options, context.progress),
-                    found.passedOver.size(),
-                    isFolder ? fs::path(m_inputs) : fs::path(m_inputs).parent_path(), m_out);
+                       found.passedOver.size(),
+                       isFolder ? fs::path(m_inputs) : fs::path(m_inputs).parent_path(), m_out);
   }
 
 private:
@@ -210,8 +205,7 @@ private:
     BatchDefaults defaults;
     for (const std::string& setting : m_settings) {
       const std::size_t at = setting.find('=');
-      defaults.emplace_back(setting.substr(0, at),
-                            at == std::string::npos ? "true" : setting.substr(at + 1));
+      defaults.emplace_back(setting.substr(0, at), setting.substr(at + 1));
     }
     return defaults;
   }

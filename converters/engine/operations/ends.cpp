@@ -38,7 +38,9 @@ std::string endTable(const std::vector<OpenEnd>& ends, const formats::Centerline
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const OpenEnd& end = ends[k];
     const std::string volume = !end.leavesVolume ? "-" : *end.leavesVolume ? "leaves" : "within";
-    const std::string blood = end.isInlet ? "comes in" : end.why.empty() ? "" : "may come in: " + end.why;
+    const std::string blood = end.isInlet       ? "comes in"
+                              : end.why.empty() ? ""
+                                                : "may come in: " + end.why;
     rows.push_back({std::to_string(k + 1), formats::printable(tree.branches[end.branch].label),
                     fixedText(end.radius, 2), fixedText(end.place.x(), 1),
                     fixedText(end.place.y(), 1), fixedText(end.place.z(), 1), volume,

@@ -73,22 +73,14 @@ Json nameRowsJson(const std::vector<NameRow>& rows) {
 }
 
 std::string nameText(const std::vector<NameRow>& rows) {
-  std::vector<std::vector<std::string>> table{
-      {"name", "from", "length", "radius", "x", "y", "z"}};
+  std::vector<std::vector<std::string>> table{{"name", "from", "length", "radius", "x", "y", "z"}};
   for (const NameRow& row : rows)
-    table.push_back({formats::printable(row.label),
-                     row.from.empty() ? "-" : formats::printable(row.from),
-                     fixedText(row.length, 1), fixedText(row.radius, 2),
-                     fixedText(row.middle.x(), 1), fixedText(row.middle.y(), 1),
-                     fixedText(row.middle.z(), 1)});
+    table.push_back(
+        {formats::printable(row.label), row.from.empty() ? "-" : formats::printable(row.from),
+         fixedText(row.length, 1), fixedText(row.radius, 2), fixedText(row.middle.x(), 1),
+         fixedText(row.middle.y(), 1), fixedText(row.middle.z(), 1)});
   return alignColumns(std::move(table)) +
          "Lengths, and radii and places of the middle, in mm, LPS.\n";
-}
-
-std::string renamingFault(const std::string& text) {
-  const std::size_t at = text.find('=');
-  const bool isPair = at != std::string::npos && at > 0 && at + 1 < text.size();
-  return isPair ? "" : foundText(text, "NAME=NEW, such as vessel-4=ICA_L");
 }
 
 /// The rows of a table whose new name is not empty and another one.
@@ -135,10 +127,10 @@ public:
     table
         .add("rename", &m_renames, "NAME=NEW", "Name of a vessel, and its new one; may be repeated")
         .many()
-        .checkedBy(&renamingFault);
-    table.file("out", m_output,
-               "Case to write with the new names, " + formatEndings(canWriteCase) +
-                   "; may be CASE");
+        .checkedBy(pairText("NAME=NEW, such as vessel-4=ICA_L"));
+    table.file(
+        "out", m_output,
+        "Case to write with the new names, " + formatEndings(canWriteCase) + "; may be CASE");
     for (const char* const option : {"names", "rename"}) table.find(option)->onlyWith("out");
     addFormatRow(table, "to", m_to, "--out");
     table.find("to")->onlyWith("out");

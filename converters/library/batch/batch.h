@@ -17,10 +17,10 @@ namespace lumen::convert {
 
 /// An input, and what is known of it before any work.
 struct BatchInput {
-  BuildRow row;               ///< with an id
-  std::string name;           ///< of the input, relative to the folder or the list: for people
-  std::uint64_t voxels = 0;   ///< 0: not known, or no volume
-  std::string fault;          ///< why it cannot be made; empty: it can
+  BuildRow row;              ///< with an id
+  std::string name;          ///< of the input, relative to the folder or the list: for people
+  std::uint64_t voxels = 0;  ///< 0: not known, or no volume
+  std::string fault;         ///< why it cannot be made; empty: it can
 };
 
 enum class BatchEnd : std::uint8_t {
@@ -47,7 +47,7 @@ struct BatchResult {
   int code = 0;         ///< exit code of the command that ended it; 0 where it passed
   double seconds = 0;   ///< of its commands, by the clock
   std::size_t warnings = 0;
-  std::string at;       ///< worst place, as `lumen view` takes it: "--at=1,2,3"; may be empty
+  std::string at;  ///< worst place, as `lumen view` takes it: "--at=1,2,3"; may be empty
   std::optional<BatchFigures> figures;  ///< of its case, where there is one
 };
 

@@ -29,10 +29,10 @@ namespace {
 
 /// What an earlier run left of an input: its result, and digests of all that it depends on.
 struct Note {
-  std::string recipe;   ///< of the input, its options and lumen's version
-  std::string judge;    ///< of the profile, and whether a person accepted the case
-  std::string made;     ///< of the case as convert wrote it
-  std::string judged;   ///< of the case as it was judged
+  std::string recipe;  ///< of the input, its options and lumen's version
+  std::string judge;   ///< of the profile, and whether a person accepted the case
+  std::string made;    ///< of the case as convert wrote it
+  std::string judged;  ///< of the case as it was judged
   BatchResult result;
 };
 
@@ -45,19 +45,22 @@ BatchEnd namedEnd(const JsonPlace& place) {
 
 nlohmann::ordered_json noteJson(const Note& note) {
   const BatchResult& result = note.result;
-  nlohmann::ordered_json json = {{"recipe", note.recipe}, {"judge", note.judge},
-                                 {"made", note.made},     {"judged", note.judged},
-                                 {"end", batchWord(result.end)}, {"why", result.why},
-                                 {"code", result.code},   {"seconds", result.seconds},
-                                 {"warnings", result.warnings}, {"at", result.at}};
+  nlohmann::ordered_json json = {
+      {"recipe", note.recipe}, {"judge", note.judge},          {"made", note.made},
+      {"judged", note.judged}, {"end", batchWord(result.end)}, {"why", result.why},
+      {"code", result.code},   {"seconds", result.seconds},    {"warnings", result.warnings},
+      {"at", result.at}};
   if (const auto& f = result.figures)
     json["figures"] = {f->vessels, f->trees, f->links, f->length, f->least, f->greatest};
   return json;
 }
 
 Note parseNote(const JsonPlace& json) {
-  Note note{json.at("recipe").text(), json.at("judge").text(), json.at("made").text(),
-            json.at("judged").text(), {}};
+  Note note{json.at("recipe").text(),
+            json.at("judge").text(),
+            json.at("made").text(),
+            json.at("judged").text(),
+            {}};
   BatchResult& result = note.result;
   result.end = namedEnd(json.at("end"));
   result.why = json.at("why").text();
@@ -70,8 +73,12 @@ Note parseNote(const JsonPlace& json) {
   const auto values = json.at("figures").elements();
   if (values.size() != f.size()) json.at("figures").refuse("six numbers");
   for (std::size_t i = 0; i < f.size(); ++i) f[i] = values[i].number();
-  result.figures = BatchFigures{static_cast<std::size_t>(f[0]), static_cast<std::size_t>(f[1]),
-                                static_cast<std::size_t>(f[2]), f[3], f[4], f[5]};
+  result.figures = BatchFigures{static_cast<std::size_t>(f[0]),
+                                static_cast<std::size_t>(f[1]),
+                                static_cast<std::size_t>(f[2]),
+                                f[3],
+                                f[4],
+                                f[5]};
   return note;
 }
 
@@ -79,7 +86,11 @@ class CaseMaker {
 public:
   CaseMaker(const BatchInput& input, const fs::path& folder, const BuildOptions& options,
             Progress& progress)
-      : m_input(input), m_row(input.row), m_folder(folder), m_options(options), m_progress(progress) {
+      : m_input(input),
+        m_row(input.row),
+        m_folder(folder),
+        m_options(options),
+        m_progress(progress) {
     m_now.result.id = m_row.id;
     m_now.result.name = input.name;
   }
@@ -184,8 +195,7 @@ private:
     }
     Operation convert{
         "convert", {fs::absolute(m_row.input).string(), fs::absolute(caseFile()).string()}, {}};
-    if (!m_row.seeds.empty())
-      convert.with(kOption.seeds.name, fs::absolute(m_row.seeds).string());
+    if (!m_row.seeds.empty()) convert.with(kOption.seeds.name, fs::absolute(m_row.seeds).string());
     for (const auto& [name, value] : m_row.options) convert.with(name.substr(2), value);
     if (isCorrected && m_options.isVolume(m_row))
       convert.with("corrections", fs::absolute(caseFile()).string());
@@ -212,8 +222,8 @@ private:
     const auto count = [&json](const char* key) {
       return static_cast<std::size_t>(json.at(key).number());
     };
-    BatchFigures figures{count("branches"), count("trees"), count("links"),
-                         json.at("length_mm").number(), 0, 0};
+    BatchFigures figures{
+        count("branches"), count("trees"), count("links"), json.at("length_mm").number(), 0, 0};
     const JsonPlace radius = json.at("radius_mm");
     if (!radius.value().isNull()) {
       figures.least = radius.at("min").number();
@@ -248,10 +258,10 @@ private:
   /// A picture that cannot be drawn is a warning in the log.
   void draw() {
     const fs::path picture = m_folder / batchPicture(m_row.id);
-    (void)timed(Operation{"picture",
-                          {fs::absolute(caseFile()).string(), fs::absolute(picture).string()},
-                          {}}
-                    .with("size", kPictureSize));
+    (void)timed(Operation{
+        "picture",
+        {fs::absolute(caseFile()).string(), fs::absolute(picture).string()},
+        {}}.with("size", kPictureSize));
   }
 
   void end(BatchEnd end, int code, const std::string& why) {

@@ -38,8 +38,8 @@ std::string numberOr(bool isKnown, double value, int decimals) {
 }
 
 std::size_t countOf(const std::vector<BatchResult>& results, BatchEnd end) {
-  return static_cast<std::size_t>(std::count_if(results.begin(), results.end(),
-                                                [end](const BatchResult& r) { return r.end == end; }));
+  return static_cast<std::size_t>(std::count_if(
+      results.begin(), results.end(), [end](const BatchResult& r) { return r.end == end; }));
 }
 
 bool hasCase(const BatchResult& result) {
@@ -74,8 +74,8 @@ Markup figuresOf(const BatchFigures& f) {
 
 Markup cardOf(const BatchResult& result, const fs::path& folder) {
   Markup content = pictureOf(result, folder);
-  content += element("h2", hasCase(result) ? link(batchCase(result.id), name(result.id))
-                                           : name(result.id));
+  content += element(
+      "h2", hasCase(result) ? link(batchCase(result.id), name(result.id)) : name(result.id));
   content += element("p", name(result.name), "class=\"quiet\"");
   if (result.figures && hasCase(result)) content += element("p", figuresOf(*result.figures));
   if (!result.why.empty()) content += element("p", name(result.why), "class=\"why\"");

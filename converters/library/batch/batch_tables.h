@@ -18,8 +18,7 @@ std::string passedList(const std::vector<BatchResult>& results);
 
 /// A page with a picture and the key figures of each case, those that need a look first. It asks for
 /// nothing but files of the batch's folder, and runs no script.
-std::string batchPage(const std::vector<BatchResult>& results,
-                      const std::filesystem::path& folder);
+std::string batchPage(const std::vector<BatchResult>& results, const std::filesystem::path& folder);
 
 /// Writes cases.csv, passed.csv and index.html into the folder, each atomically. Throws
 /// Error(Failed), naming the file.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table and the page of a batch, and what its rows are taken to need.
+#include "converters/library/batch/batch.h"
+
 #include <gtest/gtest.h>
 
-#include "converters/library/batch/batch.h"
 #include "converters/library/batch/batch_tables.h"
 #include "tests/unit/library/temporary_folder.h"
 
@@ -24,9 +25,9 @@ BatchResult resultOf(const std::string& id, BatchEnd end) {
 }  // namespace
 
 TEST(BatchTables, ARowHasTheFiguresOfItsCaseAlone) {
-  const std::string table = batchTable(
-      {resultOf("a", BatchEnd::Passed), resultOf("b", BatchEnd::NeedsPerson),
-       resultOf("c", BatchEnd::NoVessels)});
+  const std::string table =
+      batchTable({resultOf("a", BatchEnd::Passed), resultOf("b", BatchEnd::NeedsPerson),
+                  resultOf("c", BatchEnd::NoVessels)});
   EXPECT_EQ(table,
             "id,input,state,why,vessels,trees,links,length_mm,radius_min_mm,radius_max_mm,"
             "warnings,seconds,view\n"
@@ -53,7 +54,7 @@ TEST(Batch, ARowIsTakenToNeedTheMemoryThatItNeeds) {
   const auto megabytes = [](std::uint64_t voxels) {
     return static_cast<double>(batchMemory(voxels)) / 1e6;
   };
-  EXPECT_NEAR(megabytes(137'640), 68.0, 0.07 * 68.0);     // a fistula, MR
+  EXPECT_NEAR(megabytes(137'640), 68.0, 0.07 * 68.0);      // a fistula, MR
   EXPECT_NEAR(megabytes(2'479'680), 142.1, 0.07 * 142.1);  // a chest, CT
   EXPECT_GT(megabytes(2'097'834), 101.1);                  // an aorta, MR
   EXPECT_GT(megabytes(16'777'216), 274.7);                 // a head, 3D rotational angiography
