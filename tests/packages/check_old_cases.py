@@ -62,8 +62,10 @@ def differ(found, expected):
     another value, as versions add keys; anything else at all."""
     if isinstance(expected, dict) and isinstance(found, dict):
         return any(key not in found or differ(found[key], value) for key, value in expected.items())
-    if isinstance(expected, list) and expected and isinstance(expected[0], float) and isinstance(found, list):
-        return len(found) != len(expected) or any(not abs(a - b) < NEAR for a, b in zip(found, expected))
+    if isinstance(expected, list) and isinstance(found, list):
+        if expected and isinstance(expected[0], float):
+            return len(found) != len(expected) or any(not abs(a - b) < NEAR for a, b in zip(found, expected))
+        return len(found) != len(expected) or any(map(differ, found, expected))
     return found != expected
 
 
