@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <mutex>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -96,6 +97,14 @@ struct Opened {
   Opened& operator=(const Opened&) = delete;
   const int descriptor;
 };
+
+/// fork() of one thread at a time: libraries that end their threads before it and start them again
+/// behind it, as ITK does, cannot do so for two at once.
+pid_t forkAlone() {
+  static std::mutex others;
+  const std::lock_guard lock(others);
+  return fork();
+}
 
 /// Data for the child, prepared before it starts. Streams that are -1 stay unchanged.
 struct StartedProgram {
@@ -213,7 +222,7 @@ ProgramResult runProgram(const ProgramCall& call, const Progress& progress) {
   const std::optional<TerminalState> terminal =
       call.asksUser ? std::optional<TerminalState>(std::in_place) : std::nullopt;
   const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(call.seconds);
-  const pid_t child = fork();
+  const pid_t child = forkAlone();
   if (child < 0) throw failed(call.program.filename().string() + " cannot be started");
   if (child == 0)
     runChild({words.front().c_str(),

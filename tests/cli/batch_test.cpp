@@ -132,6 +132,14 @@ TEST_F(BatchTest, ARowThatNeedsAPersonPassesOnceOneHasLooked) {
   EXPECT_EQ(unjudged.rows.at("one")["end"], "passed");
 }
 
+TEST_F(BatchTest, AWarningThatIsAnErrorEndsTheBatch) {
+  for (const char* const other : {"scans/broken.nrrd", "scans/notes.txt"}) fs::remove(path(other));
+  const Outcome strict = lumenProgram({"batch", "scans", "out", "--strict"});
+  EXPECT_EQ(strict.code, 3) << strict.err;
+  EXPECT_TRUE(contains(strict.err, "noise.nrrd: no vessels")) << strict.err;
+  EXPECT_TRUE(exists("out/cases.csv"));
+}
+
 TEST_F(BatchTest, AnOutputInTheFolderOfInputsIsNotAnInput) {
   fs::remove(path("scans/broken.nrrd"));
   fs::remove(path("scans/noise.nrrd"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -58,6 +59,7 @@ public:
     }
     writeBatchTables(finished(), m_folder);
     m_progress.check();
+    if (m_fault) std::rethrow_exception(m_fault);
     m_progress.end();
     return finished();
   }
@@ -75,11 +77,14 @@ private:
     }
   }
 
+  /// What ends a worker, such as a warning that is an error, ends the others, too.
   void work() {
-    while (const std::optional<std::size_t> next = take()) {
-      const BatchInput& input = m_inputs[*next];
-      BatchResult result = makeOne(input);
-      give(*next, std::move(result));
+    try {
+      while (const std::optional<std::size_t> next = take()) give(*next, makeOne(m_inputs[*next]));
+    } catch (...) {
+      const std::lock_guard lock(m_mutex);
+      if (!m_fault) m_fault = std::current_exception();
+      m_waiting.clear();
     }
   }
 
@@ -124,9 +129,14 @@ private:
   }
 
   void give(std::size_t i, BatchResult result) {
-    if (result.end != BatchEnd::Passed && !m_progress.cancelled())
-      m_progress.warn(formats::printable(result.name) + ": " + batchWord(result.end) + ": " +
-                      result.why);
+    const bool isDoubtful = result.end != BatchEnd::Passed && !m_progress.cancelled();
+    const std::string doubt =
+        formats::printable(result.name) + ": " + batchWord(result.end) + ": " + result.why;
+    finish(i, std::move(result));
+    if (isDoubtful) m_progress.warn(doubt);
+  }
+
+  void finish(std::size_t i, BatchResult result) {
     const std::lock_guard lock(m_mutex);
     if (!m_progress.cancelled()) m_result[i] = std::move(result);
     m_used -= batchMemory(m_inputs[i].voxels);
@@ -152,6 +162,7 @@ private:
   std::vector<std::optional<BatchResult>> m_result;
   std::uint64_t m_memory, m_used = 0;
   std::size_t m_running = 0;
+  std::exception_ptr m_fault;  ///< of a worker
 };
 
 }  // namespace
