@@ -106,6 +106,11 @@ TEST_F(BatchTest, AFurtherRunMakesNothingTwiceAndGoesOnWithWhatAPersonChanged) {
   // another option makes all anew
   const Batch other = batch({"scans", "out", "--option", "dark=false"});
   EXPECT_EQ(other.answer["kept"], 0);
+  std::vector<fs::path> kept;
+  for (const auto& entry : fs::directory_iterator(path("out/replaced")))
+    kept.push_back(entry.path());
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(readFile(kept.front()), mine);
 }
 
 TEST_F(BatchTest, ACaseThatNoBatchMadeStays) {

@@ -28,7 +28,7 @@ using operations::NewName;
 
 constexpr std::uint64_t kMostTable = std::uint64_t{16} << 20;  // bytes
 
-/// What a person knows a branch by.
+/// Facts by which a person knows a branch.
 struct NameRow {
   std::string label, from;
   double length = 0, radius = 0;  ///< mm; the radius is that of its middle node

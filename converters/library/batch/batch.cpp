@@ -77,7 +77,7 @@ private:
     }
   }
 
-  /// What ends a worker, such as a warning that is an error, ends the others, too.
+  /// An exception of a worker, such as a warning that is an error, ends the others, too.
   void work() {
     try {
       while (const std::optional<std::size_t> next = take()) give(*next, makeOne(m_inputs[*next]));

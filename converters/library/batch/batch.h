@@ -67,7 +67,8 @@ std::uint64_t batchMemory(std::uint64_t voxels);
 /// most `options.jobs` at once, and only as many as memory has room for. A case stays as it is if
 /// input, options, version and profile are those of the earlier run that made it; one that a person
 /// has changed since is judged again and not made again. Where the volume or an option is another
-/// one, corrections by hand are made again in the new case. `options.work` is not used. Writes
+/// one, corrections by hand are made again in the new case, and the one that a person changed is kept
+/// in replaced/. `options.work` is not used. Writes
 /// cases.csv, passed.csv and index.html, also where it is cancelled. Results are in the order of the
 /// inputs. Throws Error(Failed) where the folder cannot be written, Error(Cancelled).
 std::vector<BatchResult> makeBatch(const std::vector<BatchInput>& inputs,

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What an earlier run left of an input: its result, and digests of all that it depends on.
+/// The result of an earlier run for an input, and digests of all that it depends on.
 struct Note {
   std::string recipe;  ///< of the input, its options and lumen's version
   std::string judge;   ///< of the profile, and whether a person accepted the case
@@ -197,6 +197,7 @@ private:
         "convert", {fs::absolute(m_row.input).string(), fs::absolute(caseFile()).string()}, {}};
     if (!m_row.seeds.empty()) convert.with(kOption.seeds.name, fs::absolute(m_row.seeds).string());
     for (const auto& [name, value] : m_row.options) convert.with(name.substr(2), value);
+    if (isCorrected) keepChanged();
     if (isCorrected && m_options.isVolume(m_row))
       convert.with("corrections", fs::absolute(caseFile()).string());
     const OperationEnd done = timed(convert);
@@ -208,6 +209,17 @@ private:
     }
     m_now.made = digestOfCase();
     return true;
+  }
+
+  /// Copies a case that a person has changed to replaced/, as another takes its place.
+  void keepChanged() const {
+    constexpr std::size_t kShortDigest = 12;
+    const fs::path copy = m_folder / "replaced" /
+                          (m_row.id + "-" + digestOfCase().substr(0, kShortDigest) + ".lumen");
+    std::error_code error;
+    fs::create_directories(copy.parent_path(), error);
+    if (!error) fs::copy_file(caseFile(), copy, fs::copy_options::overwrite_existing, error);
+    if (error) throw failed(formats::printable(copy.string()) + ": " + error.message());
   }
 
   /// Reads the key figures of the case.
