@@ -33,18 +33,24 @@ std::string alignColumns(std::vector<std::vector<std::string>> rows) {
   for (auto& row : rows)
     for (std::string& cell : row) cell = formats::printable(cell);
   std::vector<std::size_t> widths;
+  std::vector<bool> areSentences;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], textWidth(row[c]));
+    areSentences.resize(widths.size(), false);
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      widths[c] = std::max(widths[c], textWidth(row[c]));
+      if (row[c].find(' ') != std::string::npos) areSentences[c] = true;
+    }
   }
   std::string text;
   for (const auto& row : rows) {
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string padding(widths[c] - textWidth(row[c]), ' ');
-      if (c == 0)
-        text += row[c] + (row.size() > 1 ? padding : "");
+      if (c > 0) text += "  ";
+      if (c == 0 || areSentences[c])
+        text += row[c] + (c + 1 < row.size() ? padding : "");
       else
-        text += "  " + padding + row[c];
+        text += padding + row[c];
     }
     text += '\n';
   }

@@ -27,8 +27,8 @@ private:
   std::string m_text;
 };
 
-/// Rows of equal length as columns: the first left-aligned, the others right-aligned. Cells are
-/// made printable.
+/// Rows of equal length as columns: the first one, and those with several words in a cell,
+/// left-aligned, the others right-aligned. Cells are made printable.
 std::string alignColumns(std::vector<std::vector<std::string>> rows);
 
 }  // namespace lumen

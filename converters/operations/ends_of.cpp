@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
+#include "converters/stages/editing/further_inlets.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/trim.h"
 #include "converters/stages/fitting/fit.h"

@@ -10,7 +10,7 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/geometry/far_origin.h"
-#include "converters/stages/editing/inlets.h"
+#include "converters/stages/editing/further_inlets.h"
 #include "converters/stages/repair/repair.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "formats/container/printable.h"
@@ -42,10 +42,7 @@ void beginAtFurtherInlets(convert::MeshCase& made, Progress& progress) {
              (point - end.centre).norm() < kBeyondRadii * end.radius;
     });
   };
-  const std::vector<Eigen::Vector3d> inlets = convert::furtherInlets(made.result.tree, isInside);
-  convert::beginAt(made.result, inlets);
-  for (const Eigen::Vector3d& place : inlets)
-    progress.detail("blood comes in at " + convert::vectorText(place) + " mm, too");
+  convert::reportInlets(convert::beginAtFurtherInlets(made.result, isInside), progress);
 }
 
 std::string listed(const std::vector<std::string>& sentences) {

@@ -15,7 +15,7 @@
 #include "converters/operations/label_prior.h"
 #include "converters/operations/stated_vessels.h"
 #include "converters/stages/editing/correct_topology.h"
-#include "converters/stages/editing/inlets.h"
+#include "converters/stages/editing/further_inlets.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/case/vessel_system.h"
@@ -135,11 +135,7 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume, const Vess
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
   // names of the maps' labels state the systems of the case
   formats::setNodeSystems(result.result, {});
-  const std::vector<Eigen::Vector3d> inlets =
-      convert::furtherInlets(result.result.tree, lumen.isInside);
-  convert::beginAt(result.result, inlets);
-  for (const Eigen::Vector3d& place : inlets)
-    progress.detail("blood comes in at " + convert::vectorText(place) + " mm, too");
+  convert::reportInlets(convert::beginAtFurtherInlets(result.result, lumen.isInside), progress);
   return result;
 }
 

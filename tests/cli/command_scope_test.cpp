@@ -111,6 +111,8 @@ phantom tube out/p.nrrd --size 32 --seeds out/s.json
   --size 40 --voxel 0.23 --slice-thickness 0.95 --fade 0.5 --clutter bone --noise 0.2 --bias 0.3
   --psf 1 --seed 2 --clicks careless --click-drawing 2 --motion heart --truth out/t.lumen
   --seeds out/q.json
+phantom willis out/p.nrrd --size 32 --truth out/t.lumen
+  --without Acom
 phantom hepatic out/p.nrrd --size 32 --motion breath --phases 3
   --phases 2
 phantom out/p.nrrd --seeds out/s.json --tree fork.swc

@@ -73,6 +73,8 @@ lumen_test(phantom_test FOLDER phantom
   LIBS lumen_phantom lumen_geometry)
 python_test(Finding.VesselsInDrawnOrgansStayFound nightly
   ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/organs.py hold $<TARGET_FILE:lumen>)
+python_test(Finding.CirclesOfWillisAreNetworksWithTheirInlets nightly
+  ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/circles.py hold $<TARGET_FILE:lumen>)
 # .ci/nightly makes the environment, where there is a Python that VMTK's wheel runs with.
 set(peers ${PROJECT_SOURCE_DIR}/build/peers/bin/python)
 if(EXISTS ${peers} AND EXISTS ${PROJECT_SOURCE_DIR}/../shared/data/prior AND NOT LUMEN_SANITIZE)
@@ -87,7 +89,8 @@ lumen_test(compare_test FOLDER compare
 target_include_directories(compare_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare)
 lumen_test(check_test FOLDER check
   LABELS threads
-  LIBS lumen_check lumen_overlay lumen_fitting lumen_phantom lumen_geometry lumen_tracking lumen_geometry)
+  LIBS lumen_check lumen_facts lumen_overlay lumen_fitting lumen_phantom lumen_geometry lumen_tracking lumen_geometry)
+target_include_directories(check_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 lumen_test(gate_test FOLDER gate
   LIBS lumen_gate)
 lumen_test(measure_test FOLDER measure

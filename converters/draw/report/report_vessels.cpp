@@ -2,7 +2,6 @@
 // The vessels in a report: table, radius along each, confidence.
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -15,17 +14,6 @@
 namespace lumen::convert {
 
 namespace {
-
-/// Reason why tracking stopped, for people.
-std::string stopText(const std::string& reason) {
-  static const std::map<std::string, std::string> kTexts = {
-      {"unknown", "not recorded"},          {"no-valid-cylinder", "no cylinder fits"},
-      {"turned-back", "turned back"},       {"left-volume", "left the volume"},
-      {"met-branch", "met another vessel"}, {"end-of-seeds", "all its points were used"},
-      {"step-limit", "too many nodes"}};
-  const auto found = kTexts.find(reason);
-  return found == kTexts.end() ? reason : found->second;
-}
 
 /// The place of each branch in tree order, from 1.
 std::vector<std::size_t> branchNumbers(const formats::CenterlineTree& tree) {
@@ -72,17 +60,10 @@ Markup branchSection(const ReportFacts& facts) {
     return section("branches", "Vessels", paragraph("This case has no vessels."));
   const std::vector<std::size_t> numbers = branchNumbers(tree);
   const bool hasSystems = !facts.info.branches.front().system.empty();
-  std::vector<convert::Column> columns = {{"no."},
-                                          {"vessel", false},
-                                          {"kind", false},
-                                          {"from"},
-                                          {"nodes"},
-                                          {"length mm"},
-                                          {"radius mm"},
-                                          {"least"},
-                                          {"greatest"},
-                                          {"confidence"},
-                                          {"why tracking stopped", false}};
+  std::vector<convert::Column> columns = {{"no."},        {"vessel", false}, {"kind", false},
+                                          {"from"},       {"nodes"},         {"length mm"},
+                                          {"radius mm"},  {"least"},         {"greatest"},
+                                          {"confidence"}, {"end", false}};
   if (hasSystems) columns.insert(columns.begin() + 3, {"system", false});
   convert::Table table("branch-table", columns);
   for (const std::uint32_t b : convert::inTreeOrder(tree)) {
@@ -97,14 +78,16 @@ Markup branchSection(const ReportFacts& facts) {
                                  text(fixedText(info.radius.min, 2)),
                                  text(fixedText(info.radius.max, 2)),
                                  text(fixedText(info.inlierRate, 2)),
-                                 text(stopText(info.stopReason))};
+                                 text(info.end)};
     if (hasSystems) cells.insert(cells.begin() + 3, text(info.system));
     table.row(cells);
   }
   Markup content = paragraph(
       "Each vessel stands before those that leave it. From: the number of the vessel that it "
       "leaves. Length: from the wall "
-      "of that vessel on. Radius: mean, least and greatest. Confidence: the mean inlier rate.");
+      "of that vessel on. Radius: mean, least and greatest. Confidence: the mean inlier rate. End: "
+      "what is seen at its last "
+      "node, place in mm, LPS.");
   content += table.markup();
   return section("branches", "Vessels", content);
 }

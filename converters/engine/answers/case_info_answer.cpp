@@ -43,6 +43,7 @@ Json branchJson(const convert::BranchInfo& branch) {
   json["length_mm"] = jsonNumber(branch.length);
   json["radius_mm"] = branch.nodes > 0 ? radiusJson(branch.radius) : Json(nullptr);
   json["stop_reason"] = branch.stopReason;
+  json["end"] = branch.end;
   json["inlier_rate"] = branch.inlierRate ? jsonNumber(*branch.inlierRate) : Json(nullptr);
   if (!branch.system.empty()) json["system"] = branch.system;
   return json;
@@ -50,12 +51,12 @@ Json branchJson(const convert::BranchInfo& branch) {
 
 std::string branchTable(const convert::CaseInfo& info) {
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"branch", "from", "kind", "nodes", "length", "radius", "min", "max", "inliers",
-                  "stopped by"});
+  rows.push_back(
+      {"branch", "from", "kind", "nodes", "length", "radius", "min", "max", "inliers", "end"});
   for (const auto& b : info.branches)
     rows.push_back({b.label, b.parent.empty() ? "-" : b.parent, b.kind, std::to_string(b.nodes),
                     fixedText(b.length, 1), fixedText(b.radius.mean, 3), fixedText(b.radius.min, 3),
-                    fixedText(b.radius.max, 3), fixedText(b.inlierRate, 2), b.stopReason});
+                    fixedText(b.radius.max, 3), fixedText(b.inlierRate, 2), b.end});
   for (std::size_t b = 0; b < info.branches.size(); ++b)
     if (const std::string& system = info.branches[b].system; !system.empty())
       rows[b + 1].insert(rows[b + 1].begin() + 3, system);
@@ -155,12 +156,13 @@ Json caseInfoJson(const convert::CaseInfo& info) {
   return json;
 }
 
-std::string caseInfoText(const convert::CaseInfo& info) {
+std::string caseInfoText(const convert::CaseInfo& info, const std::string& inlets) {
   Lines lines;
   std::string blobs = std::to_string(info.blobs.value_or(0));
   if (const auto perNode = blobsPerNode(info)) blobs += " (" + fixedText(perNode, 1) + " per node)";
   lines.add("branches", std::to_string(info.branches.size()))
       .add("trees", networkText(info))
+      .add("inlets", inlets)
       .add("nodes", std::to_string(info.nodes))
       .add("points", std::to_string(info.points))
       .add("blobs", blobs)

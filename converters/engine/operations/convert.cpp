@@ -9,6 +9,7 @@
 #include "converters/base/error.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
+#include "converters/engine/answers/ends_answer.h"
 #include "converters/engine/answers/label_answer.h"
 #include "converters/engine/answers/native_answer.h"
 #include "converters/engine/answers/surface_answer.h"
@@ -164,6 +165,8 @@ private:
                               const MeshReports& meshes) const {
     Json json = caseSummary(made.value);
     json["reachable"] = reachJson(reach);
+    const std::vector<operations::OpenEnd> ends = operations::endsOf(made.value);
+    json["inlets"] = inletsJson(ends, made.value.tree);
     json["surface"] = surfaceJson(meshes.surface, made.value);
     json["volume_mesh"] = volumeMeshJson(meshes.cells);
     json["mesh"] = frameJson(made.meshFrame);
@@ -176,9 +179,10 @@ private:
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
                 frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
-                convert::reachLine(reach) + surfaceLines(meshes.surface, made.value) +
-                volumeMeshLines(meshes.cells) + repetitionLines(made.repetition) +
-                inventoryLines(made.labels) + nativeLines(made.native) + endLines(made.remarks)};
+                convert::reachLine(reach) + "inlets: " + inletsText(ends, made.value.tree) + "\n" +
+                surfaceLines(meshes.surface, made.value) + volumeMeshLines(meshes.cells) +
+                repetitionLines(made.repetition) + inventoryLines(made.labels) +
+                nativeLines(made.native) + endLines(made.remarks)};
   }
 
   InputFile m_input;

@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/base/options/option_name.h"
 #include "converters/engine/answers/answer_text.h"
+#include "converters/engine/answers/ends_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
@@ -20,34 +21,6 @@ namespace lumen::engine {
 namespace {
 
 using operations::OpenEnd;
-
-Json endJson(std::size_t number, const OpenEnd& end, const formats::CenterlineTree& tree) {
-  return {{"number", number},
-          {"branch", tree.branches[end.branch].label},
-          {"node", end.node},
-          {"position", vectorJson(end.place)},
-          {"radius_mm", jsonNumber(end.radius)},
-          {"leaves_volume", end.leavesVolume ? Json(*end.leavesVolume) : Json(nullptr)},
-          {"inlet", end.isInlet},
-          {"why", end.why.empty() ? Json(nullptr) : Json(end.why)}};
-}
-
-std::string endTable(const std::vector<OpenEnd>& ends, const formats::CenterlineTree& tree) {
-  std::vector<std::vector<std::string>> rows{
-      {"end", "branch", "radius", "x", "y", "z", "volume", "blood"}};
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const OpenEnd& end = ends[k];
-    const std::string volume = !end.leavesVolume ? "-" : *end.leavesVolume ? "leaves" : "within";
-    const std::string blood = end.isInlet       ? "comes in"
-                              : end.why.empty() ? ""
-                                                : "may come in: " + end.why;
-    rows.push_back({std::to_string(k + 1), formats::printable(tree.branches[end.branch].label),
-                    fixedText(end.radius, 2), fixedText(end.place.x(), 1),
-                    fixedText(end.place.y(), 1), fixedText(end.place.z(), 1), volume,
-                    formats::printable(blood)});
-  }
-  return alignColumns(std::move(rows)) + "Radii and places in mm, LPS.\n";
-}
 
 class EndsCommand : public Command {
 public:
@@ -101,9 +74,7 @@ public:
     json["trees"] = formats::listTrees(value.tree).size();
     json["links"] = value.tree.links.size();
     json["fitted"] = isFitted;
-    json["ends"] = Json::array();
-    for (std::size_t k = 0; k < ends.size(); ++k)
-      json["ends"].push_back(endJson(k + 1, ends[k], value.tree));
+    json["ends"] = openEndsJson(ends, value.tree);
     const std::string line = to == nullptr ? "" : caseLine(m_output.name(), value);
     return {std::move(json), endTable(ends, value.tree) + line, 0, to == nullptr};
   }

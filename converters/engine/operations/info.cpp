@@ -15,6 +15,7 @@
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/case_info_answer.h"
 #include "converters/engine/answers/chunk_info.h"
+#include "converters/engine/answers/ends_answer.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/answers/volume_info.h"
 #include "converters/engine/centerline_input.h"
@@ -230,10 +231,13 @@ private:
     const convert::CaseInfo info = convert::describeCase(value, context.progress);
     const SurfaceFindings found =
         m_surface ? examineSurface(value, context.progress) : SurfaceFindings{};
+    const std::vector<operations::OpenEnd> ends = operations::endsOf(value);
     Json json = caseInfoJson(info);
+    json["inlets"] = inletsJson(ends, value.tree);
     json["surface"] = surfaceJson(found.report, value);
     json["surface_warnings"] = found.warnings;
-    std::string text = caseInfoText(info) + surfaceLines(found.report, value);
+    std::string text =
+        caseInfoText(info, inletsText(ends, value.tree)) + surfaceLines(found.report, value);
     for (const std::string& sentence : found.warnings) text += "warning      " + sentence + "\n";
     const std::string name = convert::shellWord(m_input.name());
     return withNext(

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "converters/base/error.h"
+#include "converters/judge/facts/branch_end.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/topology.h"
 #include "formats/case/vessel_system.h"
@@ -53,8 +54,11 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   if (info.nodes > 0) info.radius = radiusRange(value.tree.radius);
   info.errorOfFit = fittedError(value, progress);
   info.reach = measureReach(value, progress);
-  for (const auto& branch : value.tree.branches)
-    info.branches.push_back(describeBranch(value.tree, branch));
+  const std::vector<std::string> ends = describeEnds(value);
+  for (std::size_t b = 0; b < ends.size(); ++b) {
+    info.branches.push_back(describeBranch(value.tree, value.tree.branches[b]));
+    info.branches.back().end = ends[b];
+  }
   const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(value);
   for (std::size_t b = 0; b < systems.size(); ++b)
     info.branches[b].system = formats::kVesselSystemNames[static_cast<std::size_t>(systems[b])];

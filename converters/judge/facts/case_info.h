@@ -23,6 +23,7 @@ struct BranchInfo {
   double length = 0;  ///< mm
   RadiusRange radius;
   std::string stopReason;  ///< such as no-valid-cylinder
+  std::string end;         ///< as of describeEnds()
   std::optional<float> inlierRate;
   std::string system;  ///< such as artery; empty if the case states none
   std::string parent;  ///< label of the branch that it leaves; empty for a root

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,21 +35,5 @@ std::uint32_t rootAbove(const formats::CenterlineTree& tree, std::uint32_t node)
 /// the path, and a link holds the two parts together. The case has no models. Returns the indices of
 /// places, mm, LPS, that lie in no vessel.
 std::vector<std::size_t> beginAt(formats::Case& target, std::span<const Eigen::Vector3d> places);
-
-// Inlets of a tree besides its root (docs/method.md, section 1.14).
-
-/// Ratio of the radii of two vessels of which one takes twice the flow of the other, by Murray's law:
-/// the cube root of two. An arm of a fork is no wider than what feeds it, and one that is less than
-/// this much narrower takes over half of the flow.
-inline constexpr double kHalfFlowRadii = 1.26;
-
-/// Ends at which blood comes into a tree besides its root. A vessel feeds no wider ones: where both
-/// arms of a fork are wider than the whole vessel that leads to it, as behind a communicating artery,
-/// blood comes from the widest end of the volume beyond that fork. `isInside`: a point, mm, LPS,
-/// lies in the volume. Returns the centres of the inlets of each such tree: its root, and then those
-/// ends, the farthest from the root first.
-std::vector<Eigen::Vector3d> furtherInlets(
-    const formats::CenterlineTree& tree,
-    const std::function<bool(const Eigen::Vector3d&)>& isInside);
 
 }  // namespace lumen::convert

@@ -94,24 +94,30 @@ const std::vector<std::string>& clutterNames() {
   return names;
 }
 
-std::set<Clutter> parseClutter(const std::string& list, const FieldWord& fieldWord) {
-  std::set<Clutter> kinds;
-  if (list.empty()) return kinds;
-  const std::vector<std::string>& names = clutterNames();
-  for (std::size_t at = 0; at <= list.size();) {
+std::set<std::size_t> chosenWords(const std::string& list, const std::vector<std::string>& names,
+                                  const std::string& field, const std::string& kind) {
+  std::set<std::size_t> chosen;
+  for (std::size_t at = 0; !list.empty() && at <= list.size();) {
     const std::size_t end = std::min(list.find(',', at), list.size());
     const std::string word = list.substr(at, end - at);
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end())
-      throw Error(ErrorKind::Usage, fieldWord("clutter") + ": found '" + formats::printable(word) +
-                                        "', expected kinds of clutter with commas between them: "
-                                        "bone, vein, streaks, stent or void" +
-                                        didYouMean(word, names));
-    if (!kinds.insert(static_cast<Clutter>(found - names.begin())).second)
+      throw Error(ErrorKind::Usage, field + ": found '" + formats::printable(word) +
+                                        "', expected " + kind + " with commas between them: " +
+                                        alternatives(names) + didYouMean(word, names));
+    if (!chosen.insert(static_cast<std::size_t>(found - names.begin())).second)
       throw Error(ErrorKind::Usage,
-                  fieldWord("clutter") + ": names " + word + " twice, expected each kind once");
+                  field + ": names " + word + " twice, expected each of the " + kind + " once");
     at = end + 1;
   }
+  return chosen;
+}
+
+std::set<Clutter> parseClutter(const std::string& list, const FieldWord& fieldWord) {
+  std::set<Clutter> kinds;
+  for (const std::size_t kind :
+       chosenWords(list, clutterNames(), fieldWord("clutter"), "kinds of clutter"))
+    kinds.insert(static_cast<Clutter>(kind));
   return kinds;
 }
 

@@ -31,6 +31,12 @@ enum class Clutter : std::uint8_t { Bone, Vein, Streaks, Stent, Void };
 /// Names of the kinds, in the order of the table above.
 const std::vector<std::string>& clutterNames();
 
+/// The words of a list with commas between them, as indices of `names`; none of an empty list.
+/// Throws Error(Usage), which names `field` and expects `kind`, such as "kinds of clutter", if a word
+/// is none of `names` or occurs twice.
+std::set<std::size_t> chosenWords(const std::string& list, const std::vector<std::string>& names,
+                                  const std::string& field, const std::string& kind);
+
 /// The kinds that a list such as "bone,vein" names; none for an empty text. Throws Error(Usage) for
 /// an unknown name and for one that occurs twice.
 std::set<Clutter> parseClutter(const std::string& list, const FieldWord& fieldWord = {});

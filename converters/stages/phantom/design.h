@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -151,7 +152,12 @@ Design designFork(const Frame& frame);
 Design designSacSphere(const Frame& frame);
 Design designSacEllipsoid(const Frame& frame);
 Design designSacFork(const Frame& frame);
-Design designWillis(const Frame& frame);
+/// Names of the arteries of a circle of Willis that may be missing: A1 and P1 are the first parts of
+/// the anterior and the posterior cerebral artery.
+const std::vector<std::string>& willisParts();
+
+/// A circle of Willis without some of willisParts(); what only they would feed is missing, too.
+Design designWillis(const Frame& frame, const std::set<std::string>& missing);
 Design designCoronary(const Frame& frame);
 Design designHepatic(const Frame& frame);
 Design designHeart(const Frame& frame);

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
+#include "converters/base/text.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/motion/posing.h"
 #include "converters/stages/phantom/clutter.h"
@@ -43,6 +44,7 @@ void checkOptions(const PhantomOptions& options) {
     requireRange(options.word("slice-thickness"), options.sliceThickness, options.voxel,
                  100 * options.voxel);
   (void)parseClutter(options.clutter, options.word);
+  (void)missingParts(options);
 }
 
 formats::Case describeTruth(const PhantomScene& scene, const PhantomOptions& options) {
@@ -201,6 +203,11 @@ void PhantomOptions::addRows(OptionTable& table) {
            "Structures and losses that disturb finding and are not part of the truth, such as "
            "bone,vein,streaks,stent,void")
       .recorded();
+  table
+      .add("without", &without, "LIST",
+           "Parts that a circle of Willis lacks, such as L-P1,Acom: " + alternatives(willisParts()))
+      .recorded()
+      .notBeside("tree");
   addImageRows(*this, table);
   addMotionRows(*this, table);
   table.add("seed", &seed, "K", "Seed of the random numbers")
@@ -232,6 +239,7 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
   parameters["name"] = name;
   if (sliceThickness == 0) parameters.erase("slice-thickness");
   if (clutter.empty()) parameters.erase("clutter");
+  if (without.empty()) parameters.erase("without");
   if (fade == 0) parameters.erase("fade");
   if (motion == PhantomMotion::None) {
     parameters.erase("motion");

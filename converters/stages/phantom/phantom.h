@@ -51,7 +51,9 @@
 // ("kissing").
 //
 // `willis` keeps its radii of 2 to 0.7 mm in volumes of 51 mm, and scales by no less than 0.5 and no
-// more than 1.5. --clutter (clutter.h) adds to each of them.
+// more than 1.5. Its variants lack some of its parts (--without): where the first part of an anterior
+// or posterior cerebral artery is missing, the communicating artery feeds the rest. --clutter
+// (clutter.h) adds to each phantom.
 //
 // The truth of phantoms whose measures have closed forms (measured_designs.cpp, stenosis, helix)
 // states these in its step, as true.BRANCH.MEASURE. The wall of `ellipse-tube` is not that of its
@@ -101,6 +103,7 @@ struct PhantomOptions {
   double sliceThickness = 0;  ///< mm along z; 0: a voxel, or the phantom's own
   double fade = 0;      ///< share of the contrast that is lost at the end farthest from the root
   std::string clutter;  ///< empty, or kinds of clutter.h with commas between them
+  std::string without;  ///< of willis: empty, or names of willisParts() with commas between them
   std::uint64_t seed = 1;
   bool isCareless = false;         ///< clicks as of a person in a hurry
   std::uint64_t clickDrawing = 0;  ///< another number: other clicks on the same volume

@@ -57,7 +57,7 @@ const std::vector<std::pair<std::string, Designer>>& designs() {
       {"sac-sphere", designSacSphere},
       {"sac-ellipsoid", designSacEllipsoid},
       {"sac-fork", designSacFork},
-      {"willis", designWillis},
+      {"willis", [](const Frame& frame) { return designWillis(frame, {}); }},
       {"coronary", designCoronary},
       {"hepatic", designHepatic},
       {"heart", designHeart},
@@ -182,6 +182,19 @@ bool isOrgan(const std::string& name) {
   return names.contains(name);
 }
 
+std::set<std::string> missingParts(const PhantomOptions& options) {
+  const std::string field = options.word("without");
+  if (!options.without.empty() && options.name != "willis")
+    throw Error(ErrorKind::Usage, field + ": found with the phantom " +
+                                      formats::printable(options.name) +
+                                      ", expected the phantom willis");
+  std::set<std::string> missing;
+  for (const std::size_t part :
+       chosenWords(options.without, willisParts(), field, "parts of a circle of Willis"))
+    missing.insert(willisParts()[part]);
+  return missing;
+}
+
 Box3d boxOf(const formats::CenterlineTree& tree) {
   Box3d box;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
@@ -201,7 +214,11 @@ PhantomScene sceneOfName(const PhantomOptions& options, Progress& progress) {
     throw Error(ErrorKind::Usage, "phantom: the volume is " + fixedText(frame.extent, 6) +
                                       " mm wide, expected at least 25 mm for 'patient'");
   PhantomScene scene;
-  scene.design = patient ? designPatient(frame, options.seed, progress) : found->second(frame);
+  const std::set<std::string> missing = missingParts(options);
+  if (patient)
+    scene.design = designPatient(frame, options.seed, progress);
+  else
+    scene.design = missing.empty() ? found->second(frame) : designWillis(frame, missing);
   fadeContrast(scene.design, options.fade);
   loseFlow(parseClutter(options.clutter), options.seed, scene.design);
   scene.grid = {{size, size, size}, Vector3d::Constant(options.voxel)};

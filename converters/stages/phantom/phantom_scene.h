@@ -2,6 +2,9 @@
 // The scene of a phantom: a design, and the voxels that show it.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "converters/base/progress.h"
 #include "converters/geometry/box.h"
 #include "converters/io/centerline/centerline_file.h"
@@ -17,6 +20,10 @@ struct PhantomScene {
   double slice = 1;        ///< thickness of a slice, voxels
   std::string treeSha256;  ///< digest of the file with the tree; empty if the phantom has a name
 };
+
+/// Parts of a circle of Willis that the options leave out. Throws Error(Usage) for a word that names
+/// none, and for another phantom.
+std::set<std::string> missingParts(const PhantomOptions& options);
 
 /// The box around the balls of a tree's nodes, mm.
 Box3d boxOf(const formats::CenterlineTree& tree);

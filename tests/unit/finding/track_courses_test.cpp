@@ -8,7 +8,7 @@
 #include "converters/base/vectors.h"
 #include "converters/judge/compare/compare.h"
 #include "converters/stages/editing/correct_topology.h"
-#include "converters/stages/editing/inlets.h"
+#include "converters/stages/editing/further_inlets.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/tracking/track_case.h"
@@ -143,7 +143,7 @@ formats::Case wholeTreeOf(const Volume& volume, Progress& progress) {
   const LumenInVolume around{[&](const Vector3d& p) { return found.isLumen(p); },
                              [&](const Vector3d& p) { return volume.geometry.containsWorld(p); }};
   correctTopology(tree, around);
-  beginAt(tree, furtherInlets(tree.tree, around.isInside));
+  beginAtFurtherInlets(tree, around.isInside);
   return tree;
 }
 

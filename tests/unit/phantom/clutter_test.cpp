@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -161,8 +164,43 @@ TEST(Willis, HasThreeInletsAndThreeLinks) {
   }
 }
 
+std::vector<std::string> willisWithout(const std::set<std::string>& missing) {
+  std::vector<std::string> labels;
+  for (const formats::Branch& branch : designWillis({0.2, 51}, missing).tree.branches)
+    labels.push_back(branch.label);
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+TEST(Willis, ItsCommunicatingArteriesFeedWhatLiesBehindAMissingPart) {
+  const std::vector<std::string> all{"Acom",   "BA",    "L-ACA", "L-ICA", "L-MCA", "L-PCA",
+                                     "L-Pcom", "R-ACA", "R-ICA", "R-MCA", "R-PCA", "R-Pcom"};
+  EXPECT_EQ(willisWithout({}), all);
+  EXPECT_EQ(willisWithout({"L-P1"}), all);
+  EXPECT_EQ(willisWithout({"R-A1"}), all);
+  const Design design = designWillis({0.2, 51}, {"L-P1", "R-A1"});
+  EXPECT_EQ(design.tree.links.size(), 1U);  // of the right posterior communicating artery
+  for (const formats::Branch& branch : design.tree.branches) {
+    if (branch.label != "L-PCA" && branch.label != "R-ACA") continue;
+    const std::uint32_t before = design.tree.branch[static_cast<std::size_t>(branch.parentNode)];
+    EXPECT_EQ(design.tree.branches[before].label, branch.label == "L-PCA" ? "L-Pcom" : "Acom");
+  }
+}
+
+TEST(Willis, LacksWhatNothingFeeds) {
+  for (const auto& [missing, absent] :
+       {std::pair<std::set<std::string>, std::string>{{"L-P1", "L-Pcom"}, "L-PCA"},
+        {{"R-A1", "Acom"}, "R-ACA"},
+        {{"R-Pcom"}, "R-Pcom"},
+        {{"L-A1", "R-A1"}, "Acom"}}) {
+    const std::vector<std::string> labels = willisWithout(missing);
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), absent), 0) << absent;
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), "BA"), 1);
+  }
+}
+
 TEST(Willis, HasTheCitedLengthsOfItsCommunicatingArteries) {
-  const Design design = designWillis({0.2, 51});
+  const Design design = designWillis({0.2, 51}, {});
   for (const formats::Branch& branch : design.tree.branches) {
     const double length =
         static_cast<double>(design.tree.height[branch.firstNode]) * (branch.nodeCount - 1);
