@@ -11,6 +11,7 @@
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
+#include "converters/engine/named_files.h"
 #include "converters/engine/tracking_input.h"
 #include "formats/container/printable.h"
 
@@ -71,10 +72,7 @@ operations::LabelPart loadLabelMap(const InputFile& map, const MaskArguments& ar
     convert::FolderMap read = loadLabelFolder(map, {}, progress);
     return labelPart(std::move(read.voxels), map.name(), read.table);
   }
-  const FileFormat& format = inputFormat(map, "");
-  if (format.kind != FormatKind::Volume)
-    throw invalidInput(formats::printable(map.name()) +
-                       ": is no volume; expected a volume of labels");
+  const FileFormat& format = volumeFormat(map, "label map", "volume of labels");
   const convert::LabelTable table = arguments.table(map, progress);
   VolumeArguments reading;
   if (grid != nullptr) reading.grid = *grid;

@@ -7,6 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/engine/named_files.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -128,11 +129,16 @@ void requireCompatible(const OptionTable& table) {
 }
 
 void requireInScope(const OptionTable& table, const FileContents& contents, Progress& progress) {
+  std::vector<const OptionRow*> used;
   for (const OptionRow& row : table.rows()) {
     if (!row.isGiven || row.isArgument) continue;
     const std::string reason = unusedReason(table, row, contents);
-    if (!reason.empty()) refuseUnused(row, reason, progress);
+    if (reason.empty())
+      used.push_back(&row);
+    else
+      refuseUnused(row, reason, progress);
   }
+  for (const OptionRow* const row : used) lookAtFiles(*row);
 }
 
 }  // namespace lumen::engine

@@ -66,8 +66,8 @@ void refuseUnused(const OptionRow& row, const std::string& reason, Progress& pro
 void requireCompatible(const OptionTable& table);
 
 /// Refuses, as refuseUnused(), an option that is given and would do nothing: --stl-solids when a
-/// .glb is written. The message states for which inputs or outputs the option is, which other option it
-/// needs, or beside which one it does nothing.
+/// .glb is written: the message states what it is for, which other option it needs, or beside which
+/// one it does nothing. Then looks at the files that the options name (named_files.h).
 void requireInScope(const OptionTable& table, const FileContents& contents, Progress& progress);
 
 }  // namespace lumen::engine

@@ -3,6 +3,7 @@
 
 #include "converters/base/error.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/named_files.h"
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/container/printable.h"
 
@@ -66,11 +67,7 @@ convert::Volume loadVolume(const InputFile& file, const FileFormat& format,
 
 std::optional<operations::NativePart> loadNative(const InputFile& file, Progress& progress) {
   if (file.empty()) return {};
-  requireInput(file, "scan without contrast");
-  const FileFormat& format = inputFormat(file, "");
-  if (format.kind != FormatKind::Volume)
-    throw invalidInput(formats::printable(file.name()) +
-                       ": is no volume; expected a scan without contrast");
+  const FileFormat& format = volumeFormat(file, "scan without contrast", "scan without contrast");
   return operations::NativePart{readVolumeFile(file, format, {}, progress), file.name()};
 }
 

@@ -22,6 +22,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/command_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/config_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/early_refusal_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_scope_test.cpp

@@ -136,6 +136,8 @@ public:
       throw Error(ErrorKind::Usage, kAgainst.shown() + ": found " + std::to_string(m_cases.size()) +
                                         " cases beside it, expected one");
     MeasureFiles files(m_output);
+    if (m_cases.size() > 1)  // all of them can be read, before the first is measured
+      for (const InputFile& file : m_cases) readCase(file);
     std::vector<convert::MeasuredCase> measured;
     std::string text;
     for (const InputFile& file : m_cases) {

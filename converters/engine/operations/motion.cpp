@@ -100,6 +100,7 @@ public:
                                         " of phases beside it, expected one that holds them all");
     const operations::PhaseSeries series = phases(context);
     requireWritable(m_output, convert::ContentKind::Case);
+    for (std::size_t phase = 0; phase < series.times.size(); ++phase) lookAtPhase(phase);
 
     const operations::MovedCase moved =
         operations::moved(readParentCase(m_rest), m_rest.name(), series, operationContext(context));
@@ -133,15 +134,28 @@ private:
     series.reach = m_reach;
     series.name = [this](std::size_t phase) { return fileOf(phase).name(); };
     series.read = [this, &progress = context.progress](std::size_t phase) {
-      const InputFile& file = fileOf(phase);
-      const FileFormat& from = inputFormat(file, m_from);
-      if (from.kind != FormatKind::Volume)
-        throw unsupported(file.name() + ": this is no volume; expected one for each phase");
-      VolumeArguments which = m_volume;
-      if (m_frames > 0) which.volumeIndex = static_cast<std::int64_t>(phase);
-      return loadVolume(file, from, which, progress);
+      return loadVolume(fileOf(phase), formatOf(phase), argumentsOf(phase), progress);
     };
     return series;
+  }
+
+  [[nodiscard]] const FileFormat& formatOf(std::size_t phase) const {
+    const FileFormat& from = inputFormat(fileOf(phase), m_from);
+    if (from.kind != FormatKind::Volume)
+      throw unsupported(fileOf(phase).name() + ": this is no volume; expected one for each phase");
+    return from;
+  }
+
+  [[nodiscard]] VolumeArguments argumentsOf(std::size_t phase) const {
+    VolumeArguments which = m_volume;
+    if (m_frames > 0) which.volumeIndex = static_cast<std::int64_t>(phase);
+    return which;
+  }
+
+  /// Refuses a phase whose header cannot be read before the first one is followed.
+  void lookAtPhase(std::size_t phase) const {
+    Progress silent;
+    loadVolumeHeader(fileOf(phase), formatOf(phase), argumentsOf(phase), silent);
   }
 
   InputFile m_rest;
