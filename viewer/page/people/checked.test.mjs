@@ -35,6 +35,10 @@ async function walkThrough(page) {
   await rows(page, "loose").waitFor({ state: "detached" });
   await settled(page);
 
+  for (let k = 0; k < places && (await chosen.and(missing(page)).count()) === 0; ++k) {
+    await page.keyboard.press(".");
+    await chosen.waitFor();
+  }
   const box = await page.locator("#view-scene").boundingBox(),
     { at, count } = find(await pixels(page, "#view-scene"), pink);
   assert.ok(count > 20, `${count} pixels of the mark`);

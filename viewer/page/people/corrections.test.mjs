@@ -240,6 +240,14 @@ story("an aneurysm is a chain of clicks", async t => {
   await settled(page);
   await picture(page, "10-aneurysm");
   assert.equal((await vessels(page)).length, 2);
+  await page.locator("#section-geometry > summary").click();
+  await page.locator("#geometry-run").click();
+  const measured = page.locator("#geometry-list .item");
+  await measured.nth(1).waitFor(); // the sac is a vessel without a place
+  await page.locator("#geometry-kind").selectOption("sacs");
+  assert.equal(await measured.count(), 1);
+  await page.locator("#geometry-kind").selectOption("vessels");
+  assert.equal(await measured.count(), 2);
 });
 
 story("the brush pushes and pulls the wall where it is dragged", async t => {

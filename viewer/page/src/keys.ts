@@ -9,7 +9,7 @@ import { askPosition } from "./panels/probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
 import { slabKey } from "./slices/slice_controls";
 import { resetPlanes } from "./tools/slice_input";
-import { renameBranch } from "./panels/tree_panel";
+import { renameBranch } from "./panels/vessel_detail";
 import type { WorkList } from "./panels/work_list";
 
 function typing(e: KeyboardEvent): boolean {

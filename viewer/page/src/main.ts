@@ -20,6 +20,7 @@ import { MeshLayer } from "./scene/mesh_layer";
 import { measurePanel } from "./panels/measure_panel";
 import { newStore, type App } from "./model/model";
 import { motionBar } from "./panels/motion_bar";
+import { panelEdge } from "./panels/panel_width";
 import { Performer } from "./model/performer";
 import { mayChange, Posing } from "./model/posing";
 import { offerUnsaved } from "./panels/recover";
@@ -93,6 +94,7 @@ async function start(root: HTMLElement): Promise<void> {
   listenToScene(scene, app, tools);
   makeBar(shell.bar, app, actions);
   new TreePanel(shell.left, app);
+  shell.left.append(panelEdge(shell.left, () => app.stage.invalidate()));
   shell.right.append(
     ...oneSourcePanel(app),
     ...assumptionsPanel(app),

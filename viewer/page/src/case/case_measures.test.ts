@@ -46,6 +46,16 @@ describe("a row", () => {
     ]);
     expect(placeOf({ vessel: "left" })).toBeNull();
   });
+  it("of a sac has measures without a place", () => {
+    const sac = { ...vessel, place_mm: null, smallest_radius_place_mm: null };
+    expect(figuresOf(sac).map(f => [f.name, f.place])).toEqual([
+      ["length", null],
+      ["smallest radius", null],
+      ["taper", null],
+    ]);
+    expect(placeOf(sac)).toBeNull();
+    expect(titleOf(sac)).toBe("left");
+  });
   it("is named by its texts, each once", () => {
     expect(titleOf({ parent: "a", larger: "a", smaller: "b", place_mm: [0, 0, 0] })).toBe("a, b");
     expect(titleOf({ inlet: "a", end: "c", vessels: "a b c" })).toBe("a, c");

@@ -9,8 +9,8 @@ interface Measured {
   absent: string | null;
 }
 
-/** A row of a table: texts, places whose names end with `_place_mm`, vectors, and measures with their units. */
-export type MeasureRow = Record<string, string | number[] | Measured>;
+/** A row of a table: texts, places whose names end with `_place_mm` (null: it has none), vectors, and measures with their units. */
+export type MeasureRow = Record<string, string | number[] | Measured | null>;
 
 /** Rows by kind. */
 export type MeasureTables = Record<string, MeasureRow[]>;
@@ -57,7 +57,7 @@ export function splitColumn(column: string): { name: string; unit: string } {
 }
 
 const isMeasured = (value: MeasureRow[string]): value is Measured =>
-  typeof value === "object" && !Array.isArray(value);
+  typeof value === "object" && value !== null && !Array.isArray(value);
 
 /** Digits after the point that the interval leaves a meaning, at most four. */
 function digitsOf(value: number, half: number | null): number {

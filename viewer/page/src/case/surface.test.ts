@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, it } from "vitest";
+import { BufferAttribute } from "three";
+import { describe, expect, it, vi } from "vitest";
 import { makePack, Pack } from "./pack";
 import { Surface, vertexNormals } from "./surface";
 
@@ -41,6 +42,19 @@ describe("Surface", () => {
   });
   it("needsNone", () => {
     expect(new Surface(pack(null)).parts.map(p => p.moving)).toEqual([null, null]);
+  });
+  it("givesEachPartItsSphereWithoutAReadOfAllVertices", () => {
+    const read = vi.spyOn(BufferAttribute.prototype, "getX");
+    const { parts } = new Surface(pack([0, 1, 3]));
+    for (const { geometry, moving } of parts)
+      for (const each of [geometry, moving])
+        if (each !== null && each.boundingSphere === null) each.computeBoundingSphere(); // as three.js before it draws
+    expect(read.mock.calls.length).toBe(0);
+    read.mockRestore();
+    const [a, b] = parts.map(part => part.geometry.boundingSphere!);
+    expect(a.center.toArray()).toEqual([0.5, 0.5, 0]);
+    expect(a.radius).toBeCloseTo(Math.SQRT1_2);
+    expect(b.center.toArray()).toEqual([1.5, 0.5, 0]); // of its own vertices, not of all
   });
   it("refusesAVertexThatDoesNotExist", () => {
     expect(() => new Surface(pack([0, 1, 5]))).toThrow(/moving/);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The surface as parts, one for each branch: geometry that shares its vertices, and a tree of boxes for each part,
  * built when somebody asks or when nothing else is to be done. */
-import { Box3, BufferAttribute, BufferGeometry, Plane, Vector3, type Ray, DoubleSide } from "three";
+import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Plane, Sphere, Vector3, type Ray } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import type { Poses } from "./motion";
 import type { Pack } from "./pack";
@@ -121,8 +121,15 @@ export class Surface {
     const moving = pack.optional("moving", "u32");
     if (moving?.some(v => v >= vertices) === true)
       throw new Error("A triangle of the moving surface names a vertex that does not exist.");
-    const geometryOf = (triangle: Uint32Array, first: number, count: number): BufferGeometry => {
+    // with its sphere, by which three.js orders parts: it would make one for each part from the vertices of all
+    const geometryOf = (
+      triangle: Uint32Array,
+      first: number,
+      count: number,
+      sphere: Sphere,
+    ): BufferGeometry => {
       const geometry = new BufferGeometry();
+      geometry.boundingSphere = sphere;
       geometry.setAttribute("position", position);
       geometry.setAttribute("normal", normal);
       geometry.setAttribute("value", this.value);
@@ -133,21 +140,26 @@ export class Surface {
       .filter(part => part.count > 0)
       .map(part => {
         const {
-          name,
-          branch,
-          first,
-          count,
-          moving_first: movingFirst = 0,
-          moving_count: movingCount = 0,
-        } = part;
+            name,
+            branch,
+            first,
+            count,
+            moving_first: movingFirst = 0,
+            moving_count: movingCount = 0,
+          } = part,
+          box = this.boxOf(part),
+          sphere = box.getBoundingSphere(new Sphere());
         return {
           name,
           branch,
           first,
           count,
-          geometry: geometryOf(this.triangle, first, count),
-          moving: moving === null || movingCount === 0 ? null : geometryOf(moving, movingFirst, movingCount),
-          box: this.boxOf(part),
+          geometry: geometryOf(this.triangle, first, count, sphere),
+          moving:
+            moving === null || movingCount === 0
+              ? null
+              : geometryOf(moving, movingFirst, movingCount, sphere),
+          box,
           bvh: null,
           isStale: false,
         };
@@ -208,7 +220,10 @@ export class Surface {
   tree(part: Part): MeshBVH {
     if (part.bvh === null) part.bvh = new MeshBVH(part.geometry);
     else if (part.isStale) part.bvh.refit();
-    if (part.isStale) part.bvh.getBoundingBox(part.box);
+    if (part.isStale) {
+      part.bvh.getBoundingBox(part.box);
+      part.box.getBoundingSphere(part.geometry.boundingSphere!); // that of `moving`, too
+    }
     part.isStale = false;
     return part.bvh;
   }

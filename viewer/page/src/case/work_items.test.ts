@@ -38,7 +38,9 @@ describe("countKinds", () => {
 });
 describe("missingPlaces", () => {
   it("areThoseThatAreLeft", () => {
-    expect(missingPlaces(state([item("missing", 0), item("dark")]))).toEqual([{ index: 0, place: vessel }]);
+    expect(missingPlaces(state([item("missing", 0), item("dark")]))).toEqual([
+      { item: 0, index: 0, place: vessel },
+    ]);
     expect(missingPlaces(state([]))).toEqual([]);
     expect(missingPlaces({ check: { missing_vessels: [vessel] }, work: null })).toEqual([]);
   });

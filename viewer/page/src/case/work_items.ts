@@ -26,13 +26,14 @@ export function countKinds(items: readonly WorkItem[]): string {
     .join(", ");
 }
 
-/** Missing vessels that nothing runs through yet and nobody ignores, with their numbers in the check's answer. */
+/** Missing vessels that nothing runs through yet and nobody ignores: the ids of their items, and their numbers in the
+ * check's answer. */
 export function missingPlaces(
   state: Pick<State, "check" | "work">,
-): { index: number; place: MissingVessel }[] {
-  return (state.work?.items ?? []).flatMap(({ missing }) => {
+): { item: number; index: number; place: MissingVessel }[] {
+  return (state.work?.items ?? []).flatMap(({ id, missing }) => {
     const place = missing === null ? undefined : state.check?.missing_vessels?.[missing];
-    return missing === null || place === undefined ? [] : [{ index: missing, place }];
+    return missing === null || place === undefined ? [] : [{ item: id, index: missing, place }];
   });
 }
 

@@ -6,6 +6,8 @@ export interface StageView {
   readonly element: HTMLElement;
   /** Draws into the current viewport of that size in CSS pixels. */
   draw(renderer: WebGLRenderer, width: number, height: number): void;
+  /** As `draw`, where nothing but the choice has changed since. */
+  drawChoice?(renderer: WebGLRenderer, width: number, height: number): void;
   /** Draws lines and letters over it, on a 2D canvas. */
   drawOver?(width: number, height: number): void;
 }
@@ -19,6 +21,7 @@ export class Stage {
   private readonly views: StageView[] = [];
   private readonly dirty = new Set<StageView>();
   private readonly dirtyOver = new Set<StageView>();
+  private readonly dirtyChoice = new Set<StageView>();
   private clearAll = true; // also the space between views
   private scheduled = false;
   private readonly frames: (() => void)[] = [];
@@ -66,6 +69,12 @@ export class Stage {
     this.schedule();
   }
 
+  /** Draws what is chosen in a view anew, over its picture of all. */
+  invalidateChoice(view: StageView): void {
+    this.dirtyChoice.add(view);
+    this.schedule();
+  }
+
   /** Draws only the overlay of a view, or of all views. */
   invalidateOver(view?: StageView): void {
     for (const each of view === undefined ? this.views : [view]) this.dirtyOver.add(each);
@@ -93,9 +102,11 @@ export class Stage {
   private frame(): void {
     this.scheduled = false;
     for (const call of this.frames.splice(0)) call();
-    const views = [...this.dirty],
+    const views = new Set([...this.dirty, ...this.dirtyChoice]),
+      whole = new Set(this.dirty),
       all = this.canvas.getBoundingClientRect();
     this.dirty.clear();
+    this.dirtyChoice.clear();
     if (this.clearAll) {
       this.renderer.setScissorTest(false);
       this.renderer.setClearColor(0x1c222b, 1);
@@ -112,7 +123,8 @@ export class Stage {
       this.renderer.setScissor(x, y, box.width, box.height);
       this.renderer.setClearColor(new Color(0x07090c), 1);
       this.renderer.clear();
-      view.draw(this.renderer, box.width, box.height);
+      if (whole.has(view) || view.drawChoice === undefined) view.draw(this.renderer, box.width, box.height);
+      else view.drawChoice(this.renderer, box.width, box.height);
       view.drawOver?.(box.width, box.height);
       this.dirtyOver.delete(view);
     }

@@ -64,6 +64,7 @@ class CaseMeasures {
       kind => {
         this.kind = kind;
         this.chosen = 0;
+        this.list.replaceChildren(); // no row stands below the title of another table
         this.show();
       },
     );

@@ -3,7 +3,7 @@
 import type { CursorPart, Part, View } from "../model/model";
 import { atCursor } from "../model/selection";
 import { trackOn } from "../tools/track_on";
-import { renameBranch } from "./tree_panel";
+import { renameBranch } from "./vessel_detail";
 import type { Operation } from "../base/types";
 import { button, h, section } from "../base/ui";
 

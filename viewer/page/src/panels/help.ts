@@ -70,7 +70,7 @@ const kGroups: Group[] = [
   [
     "Vessels",
     [
-      ["/", "Search"],
+      ["/", "Search; Enter takes the first that is found"],
       ["↑ ↓", "Select in the list"],
       ["Space", "Show or hide"],
       ["H", "Show or hide the selected"],

@@ -5,6 +5,7 @@ import { aboutOthers, aboutSeries } from "./series_dialog";
 import { found } from "./library_panel";
 import { kPresets, presetOf, windowOf } from "./volume_panel";
 import { requestFor } from "./one_source";
+import { kWidths, widthOf } from "./panel_width";
 import { distanceText, inAxes, parsePosition } from "./probe_line";
 import { aboutUnsaved } from "./recover";
 
@@ -72,6 +73,17 @@ describe("distanceText", () => {
   });
   it("showsTwoOfOneThatIsNot", () => {
     expect(distanceText({ distance: -3.53, converged: false })).toBe("about −3.5 mm");
+  });
+});
+
+describe("widthOf", () => {
+  it("isWhatWasLeftWithinItsLimits", () => {
+    expect(widthOf("411.6")).toBe(412);
+    expect(widthOf("10")).toBe(kWidths.least);
+    expect(widthOf("4000")).toBe(kWidths.most);
+  });
+  it("isTheUsualOneForNoNumber", () => {
+    for (const text of [null, "", " ", "wide", "NaN"]) expect(widthOf(text)).toBe(kWidths.usual);
   });
 });
 

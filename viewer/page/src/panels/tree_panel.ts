@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The list of vessels: a tree in the order of the case, or a table by any of its columns. */
 import { toHex, fromHex, systemWords } from "../base/colour";
-import { colourOf, isShown, type CursorPart, type Part, type View } from "../model/model";
-import { goToNode, setOpacity, showAll, showBranch, toggleHidden, toggleSolo } from "../model/selection";
+import { colourOf, isShown, type CursorPart, type View } from "../model/model";
+import { goToNode, showAll, showBranch, toggleHidden, toggleSolo } from "../model/selection";
 import type { Branch, Tree } from "../case/tree";
-import { askText, brief, button, h, icon, mm, select, slider } from "../base/ui";
+import { renameBranch, VesselDetail } from "./vessel_detail";
+import { brief, button, h, icon, mm, select } from "../base/ui";
 
 type Sort = "tree" | "label" | "system" | "length" | "radius" | "confidence" | "stop";
 const kSorts: [Sort, string][] = [
@@ -25,6 +26,15 @@ const kOrders: Record<Exclude<Sort, "tree">, (a: Branch, b: Branch) => number> =
   stop: (a, b) => a.stop_reason.localeCompare(b.stop_reason, "en"),
 };
 
+interface Row {
+  branch: number;
+  element: HTMLElement;
+  eye: HTMLButtonElement;
+  swatch: HTMLInputElement;
+  /** As it is marked now: a row that stays as it is costs nothing. */
+  marked: string;
+}
+
 export class TreePanel {
   private sort: Sort = "tree";
   private wanted = "";
@@ -36,13 +46,7 @@ export class TreePanel {
     tabindex: 0,
   });
   private readonly count = h("span", { class: "count", id: "tree-count" });
-  private readonly detail = h("div", {
-    class: "detail",
-    id: "branch-detail",
-    "aria-label": "Selected vessel",
-  });
-  private rows: { branch: number; element: HTMLElement; eye: HTMLButtonElement; swatch: HTMLInputElement }[] =
-    [];
+  private rows: Row[] = [];
 
   constructor(
     readonly element: HTMLElement,
@@ -59,6 +63,12 @@ export class TreePanel {
     search.addEventListener("input", () => {
       this.wanted = search.value.trim().toLowerCase();
       this.fill(this.app.store.get());
+    });
+    search.addEventListener("keydown", e => {
+      if (e.key !== "Enter" || this.rows.length === 0) return;
+      e.preventDefault();
+      showBranch(app, this.rows[0].branch);
+      this.list.focus({ preventScroll: true });
     });
     element.append(
       h(
@@ -83,11 +93,11 @@ export class TreePanel {
         "div",
         { class: "columns", "aria-hidden": "true" },
         h("span", {}, "Length"),
-        h("span", {}, "Radius"),
+        h("span", { class: "radius" }, "Radius"),
         h("span", {}, "Conf."),
       ),
       this.list,
-      this.detail,
+      new VesselDetail(app).element,
     );
     this.list.addEventListener("keydown", e => this.key(e));
     app.store.watch(["document.tree"], view => this.fill(view));
@@ -111,10 +121,6 @@ export class TreePanel {
       ],
       view => this.mark(view),
     );
-    app.store.watch(
-      ["document.tree", "selection.selected", "selection.opacity", "selection.allOpacity", "document.state"],
-      view => this.describe(view),
-    );
   }
 
   private ordered(tree: Tree): { branch: Branch; depth: number }[] {
@@ -124,7 +130,10 @@ export class TreePanel {
     if (this.sort === "tree")
       return tree
         .outline()
-        .map(({ branch, depth }) => ({ branch: tree.branches[branch], depth }))
+        .map(({ branch, depth }) => ({
+          branch: tree.branches[branch],
+          depth: this.wanted === "" ? depth : 0,
+        }))
         .filter(x => matches(x.branch));
     return [...tree.branches]
       .sort(kOrders[this.sort])
@@ -136,6 +145,7 @@ export class TreePanel {
     const { tree } = view.document;
     this.rows = [];
     this.list.replaceChildren();
+    this.list.classList.toggle("found", this.wanted !== "");
     this.count.textContent = tree === null ? "" : `${tree.branches.length}`;
     if (tree === null) {
       this.list.append(
@@ -193,7 +203,7 @@ export class TreePanel {
       swatch,
       h("span", { class: "name" }, b.label),
       h("span", { class: "number" }, brief(b.length_mm)),
-      h("span", { class: "number" }, brief(b.mean)),
+      h("span", { class: "number radius" }, brief(b.mean)),
       h(
         "span",
         { class: low ? "number low" : "number" },
@@ -213,15 +223,21 @@ export class TreePanel {
       if ((e.target as HTMLElement).closest("button, input") === null)
         goToNode(app, b.first_node + (b.node_count >> 1));
     });
-    this.rows.push({ branch: b.index, element, eye, swatch });
+    this.rows.push({ branch: b.index, element, eye, swatch, marked: "" });
     return element;
   }
 
   /** Updates selection, visibility and colours without a new list. */
   private mark(view: Pick<View, "document" | "selection">): void {
-    for (const { branch, element, eye, swatch } of this.rows) {
-      const on = branch === view.selection.selected,
-        shown = isShown(view, branch);
+    for (const row of this.rows) {
+      const { branch, element, eye, swatch } = row,
+        on = branch === view.selection.selected,
+        shown = isShown(view, branch),
+        colour = toHex(colourOf(view, branch)),
+        isolated = view.selection.solo !== null && shown,
+        marked = `${on} ${shown} ${isolated} ${colour}`;
+      if (marked === row.marked) continue;
+      row.marked = marked;
       element.setAttribute("aria-selected", String(on));
       element.classList.toggle("off", !shown);
       if (on) {
@@ -230,8 +246,8 @@ export class TreePanel {
       }
       eye.setAttribute("aria-pressed", String(shown));
       eye.replaceChildren(icon(shown ? "eye" : "hidden"));
-      swatch.value = toHex(colourOf(view, branch));
-      element.classList.toggle("isolated", view.selection.solo !== null && shown);
+      swatch.value = colour;
+      element.classList.toggle("isolated", isolated);
     }
     if (view.selection.selected < 0) this.list.removeAttribute("aria-activedescendant");
   }
@@ -250,79 +266,4 @@ export class TreePanel {
     e.preventDefault();
     e.stopPropagation();
   }
-
-  private describe(view: Pick<View, "document" | "selection">): void {
-    const b =
-        view.selection.selected >= 0 ? view.document.tree?.branches[view.selection.selected] : undefined,
-      { app } = this;
-    if (b === undefined) {
-      const r = view.document.tree?.reachable ?? null;
-      this.detail.replaceChildren(
-        ...(view.document.tree === null
-          ? []
-          : [
-              h(
-                "p",
-                { class: "hint" },
-                `${
-                  r === null
-                    ? `${brief(view.document.tree.branches.reduce((s, x) => s + x.length_mm, 0))} mm of vessels`
-                    : `${brief(r.reached_mm)} of ${brief(r.total_mm)} mm are reachable from ${r.trees === 1 ? "the root" : `the roots of ${r.trees} trees`}`
-                }. Click a vessel here or in a view.`,
-              ),
-            ]),
-      );
-      return;
-    }
-    const parent = b.parentBranch < 0 ? "none: a root" : view.document.tree!.branches[b.parentBranch].label;
-    const rows: [string, string][] = [
-      ["Length", mm(b.length_mm)],
-      ["Radius", `${brief(b.mean)} (${brief(b.least)} – ${brief(b.greatest)}) mm`],
-      ["Confidence", b.confidence === null ? "–" : `${Math.round(100 * b.confidence)} %`],
-      ["Stopped by", b.stop_reason.replaceAll("-", " ")],
-      ["Parent", parent],
-    ];
-    if (view.document.tree!.systems.length > 0)
-      rows.push(["System", (b.system ?? "unknown").replaceAll("-", " ")]);
-    const edited = view.document.tree!.countEdited(b);
-    if (edited > 0) rows.push(["Edited", `${edited} of ${b.node_count} nodes, by hand`]);
-    const opacity = slider(
-      "branch-opacity",
-      `Opacity of ${b.label}`,
-      [0, 1, 0.05],
-      view.selection.opacity.get(b.label) ?? 1,
-      value => setOpacity(app, b.index, value),
-    );
-    if (document.activeElement?.id === "branch-opacity" && this.detail.dataset.branch === String(b.index))
-      return; // being dragged
-    this.detail.dataset.branch = String(b.index);
-    this.detail.replaceChildren(
-      h(
-        "div",
-        { class: "paneltop" },
-        h("h3", { id: "branch-name" }, b.label),
-        h("span", { class: "kind" }, b.kind),
-        app.source.live
-          ? button(
-              { icon: "edit", label: "Rename", key: "F2", id: "branch-rename" },
-              () => void renameBranch(app, b.index),
-            )
-          : null,
-      ),
-      h("dl", {}, ...rows.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])),
-      h("label", { class: "line" }, "Opacity", opacity),
-    );
-  }
-}
-
-export async function renameBranch(
-  app: Part<"document", "source" | "perform">,
-  branch: number,
-): Promise<void> {
-  const { tree } = app.store.get().document,
-    old = tree?.branches[branch]?.label;
-  if (old === undefined || !app.source.live) return;
-  const label = (await askText("Rename the vessel", "Name", old))?.trim();
-  if (label === undefined || label === "" || label === old) return;
-  await app.perform({ op: "rename", branch, label });
 }

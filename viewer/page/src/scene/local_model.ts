@@ -88,8 +88,8 @@ export class LocalModel {
           this.mesh.geometry.dispose();
           this.mesh.material.dispose();
           this.mesh = null;
+          app.stage.invalidate(scene);
         }
-        app.stage.invalidate(scene);
         if (
           !view.scene.layers.local ||
           view.motion.time !== null ||
@@ -107,10 +107,12 @@ export class LocalModel {
         geometry.setAttribute("position", new BufferAttribute(position, 3));
         geometry.setAttribute("normal", new BufferAttribute(normal, 3));
         this.mesh = new Mesh(geometry, new PartMaterial(false));
-        this.mesh.material.look({ own: [1, 0.86, 0.35], alpha: 0.8, lit: true });
+        this.mesh.material.look({ own: [1, 0.86, 0.35], alpha: 0.8 });
+        this.mesh.material.lit = true;
         this.mesh.renderOrder = 4;
         this.mesh.frustumCulled = false;
         scene.extra.add(this.mesh);
+        app.stage.invalidate(scene);
       },
     );
   }

@@ -67,7 +67,7 @@ void main() {
   float shade = 0.34 + 0.66 * facing;
   vec3 colour = base * shade + vec3(0.16) * pow(facing, 24.0);
   if (inner) colour = fade > 0.0 ? base * (0.25 + 0.75 * facing) : base * 0.42 * (0.6 + 0.4 * facing);
-  colour += lit * (vec3(0.10) + vec3(0.65) * pow(1.0 - facing, 2.5));
+  colour += lit * (vec3(0.10) + vec3(0.25) * pow(1.0 - facing, 2.5));
   colour *= exp(-fade * length(inView));
   float a = alpha < 1.0 ? alpha + (1.0 - alpha) * alpha * pow(1.0 - facing, 2.0) : 1.0;
   result = vec4(colour, a);
@@ -92,7 +92,6 @@ interface Look {
   mapped?: boolean;
   range?: [number, number];
   map?: MapName;
-  lit?: boolean;
   clip?: Vector4;
 }
 
@@ -123,15 +122,12 @@ export class PartMaterial extends ShaderMaterial {
     this.side = DoubleSide;
   }
 
-  look({
-    own,
-    alpha,
-    mapped = false,
-    range = [0, 1],
-    map = "sequential",
-    lit = false,
-    clip = kNoClip,
-  }: Look): void {
+  /** Selected, or no longer. */
+  set lit(on: boolean) {
+    this.uniforms.lit.value = on ? 1 : 0;
+  }
+
+  look({ own, alpha, mapped = false, range = [0, 1], map = "sequential", clip = kNoClip }: Look): void {
     const u = this.uniforms,
       clear = alpha < 1;
     (u.own.value as Vector3).set(...own);
@@ -139,7 +135,6 @@ export class PartMaterial extends ShaderMaterial {
     u.mapped.value = mapped ? 1 : 0;
     (u.range.value as Vector2).set(...range);
     u.map.value = table(map);
-    u.lit.value = lit ? 1 : 0;
     (u.clip.value as Vector4).copy(clip);
     if (this.transparent !== clear) {
       this.transparent = clear;

@@ -14,13 +14,14 @@ import {
 } from "three";
 import { OrbitCamera } from "../drawing/camera";
 import { Caster } from "./cast";
+import { Choice, voxelOf } from "./choice";
 import { colouring } from "../model/colouring";
 import { colourOf, isShown, opacityOf, shownTree, type Part, type View } from "../model/model";
 import { kFade, PartMaterial } from "./part_material";
 import { drawSceneOverlay } from "./scene_overlay";
 import { ball, centerlines, cylinders, placeCylinders, wallPoints } from "./scene_parts";
 import { SlicePlanes } from "./slice_planes";
-import { ScenePicture } from "../drawing/scene_picture";
+import { ScenePicture, type Drawn } from "../drawing/scene_picture";
 import type { StageView } from "../drawing/stage";
 import type { Surface } from "../case/surface";
 import type { Path } from "../base/store";
@@ -28,7 +29,6 @@ import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
 import { dot, scale } from "../base/vec";
 import type { VolumeTexture } from "../drawing/volume_texture";
-import { missingPlaces } from "../case/work_items";
 
 const kStill = 250, // ms after the last movement at which what is slow is drawn again in full
   kHeld = 1500; // ms, while a button of the pointer is down: a hand that turns stops for moments
@@ -56,6 +56,7 @@ export class SceneView implements StageView {
   private readonly lines = new Group();
   private readonly points = new Group();
   private readonly marks = new Group();
+  private readonly choice = new Choice();
   /** The model of one node alone: shown by another module. */
   readonly extra = new Group();
   private moving = 0;
@@ -71,7 +72,7 @@ export class SceneView implements StageView {
     private readonly app: Part<keyof View, "stage">,
   ) {
     this.over = element.querySelector("canvas")!;
-    this.scene.add(this.lines, this.points, this.marks, this.extra, this.planes.group);
+    this.scene.add(this.lines, this.points, this.marks, this.choice.place, this.extra, this.planes.group);
     const { store, stage } = app;
     const all = (paths: readonly Path<View>[], call: (view: View) => void): void => {
       store.watch(paths, view => {
@@ -86,7 +87,7 @@ export class SceneView implements StageView {
       this.setPoints(view);
     });
     store.watch(["motion.time"], () => this.busy());
-    all(["document.state", "scene.layers", "slices.crosshair"], view => this.setMarks(view));
+    all(["document.state", "scene.layers"], view => this.setMarks(view));
     all(
       [
         ...kLines,
@@ -104,21 +105,25 @@ export class SceneView implements StageView {
     store.watch(["document.proposals", "selection.proposal", "scene.layers"], () =>
       stage.invalidateOver(this),
     );
+    store.watch(["selection.selected", "selection.place"], view => {
+      this.choice.follow(view, [...this.walls, ...this.tubes]);
+      stage.invalidateChoice(this);
+    });
+    store.watch(["slices.crosshair", "slices.frame"], view => {
+      if (!view.scene.clip.on && !view.scene.layers.slices) return;
+      this.setLooks(view);
+      this.marked();
+    });
     store.watch(
       [
-        "selection.selected",
         "slices.crosshair",
-        "slices.frame",
         "selection.node",
         "tools.measurements",
         "tools.pending",
         "tools.clicks",
         "tools.tool",
       ],
-      view => {
-        this.setLooks(view);
-        this.marked();
-      },
+      () => stage.invalidateOver(this),
     );
   }
 
@@ -158,6 +163,7 @@ export class SceneView implements StageView {
     this.tubesOf = view.document.tree;
     this.tubes =
       view.document.tree === null ? [] : cylinders(view.document.tree, this.app.stage.software ? 6 : 20);
+    this.tubes.forEach((tube, branch) => (tube.userData.branch = branch));
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }
@@ -174,7 +180,7 @@ export class SceneView implements StageView {
 
   private setMarks(view: Pick<View, "document" | "scene">): void {
     const marks: Object3D[] = [],
-      least = Math.max(view.document.volume?.spacing[0] ?? 0, view.document.tree?.voxelSize ?? 0, 0.1);
+      least = voxelOf(view);
     if (view.scene.layers.seeds)
       for (const seed of view.document.state.seeds)
         for (const point of seed.points)
@@ -186,9 +192,6 @@ export class SceneView implements StageView {
               seed.tracked ? 0.5 : 0.9,
             ),
           );
-    if (view.scene.layers.places)
-      for (const { place } of missingPlaces(view.document.state))
-        marks.push(ball(place.position, Math.max(2 * place.radius_mm, 1.5 * least), [1, 0.48, 0.56], 0.75));
     this.replace(this.marks, marks);
   }
 
@@ -219,7 +222,6 @@ export class SceneView implements StageView {
         (tube.material as PartMaterial).look({
           own: colourOf(view, branch),
           alpha,
-          lit: branch === view.selection.selected,
           clip,
         });
       });
@@ -235,7 +237,6 @@ export class SceneView implements StageView {
         mapped,
         range,
         map,
-        lit: branch === view.selection.selected && branch >= 0,
         clip,
       });
       wall.renderOrder = alpha < 1 ? 2 : 0;
@@ -243,6 +244,7 @@ export class SceneView implements StageView {
     for (const child of this.points.children)
       ((child as Mesh).material as PartMaterial).uniforms.clip.value = clip;
     this.planes.update(view, this.texture);
+    this.choice.follow(view, [...this.walls, ...this.tubes]);
   }
 
   /** Shows everything that there is. */
@@ -333,11 +335,33 @@ export class SceneView implements StageView {
       coarse = this.isCoarse();
     this.chooseDetail(coarse, view);
     kFade.value = this.camera.flight === null ? 0 : this.camera.flight.fade;
-    this.picture.draw(renderer, [width, height], coarse, () => {
-      if (view.scene.cast !== "off" && this.caster !== null)
-        this.cast(this.caster, renderer, [width, height]);
-      renderer.render(this.scene, camera);
+    this.picture.draw(renderer, [width, height], coarse, {
+      all: () => {
+        if (view.scene.cast !== "off" && this.caster !== null)
+          this.cast(this.caster, renderer, [width, height]);
+        renderer.render(this.scene, camera);
+      },
+      ...this.chosen(renderer),
     });
+  }
+
+  drawChoice(renderer: WebGLRenderer, width: number, height: number): void {
+    if (!this.picture.isKept) {
+      this.draw(renderer, width, height);
+      return;
+    }
+    this.picture.draw(renderer, [width, height], false, {
+      all: null,
+      ...this.chosen(renderer),
+    });
+  }
+
+  /** What stands out: in a flight nothing, as the eye is inside of it. */
+  private chosen(renderer: WebGLRenderer): Omit<Drawn, "all"> {
+    const { camera, flight } = this.camera;
+    return flight !== null
+      ? { chosen: null, isRestFaint: false }
+      : this.choice.drawn(renderer, this.scene, camera, this.app.store.get());
   }
 
   /** The volume, as the ground of what follows. */

@@ -182,7 +182,7 @@ export class SliceView implements StageView, SliceProjection {
       isQuick = this.isQuick(view),
       draw = (): void => this.drawVolumes(renderer, view, plane, isQuick ? kQuickSamples : kMostSamples);
     // without a graphics processor a thick slab costs what its pixels cost
-    if (isQuick && this.app.stage.software) this.picture.draw(renderer, [width, height], true, draw);
+    if (isQuick && this.app.stage.software) this.picture.draw(renderer, [width, height], true, { all: draw });
     else draw();
     this.drawLabels(renderer, view, plane);
   }

@@ -182,8 +182,8 @@ export class Tools {
       for (const seed of view.document.state.seeds)
         if (!seed.tracked) for (const point of seed.points) consider(point.position, seed.label, -1);
     if (view.scene.layers.places)
-      for (const { place, index } of missingPlaces(view.document.state))
-        consider(place.position, null, index);
+      for (const { place, index, item } of missingPlaces(view.document.state))
+        if (item === view.selection.place) consider(place.position, null, index); // it alone has a ball
     return best;
   }
 
