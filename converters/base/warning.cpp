@@ -24,6 +24,8 @@ std::string_view warningName(WarningCode code) {
       return "file-assumption";
     case WarningCode::FilesPassedOver:
       return "files-passed-over";
+    case WarningCode::FlowDoubt:
+      return "flow-doubt";
     case WarningCode::FormatLoss:
       return "format-loss";
     case WarningCode::ImageMotion:

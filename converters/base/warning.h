@@ -22,6 +22,7 @@ enum class WarningCode : std::uint8_t {
   ExportLoss,
   FileAssumption,
   FilesPassedOver,
+  FlowDoubt,
   FormatLoss,
   ImageMotion,
   LabelsBare,

@@ -208,6 +208,8 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
         convert::exportCase(target, value, options, exportOptionTexts(defaults, target), progress);
     for (const std::string& loss : result.losses)
       warn(progress, about("exports/" + name, {WarningCode::ExportLoss, loss}));
+    for (const Warning& warning : result.warnings)
+      warn(progress, about("exports/" + name, warning));
     for (const convert::ExportFile& one : result.files) {
       const std::string path = "exports/" + name + "/" + one.name;
       incoming.add(path, "export", one.bytes, name);

@@ -23,6 +23,7 @@ convert::ExportResult exported(const formats::Case& value, const std::string& na
       warn(context.progress, about(folder, warning));
   for (const std::string& loss : result.losses)
     warn(context.progress, about(folder, {WarningCode::ExportLoss, loss}));
+  for (const Warning& warning : result.warnings) warn(context.progress, about(folder, warning));
   return result;
 }
 

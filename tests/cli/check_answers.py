@@ -263,6 +263,7 @@ def make_cases(lumen, folder):
     go("export-list.schema.json", "export", "--list")
     go("convert.schema.json", "convert", "two.swc", "two.lumen")
     go("export.schema.json", "export", "sofa", "two.lumen", "two-sofa")
+    go("export.schema.json", "export", "svzerod", "two.lumen", "two-0d")
     go("seeds.schema.json", "seeds", "tracked.lumen", "kept.json")
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
