@@ -8,6 +8,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/options/option_name.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/engine/scope.h"
@@ -57,7 +58,8 @@ LoadedCenterline loadCenterline(const InputFile& file, const FileFormat& format,
   if (frame == "lps") reading.axes = convert::CenterlineAxes::Lps;
   loaded.frame = convert::toPatientSpace(loaded.file, reading);
   for (const std::string& remark : loaded.file.remarks)
-    progress.warn(formats::printable(file.path().string()) + ": " + remark);
+    warn(progress,
+         about(formats::printable(file.path().string()), {WarningCode::FileAssumption, remark}));
   return loaded;
 }
 

@@ -8,6 +8,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/export/shared/paths.h"
@@ -112,8 +113,8 @@ constexpr auto kEncodePly = encodeMeshAs<encodePlain<convert::encodePly>>;
 template <std::string (*encode)(const formats::CenterlineTree&), bool isNetwork = false>
 EncodedCase encodeTreeAs(const formats::Case& value, const fs::path& file, const OutputOptions&,
                          Progress& progress) {
-  for (const std::string& loss : treeLosses(value.tree, isNetwork))
-    progress.warn(formats::printable(file.string()) + ": " + loss);
+  for (const std::string& loss : treeLosses(value.tree, "this format", isNetwork))
+    warn(progress, about(formats::printable(file.string()), {WarningCode::FormatLoss, loss}));
   return {encode(value.tree), {}};
 }
 

@@ -14,6 +14,7 @@
 #include "converters/base/files.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/check_answer.h"
@@ -247,7 +248,8 @@ Answer buildLibrary(convert::BuildList rows, const std::string& list, const std:
   std::vector<RowResult> results;
   for (const convert::RowFault& fault : rows.faults) {
     results.push_back(resultOf(fault));
-    context.progress.warn("line " + std::to_string(fault.line) + ": " + fault.why);
+    warn(context.progress,
+         {WarningCode::RowFailed, "line " + std::to_string(fault.line) + ": " + fault.why});
   }
   const fs::path folder = (fs::absolute(library) / "").parent_path();
   for (RowResult& result : convert::buildLibrary(rows.rows, folder, options, context.progress))

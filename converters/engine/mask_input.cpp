@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/named_files.h"
@@ -107,7 +108,7 @@ convert::LabelTable MaskArguments::table(const InputFile& file, Progress& progre
 convert::Volume takeSettled(convert::SettledLabels settled, const std::string& name,
                             Progress& progress) {
   for (const std::string& remark : settled.remarks)
-    progress.warn(formats::printable(name) + ": " + remark);
+    warn(progress, about(formats::printable(name), {WarningCode::LabelsSettled, remark}));
   return std::move(settled.voxels);
 }
 
@@ -150,7 +151,8 @@ convert::FolderMap loadLabelFolder(const InputFile& folder,
   progress.begin("reading", 0);
   convert::FolderMap read = convert::readLabelFolder(folder, options, progress);
   progress.end();
-  for (const std::string& remark : read.remarks) progress.warn(remark);
+  for (const std::string& remark : read.remarks)
+    warn(progress, {WarningCode::LabelsSettled, remark});
   return read;
 }
 

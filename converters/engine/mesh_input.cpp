@@ -8,6 +8,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/options/option_name.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/stage_options.h"
@@ -110,7 +111,7 @@ std::optional<operations::CenterlinePart> loadGivenCenterline(const MeshArgument
   operations::CenterlinePart given{readCenterline(arguments.centerline),
                                    arguments.centerline.name()};
   for (const std::string& remark : given.file.remarks)
-    progress.warn(formats::printable(given.name) + ": " + remark);
+    warn(progress, about(formats::printable(given.name), {WarningCode::FileAssumption, remark}));
   const auto& units = millimetresByUnit();
   if (const auto unit = units.find(arguments.centerlineUnit); unit != units.end())
     given.file.unit = unit->second;

@@ -17,6 +17,7 @@
 #include "converters/base/privacy.h"
 #include "converters/base/relayed_progress.h"
 #include "converters/base/sha256.h"
+#include "converters/base/warning.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/draw/raster/picture.h"
 #include "converters/engine/answers/answer_text.h"
@@ -156,8 +157,10 @@ void requireModels(const CaseWishes& wishes, const std::string& file) {
 void warnOfFindings(const std::string& where, const std::vector<PrivacyFinding>& findings,
                     Progress& progress) {
   for (const PrivacyFinding& finding : findings)
-    progress.warn(printable(where + ": at \"" + finding.pointer + "\": " + finding.message + " (" +
-                            std::string(finding.code) + "); look before giving it away"));
+    warn(progress, {WarningCode::PersonalText,
+                    printable(where + ": at \"" + finding.pointer + "\": " + finding.message +
+                              " (" + std::string(finding.code) + ")"),
+                    "look before giving it away"});
 }
 
 void addPicture(const formats::Case& value, View view, std::optional<double> turn,
@@ -203,7 +206,10 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
   operations::naming(printable(file) + ": --export " + name, [&] {
     const convert::ExportResult result =
         convert::exportCase(target, value, options, exportOptionTexts(defaults, target), progress);
-    for (const std::string& loss : result.losses) progress.warn("exports/" + name + ": " + loss);
+    for (const std::string& loss : result.losses)
+      warn(progress, about("exports/" + name, {WarningCode::ExportLoss, loss}));
+    for (const Warning& warning : result.warnings)
+      warn(progress, about("exports/" + name, warning));
     for (const convert::ExportFile& one : result.files) {
       const std::string path = "exports/" + name + "/" + one.name;
       incoming.add(path, "export", one.bytes, name);

@@ -7,6 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "converters/engine/named_files.h"
 #include "formats/container/printable.h"
 
@@ -117,7 +118,8 @@ std::string missingNeed(const OptionTable& table, const std::vector<OptionNeed>&
 
 void refuseUnused(const OptionRow& row, const std::string& reason, Progress& progress) {
   if (!row.isPreference) throw Error(ErrorKind::Usage, row.shownName() + " " + reason);
-  progress.warn(row.shownName() + " of the configuration file is left out: it " + reason);
+  warn(progress, {WarningCode::OptionUnused,
+                  row.shownName() + " of the configuration file is left out: it " + reason});
 }
 
 void requireCompatible(const OptionTable& table) {

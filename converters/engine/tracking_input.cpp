@@ -2,6 +2,7 @@
 #include "converters/engine/tracking_input.h"
 
 #include "converters/base/error.h"
+#include "converters/base/warning.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/named_files.h"
 #include "converters/stages/tracking/vessel_at_click.h"
@@ -28,7 +29,7 @@ Result readAs(Result (*read)(const InputFile&, const convert::ReadVolumeOptions&
 void reportAssumptions(const InputFile& file, const std::vector<std::string>& assumptions,
                        Progress& progress) {
   for (const std::string& assumption : assumptions)
-    progress.warn(file.path().string() + ": " + assumption);
+    warn(progress, about(file.path().string(), {WarningCode::FileAssumption, assumption}));
 }
 
 }  // namespace
@@ -52,7 +53,8 @@ convert::Volume readVolumeFile(const InputFile& file, const FileFormat& format,
 void warnOfVoxels(const convert::Volume& volume, const std::string& file, Progress& progress) {
   const std::string name = formats::printable(file) + ": ";
   try {
-    if (const auto doubt = convert::doubtAbout(volume)) progress.warn(name + *doubt);
+    if (const auto doubt = convert::doubtAbout(volume))
+      warn(progress, {WarningCode::VolumeDoubt, name + *doubt});
   } catch (const Error& error) {
     throw Error(error.kind(), name + error.what());
   }

@@ -71,9 +71,15 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
   for (const std::string& assumption : result.assumptions)
     result.remarks.push_back("the file of the case's volume left open: " + assumption);
   addMotion(source, result);
+  const std::size_t losses = result.losses.size();
+  // the folder states both; a command warns of each by its code
+  for (const Warning& warning : result.warnings)
+    result.losses.push_back(warning.remedy.empty() ? warning.text
+                                                   : warning.text + "; " + warning.remedy);
   result.files.push_back({"README.md", readmeText(target, frame, source, result), "", ""});
   result.files.push_back(
       {"lumen-export.json", makeManifest(target, frame, source, texts, result), "", ""});
+  result.losses.resize(losses);
   return result;
 }
 

@@ -7,12 +7,16 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/options/edit_steps.h"
+#include "converters/base/warning.h"
 #include "converters/geometry/far_origin.h"
 #include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/seeds/case_seeds.h"
 #include "converters/io/volume/write_volume.h"
+#include "converters/operations/dark_seeds.h"
 #include "converters/operations/hinted_vessels.h"
 #include "converters/operations/label_prior.h"
 #include "converters/operations/stated_vessels.h"
+#include "converters/stages/editing/hint_parents.h"
 #include "converters/stages/fitting/fit.h"
 #include "formats/container/printable.h"
 
@@ -40,11 +44,36 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const ModelOptions
   return scaled.resolved(double{*middle} / kVoxelsOfRadius);
 }
 
+/// Takes out the seeds whose names no branch has, and warns of them; `reason` comes before the vessel
+/// that is there.
+void warnOfLostNames(std::vector<convert::SeedBranch>& named, const formats::Case& value,
+                     const VesselOptions& options, const std::string& reason,
+                     const Context& context) {
+  std::vector<convert::SeedFailure> lost;
+  std::erase_if(named, [&](const convert::SeedBranch& seed) {
+    if (convert::branchNamed(value.tree, seed.label)) return false;
+    const std::string there = nearestText(value.tree, seed.points.front().position);
+    lost.push_back({seed.label, reason + "; " + there});
+    return true;
+  });
+  warnOfSeeds(formats::printable(options.seedsName),
+              {WarningCode::SeedUnused, " names no vessel: "}, lost, context);
+}
+
 /// Names and selects the vessels of a case by maps.
 void applyMaps(const Source& source, const std::vector<NamingMap>& naming,
                const CaseOptions& options, MadeCase& made, const Context& context) {
+  std::vector<convert::SeedBranch> named = convert::seedsOf(made.value, source.name);
+  std::erase_if(named, [&](const convert::SeedBranch& seed) {
+    return !convert::branchNamed(made.value.tree, seed.label);
+  });
   nameByMaps(naming, made.value, context);
-  if (options.isOnlyLabelled) leaveOutUnlabelled(naming, made.value, source.name);
+  warnOfLostNames(named, made.value, options.vessels, "a label map names it", context);
+  if (options.isOnlyLabelled) {
+    leaveOutUnlabelled(naming, made.value, source.name);
+    warnOfLostNames(named, made.value, options.vessels,
+                    "it is left out, as it lies on no label of a vessel", context);
+  }
   if (!naming.empty()) renameEnds(made.value.tree, made.remarks.ends);
   recordMaps(source.maps, made.value);
 }
@@ -57,9 +86,11 @@ std::optional<convert::NativeSubtraction> withoutBone(const Source& source,
   convert::NativeSubtraction out = convert::subtractNative(
       *source.grey, formats::printable(source.name), source.native->voxels, name, context.progress);
   if (out.report.unmatched > 0)
-    context.progress.warn(name + ": " + fixedText(out.report.unmatched / 1000, 1) +
+    warn(context.progress,
+         about(name, {WarningCode::NativeUnmatched,
+                      fixedText(out.report.unmatched / 1000, 1) +
                           " ml of its bone match no bone of " + formats::printable(source.name) +
-                          "; there the contrast alone separates vessels from bone");
+                          "; there the contrast alone separates vessels from bone"}));
   return out;
 }
 
@@ -92,8 +123,10 @@ MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Cont
   if (options.corrected) {
     made.replayed = convert::replayEdits(options.corrected->value, made.value);
     for (const convert::LeftEdit& left : made.replayed->left)
-      context.progress.warn(formats::printable(options.corrected->name) +
-                            ": a correction is not made again: " + left.sentence + ": " + left.why);
+      warn(context.progress,
+           about(formats::printable(options.corrected->name),
+                 {WarningCode::CorrectionLeft,
+                  "a correction is not made again: " + left.sentence + ": " + left.why}));
   }
   const ImageBesideMaps image{volume, vessels.prior, vessels.track.dark};
   made.labels = inventoryOf(source.maps, naming, made.value, volume.geometry, &image, context);

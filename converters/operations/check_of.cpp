@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "converters/base/warning.h"
 #include "converters/judge/facts/reachable.h"
 #include "converters/operations/naming.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 void warnOfCase(const CheckNames& names, const std::optional<std::string>& words,
                 Progress& progress) {
-  if (words) progress.warn(names.value + ": " + *words);
+  if (words) warn(progress, about(names.value, {WarningCode::CaseOtherVolume, *words}));
 }
 
 }  // namespace

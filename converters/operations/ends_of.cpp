@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
+#include "converters/base/warning.h"
 #include "converters/stages/editing/further_inlets.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/trim.h"
@@ -109,7 +110,10 @@ RootedCase rootedAt(formats::Case value, std::span<const OpenEnd> inlets, const 
   const bool isFitted = value.models.has_value();
   if (isFitted) options = convert::recordedFitOptions(value);
   const bool hasPoints = value.points.has_value();
-  (void)convert::beginAt(value, places);
+  for (const convert::UnusedPlace& unused : convert::beginAt(value, places))
+    warn(context.progress,
+         {WarningCode::RootUnused, "no tree begins at " + context.field("root", unused.index) +
+                                       ": " + convert::reasonFor(unused.why)});
   const bool isDivided = value.tree.links.size() > links;
   if (!isDivided || !isFitted) return {std::move(value), false};
   if (!hasPoints)

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/warning.h"
 #include "converters/operations/naming.h"
 #include "converters/operations/surface_of.h"
 #include "formats/container/printable.h"
@@ -16,12 +17,13 @@ convert::ExportResult exported(const formats::Case& value, const std::string& na
   convert::ExportResult result = naming(name, [&] {
     return convert::exportCase(plan.target, value, plan.options, plan.texts, context.progress);
   });
-  const auto warn = [&](const std::vector<std::string>& sentences) {
-    for (const std::string& sentence : sentences)
-      context.progress.warn(formats::printable(plan.folder) + ": " + sentence);
-  };
-  if (result.surface) warn(surfaceWarnings(*result.surface, context));
-  warn(result.losses);
+  const std::string folder = formats::printable(plan.folder);
+  if (result.surface)
+    for (const Warning& warning : surfaceWarnings(*result.surface, context))
+      warn(context.progress, about(folder, warning));
+  for (const std::string& loss : result.losses)
+    warn(context.progress, about(folder, {WarningCode::ExportLoss, loss}));
+  for (const Warning& warning : result.warnings) warn(context.progress, about(folder, warning));
   return result;
 }
 

@@ -13,9 +13,12 @@
 #include "converters/base/random.h"
 #include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"
+#include "converters/base/warning.h"
 #include "converters/geometry/far_origin.h"
 #include "converters/io/seeds/case_seeds.h"
+#include "converters/operations/dark_seeds.h"
 #include "converters/operations/label_maps.h"
+#include "converters/stages/editing/hint_parents.h"
 #include "converters/stages/editing/hints.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/selection.h"
@@ -44,10 +47,23 @@ void append(std::vector<SeedFailure>&& from, std::vector<SeedFailure>& to) {
 
 void requireInVessels(const formats::Case& value, const std::string& name,
                       const VesselOptions& options, const Context& context) {
-  for (std::size_t i = 0; i < options.roots.size(); ++i)
-    if (!convert::placeIn(value.tree, options.roots[i]))
-      throw failed(formats::printable(name) + ": " + context.field("root", i) +
-                   " lies in no vessel that is found; nothing is written");
+  for (std::size_t i = 0; i < options.roots.size(); ++i) {
+    if (convert::placeIn(value.tree, options.roots[i])) continue;
+    const std::string near = nearestText(value.tree, options.roots[i]);
+    throw failed(formats::printable(name) + ": " + context.field("root", i) +
+                 " lies in no vessel that is found" + (near.empty() ? "" : ": " + near) +
+                 "; nothing is written");
+  }
+}
+
+/// Roots that lie in a vessel, but at whose end blood does not come in.
+void warnOfRoots(const std::vector<convert::UnusedPlace>& unused, const std::string& name,
+                 const Context& context) {
+  for (const convert::UnusedPlace& place : unused)
+    warn(context.progress,
+         {WarningCode::RootUnused, formats::printable(name) + ": no tree begins at " +
+                                       context.field("root", place.index) + ": " +
+                                       convert::reasonFor(place.why)});
 }
 
 /// Names of the branches in which the roots lie.
@@ -76,29 +92,52 @@ std::set<std::string> labelsOf(const std::vector<convert::SeedBranch>& seeds) {
 void apply(formats::Case& target, const std::string& name, std::set<std::string> named,
            const VesselOptions& options, const Context& context) {
   requireInVessels(target, name, options, context);
-  convert::beginAt(target, options.roots);
+  warnOfRoots(convert::beginAt(target, options.roots), name, context);
   select(target, std::move(named), options);
 }
 
-/// Tracks the hints that lie in no vessel into the result.
-void addUnusedHints(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
-                    const convert::Prior& prior, convert::TrackResult& result,
+/// Notes a vessel that was tracked from a seed, but leaves it out.
+void noteStart(const convert::SeedBranch& seed, convert::TrackResult& result) {
+  const auto own = convert::branchNamed(result.result.tree, seed.label);
+  const Eigen::Vector3d& click = seed.points.front().position;
+  if (!own || convert::placeIn(result.result.tree, *own, click)) return;
+  result.missedPoints.push_back({seed.label, "point 1; " + nearestText(result.result.tree, click)});
+}
+
+void warnOfHints(const convert::HintRemarks& hints, const std::string& name,
+                 const VesselOptions& options, const Context& context) {
+  const std::string file = formats::printable(options.seedsName);
+  warnOfSeeds(file, {WarningCode::SeedUnused, " names no vessel of its own: "}, hints.unused,
+              context);
+  warnOfSeeds(file, {WarningCode::SeedShared, " shares a vessel: "}, hints.halved, context);
+  warnOfSeeds(file, {WarningCode::SeedInlet, " is no inlet: "}, hints.unrooted, context);
+  warnOfRoots(hints.unusedRoots, name, context);
+}
+
+/// Tracks the hints that lie in no vessel into the result, but for those at which the volume shows
+/// nothing.
+void addUnusedHints(const convert::Volume& volume, std::vector<convert::SeedBranch> unused,
+                    const VesselOptions& options, convert::TrackResult& result,
                     const Context& context) {
+  LitSeeds seeds = withoutDark(volume, std::move(unused), options.track.dark, context);
+  append(std::move(seeds.dark), result.failures);
+  const std::vector<convert::SeedBranch>& rest = seeds.lit;
   if (rest.empty()) return;
   const convert::TrackingVolume tracking(volume, result.result, context.progress,
                                          context.fieldWord);
-  convert::AddedTracks added = convert::addTracksFromSeeds(
-      tracking, result.result, rest, context.progress, placesOfPrior(prior, volume.geometry));
+  convert::AddedTracks added =
+      convert::addTracksFromSeeds(tracking, result.result, rest, context.progress,
+                                  placesOfPrior(options.prior, volume.geometry));
   result.result = std::move(added.result);
   append(std::move(added.failures), result.failures);
   append(std::move(added.missedPoints), result.missedPoints);
   append(std::move(added.unjoined), result.unjoined);
   std::move(added.ends.begin(), added.ends.end(), std::back_inserter(result.ends));
+  for (const convert::SeedBranch& seed : rest) noteStart(seed, result);
 }
 
 convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std::string& name,
                                        const VesselOptions& options, const Context& context) {
-  Progress& progress = context.progress;
   convert::PlacedSeeds placed = placedSeeds(volume, options, context);
   std::string whyNone;
   convert::TrackResult result = findAndTrackIfAny(volume, options, whyNone, context);
@@ -113,11 +152,10 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, options.roots);
   append(std::move(hints.missedPoints), result.missedPoints);
   append(std::move(hints.unjoined), result.unjoined);
-  addUnusedHints(volume, hints.rest, options.prior, result, context);
-  for (const SeedFailure& unused : hints.unused)
-    progress.warn(formats::printable(options.seedsName) + ": seed \"" +
-                  formats::printable(unused.label) +
-                  "\" names no vessel of its own: " + unused.reason);
+  addUnusedHints(volume, std::move(hints.rest), options, result, context);
+  warnOfHints(hints, name, options, context);
+  append(convert::unkeptParents(result.result.tree, placed.seeds, hints.holders, result.unjoined),
+         result.unjoined);
   reportOnSeeds(volume, options, placed, result, context);
   select(result.result, labelsOf(placed.seeds), options);
   renameEnds(result.result.tree, result.ends);

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "converters/base/warning.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/judge/facts/check_facts.h"
 #include "converters/operations/naming.h"
@@ -17,7 +18,8 @@ convert::ImageFitReport moveWalls(formats::Case& value, const std::string& name,
                                   const ImagePart image, const Context& context) {
   const auto source =
       convert::sourceRelation(convert::describeSource(image.voxels), value.metadata);
-  if (const auto text = source.warning(image.name)) context.progress.warn(name + ": " + *text);
+  if (const auto text = source.warning(image.name))
+    warn(context.progress, about(name, {WarningCode::CaseOtherVolume, *text}));
   return naming(name + " and " + image.name, [&] {
     return convert::fitToImage(value, image.voxels, convert::recordedImageFit(value, image.voxels),
                                context.progress);

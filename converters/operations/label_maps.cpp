@@ -9,6 +9,7 @@
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
+#include "converters/base/warning.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/editing/selection.h"
 #include "converters/stages/trees_from_surfaces/branch_systems.h"
@@ -64,7 +65,8 @@ void nameByMap(const NamingMap& map, formats::Case& target, const Context& conte
   const convert::Naming done = convert::nameBranches(map.mask, target);
   convert::takeSystems(map.mask, map.roles, target);
   if (done.named == 0)
-    context.progress.warn(map.name + ": no branch lies on its labels; names stay");
+    warn(context.progress,
+         about(map.name, {WarningCode::LabelsBare, "no branch lies on its labels; names stay"}));
   context.progress.detail(map.name + ": names " + std::to_string(done.named) + " branches, " +
                           std::to_string(done.bare) + " lie on no label, " +
                           std::to_string(done.divided) + " were divided between labels");

@@ -10,6 +10,7 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
+#include "converters/base/warning.h"
 #include "converters/operations/label_maps.h"
 #include "converters/stages/trees_from_surfaces/branch_systems.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
@@ -28,12 +29,14 @@ formats::Case vesselsOfMask(const convert::LabelMask& mask, const std::string& n
   convert::LabelSurface surface = convert::makeLabelSurface(mask, progress);
   progress.end();
   if (surface.cavities > 0)
-    progress.warn(name + ": " + std::to_string(surface.cavities) +
-                  (surface.cavities == 1 ? " hole" : " holes") + " within the labels filled");
+    warn(progress,
+         about(name, {WarningCode::LabelsSettled, std::to_string(surface.cavities) +
+                                                      (surface.cavities == 1 ? " hole" : " holes") +
+                                                      " within the labels filled"}));
   convert::MeshCase made =
       convert::caseOfLumen(convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(),
                            name, {}, {{"labels", static_cast<std::int64_t>(labels)}}, progress);
-  for (const std::string& note : made.notes) progress.warn(note);
+  for (const std::string& note : made.notes) warn(progress, {WarningCode::LabelsSettled, note});
   return std::move(made.result);
 }
 
@@ -63,7 +66,7 @@ formats::Case vesselsOfParts(const convert::LabelMask& mask, bool isNamed,
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::InvalidInput || last == 0) throw;
       whyNone = error.what();
-      progress.warn(whyNone);
+      warn(progress, {WarningCode::LabelsBare, whyNone});
     }
   }
   if (!all) throw invalidInput(whyNone);
@@ -82,10 +85,11 @@ formats::Case labelledVessels(const LabelPart& labels, const std::set<std::int64
   const convert::LabelNames names = convert::namesOf(labels.meanings);
   useNames(names, mask);
   if (mask.isGrey)
-    progress.warn(name +
-                  ": its voxels differ from their neighbours as grey values do, and are taken as "
-                  "labels; expected a segmentation: an image is tracked from " +
-                  context.field("seeds"));
+    warn(progress,
+         about(name, {WarningCode::VolumeDoubt,
+                      "its voxels differ from their neighbours as grey values do, and are taken as "
+                      "labels; expected a segmentation",
+                      "an image is tracked from " + context.field("seeds")}));
   formats::Case made = vesselsOfParts(mask, mask.names.size() > 1 || !names.empty(),
                                       rolesOf(mask, labels.meanings), name, progress);
   recordAssumptions(made.metadata.steps.back(), labels.voxels.assumptions);

@@ -9,6 +9,7 @@
 
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
+#include "converters/base/warning.h"
 #include "converters/geometry/far_origin.h"
 #include "converters/stages/editing/further_inlets.h"
 #include "converters/stages/repair/repair.h"
@@ -59,7 +60,7 @@ convert::UnitGuess guessUnitOf(const convert::VesselSize& size, const std::strin
   if (const std::string warning =
           convert::unitWarning(guess, size, isOfSimVascular, context.fieldWord);
       !warning.empty())
-    context.progress.warn(formats::printable(name) + ": " + warning);
+    warn(context.progress, about(formats::printable(name), {WarningCode::MeshUnit, warning}));
   return guess;
 }
 
@@ -73,7 +74,8 @@ MeshFrame meshFrame(const MeshPart& part, const convert::VesselSize& size, const
     const std::string warning = convert::statedWarning(
         {size.radius * read, size.diagonal * read}, stated,
         isStandard ? convert::UnitBy::StandardOfGltf : convert::UnitBy::File, context.fieldWord);
-    if (!warning.empty()) context.progress.warn(formats::printable(name) + ": " + warning);
+    if (!warning.empty())
+      warn(context.progress, about(formats::printable(name), {WarningCode::MeshUnit, warning}));
     return {stated, isStandard ? "standard" : "file", file.frameStated};
   }
   const convert::UnitGuess guess = guessUnitOf(size, name, part.isOfSimVascular, context);
@@ -90,8 +92,11 @@ formats::Case meshVessels(const Source& source, const std::optional<double>& uni
   const Eigen::Vector3d back = convert::moveNear(mesh.position);
   convert::RepairResult repaired = convert::repairMesh(mesh, name, progress);
   progress.end();
-  for (const std::string& note : part.file.notes) progress.warn(name + ": " + note);
-  if (!repaired.repairs.empty()) progress.warn(name + ": repaired: " + listed(repaired.repairs));
+  for (const std::string& note : part.file.notes)
+    warn(progress, about(name, {WarningCode::FileAssumption, note}));
+  if (!repaired.repairs.empty())
+    warn(progress,
+         about(name, {WarningCode::MeshRepaired, "repaired: " + listed(repaired.repairs)}));
   frame = meshFrame(part, convert::vesselSize(repaired.mesh), source.name, unit, context);
   const double scale = part.file.scaleFor(frame.unit);
   const Eigen::Vector3d move =
@@ -104,11 +109,11 @@ formats::Case meshVessels(const Source& source, const std::optional<double>& uni
   if (source.centerline) centerline = inPatientSpace(*source.centerline, scale, move);
   convert::MeshCase made =
       convert::caseOfMesh(std::move(repaired.mesh), name, centerline, {{"unit", scale}}, progress);
-  for (const std::string& note : made.notes) progress.warn(note);
+  for (const std::string& note : made.notes) warn(progress, {WarningCode::MeshRepaired, note});
   beginAtFurtherInlets(made, progress);
   if (!move.isZero(0)) {
     const std::string sentence = convert::farSentence("its points are", move);
-    progress.warn(name + ": " + sentence);
+    warn(progress, about(name, {WarningCode::FileAssumption, sentence}));
     recordAssumptions(made.result.metadata.steps.back(), {sentence});
   }
   return std::move(made.result);

@@ -9,6 +9,7 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/privacy.h"
 #include "converters/base/sha256.h"
+#include "converters/base/warning.h"
 #include "converters/draw/overlay/overlay.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/io/volume/write_volume.h"
@@ -50,11 +51,16 @@ void addNamesOfFiles(ReportFacts& facts, const std::vector<std::string>& names) 
 /// Remarks on the surface that `lumen convert` makes by default, or the reason why there is none.
 std::vector<std::string> surfaceRemarks(const formats::Case& value, const Context& context) {
   try {
-    return surfaceWarnings(
-        convert::closedSurface(value, SurfaceOptions().closed, context.progress).report, context);
+    std::vector<std::string> lines;
+    for (const Warning& warning : surfaceWarnings(
+             convert::closedSurface(value, SurfaceOptions().closed, context.progress).report,
+             context))
+      lines.push_back(warningText(warning));
+    return lines;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Cancelled) throw;
-    return {std::string("there is no closed surface: ") + error.what()};
+    return {warningText(
+        {WarningCode::SurfaceNone, std::string("there is no closed surface: ") + error.what()})};
   }
 }
 

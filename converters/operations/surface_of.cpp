@@ -9,6 +9,7 @@
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "formats/container/printable.h"
 
 namespace lumen::operations {
@@ -98,37 +99,49 @@ Surface patchesOf(const formats::Case& value, const SurfaceOptions& options,
 
 }  // namespace
 
-std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report,
-                                         const Context& context) {
-  std::vector<std::string> sentences = report.messages;
+std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report, const Context& context) {
+  std::vector<Warning> out;
+  for (const std::string& message : report.messages)
+    out.push_back({WarningCode::SurfaceEnd, message});
   if (report.openedEdges > 0)
-    sentences.push_back(
-        counted(report.openedEdges, "edge", "edges") +
-        " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
+    out.push_back({WarningCode::SurfaceOpened,
+                   counted(report.openedEdges, "edge", "edges") +
+                       " of the tree had no lumen and were opened in the mesh",
+                   "lumen fit opens models"});
   if (report.crossings > 0)
-    sentences.push_back(
-        counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
-        " through each other; a greater " + context.field("gap") + " or a smaller " +
-        context.field("edge") + " may help");
-  for (const Eigen::Vector3d& place : report.cuts)
-    sentences.push_back("the lumen runs into itself at " + convert::placeText(place) +
-                        " mm, where no link joins it; it is cut there");
-  return sentences;
+    out.push_back(
+        {WarningCode::SurfaceCrossing,
+         counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
+             " through each other",
+         "a greater " + context.field("gap") + " or a smaller " + context.field("edge") +
+             " may help"});
+  if (!report.cuts.empty())
+    out.push_back(
+        {WarningCode::LumenContact,
+         "the lumen runs into itself" +
+             (report.cuts.size() == 1 ? ""
+                                      : " at " + std::to_string(report.cuts.size()) + " places") +
+             " without a link, and is cut there",
+         "if two tracks are in one vessel there, delete one in lumen view; if two vessels "
+         "touch, the cut keeps them apart, as they are",
+         report.cuts});
+  return out;
 }
 
 void warnOfLosses(const Patches& patches, const std::string& name, double cell,
                   const Context& context) {
   for (const std::string& text :
        {missingText(patches, cell, context), holesText(patches, cell, context)})
-    if (!text.empty()) context.progress.warn(formats::printable(name) + ": " + text);
+    if (!text.empty())
+      warn(context.progress, about(formats::printable(name), {WarningCode::SurfaceHoles, text}));
 }
 
 Surface surfaceOf(const formats::Case& value, const SurfaceOptions& options,
                   const std::string& name, const Context& context) {
   if (options.isInPatches) return patchesOf(value, options, name, context);
   convert::ClosedSurface made = convert::closedSurface(value, options.closed, context.progress);
-  for (const std::string& sentence : surfaceWarnings(made.report, context))
-    context.progress.warn(formats::printable(name) + ": " + sentence);
+  for (const Warning& warning : surfaceWarnings(made.report, context))
+    warn(context.progress, about(formats::printable(name), warning));
   return {std::move(made.levels), std::move(made.report)};
 }
 

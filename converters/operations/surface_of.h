@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/warning.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/operations/context.h"
 #include "converters/stages/surface/closing/closed_surface.h"
@@ -34,10 +35,9 @@ struct Surface {
 Surface surfaceOf(const formats::Case& value, const SurfaceOptions& options,
                   const std::string& name, const Context& context);
 
-/// Sentences about parts that a user should look at: ends that are not flat, stretches of branches
-/// without a surface, vessels that had to be opened or cut, triangles that pass through each other.
-std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report,
-                                         const Context& context);
+/// Parts that a user should look at: ends that are not flat, stretches of branches without a surface,
+/// vessels that had to be opened or cut, triangles that pass through each other.
+std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report, const Context& context);
 
 /// Warns of branches that have no surface in the patches called `name`, and of those with holes:
 /// where cells of `cell` mm were too coarse for them, with cells that would do.

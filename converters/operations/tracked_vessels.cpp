@@ -12,10 +12,13 @@
 #include "converters/base/text.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/io/volume/write_volume.h"
+#include "converters/operations/dark_seeds.h"
 #include "converters/operations/label_prior.h"
 #include "converters/operations/stated_vessels.h"
 #include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/further_inlets.h"
+#include "converters/stages/editing/hint_parents.h"
+#include "converters/stages/editing/inlets.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/case/vessel_system.h"
@@ -24,19 +27,6 @@
 namespace lumen::operations {
 
 namespace {
-
-/// One line for each seed, unless there are too many to read.
-void warnOfSeeds(const std::string& file, const std::string& what,
-                 const std::vector<convert::SeedFailure>& failures, const Context& context) {
-  constexpr std::size_t kMostSeedLines = 20;
-  for (std::size_t i = 0; i < std::min(failures.size(), kMostSeedLines); ++i)
-    context.progress.warn(file + ": seed \"" + formats::printable(failures[i].label) + "\"" + what +
-                          failures[i].reason);
-  if (failures.size() > kMostSeedLines)
-    context.progress.warn(file + ": and so on for " +
-                          std::to_string(failures.size() - kMostSeedLines) + " more seeds; " +
-                          context.allRemarks + " lists all");
-}
 
 std::string share(std::size_t count, std::size_t seeds) {
   if (seeds == 1) return "it lies";
@@ -95,6 +85,19 @@ convert::PlaceTest placesOfBone(const convert::FoundVessels& found) {
 }
 
 }  // namespace
+
+void warnOfSeeds(const std::string& file, const SeedOutcome& outcome,
+                 const std::vector<convert::SeedFailure>& failures, const Context& context) {
+  constexpr std::size_t kMostSeedLines = 20;
+  for (std::size_t i = 0; i < std::min(failures.size(), kMostSeedLines); ++i)
+    warn(context.progress,
+         {outcome.code, file + ": seed \"" + formats::printable(failures[i].label) + "\"" +
+                            outcome.words + failures[i].reason});
+  if (failures.size() > kMostSeedLines)
+    warn(context.progress, {outcome.code, file + ": and so on for " +
+                                              std::to_string(failures.size() - kMostSeedLines) +
+                                              " more seeds; " + context.allRemarks + " lists all"});
+}
 
 convert::TrackResult findAndTrack(const convert::Volume& volume, const std::string& name,
                                   const VesselOptions& options, const Context& context) {
@@ -157,9 +160,11 @@ convert::PlacedSeeds placedSeeds(const convert::Volume& volume, const VesselOpti
   const std::string file = formats::printable(options.seedsName);
   convert::PlacedSeeds placed =
       convert::placeSeeds(options.seeds, volume.geometry, options.seedsName, context.fieldWord);
-  if (!placed.advice.empty()) context.progress.warn(file + ": " + placed.advice);
-  warnOfSeeds(file, " is left out: ", placed.leftOut, context);
-  warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, context);
+  if (!placed.advice.empty())
+    warn(context.progress, {WarningCode::SeedsFrame, file + ": " + placed.advice});
+  warnOfSeeds(file, {WarningCode::SeedLeftOut, " is left out: "}, placed.leftOut, context);
+  warnOfSeeds(file, {WarningCode::SeedPoint, " is used without one of its points: "},
+              placed.leftPoints, context);
   return placed;
 }
 
@@ -168,9 +173,12 @@ void reportOnSeeds(const convert::Volume& volume, const VesselOptions& options,
                    const Context& context) {
   const std::string file = formats::printable(options.seedsName);
   const std::vector<convert::SeedBranch>& seeds = options.seeds;
-  warnOfSeeds(file, " started no track: ", result.failures, context);
-  warnOfSeeds(file, " does not pass through its ", result.missedPoints, context);
-  warnOfSeeds(file, " is not joined to its parent: ", result.unjoined, context);
+  addNearestVessels(result.result.tree, placed.seeds, result.failures);
+  warnOfSeeds(file, {WarningCode::SeedUntracked, " started no track: "}, result.failures, context);
+  warnOfSeeds(file, {WarningCode::SeedPoint, " does not pass through its "}, result.missedPoints,
+              context);
+  warnOfSeeds(file, {WarningCode::SeedUnjoined, " is not joined to its parent: "}, result.unjoined,
+              context);
   const bool isNone =
       result.result.tree.nodeCount() == 0 || result.failures.size() == placed.seeds.size();
   if (isNone || 2 * result.failures.size() > placed.seeds.size()) {
@@ -202,8 +210,15 @@ convert::PlaceTest placesOfPrior(const convert::Prior& prior,
 convert::TrackResult trackPlaced(const convert::Volume& volume, const convert::PlacedSeeds& placed,
                                  const VesselOptions& options, const Context& context) {
   const convert::PlaceTest isNoVessel = placesOfPrior(options.prior, volume.geometry);
-  convert::TrackResult result =
-      convert::trackFromSeeds(volume, placed.seeds, options.track, context.progress, isNoVessel);
+  LitSeeds seeds = withoutDark(volume, placed.seeds, options.track.dark, context);
+  convert::TrackResult result;
+  if (!seeds.lit.empty())
+    result =
+        convert::trackFromSeeds(volume, seeds.lit, options.track, context.progress, isNoVessel);
+  std::move(seeds.dark.begin(), seeds.dark.end(), std::back_inserter(result.failures));
+  for (convert::SeedFailure& unkept :
+       convert::unkeptParents(result.result.tree, placed.seeds, {}, result.unjoined))
+    result.unjoined.push_back(std::move(unkept));
   explainByPrior(placed.seeds, isNoVessel, result);
   return result;
 }

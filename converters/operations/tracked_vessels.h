@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/warning.h"
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/operations/context.h"
@@ -61,6 +62,16 @@ convert::PlaceTest placesOfPrior(const convert::Prior& prior,
 /// Tracks seeds that are placed, outside of what the prior states to be no vessel.
 convert::TrackResult trackPlaced(const convert::Volume& volume, const convert::PlacedSeeds& placed,
                                  const VesselOptions& options, const Context& context);
+
+/// An outcome for a seed, as " started no track: ", behind its name and before the reason.
+struct SeedOutcome {
+  WarningCode code;
+  std::string words;
+};
+
+/// One line for each seed, unless there are too many to read: the seed, the outcome and its reason.
+void warnOfSeeds(const std::string& file, const SeedOutcome& outcome,
+                 const std::vector<convert::SeedFailure>& failures, const Context& context);
 
 /// Warns of seeds that started no track or did not get all that they state. Throws Error(Failed) if
 /// all failed, or most and there is a reason to doubt them. Moves the failures to place seeds to

@@ -263,11 +263,13 @@ def make_cases(lumen, folder):
     go("export-list.schema.json", "export", "--list")
     go("convert.schema.json", "convert", "two.swc", "two.lumen")
     go("export.schema.json", "export", "sofa", "two.lumen", "two-sofa")
+    go("export.schema.json", "export", "svzerod", "two.lumen", "two-0d")
     go("seeds.schema.json", "seeds", "tracked.lumen", "kept.json")
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")
-    for case in ("fitted.lumen", "two.lumen"): go("info-case.schema.json", "info", case, "--surface")
+    round_end = str(CONFORMANCE / "valid/bend-tighter-than-wide.lumen.json")  # a warning of its surface
+    for case in ("fitted.lumen", "two.lumen", round_end): go("info-case.schema.json", "info", case, "--surface")
     secret = json.loads((folder / "made.lumen.json").read_text())
     secret["tree"]["branches"][0]["label"] = "Doe^Jane 1999-12-31"
     (folder / "secret.lumen.json").write_text(json.dumps(secret))

@@ -46,13 +46,28 @@ TEST_F(FittedTubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   const Outcome told = lumen({"info", "tube.lumen", "--json"});
   ASSERT_EQ(told.code, 0) << told.err;
   const Json info = Json::parse(told.out);
-  EXPECT_EQ(keys(info), (Names{"branches",   "nodes",          "links",
-                               "trees",      "networks",       "points",
-                               "blobs",      "blobs_per_node", "length_mm",
-                               "reachable",  "radius_mm",      "error_of_fit_mm",
-                               "provenance", "note",           "node_arrays",
-                               "motion",     "seeds",          "branch_table",
-                               "inlets",     "surface",        "surface_warnings",
+  EXPECT_EQ(keys(info), (Names{"branches",
+                               "nodes",
+                               "links",
+                               "trees",
+                               "networks",
+                               "points",
+                               "blobs",
+                               "blobs_per_node",
+                               "length_mm",
+                               "reachable",
+                               "radius_mm",
+                               "error_of_fit_mm",
+                               "provenance",
+                               "note",
+                               "node_arrays",
+                               "motion",
+                               "seeds",
+                               "branch_table",
+                               "inlets",
+                               "surface",
+                               "surface_warnings",
+                               "surface_findings",
                                "next"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);

@@ -13,6 +13,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/state_folder.h"
+#include "converters/base/warning.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
@@ -193,8 +194,9 @@ private:
   void warnOfUnsaved(Session& session, const engine::RunContext& context) const {
     if (!m_html.empty()) return;
     for (const std::string& file : session.findUnsaved())
-      context.progress.warn(formats::printable(file) +
-                            " holds work that was not saved; the page offers it under \"Files\"");
+      warn(context.progress,
+           {WarningCode::ViewUnsaved, formats::printable(file) + " holds work that was not saved",
+            "the page offers it under \"Files\""});
   }
 
   /// Volumes first, which seeds in voxels need, then cases.
@@ -214,7 +216,8 @@ private:
       session.open({map, name.string(), OpenAs::Labels}, context.progress);
     }
     if (output) session.saving.saveTo(*output);
-    if (const auto doubt = secondDoubt(session.now().document)) context.progress.warn(*doubt);
+    if (const auto doubt = secondDoubt(session.now().document))
+      warn(context.progress, {WarningCode::CaseOtherVolume, *doubt});
   }
 
   /// A folder of several series of DICOM, among which the page chooses.
@@ -292,13 +295,14 @@ private:
   engine::Answer serve(Session& session, const engine::RunContext& context) {
     PageFiles page = findPageFiles();
     if (page.empty())
-      context.progress.warn(
-          "the page of the viewer was not built, so there is nothing to see; ./bootstrap.sh demo "
-          "builds it, with npm");
+      warn(context.progress, {WarningCode::ViewBrowser,
+                              "the page of the viewer was not built, so there is nothing to see",
+                              "./bootstrap.sh demo builds it, with npm"});
     Server server(session, std::move(page), {m_port});
     context.answerEarly({{{"address", server.address()}}, server.address() + "\n", 0, true});
     if (!m_noBrowser && !openBrowser(server.address()))
-      context.progress.warn("no browser could be opened; open the address in one");
+      warn(context.progress,
+           {WarningCode::ViewBrowser, "no browser could be opened", "open the address in one"});
     waitForEnd(session, context);
     // first: a job that cannot be cancelled may outlast the grace of an interrupt
     session.keepUnsaved();
@@ -306,7 +310,8 @@ private:
     session.jobs.wait();
     server.stop();
     for (const std::string& file : session.keepUnsaved())
-      context.progress.warn("unsaved work is in " + formats::printable(file));
+      warn(context.progress,
+           {WarningCode::ViewUnsaved, "unsaved work is in " + formats::printable(file)});
     return {};
   }
 
@@ -337,7 +342,8 @@ private:
       return true;
     } catch (const std::exception& error) {
       if (before)
-        context.progress.warn("unsaved work cannot be kept: " + std::string(error.what()));
+        warn(context.progress, {WarningCode::ViewUnsaved,
+                                "unsaved work cannot be kept: " + std::string(error.what())});
       return false;
     }
   }

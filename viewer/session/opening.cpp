@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
@@ -36,8 +37,8 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
   auto result =
       convert::placeSeeds(seeds, volume->geometry, opening.file.path(), engine::optionWord());
   for (const convert::SeedFailure& failure : result.leftOut)
-    progress.warn(opening.label + ": seed \"" + failure.label +
-                  "\" is left out: " + failure.reason);
+    warn(progress, {WarningCode::SeedLeftOut, opening.label + ": seed \"" + failure.label +
+                                                  "\" is left out: " + failure.reason});
   return std::move(result.seeds);
 }
 

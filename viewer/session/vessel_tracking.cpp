@@ -9,6 +9,7 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/operations/case_of.h"
 #include "converters/operations/label_maps.h"
@@ -31,10 +32,11 @@ bool hasVessels(const Document& document) {
   return document.value && document.value->tree.nodeCount() > 0;
 }
 
-void warnAbout(const std::vector<convert::SeedFailure>& failures, const std::string& outcome,
-               Progress& progress) {
+void warnAbout(const std::vector<convert::SeedFailure>& failures,
+               const operations::SeedOutcome& outcome, Progress& progress) {
   for (const convert::SeedFailure& failure : failures)
-    progress.warn("seed \"" + formats::printable(failure.label) + "\"" + outcome + failure.reason);
+    warn(progress, {outcome.code, "seed \"" + formats::printable(failure.label) + "\"" +
+                                      outcome.words + failure.reason});
 }
 
 /// A case that has its tree, wall points and models from these seeds alone.
@@ -53,9 +55,10 @@ formats::Case trackFurther(const convert::TrackingVolume& volume, const formats:
                            const Seeds& seeds, std::vector<std::string>& dropped,
                            Progress& progress) {
   convert::AddedTracks tracks = convert::addTracksFromSeeds(volume, known, seeds, progress);
-  warnAbout(tracks.failures, " started no track: ", progress);
-  warnAbout(tracks.missedPoints, " does not pass through its ", progress);
-  warnAbout(tracks.unjoined, " is not joined to its parent: ", progress);
+  warnAbout(tracks.failures, {WarningCode::SeedUntracked, " started no track: "}, progress);
+  warnAbout(tracks.missedPoints, {WarningCode::SeedPoint, " does not pass through its "}, progress);
+  warnAbout(tracks.unjoined, {WarningCode::SeedUnjoined, " is not joined to its parent: "},
+            progress);
   formats::Case value = std::move(tracks.result);
   if (value.tree.nodeCount() == known.tree.nodeCount())
     throw failed(seeds.size() == 1 ? "the seed started no track"

@@ -49,13 +49,27 @@ SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
   try {
     convert::SurfaceReport report =
         convert::closedSurface(value, operations::SurfaceOptions().closed, progress).report;
-    std::vector<std::string> warnings =
-        operations::surfaceWarnings(report, operationContext(progress));
+    std::vector<Warning> warnings = operations::surfaceWarnings(report, operationContext(progress));
     return {std::move(report), std::move(warnings)};
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Cancelled) throw;
-    return {std::nullopt, {std::string("there is no closed surface: ") + error.what()}};
+    return {
+        std::nullopt,
+        {{WarningCode::SurfaceNone, std::string("there is no closed surface: ") + error.what()}}};
   }
+}
+
+Json warningsJson(const std::vector<Warning>& warnings) {
+  Json list = Json::array();
+  for (const Warning& warning : warnings) {
+    Json places = Json::array();
+    for (const Eigen::Vector3d& place : warning.places) places.push_back(vectorJson(place));
+    list.push_back({{"code", warningName(warning.code)},
+                    {"text", warning.text},
+                    {"places", std::move(places)},
+                    {"remedy", warning.remedy.empty() ? Json() : Json(warning.remedy)}});
+  }
+  return list;
 }
 
 std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case.h"
@@ -16,7 +17,7 @@ namespace lumen::engine {
 /// Results of examineSurface().
 struct SurfaceFindings {
   std::optional<convert::SurfaceReport> report;  ///< absent if there is no surface
-  std::vector<std::string> warnings;             ///< about it, or the reason why there is none
+  std::vector<Warning> warnings;                 ///< about it, or the reason why there is none
 };
 
 /// Makes the closed surface that `lumen convert` makes of a case by default. Finds nothing in a case
@@ -27,6 +28,9 @@ SurfaceFindings examineSurface(const formats::Case& value, Progress& progress);
 /// a surface.
 std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
                          const formats::Case& value);
+
+/// Warnings as objects with code, text, places and remedy.
+Json warningsJson(const std::vector<Warning>& warnings);
 
 /// Facts of a closed surface as an object; null without a surface.
 Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const formats::Case& value);

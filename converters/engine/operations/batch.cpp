@@ -13,6 +13,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/batch_inputs.h"
@@ -186,8 +187,10 @@ public:
     for (const std::string& file : found.passedOver)
       context.progress.detail(formats::printable(file) + ": passed over, as it is no volume");
     if (!found.passedOver.empty())
-      context.progress.warn(counted(found.passedOver.size(), "file is", "files are") +
-                            " passed over, as no volume that can be read; --verbose names them");
+      warn(context.progress, {WarningCode::FilesPassedOver,
+                              counted(found.passedOver.size(), "file is", "files are") +
+                                  " passed over, as no volume that can be read",
+                              "--verbose names them"});
     return batchAnswer(convert::makeBatch(found.inputs, m_out, options, context.progress),
                        found.passedOver.size(),
                        isFolder ? fs::path(m_inputs) : fs::path(m_inputs).parent_path(), m_out);

@@ -5,10 +5,12 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/number_text.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/answers/surface_answer.h"
 #include "converters/engine/export_options.h"
@@ -19,6 +21,7 @@
 #include "converters/judge/facts/reachable.h"
 #include "converters/operations/exported.h"
 #include "formats/case/atomic_file.h"
+#include "formats/container/printable.h"
 
 namespace lumen::engine {
 
@@ -64,6 +67,19 @@ void writeFolder(const std::vector<convert::ExportFile>& files, formats::Pending
   }
   const auto done = folder.commit();
   if (!done) throw failed(done.error().message);
+}
+
+Json outletJson(const convert::OutletRow& row) {
+  return {{"name", row.name},   {"radius_mm", row.radius}, {"tip_radius_mm", row.tip},
+          {"share", row.share}, {"flow_ml_s", row.flow},   {"why", row.why()}};
+}
+
+std::string outletLines(const std::vector<convert::OutletRow>& outlets) {
+  std::vector<std::vector<std::string>> rows{{"outlet", "radius mm", "share %", "ml/s", "by"}};
+  for (const convert::OutletRow& row : outlets)
+    rows.push_back({formats::printable(row.name), fixedText(row.radius, 2),
+                    fixedText(100 * row.share, 1), fixedText(row.flow, 3), row.why()});
+  return alignColumns(std::move(rows));
 }
 
 class ExportCommand : public Command {
@@ -178,9 +194,12 @@ private:
       files.push_back({{"name", file.name}, {"bytes", file.bytes.size()}});
     json["files"] = std::move(files);
     json["remarks"] = result.remarks;
+    json["outlets"] = Json::array();
+    for (const convert::OutletRow& row : result.outlets) json["outlets"].push_back(outletJson(row));
     json["surface"] = surfaceJson(result.surface, value);
     std::string text = caseLine(m_output, value);
     for (const std::string& remark : result.remarks) text += Lines().add(remark).text();
+    if (!result.outlets.empty()) text += outletLines(result.outlets);
     return {std::move(json), text + surfaceLines(result.surface, value)};
   }
 

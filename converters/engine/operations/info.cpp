@@ -235,10 +235,14 @@ private:
     Json json = caseInfoJson(info);
     json["inlets"] = inletsJson(ends, value.tree);
     json["surface"] = surfaceJson(found.report, value);
-    json["surface_warnings"] = found.warnings;
+    json["surface_warnings"] = Json::array();
+    json["surface_findings"] = warningsJson(found.warnings);
     std::string text =
         caseInfoText(info, inletsText(ends, value.tree)) + surfaceLines(found.report, value);
-    for (const std::string& sentence : found.warnings) text += "warning      " + sentence + "\n";
+    for (const Warning& warning : found.warnings) {
+      json["surface_warnings"].push_back(warningText(warning));
+      text += "warning      " + warningText(warning) + "\n";
+    }
     const std::string name = convert::shellWord(m_input.name());
     return withNext(
         {std::move(json), std::move(text), 0, true},

@@ -10,6 +10,7 @@
 
 #include "converters/base/files.h"
 #include "converters/base/options/option_name.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/measure_answer.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
@@ -168,8 +169,9 @@ private:
                                                  const formats::Case& source,
                                                  const RunContext& context) const {
     if (!source.models)
-      context.progress.warn(
-          file + ": has no models, so there are no cross-sections; lumen fit makes them");
+      warn(context.progress,
+           about(file, {WarningCode::ModelsMissing, "has no models, so there are no cross-sections",
+                        "lumen fit makes them"}));
     return operations::measuresOf(source, {m_step}, operationContext(context));
   }
 

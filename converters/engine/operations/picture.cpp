@@ -13,6 +13,7 @@
 #include "converters/base/files.h"
 #include "converters/base/number_text.h"
 #include "converters/base/options/option_name.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
@@ -83,9 +84,10 @@ public:
   void warnOfOlder(Progress& progress) const {
     const std::string next = nameOf(m_names.size());
     if (m_isTurntable && std::filesystem::exists(next))
-      progress.warn(
-          formats::printable(next) +
-          ": found a frame of an older turntable, which stays; remove it, and those after it");
+      warn(progress,
+           about(formats::printable(next),
+                 {WarningCode::PictureOld, "found a frame of an older turntable, which stays",
+                  "remove it, and those after it"}));
   }
   void commit() {
     for (formats::PendingFile& file : m_pending)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/base/options/option_name.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
@@ -67,8 +68,9 @@ public:
         operations::reportOf({std::move(value), bytes, nameOf(m_case), m_title},
                              reportedVolume(context.progress), operationContext(context));
     if (const std::size_t count = page.facts.warnings(); count > 0)
-      context.progress.warn(m_case.name() + ": " + counted(count, "warning", "warnings") +
-                            ", which the page lists");
+      warn(context.progress, about(m_case.name(), {WarningCode::ReportWarnings,
+                                                   counted(count, "warning", "warnings") +
+                                                       ", which the page lists"}));
     writeText(page.html, m_output);
     return report(page.facts, page.html.size());
   }

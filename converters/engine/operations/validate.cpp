@@ -135,10 +135,10 @@ private:
             "the case has no models, so there is no closed surface; lumen fit makes them"));
       return;
     }
-    for (const std::string& sentence : examineSurface(value, progress).warnings) {
+    for (const Warning& warning : examineSurface(value, progress).warnings) {
       ++report.counts.warnings;
       if (report.remarks.size() < m_maxIssues)
-        report.remarks.push_back(surfaceRemark(formats::Severity::Warning, sentence));
+        report.remarks.push_back(surfaceRemark(formats::Severity::Warning, warningText(warning)));
     }
   }
 

@@ -58,9 +58,9 @@ std::vector<double> solve(const std::vector<Entry>& entries, const Eigen::Vector
   return {pressure.begin(), pressure.end()};
 }
 
-/// The sentence on one inlet: the segment of its tree with the greatest drop, and its least radius.
-std::string warningAt(const FlowNetwork& network, const std::vector<double>& pressures,
-                      std::uint32_t inlet) {
+/// The warning of one inlet: the segment of its tree with the greatest drop, and its least radius.
+Warning warningAt(const FlowNetwork& network, const std::vector<double>& pressures,
+                  std::uint32_t inlet) {
   const FlowSegment* steepest = nullptr;
   double greatest = 0;
   for (const FlowSegment& segment : network.segments) {
@@ -71,11 +71,13 @@ std::string warningAt(const FlowNetwork& network, const std::vector<double>& pre
     greatest = drop;
   }
   const double thinnest = *std::min_element(steepest->radii.begin(), steepest->radii.end());
-  return network.joints[inlet].name + ": a solver will find a mean pressure of " +
-         fixedText(pressures[inlet] / kMmHg, 0) + " mmHg here, and arteries have 70 to 105; " +
-         steepest->name + ", which thins to a radius of " + numberText(thinnest, 3) +
-         " mm, takes " + fixedText(greatest / kMmHg, 0) +
-         " of it; lumen trim removes ends that are too thin";
+  return {WarningCode::FlowDoubt,
+          network.joints[inlet].name + ": a solver will find a mean pressure of " +
+              fixedText(pressures[inlet] / kMmHg, 0) + " mmHg here, and arteries have 70 to 105; " +
+              steepest->name + ", which thins to a radius of " + numberText(thinnest, 3) +
+              " mm, takes " + fixedText(greatest / kMmHg, 0) + " of it",
+          "lumen trim removes ends that are too thin",
+          {network.joints[inlet].place}};
 }
 
 }  // namespace
@@ -106,9 +108,9 @@ std::vector<double> pressuresOfFlows(const FlowNetwork& network, const std::vect
   return solve(entries, flow);
 }
 
-std::vector<std::string> pressureWarnings(const FlowNetwork& network) {
+std::vector<Warning> pressureWarnings(const FlowNetwork& network) {
   const std::vector<double> pressures = steadyPressures(network);
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   for (const FlowTree& tree : network.trees)
     for (const std::uint32_t inlet : tree.inlets)
       if (pressures[inlet] > kMostPressure * kMmHg)

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/warning.h"
 #include "converters/export/shared/network.h"
 
 namespace lumen::convert::blood {
@@ -68,8 +69,8 @@ std::vector<double> steadyPressures(const FlowNetwork& network);
 std::vector<double> pressuresOfFlows(const FlowNetwork& network, const std::vector<double>& into,
                                      const std::vector<std::uint32_t>& zero);
 
-/// A sentence for each inlet whose steady pressure no artery has, with the segment that takes most
-/// of it; labels as they are.
-std::vector<std::string> pressureWarnings(const FlowNetwork& network);
+/// A warning for each inlet whose steady pressure no artery has, with the segment that takes most of
+/// it; labels as they are.
+std::vector<Warning> pressureWarnings(const FlowNetwork& network);
 
 }  // namespace lumen::convert

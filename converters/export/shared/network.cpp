@@ -8,9 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "converters/base/csv_rows.h"
 #include "converters/base/error.h"
-#include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/flow_pressure.h"
@@ -390,42 +388,6 @@ std::vector<double> outletResistances(const FlowNetwork& network, const FlowTree
   std::vector<double> values = outletShares(network, tree);
   for (double& value : values) value = blood::kMeanPressure / (inflowOf(network, tree) * value);
   return values;
-}
-
-std::string outletTable(const FlowNetwork& network) {
-  constexpr double kMillilitres = 1e6;  // in a m^3
-  std::string text = "outlet,radius_mm,tip_radius_mm,share,flow_ml_s\n";
-  for (const FlowTree& tree : network.trees) {
-    const std::vector<double> shares = outletShares(network, tree);
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-      const std::uint32_t outlet = tree.outlets[k];
-      text += csvCell(network.joints[outlet].name) + "," + numberText(endCalibre(network, outlet)) +
-              "," + numberText(endRadius(network, outlet)) + "," + numberText(shares[k]) + "," +
-              numberText(kMillilitres * inflowOf(network, tree) * shares[k]) + "\n";
-    }
-  }
-  return text;
-}
-
-std::vector<std::string> outletWarnings(const FlowNetwork& network) {
-  constexpr double kShort = 0.02, kMuch = 0.25;  // of the tree's length, and of its flow
-  std::vector<double> length(network.trees.size(), 0.0);
-  for (const FlowSegment& segment : network.segments)
-    length[network.joints[segment.to].tree] += segment.length();
-  std::vector<std::string> warnings;
-  for (std::size_t t = 0; t < network.trees.size(); ++t) {
-    const FlowTree& tree = network.trees[t];
-    const std::vector<double> shares = outletShares(network, tree);
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-      const FlowJoint& outlet = network.joints[tree.outlets[k]];
-      const double own = network.segments[outlet.in.front()].length();
-      if (shares[k] <= kMuch || own >= kShort * length[t]) continue;
-      warnings.push_back(outlet.name + " takes " + fixedText(100 * shares[k], 0) +
-                         " % of the flow of its tree, and its vessel is " + shownFigure(own) +
-                         " mm of " + shownFigure(length[t]) + " mm");
-    }
-  }
-  return warnings;
 }
 
 }  // namespace lumen::convert

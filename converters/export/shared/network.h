@@ -95,10 +95,4 @@ double endRadius(const FlowNetwork& network, std::uint32_t joint);
 /// mm: calibre() of the segment at an inlet or outlet.
 double endCalibre(const FlowNetwork& network, std::uint32_t joint);
 
-/// Outlets as CSV: name, radius by which it takes its share, radius of its tip, share and flow.
-std::string outletTable(const FlowNetwork& network);
-
-/// A sentence for each outlet of a short vessel that takes much of its tree's flow.
-std::vector<std::string> outletWarnings(const FlowNetwork& network);
-
 }  // namespace lumen::convert

@@ -94,18 +94,19 @@ std::string encodePth(const BranchPath& path, std::size_t id) {
 
 namespace lumen {
 
-std::vector<std::string> treeLosses(const formats::CenterlineTree& tree, bool isNetwork) {
+std::vector<std::string> treeLosses(const formats::CenterlineTree& tree, const std::string& lines,
+                                    bool isNetwork) {
   const auto sacs = static_cast<std::size_t>(std::count_if(
       tree.branches.begin(), tree.branches.end(),
       [](const formats::Branch& branch) { return branch.kind == formats::BranchKind::Aneurysm; }));
   std::vector<std::string> losses;
   if (!tree.links.empty() && !isNetwork)
     losses.push_back(
-        "a centerline file holds trees, so " +
+        lines + " holds trees, so " +
         counted(tree.links.size(), "link that closes a loop is", "links that close loops are") +
         " left out");
   if (sacs > 0)
-    losses.push_back("a centerline file holds vessels, so " +
+    losses.push_back(lines + " holds vessels, so " +
                      counted(sacs, "aneurysm becomes one", "aneurysms become vessels"));
   return losses;
 }

@@ -41,7 +41,9 @@ namespace lumen {
 // Sentences on the parts of a tree that a file of lines of points cannot hold.
 
 /// Sentences without a full stop about links that close loops and about aneurysms; empty for a
-/// tree that has neither. `isNetwork`: the file holds links.
-std::vector<std::string> treeLosses(const formats::CenterlineTree& tree, bool isNetwork = false);
+/// tree that has neither. `lines`: what holds the lines, in the singular, as "the file". `isNetwork`:
+/// it holds links.
+std::vector<std::string> treeLosses(const formats::CenterlineTree& tree, const std::string& lines,
+                                    bool isNetwork = false);
 
 }  // namespace lumen

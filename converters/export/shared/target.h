@@ -14,6 +14,8 @@
 #include "converters/base/field_word.h"
 #include "converters/base/options/option_table.h"
 #include "converters/base/progress.h"
+#include "converters/base/warning.h"
+#include "converters/export/shared/flow_outlets.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/stages/surface/closing/closed_surface.h"
@@ -76,6 +78,8 @@ struct ExportResult {
   std::vector<std::string> remarks;      ///< sentences for the answer
   std::vector<std::string> assumptions;  ///< sentences: taken for granted by the volume's reader
   std::vector<std::string> losses;       ///< sentences: parts of the case that the folder lacks
+  std::vector<Warning> warnings;         ///< reasons to doubt what a program makes of the folder
+  std::vector<OutletRow> outlets;        ///< of a flow
   bool playsMotion = false;              ///< the folder moves the vessels as the case's motion does
   /// README.md: first steps and facts to know; Markdown, without headings of level 1.
   std::string start;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "converters/base/error.h"
+#include "converters/base/warning.h"
 #include "converters/judge/facts/branch_end.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/topology.h"
@@ -48,7 +49,7 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   try {
     info.seeds = countSeeds(value, "the case");
   } catch (const Error& error) {
-    progress.warn(error.what());
+    warn(progress, {WarningCode::CaseSeeds, error.what()});
   }
   info.length = totalLength(value.tree);
   if (info.nodes > 0) info.radius = radiusRange(value.tree.radius);

@@ -7,6 +7,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
@@ -79,7 +80,8 @@ std::vector<std::string> closedTexts(const Reach& reach) {
 
 void warnOfClosed(const std::optional<Reach>& reach, Progress& progress) {
   if (!reach) return;
-  for (const std::string& text : closedTexts(*reach)) progress.warn(text);
+  for (const std::string& text : closedTexts(*reach))
+    warn(progress, {WarningCode::LumenClosed, text});
 }
 
 }  // namespace lumen::convert

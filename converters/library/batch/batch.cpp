@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
+#include "converters/base/warning.h"
 #include "converters/library/batch/batch_case.h"
 #include "converters/library/batch/batch_tables.h"
 #include "formats/container/printable.h"
@@ -133,7 +134,7 @@ private:
     const std::string doubt =
         formats::printable(result.name) + ": " + batchWord(result.end) + ": " + result.why;
     finish(i, std::move(result));
-    if (isDoubtful) m_progress.warn(doubt);
+    if (isDoubtful) warn(m_progress, {WarningCode::BatchDoubt, doubt});
   }
 
   void finish(std::size_t i, BatchResult result) {

@@ -17,6 +17,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/sha256.h"
 #include "converters/base/text.h"
+#include "converters/base/warning.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
 
@@ -286,8 +287,8 @@ std::string inputIsThatOf(std::size_t line) {
 }
 
 void warnOfRow(Progress& progress, const RowResult& result) {
-  progress.warn("line " + std::to_string(result.line) + " (" + formats::printable(result.id) +
-                "): " + result.why);
+  warn(progress, {WarningCode::RowFailed, "line " + std::to_string(result.line) + " (" +
+                                              formats::printable(result.id) + "): " + result.why});
 }
 
 RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options) {

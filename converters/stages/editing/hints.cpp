@@ -12,11 +12,13 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/options/edit_steps.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/statistics.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/checks.h"
 #include "converters/stages/editing/edit.h"
+#include "converters/stages/editing/hint_parents.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/topology.h"
@@ -80,26 +82,6 @@ std::optional<std::uint32_t> forkNear(const CenterlineTree& tree, std::uint32_t 
   return best;
 }
 
-std::optional<std::uint32_t> named(const CenterlineTree& tree, const std::string& label) {
-  for (std::uint32_t b = 0; b < tree.branches.size(); ++b)
-    if (tree.branches[b].label == label) return b;
-  return std::nullopt;
-}
-
-/// Whether a branch is `above` or hangs on it, at whatever depth.
-bool hangsOn(const CenterlineTree& tree, std::uint32_t branch, std::uint32_t above) {
-  while (branch != above) {
-    const std::int32_t parent = tree.branches[branch].parentNode;
-    if (parent == formats::kNoParent) return false;
-    branch = tree.branch[static_cast<std::size_t>(parent)];
-  }
-  return true;
-}
-
-std::string millimetres(double length) {
-  return fixedText(length, 1) + " mm";
-}
-
 /// From hints to the case, one kind of statement after the other.
 class Hinted {
 public:
@@ -115,6 +97,7 @@ public:
     for (const SeedBranch& hint : m_hints) join(hint);
     dropSacs();
     giveRest();
+    m_out.holders = m_holder;
     m_case.metadata.steps = before;
     if (m_named > 0)
       recordEdit(m_case.metadata,
@@ -136,10 +119,22 @@ private:
     for (const SeedBranch& hint : m_hints)
       if (hint.parent) parents.insert(*hint.parent);
     std::vector<Vector3d> places(roots.begin(), roots.end());
+    std::vector<const SeedBranch*> begun;
     for (const SeedBranch& hint : m_hints)
-      if (hint.isRoot || (!hint.parent && parents.contains(hint.label)))
+      if (hint.isRoot || (!hint.parent && parents.contains(hint.label))) {
         places.push_back(hint.points.front().position);
-    beginAt(m_case, places);
+        begun.push_back(&hint);
+      }
+    for (const UnusedPlace& unused : beginAt(m_case, places)) {
+      if (unused.index < roots.size()) {
+        m_out.unusedRoots.push_back(unused);
+        continue;
+      }
+      const SeedBranch& hint = *begun[unused.index - roots.size()];
+      // a hint in no vessel starts a tree of its own
+      if (hint.isRoot && unused.why != UnusedPlace::Why::InNoVessel)
+        m_out.unrooted.push_back({hint.label, reasonFor(unused.why)});
+    }
   }
 
   /// Takes the hints' names from branches that have them by chance.
@@ -188,7 +183,15 @@ private:
       const formats::Branch& record = tree().branches[branch];
       const std::uint32_t end = record.firstNode + record.nodeCount - 1;
       const auto fork = forkNear(tree(), to, from, end);
-      cutBefore(m_case, fork ? *fork + 1 : from + (to - from + 1) / 2, Rest::Child);
+      const std::uint32_t cut = fork ? *fork + 1 : from + (to - from + 1) / 2;
+      if (!fork)
+        m_out.halved.push_back(
+            {kept[k].hint->label,
+             quoted(kept[k - 1].hint->label) +
+                 " lies in the same vessel, which no other leaves: it is divided "
+                 "halfway between both, at " +
+                 vectorText(toEigen(tree().centre[cut])) + " mm"});
+      cutBefore(m_case, cut, Rest::Child);
       give(branch + 1, *kept[k].hint);
     }
     give(branch, *kept.front().hint);
@@ -229,7 +232,8 @@ private:
 
   void refuse(const Placed& placed, const SeedBranch& holder) {
     m_holder[placed.hint->label] = holder.label;
-    m_out.unused.push_back({placed.hint->label, "it lies in " + quoted(holder.label)});
+    m_out.unused.push_back({placed.hint->label, "it lies where " + quoted(holder.label) +
+                                                    " does, which names the vessel"});
   }
 
   void noteMissed(const SeedBranch& hint) {
@@ -242,19 +246,16 @@ private:
   /// Makes a vessel hang on its stated parent, or notes why it does not.
   void join(const SeedBranch& hint) {
     if (!hint.parent || hint.kind != BranchKind::Vessel) return;
-    const auto own = named(tree(), hint.label);
+    const auto own = branchNamed(tree(), hint.label);
     const auto holder = m_holder.find(*hint.parent);
     if (!own || holder == m_holder.end()) return;
-    const std::uint32_t parent = *named(tree(), holder->second);
+    const std::uint32_t parent = *branchNamed(tree(), holder->second);
     if (hangsOn(tree(), *own, parent)) return;
     const auto firstOf = [&](std::uint32_t b) { return tree().branches[b].firstNode; };
     if (rootAbove(tree(), firstOf(*own)) == rootAbove(tree(), firstOf(parent))) {
-      const std::int32_t above = tree().branches[*own].parentNode;
       m_out.unjoined.push_back(
-          {hint.label, quoted(*hint.parent) + ", as the lumen leads to it from " +
-                           (above == formats::kNoParent
-                                ? "the root"
-                                : quoted(m_case, tree().branch[static_cast<std::size_t>(above)]))});
+          {hint.label,
+           quoted(*hint.parent) + ", as the lumen leads to it from " + aboveText(tree(), *own)});
       return;
     }
     bridge(hint, *own, parent);
@@ -278,8 +279,8 @@ private:
     }
     const formats::Vec3f target = tree().centre[byFirst ? atFirst : atLast];
     if (!byFirst) isRoot ? reverseBranch(m_case, own) : makeRoot(m_case, own);
-    const std::uint32_t on = *named(tree(), m_holder.at(*hint.parent));
-    joinBranch(m_case, *named(tree(), hint.label), nodeAt(on, target));
+    const std::uint32_t on = *branchNamed(tree(), m_holder.at(*hint.parent));
+    joinBranch(m_case, *branchNamed(tree(), hint.label), nodeAt(on, target));
   }
 
   /// Distance from a node to the nearest one of a branch, mm, and that one.

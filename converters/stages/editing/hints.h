@@ -3,12 +3,15 @@
 // section 1.14). No hint moves a node or a wall: hints name, divide, turn and join.
 #pragma once
 
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "converters/io/seeds/seeds.h"
+#include "converters/stages/editing/inlets.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -21,6 +24,11 @@ struct HintRemarks {
   std::vector<SeedFailure> missedPoints;  ///< points of a hint that lie outside of its vessel
   std::vector<SeedFailure> unused;        ///< hints in a vessel that has another hint's name
   std::vector<SeedFailure> unjoined;      ///< vessels that do not hang on the stated parent
+  std::vector<SeedFailure> halved;        ///< hints whose vessel was divided far from any fork
+  std::vector<SeedFailure> unrooted;      ///< hints of kind root where blood does not come in
+  std::vector<UnusedPlace> unusedRoots;   ///< of `roots`
+  /// Labels of the hints that lie in a vessel, and the label that it has: another one's for `unused`.
+  std::map<std::string, std::string> holders;
 };
 
 /// Gives the vessels of a valid case that was not fitted the names of the hints that lie in them.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "converters/base/vectors.h"
@@ -161,8 +162,31 @@ std::uint32_t rootAbove(const CenterlineTree& tree, std::uint32_t node) {
   return node;
 }
 
-std::vector<std::size_t> beginAt(formats::Case& target, std::span<const Vector3d> places) {
-  std::vector<std::size_t> outside;
+std::optional<NearVessel> nearestVessel(const CenterlineTree& tree, const Vector3d& point) {
+  std::optional<NearVessel> best;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
+    if (tree.branches[tree.branch[n]].kind != formats::BranchKind::Vessel) continue;
+    const double toWall = (toEigen(tree.centre[n]) - point).norm() - double{tree.radius[n]};
+    if (!best || toWall < best->toWall) best = NearVessel{tree.branch[n], toWall};
+  }
+  return best;
+}
+
+std::string reasonFor(UnusedPlace::Why why) {
+  switch (why) {
+    case UnusedPlace::Why::InNoVessel:
+      return "it lies in no vessel";
+    case UnusedPlace::Why::SameEnd:
+      return "an earlier root has the end that is nearest to it, along the vessels";
+    case UnusedPlace::Why::NotDivided:
+      return "blood comes into its tree at an earlier root, and no node lies between both at which "
+             "the tree could be divided";
+  }
+  return {};
+}
+
+std::vector<UnusedPlace> beginAt(formats::Case& target, std::span<const Vector3d> places) {
+  std::vector<UnusedPlace> unused;
   std::vector<formats::Vec3f> inlets;  // centres, as indices change
   const auto isInlet = [&](std::uint32_t node) {
     return std::find(inlets.begin(), inlets.end(), target.tree.centre[node]) != inlets.end();
@@ -170,19 +194,25 @@ std::vector<std::size_t> beginAt(formats::Case& target, std::span<const Vector3d
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto place = placeIn(target.tree, places[i]);
     if (!place) {
-      outside.push_back(i);
+      unused.push_back({i, UnusedPlace::Why::InNoVessel});
       continue;
     }
     const std::uint32_t end = nearestEnd(target.tree, place->node);
     const std::uint32_t root = rootAbove(target.tree, place->node);
     const formats::Vec3f centre = target.tree.centre[end];
-    if (end != root && !isInlet(root))
-      turn(target, end);
-    else if (end != root && !divide(target, end))
+    if (end == root && isInlet(root)) {
+      unused.push_back({i, UnusedPlace::Why::SameEnd});
       continue;
+    }
+    if (end != root && !isInlet(root)) {
+      turn(target, end);
+    } else if (end != root && !divide(target, end)) {
+      unused.push_back({i, UnusedPlace::Why::NotDivided});
+      continue;
+    }
     inlets.push_back(centre);
   }
-  return outside;
+  return unused;
 }
 
 }  // namespace lumen::convert

@@ -9,6 +9,7 @@
 #include "converters/base/error.h"
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
+#include "converters/base/warning.h"
 #include "converters/stages/tracking/cylinders/tracked_tree.h"
 #include "converters/voxels/grid_geometry.h"
 #include "converters/voxels/image_region.h"
@@ -48,12 +49,13 @@ void checkAndWarn(const Volume& volume, const std::vector<SeedBranch>& seeds,
   other.dark = !options.dark;
   const double contrast = contrastAtClicks(spline, seeds, options, progress);
   if (contrastAtClicks(spline, seeds, other, progress) <= kOtherSignContrasts * contrast) return;
-  progress.warn(
-      options.dark
-          ? "most seeds lie where it is brighter than around them, but " + options.word("dark") +
-                " tracks dark vessels: leave it out if vessels are bright"
-          : "most seeds lie where it is darker than around them: if vessels are dark, add " +
-                options.word("dark"));
+  warn(progress,
+       {WarningCode::SeedsContrast,
+        options.dark
+            ? "most seeds lie where it is brighter than around them, but " + options.word("dark") +
+                  " tracks dark vessels: leave it out if vessels are bright"
+            : "most seeds lie where it is darker than around them: if vessels are dark, add " +
+                  options.word("dark")});
 }
 
 TrackOptions optionsFor(const formats::Case& tracked) {

@@ -10,11 +10,23 @@ from typing import Any, Optional
 KINDS = {1: "failed", 2: "usage", 3: "invalid input", 4: "unsupported", 130: "interrupted"}
 _PLACE = re.compile(r'\bat "(?P<pointer>/[^"]*)"|\b(?P<count>(?:byte|line) \d+)')
 _FOUND = re.compile(r"(?:\bfound (?P<found>.+?))?[,;] expected (?P<expected>.+)", re.DOTALL)
+_CODE = re.compile(r" \[([a-z-]+)\]$")
 _MISSING = re.compile(r": (there is no such (?!command)|no such file|IO_MISSING\b)")
 
 
 class Warning(UserWarning):  # pylint: disable=redefined-builtin
-    """A fact that makes a result doubtful. ``strict=True`` makes an error of it."""
+    """A fact that makes a result doubtful. ``strict=True`` makes an error of it.
+
+    Attributes
+    ----------
+    code : str or None
+        Its kind, such as "seed-untracked": docs/warnings.md explains all.
+    """
+
+    @property
+    def code(self) -> Optional[str]:
+        match = _CODE.search(str(self))
+        return match and match[1]
 
 
 class Error(Exception):

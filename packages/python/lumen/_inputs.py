@@ -14,6 +14,7 @@ from ._options import texts_of
 # The engine's names of types, and the types that it holds of others.
 _TYPES = {"b1": "unsigned char", "i1": "signed char", "u1": "unsigned char", "i2": "short", "u2": "unsigned short",
           "i4": "int", "u4": "unsigned int", "f4": "float", "f8": "double"}
+_STAGED = "volume.nrrd"  # the name by which the engine knows voxels that lie in no file
 _HELD = {"i1": "i2", "i4": "f4", "u4": "f4", "f8": "f4"}
 
 
@@ -109,7 +110,7 @@ class Volume:
         return cls._read(os.fspath(path), None, progress, options)
 
     @classmethod
-    def from_bytes(cls, data: bytes, *, name="volume.nrrd", progress=None, **options) -> "Volume":
+    def from_bytes(cls, data: bytes, *, name=_STAGED, progress=None, **options) -> "Volume":
         """Reads the content of a file of NRRD, NIfTI or MetaImage. Its name states the format, and messages begin
         with it; options as those of :meth:`read`."""
         return cls._read(name, bytes(data), progress, options)
@@ -117,8 +118,10 @@ class Volume:
     @classmethod
     def _read(cls, name, data, progress, options):
         progress, *_ = watch_of({"progress": progress})
-        voxels, warnings = called(_lumen.read_volume, name, data, texts_of("convert", options), progress, known=[name])
-        report(warnings)
+        words = [] if data is None or name != _STAGED else [(name, "volume")]
+        voxels, warnings = called(_lumen.read_volume, name, data, texts_of("convert", options), progress, known=[name],
+                                  words=words)
+        report(warnings, words=words)
         return cls(voxels.array, voxels.spacing, voxels.origin, voxels.direction)
 
     def like(self, array) -> "Volume":
@@ -160,11 +163,11 @@ class Volume:
                        "to be mm; state the unit with --unit",
                        f'{name}: its header states no unit of length, so lengths are taken as mm; pass unit="mm" to '
                        "state it")]
-        return words + ([(name, self._file)] if self._file else [])
+        return words + [(name, self._file or name.partition(".")[0])]
 
     def _given(self):
         """The name and the content by which commands take this volume."""
-        return "volume.nrrd", self._parts({})
+        return _STAGED, self._parts({})
 
     def _parts(self, types):
         """As the compiled module takes it: the voxels in the machine's order, in the place of `types`, of which there

@@ -123,6 +123,11 @@ class Values:
         self.given[name] = value
         return name
 
+    def _give_text(self, name: str, value: str) -> str:
+        name = self._give(name, value)
+        self.words.append((name, name.partition(".")[0]))  # nobody wrote such a file
+        return name
+
     def name_of(self, value: Any, role: str = "") -> str:
         """The name of an argument: a path as it is, a case, a volume or an image by a name for it, or by the role that
         it has as an option."""
@@ -138,6 +143,8 @@ class Values:
             name = self._give(role + name[name.index("."):] if role else name, held)
             if isinstance(value, Volume):
                 self.words += value._words(name)  # pylint: disable=protected-access
+            else:
+                self.words.append((name, name.partition(".")[0]))
             return name
         if isinstance(value, dict) and value.keys() & _grouped().keys():
             name = next(group for word, group in _grouped().items() if word in value)
@@ -151,9 +158,9 @@ class Values:
         if value is None or isinstance(value, (str, os.PathLike)):
             return self.name_of(value) if isinstance(value, Kept) else value
         if row["name"] == "seeds":
-            return self._give("seeds.json", json.dumps(seeds_document(value)))
+            return self._give_text("seeds.json", json.dumps(seeds_document(value)))
         if row["name"] == "label-table":
-            return self._give("labels.json", json.dumps({str(_label(row, one)): name for one, name in value.items()}))
+            return self._give_text("labels.json", json.dumps({str(_label(row, one)): name for one, name in value.items()}))
         if row["name"] == "role" and isinstance(value, Mapping):
             return [f"{label}={role}" for label, role in value.items()]
         if row["name"] == "label-map" and isinstance(value, (list, tuple)):

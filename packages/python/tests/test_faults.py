@@ -67,7 +67,7 @@ class LabelsBesideTest(FaultsTest):
     def test_labels_that_a_grey_volume_does_not_hold(self):
         for source in (GREY, GREY + 0.5):
             fault = self.refuse("did you mean label_table", lumen.case_of, source, labels={77: "BA"}, kind=lumen.Error)
-            self.assertEqual(fault.file, "volume.nrrd")
+            self.assertEqual(fault.file, "volume")
 
 
 class ArgumentsTest(FaultsTest):
@@ -204,11 +204,11 @@ class WordsTest(FaultsTest):
     def test_headers_of_images(self):
         image = nibabel_like(np.eye(3), codes=(0, 0), unit="unknown")[0]
         place, unit = self.warned(image)
-        self.assertRegex(place, "^volume.nrrd: its header does not state where the patient's left, back and head are")
-        self.assertEqual(unit, 'volume.nrrd: its header states no unit of length, so lengths are taken as mm; pass unit="mm" '
-                         "to state it")
+        self.assertRegex(place, "^volume: its header does not state where the patient's left, back and head are")
+        self.assertEqual(unit, 'volume: its header states no unit of length, so lengths are taken as mm; pass unit="mm" '
+                         "to state it [file-assumption]")
         self.assertEqual(len(self.warned(image, unit="mm")), 1)
-        self.refuse("^volume.nrrd: its header .*strict", lumen.run, "info", image, strict=True, kind=lumen.Error)
+        self.refuse("^volume: its header .*strict", lumen.run, "info", image, strict=True, kind=lumen.Error)
 
     def test_an_image_has_the_name_of_its_file(self):
         image = nibabel_like(np.eye(3), unit="unknown")[0]
@@ -217,7 +217,7 @@ class WordsTest(FaultsTest):
         fault = self.refuse("^head.nii.gz: ", lumen.run, "info", image, strict=True, kind=lumen.Error)
         self.assertEqual(fault.file, "head.nii.gz")
         type(image).get_filename = lambda _: None
-        self.assertRegex(self.warned(image)[0], "^volume.nrrd: ")
+        self.assertRegex(self.warned(image)[0], "^volume: ")
 
     def test_a_surface_is_no_file(self):
         case = sample().case

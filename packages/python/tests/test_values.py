@@ -69,12 +69,12 @@ class NamesTest(unittest.TestCase):
         tracked = lumen.track(self.volume, seeds=sample().phantom.seeds, seeds_only=True)
         with self.assertRaises(lumen.Error) as raised:
             tracked.picture()
-        self.assertRegex(str(raised.exception), "^case.lumen: ")
-        self.assertEqual(raised.exception.file, "case.lumen")
+        self.assertRegex(str(raised.exception), "^case: ")
+        self.assertEqual(raised.exception.file, "case")
         flat = self.volume.like(np.zeros(self.volume.shape, np.uint8))
-        with self.assertRaisesRegex(lumen.Error, r"^volume\.nrrd: "):
+        with self.assertRaisesRegex(lumen.Error, r"^volume: "):
             lumen.convert(flat)
-        with self.assertRaisesRegex(lumen.Error, r"^label_map\.nrrd: "):
+        with self.assertRaisesRegex(lumen.Error, r"^label_map: "):
             lumen.convert(self.volume, label_map=lumen.Volume(np.full(self.volume.shape, 0.5)))
 
     def test_a_file_of_the_same_name_is_no_value(self):
@@ -213,7 +213,7 @@ class SurfaceTest(unittest.TestCase):
     def test_a_case_without_models_gets_some(self):
         tracked = lumen.track(sample().phantom.volume, seeds=sample().phantom.seeds, seeds_only=True)
         np.testing.assert_array_equal(tracked.surface(edge="0.5r")[0], sample().case.surface(edge="0.5r")[0])
-        with self.assertRaisesRegex(lumen.Error, "^case.lumen: this case has neither models nor wall points"):
+        with self.assertRaisesRegex(lumen.Error, "^case: this case has neither models nor wall points"):
             sample().phantom.truth.mesh()
 
     def test_options_are_those_of_a_mesh_file(self):

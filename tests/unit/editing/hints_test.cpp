@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/options/edit_steps.h"
+#include "converters/stages/editing/hint_parents.h"
 #include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/topology.h"
@@ -117,6 +118,61 @@ TEST(Hints, OfOneNodeAreOneVessel) {
   EXPECT_NE(remarks.unused[0].reason.find("\"a\""), std::string::npos);
 }
 
+TEST(Hints, ReportWhereAVesselWithoutForksIsDividedBetweenThem) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "vessel-1", alongX(0, 0.5F, 21), 1);
+  value.models.reset();
+  const HintRemarks remarks = applyHints(value, {seed("a", {1, 0, 0}), seed("b", {9, 0, 0})});
+  ASSERT_EQ(remarks.halved.size(), 1U);
+  EXPECT_EQ(remarks.halved[0].label, "b");
+  EXPECT_EQ(remarks.halved[0].reason,
+            "\"a\" lies in the same vessel, which no other leaves: it is divided halfway between "
+            "both, at (5, 0, 0) mm");
+  Case forked = comb();
+  EXPECT_TRUE(applyHints(forked, {seed("a", {1, 0, 0}), seed("b", {16.5, 0, 0})}).halved.empty());
+}
+
+TEST(Hints, WhoseParentNamesNoVesselAreReportedOnceAllIsTracked) {
+  Case value = comb();
+  const std::vector<SeedBranch> hints = {seed("a", {1, 0, 0}), seed("lost", {10, -6, 0}, "a"),
+                                         seed("b", {5, 4, 0}, "lost")};
+  const HintRemarks remarks = applyHints(value, hints);
+  EXPECT_TRUE(remarks.unjoined.empty());
+  const auto unkept = unkeptParents(value.tree, hints, remarks.holders, remarks.unjoined);
+  ASSERT_EQ(unkept.size(), 1U);
+  EXPECT_EQ(unkept[0].label, "b");
+  EXPECT_EQ(unkept[0].reason, "\"lost\" names no vessel; it hangs on \"a\"");
+  EXPECT_TRUE(unkeptParents(value.tree, hints, remarks.holders, unkept).empty());
+}
+
+TEST(Hints, OfATreeApartFromTheStatedParentAreReportedWithTheGap) {
+  Case value = comb();
+  addBeads(value, "apart", alongX(0, 0.5F, 9, -6), 0.5F);
+  const auto unkept =
+      unkeptParents(value.tree, {seed("vessel-1", {}), seed("apart", {}, "vessel-1")}, {}, {});
+  ASSERT_EQ(unkept.size(), 1U);
+  EXPECT_EQ(unkept[0].reason,
+            "\"vessel-1\" ends 4.5 mm from it, by the walls; it begins a tree of its own");
+}
+
+TEST(Hints, ThatShareAVesselWithAParentHangOnItsHolder) {
+  Case value = comb();
+  const std::vector<SeedBranch> hints = {seed("a", {1, 0, 0}), seed("twin", {1, 0.1, 0}),
+                                         seed("b", {5, 4, 0}, "twin")};
+  const HintRemarks remarks = applyHints(value, hints);
+  EXPECT_EQ(remarks.holders.at("twin"), "a");
+  EXPECT_TRUE(unkeptParents(value.tree, hints, remarks.holders, {}).empty());
+}
+
+TEST(Hints, OfKindRootAtOneEndAreReported) {
+  Case value = comb();
+  SeedBranch first = seed("inlet", {1, 0, 0}), second = seed("again", {3, 0, 0});
+  first.isRoot = second.isRoot = true;
+  const HintRemarks remarks = applyHints(value, {first, second});
+  ASSERT_EQ(remarks.unrooted.size(), 1U);
+  EXPECT_EQ(remarks.unrooted[0].label, "again");
+}
+
 TEST(Hints, OutsideOfAllVesselsAreTheRest) {
   Case value = comb();
   const HintRemarks remarks =
@@ -203,7 +259,34 @@ TEST(BeginAt, DividesATreeBetweenTwoInletsAtItsNarrowestNode) {
 TEST(BeginAt, ReturnsPlacesInNoVessel) {
   Case value = comb();
   const std::vector<Vector3d> places = {{0.5, 0, 0}, {9, 9, 9}};
-  EXPECT_EQ(beginAt(value, places), std::vector<std::size_t>{1});
+  const std::vector<UnusedPlace> unused = {{1, UnusedPlace::Why::InNoVessel}};
+  EXPECT_EQ(beginAt(value, places), unused);
+}
+
+TEST(BeginAt, ReturnsPlacesWhoseEndAnEarlierOneHas) {
+  Case value = comb();
+  const std::vector<Vector3d> places = {{0.5, 0, 0}, {1.5, 0, 0}};
+  const std::vector<UnusedPlace> unused = {{1, UnusedPlace::Why::SameEnd}};
+  EXPECT_EQ(beginAt(value, places), unused);
+}
+
+TEST(BeginAt, ReturnsPlacesBeforeWhichNothingCanBeDivided) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "short", alongX(0, 1.5F, 2), 1);
+  value.models.reset();
+  const std::vector<Vector3d> places = {{0, 0, 0}, {1.5, 0, 0}};
+  const std::vector<UnusedPlace> unused = {{1, UnusedPlace::Why::NotDivided}};
+  EXPECT_EQ(beginAt(value, places), unused);
+}
+
+TEST(NearestVessel, IsThatWhoseWallIsNearest) {
+  const Case value = comb();
+  const auto beside = nearestVessel(value.tree, {10, -3, 0});
+  ASSERT_TRUE(beside);
+  EXPECT_EQ(value.tree.branches[beside->branch].label, "vessel-1");
+  EXPECT_NEAR(beside->toWall, 2, 1e-6);
+  EXPECT_LT(nearestVessel(value.tree, {5, 5, 0})->toWall, 0);
+  EXPECT_FALSE(nearestVessel(formats::test::noBeads().tree, {0, 0, 0}));
 }
 
 TEST(Selection, KeepsTheTreesOfNamedBranches) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
+#include "converters/export/shared/flow_outlets.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/stages/editing/trim.h"
 #include "tests/unit/export/made_tree.h"
@@ -201,7 +202,14 @@ TEST(OutletShares, GoByTheRadiusOfTheLastStretchAndNotOfTheTip) {
   EXPECT_NEAR(endCalibre(network, network.trees[0].outlets[0]) /
                   endRadius(network, network.trees[0].outlets[0]),
               5, 1e-5);
-  EXPECT_EQ(outletTable(network).find("outlet,radius_mm,tip_radius_mm,share,flow_ml_s\noutlet-"),
+  const std::vector<OutletRow> rows = outletRows(network);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].share, shares[0]);
+  EXPECT_NEAR(rows[0].flow + rows[1].flow, 1e6 * network.joints[network.trees[0].inlets[0]].inflow,
+              1e-9);
+  EXPECT_EQ(rows[0].why().find("its last stretch, not its tip of "), 0U) << rows[0].why();
+  EXPECT_EQ(rows[1].why(), "its last stretch");
+  EXPECT_EQ(outletTable(rows).find("outlet,radius_mm,tip_radius_mm,share,flow_ml_s,why\noutlet-"),
             0U);
 }
 
@@ -221,11 +229,16 @@ TEST(OutletWarnings, NameAShortVesselThatTakesMuchOfTheFlow) {
     formats::CenterlineTree tree;
     addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 201, 2);
     addBranch(tree, "side", 100, {2, 0, 100}, {length / 3, 0, 0}, 4, radius);
-    return outletWarnings(flowNetwork(tree));
+    const FlowNetwork network = flowNetwork(tree);
+    return outletWarnings(network, outletRows(network));
   };
   // shares of .5, .27 and .23; a fiftieth of the length is 4.1 mm
   ASSERT_EQ(warnings(2, 3.8F).size(), 1U);
-  EXPECT_EQ(warnings(2, 3.8F)[0].find("outlet-side takes 50 % of the flow"), 0U);
+  const Warning warning = warnings(2, 3.8F)[0];
+  EXPECT_EQ(warning.text.find("outlet-side takes 50 % of the flow"), 0U);
+  EXPECT_EQ(warning.code, WarningCode::FlowDoubt);
+  ASSERT_EQ(warning.places.size(), 1U);
+  EXPECT_NEAR(warning.places[0].x(), 2 + 3.8, 1e-5);
   EXPECT_EQ(warnings(1.436F, 3.8F).size(), 1U);
   EXPECT_TRUE(warnings(1.337F, 3.8F).empty());
   EXPECT_TRUE(warnings(2, 4.5F).empty());
@@ -281,9 +294,9 @@ TEST(FlowPressure, BeyondNatureIsReportedWithTheThinVesselThatCausesIt) {
   EXPECT_TRUE(pressureWarnings(withTail(1)).empty());
   const auto warnings = pressureWarnings(withTail(0.155));
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("mmHg"), std::string::npos) << warnings[0];
-  EXPECT_NE(warnings[0].find("trunk_2, which thins to a radius of 0.155 mm"), std::string::npos)
-      << warnings[0];
+  const std::string& text = warnings[0].text;
+  EXPECT_NE(text.find("mmHg"), std::string::npos) << text;
+  EXPECT_NE(text.find("trunk_2, which thins to a radius of 0.155 mm"), std::string::npos) << text;
 }
 
 }  // namespace lumen::convert

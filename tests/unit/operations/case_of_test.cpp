@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
+#include "converters/base/vectors.h"
 #include "converters/operations/surface_of.h"
 #include "converters/stages/phantom/phantom.h"
 #include "formats/case/validate.h"
@@ -52,6 +53,12 @@ convert::CenterlineFile straightLine() {
   file.axes = convert::CenterlineAxes::Lps;
   return file;
 }
+
+class CaseWarnings : public Progress {
+public:
+  void warn(std::string_view message) override { texts.emplace_back(message); }
+  std::vector<std::string> texts;
+};
 
 class CaseOfTest : public testing::Test {
 protected:
@@ -99,17 +106,59 @@ TEST_F(CaseOfTest, VesselsAreFoundWithoutSeedsAndGetNoModelsUnlessAskedFor) {
   EXPECT_TRUE(made.value.points);
 }
 
-TEST_F(CaseOfTest, ARootThatLiesInNoVesselIsReportedByItsField) {
+TEST_F(CaseOfTest, ARootThatLiesInNoVesselIsReportedByItsFieldWithTheDistanceToTheNearest) {
   CaseOptions options;
   options.vessels.roots.emplace_back(-100, 0, 0);
-  EXPECT_EQ(fault(grey(phantom("tube")), options, m_context),
-            "tube: root[0] lies in no vessel that is found; nothing is written");
+  const std::string text = fault(grey(phantom("tube")), options, m_context);
+  EXPECT_TRUE(
+      text.starts_with("tube: root[0] lies in no vessel that is found: the wall of the "
+                       "nearest vessel, \"vessel-1\", is 10"))
+      << text;
+  EXPECT_TRUE(text.ends_with(" mm away; nothing is written")) << text;
   Context other = m_context.within(m_progress);
   other.fieldWord = [](std::string_view field, std::optional<std::size_t>) {
     return "the " + std::string(field);
   };
-  EXPECT_EQ(fault(grey(phantom("tube")), options, other),
-            "tube: the root lies in no vessel that is found; nothing is written");
+  EXPECT_TRUE(fault(grey(phantom("tube")), options, other)
+                  .starts_with("tube: the root lies in no vessel that is found: "));
+}
+
+TEST_F(CaseOfTest, AHintInTheDarkStartsNoVesselAndIsReportedWithItsDistance) {
+  convert::Phantom tube = phantom("tube");
+  // as in an angiogram whose background was cut off
+  for (std::int16_t& value : std::get<std::vector<std::int16_t>>(tube.volume.voxels))
+    if (value < 300) value = 0;
+  CaseOptions options;
+  options.vessels.seeds = tube.seeds;
+  const std::string parent = tube.seeds.front().label;
+  const std::vector<formats::Vec3f>& axis = tube.truth.tree.centre;
+  convert::SeedBranch dark;
+  dark.label = "dark";
+  dark.parent = parent;
+  dark.points.push_back({toEigen(axis[axis.size() / 2]) + Eigen::Vector3d(3, 0, 0), std::nullopt});
+  options.vessels.seeds.push_back(dark);
+  CaseWarnings heard;
+  const MadeCase made = caseOf(grey(tube), options, m_context.within(heard));
+  ASSERT_EQ(made.value.tree.branches.size(), 1U);
+  EXPECT_EQ(made.value.tree.branches[0].label, parent);
+  ASSERT_EQ(made.remarks.failures.size(), 1U);
+  const std::string& reason = made.remarks.failures[0].reason;
+  EXPECT_NE(reason.find("it has 0 around the seed, and in the background 0"), std::string::npos)
+      << reason;
+  EXPECT_NE(reason.find("nearest vessel, \"" + parent + "\", is 2."), std::string::npos) << reason;
+  ASSERT_EQ(heard.texts.size(), 1U);
+  EXPECT_NE(heard.texts[0].find("\"dark\" started no track"), std::string::npos);
+}
+
+TEST_F(CaseOfTest, RootsAtOneEndAreReported) {
+  const convert::Phantom tube = phantom("tube");
+  CaseOptions options;
+  const Eigen::Vector3d root = tube.seeds.front().points.front().position;
+  options.vessels.roots = {root, root + Eigen::Vector3d(0, 0, 0.3)};
+  CaseWarnings heard;
+  (void)caseOf(grey(tube), options, m_context.within(heard));
+  ASSERT_EQ(heard.texts.size(), 1U);
+  EXPECT_NE(heard.texts[0].find("no tree begins at root[1]: an earlier root"), std::string::npos);
 }
 
 TEST_F(CaseOfTest, LabelsAreVesselsWithTheirNames) {
@@ -141,6 +190,21 @@ TEST_F(CaseOfTest, TheFirstMapNamesAndALabelStatedToBeNoVesselHasNone) {
   };
   EXPECT_EQ(caseOf(sourceWith(false), {}, m_context).value.tree.branches.front().label, "rib");
   EXPECT_TRUE(fault(sourceWith(true), {}, m_context).starts_with("tube: no vessels are found"));
+}
+
+TEST_F(CaseOfTest, AMapThatRenamesAVesselOfASeedIsReported) {
+  const convert::Phantom tube = phantom("tube");
+  Source source = grey(tube);
+  source.maps.push_back({labelsOf(tube.volume), "map", {meaning(1, "trunk")}});
+  CaseOptions options;
+  options.vessels.seeds = tube.seeds;
+  CaseWarnings heard;
+  const MadeCase made = caseOf(std::move(source), options, m_context.within(heard));
+  EXPECT_EQ(made.value.tree.branches.front().label, "trunk");
+  ASSERT_EQ(heard.texts.size(), 1U);
+  EXPECT_EQ(heard.texts[0], "the seeds: seed \"" + tube.seeds.front().label +
+                                "\" names no vessel: a label map names it; it lies in \"trunk\" "
+                                "[seed-unused]");
 }
 
 TEST_F(CaseOfTest, MapsThatAreNoLabelsAreRefusedByName) {

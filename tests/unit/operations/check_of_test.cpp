@@ -103,7 +103,7 @@ TEST_F(CheckOfTest, NodesOutsideOfTheVolumeAreAWarning) {
   EXPECT_EQ(m_warnings.said,
             (std::vector<std::string>{"a.lumen: " + std::to_string(made.report.nodesOutside) +
                                       " of its " + std::to_string(m_value.tree.nodeCount()) +
-                                      " nodes lie outside of a.nrrd"}));
+                                      " nodes lie outside of a.nrrd [case-other-volume]"}));
 }
 
 TEST_F(CheckOfTest, ACaseElsewhereIsAnErrorWithBothNames) {

@@ -47,7 +47,7 @@ TEST(Exported, NamesFieldsByTheWordOfItsContext) {
       exported({}, "a.lumen", {echoTarget(), {}, {}, "out\n"}, context);
   EXPECT_EQ(result.files.at(0).bytes, "<edge>");
   ASSERT_EQ(warnings.said.size(), 1U);
-  EXPECT_EQ(warnings.said[0], "out\\u000a: a coarser <grid> is lost");
+  EXPECT_EQ(warnings.said[0], "out\\u000a: a coarser <grid> is lost [export-loss]");
 }
 
 TEST(Exported, HasTheTwoFilesOfEveryFolder) {

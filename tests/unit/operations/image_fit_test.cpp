@@ -50,7 +50,8 @@ TEST_F(FittedToImageTest, AnotherVolumeIsAWarningWithBothNames) {
   (void)made();
   ASSERT_EQ(m_progress.said.size(), 1U);
   EXPECT_EQ(m_progress.said[0],
-            "tube: was made from another volume: image has its size and place, but other voxels");
+            "tube: was made from another volume: image has its size and place, but other voxels "
+            "[case-other-volume]");
 }
 
 TEST_F(FittedToImageTest, ACaseWithoutWallPointsIsRefusedWithBothNames) {

@@ -117,7 +117,8 @@ TEST_F(ReportOfTest, AnotherVolumeIsOnThePageAndAWarning) {
   ASSERT_EQ(m_warnings.said.size(), 1U);
   const std::string start = "in/tree.lumen: was made from another volume: its spacing was 0.5 ";
   EXPECT_TRUE(m_warnings.said[0].starts_with(start)) << m_warnings.said[0];
-  EXPECT_EQ("in/" + sentenceWith("another volume", page), m_warnings.said[0]);
+  EXPECT_EQ("in/" + sentenceWith("another volume", page) + " [case-other-volume]",
+            m_warnings.said[0]);
   EXPECT_NE(page.html.find("was made from another volume"), std::string::npos);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/warning.h"
 #include "converters/engine/answers/answer_text.h"
 #include "converters/io/seeds/case_seeds.h"
 
@@ -44,7 +45,8 @@ Seeds seedsInCase(const formats::Case& value, const std::string& label, Progress
   try {
     return convert::seedsOf(value, label, engine::optionWord());
   } catch (const Error& error) {
-    progress.warn(std::string(error.what()) + "; they are left out, and saving drops them");
+    warn(progress, {WarningCode::CaseSeeds,
+                    std::string(error.what()) + "; they are left out, and saving drops them"});
     return {};
   }
 }

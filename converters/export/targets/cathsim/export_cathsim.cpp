@@ -12,7 +12,6 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "converters/export/shared/mujoco_text.h"
-#include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/cathsim/wall_prisms.h"
@@ -149,7 +148,6 @@ ExportResult exportCathsim(const ExportInput& input) {
         {kFolder + ("hull_" + std::to_string(k)) + ".stl", stlInMetres(hulls[k]), "", ""});
   result.others.push_back({std::string(kFolder) + "hull_*.stl", "the wall's convex pieces"});
   result.start = exportText("cathsim/README.md", {{"hulls", std::to_string(hulls.size())}});
-  for (std::string& loss : treeLosses(input.source.tree)) result.losses.push_back(std::move(loss));
   result.surface = std::move(made.report);
   return result;
 }

@@ -14,7 +14,6 @@
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/export/shared/mujoco_text.h"
-#include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/mujoco/wall_pieces.h"
@@ -283,7 +282,6 @@ ExportResult exportMujoco(const ExportInput& input) {
         {"meshes/wall_" + std::to_string(k) + ".stl", stlInMetres(pieces[k]), "", ""});
   result.others.push_back({"meshes/wall_*.stl", "the wall, in metres"});
   result.start = startPose(scene);
-  for (std::string& loss : treeLosses(input.source.tree)) result.losses.push_back(std::move(loss));
   result.ends = std::move(solid.surface.ends);
   result.surface = std::move(solid.surface.report);
   return result;

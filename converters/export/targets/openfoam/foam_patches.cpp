@@ -69,24 +69,25 @@ void share(FlowPart& part) {
   widest->holdsPressure = true;
 }
 
+std::uint32_t jointOf(const FlowNetwork& network, const FoamPatch& patch) {
+  std::uint32_t joint = 0;
+  while (joint < network.joints.size() && network.joints[joint].name != patch.end) ++joint;
+  return joint;
+}
+
 void setDrops(std::vector<FoamPatch>& patches, const FlowNetwork& network) {
   std::vector<double> into(network.joints.size(), 0.0);
   std::vector<std::uint32_t> zero;
   for (const FlowTree& tree : network.trees) zero.push_back(tree.outlets.front());
-  const auto jointOf = [&](const FoamPatch& patch) {
-    std::uint32_t joint = 0;
-    while (joint < network.joints.size() && network.joints[joint].name != patch.end) ++joint;
-    return joint;
-  };
   for (const FoamPatch& patch : patches) {
     if (patch.flow == 0) continue;
-    const std::uint32_t joint = jointOf(patch);
+    const std::uint32_t joint = jointOf(network, patch);
     into[joint] = patch.kind == FaceKind::Inlet ? patch.flow : -patch.flow;
     if (patch.holdsPressure) zero[network.joints[joint].tree] = joint;
   }
   const std::vector<double> pressures = pressuresOfFlows(network, into, zero);
   for (FoamPatch& patch : patches)
-    if (patch.flow != 0 && !patch.holdsPressure) patch.drop = pressures[jointOf(patch)];
+    if (patch.flow != 0 && !patch.holdsPressure) patch.drop = pressures[jointOf(network, patch)];
 }
 
 }  // namespace
@@ -156,6 +157,22 @@ std::vector<std::string> assignFlows(std::vector<FoamPatch>& patches, const Flow
         "flow through it");
   setDrops(patches, network);
   return losses;
+}
+
+std::vector<OutletRow> outletRows(const std::vector<FoamPatch>& patches,
+                                  const FlowNetwork& network) {
+  constexpr double kMillilitres = 1e6;  // in a m^3
+  std::vector<OutletRow> rows;
+  std::vector<double> flows(network.trees.size(), 0.0);
+  for (const FoamPatch& patch : patches) {
+    if (patch.kind != FaceKind::Outlet) continue;
+    const std::uint32_t joint = jointOf(network, patch);
+    flows[network.joints[joint].tree] += kMillilitres * patch.flow;
+    rows.push_back({joint, patch.name, patch.calibre, patch.radius, 0, kMillilitres * patch.flow,
+                    patch.holdsPressure});
+  }
+  for (OutletRow& row : rows) row.share = row.flow / flows[network.joints[row.joint].tree];
+  return rows;
 }
 
 namespace {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/export/shared/flow_outlets.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/export/shared/network.h"
 #include "converters/export/shared/target.h"
@@ -43,6 +44,10 @@ std::vector<FoamPatch> foamPatches(const SurfaceMesh& mesh, const std::vector<in
 /// Inlets without an outlet, and outlets without an inlet, become walls, for which a sentence is
 /// returned. Throws Error(InvalidInput) if nothing flows.
 std::vector<std::string> assignFlows(std::vector<FoamPatch>& patches, const FlowNetwork& network);
+
+/// The outlets of patches that have their flows, under the names of these.
+std::vector<OutletRow> outletRows(const std::vector<FoamPatch>& patches,
+                                  const FlowNetwork& network);
 
 // The texts of a case of OpenFOAM.
 

@@ -126,8 +126,11 @@ ExportResult exportOpenFoam(const ExportInput& input, const FoamOptions& options
   VolumeMesh cells;
   ExportedSurface made = isFilled ? cutByLumen(cut, foam, cells, result)
                                   : cutByOpenFoam(cut, options.cells, foam, result);
-  for (std::string& loss : assignFlows(foam.patches, flowNetwork(source.tree, inlets)))
+  const FlowNetwork network = flowNetwork(source.tree, inlets);
+  for (std::string& loss : assignFlows(foam.patches, network))
     result.losses.push_back(std::move(loss));
+  result.outlets = outletRows(foam.patches, network);
+  result.warnings = outletWarnings(network, result.outlets);
   result.start = startText(options.flow);
   result.files = foamDictionaries(foam);
   if (isFilled)

@@ -255,7 +255,8 @@ ExportResult exportSimVascular(const ExportInput& input) {
   }
   result.others = {{"Paths/*.pth", "centerlines"},
                    {"Segmentations/*.ctgr", "circles of the nodes' radii"}};
-  for (std::string& loss : treeLosses(input.source.tree)) result.losses.push_back(std::move(loss));
+  for (std::string& loss : treeLosses(input.source.tree, "a set of paths"))
+    result.losses.push_back(std::move(loss));
   if (cells) {
     result.remarks.push_back(cellsSentence(cells->report) +
                              ", each prism divided into three tetrahedra");

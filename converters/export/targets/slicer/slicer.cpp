@@ -175,7 +175,7 @@ ExportResult exportSlicer(const ExportInput& input) {
   result.others.push_back(
       {"centerlines/*.mrk.json", "a curve for each branch, with the measurement Radius"});
   result.start = exportText("slicer/README.md");
-  result.losses = treeLosses(tree);
+  result.losses = treeLosses(tree, "a set of curves");
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;

@@ -62,7 +62,7 @@ ExportResult exportSteve(const ExportInput& input) {
     result.files.push_back(
         {"Paths/" + paths[k].name + ".pth", encodePth(paths[k], k + 1), "", "cm"});
   result.others.push_back({"Paths/*.pth", "paths as of SimVascular, in cm"});
-  result.losses = treeLosses(input.source.tree);
+  result.losses = treeLosses(input.source.tree, "a set of paths");
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;

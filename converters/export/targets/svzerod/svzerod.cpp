@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/export/shared/flow_inlets.h"
+#include "converters/export/shared/flow_outlets.h"
 #include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/frame.h"
 #include "converters/export/shared/network.h"
@@ -139,11 +140,12 @@ ExportResult exportSvZeroD(const ExportInput& input) {
   result.ends = findEnds(network);
   result.losses = std::move(flowing.losses);
   result.losses.insert(result.losses.end(), network.messages.begin(), network.messages.end());
-  for (std::string& warning : pressureWarnings(network))
-    result.losses.push_back(std::move(warning));
-  for (std::string& warning : outletWarnings(network)) result.losses.push_back(std::move(warning));
-  result.files.push_back(
-      {"outlets.csv", outletTable(network), "radius, share and flow of each outlet, ml/s", ""});
+  result.outlets = outletRows(network);
+  result.warnings = pressureWarnings(network);
+  for (Warning& warning : outletWarnings(network, result.outlets))
+    result.warnings.push_back(std::move(warning));
+  result.files.push_back({"outlets.csv", outletTable(result.outlets),
+                          "radius, share and flow of each outlet, ml/s, and the reason", ""});
   result.remarks = {networkSummary(network)};
   return result;
 }

@@ -15,6 +15,7 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/base/warning.h"
 #include "converters/stages/fitting/image/section_fit.h"
 #include "formats/case/node_origin.h"
 
@@ -339,7 +340,8 @@ ImageFitReport fitToImage(formats::Case& target, const Volume& volume,
   }
   target.tree = std::move(tree);
   if (target.motion)
-    progress.warn("the motion is dropped, because its poses are those of the centres before");
+    warn(progress, {WarningCode::ImageMotion,
+                    "the motion is dropped, because its poses are those of the centres before"});
   target.motion.reset();
   target.points = std::move(points);
   target.metadata.pointQuantisation.reset();
