@@ -1,72 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declared in commands.h.
-
+// Declared in commands.h and completion.h.
+#include <algorithm>
 #include <map>
-#include <sstream>
 
 #include "converters/cli/commands.h"
+#include "converters/cli/completion.h"
+#include "converters/cli/help_topics.h"
 #include "converters/engine/file_format.h"
 
 namespace lumen::cli {
 
 namespace {
 
-/// "--from --to --seeds ...": the long names of a command's options.
-std::string optionNames(const OptionTable& own) {
-  CommonOptions common;
-  OptionTable shared;
-  common.addRows(shared);
-  std::string names = "--help";
-  for (const OptionTable* table : {&own, static_cast<const OptionTable*>(&shared)})
-    for (const OptionRow& row : table->rows()) {
-      if (row.isArgument) continue;
-      names += " " + row.shownName();
-      if (!row.negative.empty()) names += " --" + row.negative;
-    }
-  return names + " --" + configRow().name;
+/// "glb, lumen" as words.
+std::vector<std::string> wordsIn(const std::string& list) {
+  std::vector<std::string> words{""};
+  for (const char c : list)
+    if (c == ' ')
+      words.emplace_back();
+    else if (c != ',')
+      words.back() += c;
+  return words;
 }
 
-std::string spaced(std::string list) {
-  std::erase(list, ',');
-  return list;
+std::vector<std::string> valuesOf(const OptionRow& row) {
+  if (row.name == "from") return wordsIn(engine::formatNames(engine::canRead));
+  if (row.name == "to") return wordsIn(engine::formatNames(engine::canWrite));
+  return row.words;
 }
 
-/// File names are completed by the shell itself wherever nothing here answers.
-std::string bashScript(const engine::Engine& commands) {
-  std::map<std::string, std::string> seconds;  // keys: the word of their group
-  std::string names, last;
-  std::ostringstream options, groups;
-  for (const auto& [command, table] : commands.commands()) {
-    const std::string first = engine::firstWord(command->name());
-    const bool isGroup = groupSummary(first) != nullptr;
-    if (first != last) names += (names.empty() ? "" : " ") + first;
-    if (isGroup) seconds[first] += command->name().substr(first.size());
-    options << "      \"" << command->name() << (isGroup ? "\"" : " \"*") << ") words=\""
-            << optionNames(*table) << "\" ;;\n";
-    last = first;
-  }
-  for (const auto& [first, words] : seconds)
-    groups << "  elif [ \"$COMP_CWORD\" -eq 2 ] && [ \"${COMP_WORDS[1]}\" = " << first
-           << " ]; then\n    words=\"" << words.substr(1) << " --help\"\n";
-  std::ostringstream script;
-  script << "# bash: eval \"$(lumen completion bash)\"\n"
-            "_lumen() {\n"
-            "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} words=\n"
-            "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-         << "    words=\"" << names << " help --help --version\"\n"
-         << groups.str() << "  elif [ \"$before\" = --from ]; then\n"
-         << "    words=\"" << spaced(engine::formatNames(engine::canRead)) << "\"\n"
-         << "  elif [ \"$before\" = --to ]; then\n"
-         << "    words=\"" << spaced(engine::formatNames(engine::canWrite)) << "\"\n"
-         << "  elif [[ $word == -* ]]; then\n"
-            "    case \"${COMP_WORDS[1]} ${COMP_WORDS[2]}\" in\n"
-         << options.str()
-         << "    esac\n"
-            "  fi\n"
-            "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
-            "}\n"
-            "complete -o default -F _lumen lumen\n";
-  return script.str();
+void addOption(const OptionRow& row, std::vector<CompletedOption>& options) {
+  if (row.isArgument) return;
+  options.push_back({row.shownName(), row.help, !row.isFlag(), valuesOf(row)});
+  if (!row.negative.empty()) options.push_back({"--" + row.negative, row.help, false, {}});
+}
+
+const std::map<std::string, std::string (*)(const Completion&)>& scripts() {
+  static const std::map<std::string, std::string (*)(const Completion&)> scripts = {
+      {"bash", bashScript}, {"fish", fishScript}, {"zsh", zshScript}};
+  return scripts;
 }
 
 class CompletionCommand : public engine::Command {
@@ -76,15 +48,17 @@ public:
     return "Print a script that completes commands, options and formats in a shell";
   }
   [[nodiscard]] std::string example() const override {
-    return "  lumen completion bash > ~/.local/share/bash-completion/completions/lumen";
+    return "  lumen completion bash > ~/.local/share/bash-completion/completions/lumen\n"
+           "  lumen completion zsh > ~/.zfunc/_lumen   # a folder that is in $fpath\n"
+           "  lumen completion fish > ~/.config/fish/completions/lumen.fish";
   }
 
   void addRows(OptionTable& table) override {
-    table.argument("SHELL", &m_shell, "bash", checkAmong({"bash"}));
+    table.argument("SHELL", &m_shell, "bash, fish or zsh", checkAmong({"bash", "fish", "zsh"}));
   }
 
   engine::Answer run(const engine::RunContext& context) override {
-    std::string script = bashScript(context.engine);
+    std::string script = scripts().at(m_shell)(completionOf(context.engine));
     return {{{"script", script}}, std::move(script), 0, true};
   }
 
@@ -93,6 +67,29 @@ private:
 };
 
 }  // namespace
+
+Completion completionOf(const engine::Engine& commands) {
+  Completion completion;
+  CommonOptions common;
+  OptionTable shared;
+  common.addRows(shared);
+  for (const auto& [command, table] : commands.commands()) {
+    const std::string first = engine::firstWord(command->name());
+    const char* const group = groupSummary(first);
+    if (group != nullptr && (completion.groups.empty() || completion.groups.back().name != first))
+      completion.groups.push_back({first, group, {}});
+    CompletedCommand& made =
+        completion.commands.emplace_back(CompletedCommand{command->name(), command->summary(), {}});
+    made.options.push_back({"--help", "Print the help of the command", false, {}});
+    for (const OptionTable* rows :
+         {static_cast<const OptionTable*>(table.get()), &std::as_const(shared)})
+      for (const OptionRow& row : rows->rows()) addOption(row, made.options);
+    addOption(configRow(), made.options);
+  }
+  for (const HelpTopic& topic : helpTopics())
+    completion.topics.push_back({topic.name, topic.title, {}});
+  return completion;
+}
 
 std::unique_ptr<engine::Command> makeCompletionCommand() {
   return std::make_unique<CompletionCommand>();

@@ -18,6 +18,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/cli/commands.h"
 #include "converters/cli/help_text.h"
+#include "converters/cli/help_topics.h"
 #include "converters/cli/interrupt.h"
 #include "converters/cli/parser.h"
 #include "converters/cli/terminal_progress.h"
@@ -121,10 +122,10 @@ int runOperation(const engine::Engine& commands, const char* file) {
   });
 }
 
-std::string listOfCommands(CLI::App& app, const std::string& how) {
+std::string listOfCommands(CLI::App& app, const std::string& how, const std::string& more = "") {
   app.formatter(std::make_shared<HelpFormatter>());
   app.footer(how + " --help, or " + how.substr(0, 5) + " help" + how.substr(5) +
-             " prints more, with an example.\n" + kExitCodes);
+             " prints more, with an example.\n" + more + kExitCodes);
   return app.help();
 }
 
@@ -140,7 +141,8 @@ std::string topLevelHelp(const engine::Engine& commands) {
     if (word != last) app.add_subcommand(word, group != nullptr ? group : command->summary());
     last = word;
   }
-  return listOfCommands(app, "lumen COMMAND");
+  return listOfCommands(app, "lumen COMMAND",
+                        "lumen help TOPIC prints a part of the manual:\n" + listOfTopics());
 }
 
 std::string groupHelp(const engine::Engine& commands, const std::string& word) {
@@ -172,6 +174,24 @@ int runNamed(const engine::Engine& commands, std::span<const char* const> argume
   return runCommand(commands, bound, static_cast<int>(arguments.size()), arguments.data());
 }
 
+/// `question`: words after help, of which there is one.
+int printHelp(const engine::Engine& commands, std::span<const char* const> question) {
+  const std::string word = question.front();
+  const bool isCommand = groupSummary(word) != nullptr || commands.find(word).command != nullptr;
+  if (isCommand || word.starts_with('-')) {
+    std::vector<const char*> words(question.begin(), question.end());
+    words.push_back("--help");
+    return runNamed(commands, words);
+  }
+  const std::string text = topicText(word);
+  if (text.empty()) throw unknownTopic(word, commands);
+  if (question.size() > 1)
+    throw Error(ErrorKind::Usage,
+                std::string(question[1]) + ": one argument too many for lumen help " + word);
+  print(text);
+  return 0;
+}
+
 /// `more`: words after --version, of which there is one.
 void printVersion(std::span<const char* const> more) {
   for (const std::string_view word : more)
@@ -189,11 +209,7 @@ int dispatch(std::span<const char* const> words) {
     std::fputs(topLevelHelp(commands).c_str(), stderr);
     throw Error(ErrorKind::Usage, "a command is missing");
   }
-  if (first == "help" && words.size() > 2) {
-    std::vector<const char*> question(words.begin() + 2, words.end());
-    question.push_back("--help");
-    return runNamed(commands, question);
-  }
+  if (first == "help" && words.size() > 2) return printHelp(commands, words.subspan(2));
   if (first == "help" || first == "--help" || first == "-h") {
     print(topLevelHelp(commands));
     return 0;

@@ -5,10 +5,14 @@ include(GNUInstallDirs)
 add_executable(write_man write_man.cpp)
 target_link_libraries(write_man PRIVATE lumen_command_line)
 set(man_page ${CMAKE_CURRENT_BINARY_DIR}/lumen.1)
-set(completion ${CMAKE_CURRENT_BINARY_DIR}/completions/lumen)
+set(completions ${CMAKE_CURRENT_BINARY_DIR}/completions)
 add_custom_command(OUTPUT ${man_page} COMMAND write_man ${man_page} DEPENDS write_man VERBATIM)
-file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/completions)
-add_custom_command(OUTPUT ${completion} COMMAND lumen completion bash > ${completion} DEPENDS lumen VERBATIM)
+file(MAKE_DIRECTORY ${completions})
+add_custom_command(OUTPUT ${completions}/lumen ${completions}/_lumen ${completions}/lumen.fish
+  COMMAND lumen completion bash > ${completions}/lumen
+  COMMAND lumen completion zsh > ${completions}/_lumen
+  COMMAND lumen completion fish > ${completions}/lumen.fish
+  DEPENDS lumen VERBATIM)
 # schemas of the JSON answers; Debian's Python first, as in tests/tools.cmake
 find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(PYTHON NAMES python3 REQUIRED)
@@ -20,7 +24,7 @@ add_custom_command(OUTPUT ${answers}/parts.schema.json
   DEPENDS ${spec}/answers/make.py ${spec}/answers/answers.txt VERBATIM)
 add_custom_target(answer_schemas DEPENDS ${answers}/parts.schema.json)
 # all of the component that is built: cmake --build BUILD -t lumen_program
-add_custom_target(lumen_program ALL DEPENDS lumen ${man_page} ${completion})
+add_custom_target(lumen_program ALL DEPENDS lumen ${man_page} ${completions}/lumen)
 add_dependencies(lumen_program answer_schemas)
 
 install(TARGETS lumen COMPONENT lumen)
@@ -28,7 +32,9 @@ if(LUMEN_FILLS)
   install(TARGETS lumen_netgen COMPONENT lumen)
 endif()
 install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT lumen)
-install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT lumen)
+install(FILES ${completions}/lumen DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT lumen)
+install(FILES ${completions}/_lumen DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT lumen)
+install(FILES ${completions}/lumen.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT lumen)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lumen)
 

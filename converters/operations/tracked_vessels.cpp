@@ -18,7 +18,6 @@
 #include "converters/stages/editing/correct_topology.h"
 #include "converters/stages/editing/further_inlets.h"
 #include "converters/stages/editing/hint_parents.h"
-#include "converters/stages/editing/inlets.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/case/vessel_system.h"

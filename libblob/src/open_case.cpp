@@ -2,11 +2,13 @@
 #include "open_case.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "build_model.h"
@@ -31,7 +33,8 @@ using formats::ErrorCode;
 /// A file mapped into memory where the system can, read into memory elsewhere.
 class MappedFile {
 public:
-  /// Maps or reads a file; false as a bool if it cannot be opened, is no regular file, or is empty.
+  /// Maps or reads a file; false as a bool, with its fault, if it cannot be opened, is no regular
+  /// file, or is empty.
   explicit MappedFile(const char* path);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;
@@ -40,24 +43,44 @@ public:
   explicit operator bool() const { return m_data != nullptr; }
   [[nodiscard]] const void* data() const { return m_data; }
   [[nodiscard]] std::size_t size() const { return m_size; }
+  /// The cause of a file that cannot be used, such as "No such file or directory".
+  [[nodiscard]] const std::string& fault() const { return m_fault; }
 
 private:
+  std::string m_fault;
   const void* m_data = nullptr;
   std::size_t m_size = 0;
   std::vector<double> m_copy;  ///< bytes where files cannot be mapped; doubles for alignment
 };
 
 #if defined(__unix__) || defined(__APPLE__)
+std::string systemFault() {
+  return std::generic_category().message(errno);
+}
+
+// Why a file of this status is no case; empty if it may be one.
+std::string faultOf(const struct stat& status) {
+  if (S_ISDIR(status.st_mode)) return "found a folder, expected a file";
+  if (!S_ISREG(status.st_mode)) return "found a device or a pipe, expected a file";
+  return status.st_size > 0 ? "" : "the file is empty";
+}
+
 MappedFile::MappedFile(const char* path) {
   const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) return;
+  if (file < 0) {
+    m_fault = systemFault();
+    return;
+  }
   struct stat status {};
-  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
+  m_fault = fstat(file, &status) == 0 ? faultOf(status) : systemFault();
+  if (m_fault.empty()) {
     const auto size = static_cast<std::size_t>(status.st_size);
     void* data = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
     if (data != MAP_FAILED) {
       m_data = data;
       m_size = size;
+    } else {
+      m_fault = systemFault();
     }
   }
   close(file);
@@ -68,16 +91,25 @@ MappedFile::~MappedFile() {
 }
 #elif defined(__wasm__)
 // no files exist here, and streams would be most of the library
-MappedFile::MappedFile(const char*) {}
+MappedFile::MappedFile(const char*) : m_fault("there are no files here") {}
 MappedFile::~MappedFile() = default;
 #else
 MappedFile::MappedFile(const char* path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  if (size <= 0) return;
+  if (size <= 0) {
+    m_fault = file         ? "the file is empty"
+              : errno != 0 ? std::generic_category().message(errno)
+                           : "the file cannot be opened";
+    return;
+  }
   m_copy.resize((static_cast<std::size_t>(size) + sizeof(double) - 1) / sizeof(double));
   file.seekg(0);
-  if (!file.read(reinterpret_cast<char*>(m_copy.data()), size)) return;
+  if (!file.read(reinterpret_cast<char*>(m_copy.data()), size)) {
+    m_fault = "the file cannot be read";
+    return;
+  }
   m_data = m_copy.data();
   m_size = static_cast<std::size_t>(size);
 }
@@ -192,7 +224,7 @@ blob_status withView(const void* bytes, std::size_t size, const blob_open_def& d
 template <class Use>
 blob_status withFile(const char* path, const blob_open_def& def, Use use) {
   const MappedFile file(path);
-  if (!file) return fail(def, BLOB_ERROR_FILE, blob_status_text(BLOB_ERROR_FILE));
+  if (!file) return fail(def, BLOB_ERROR_FILE, file.fault());
   return use(file.data(), file.size());
 }
 

@@ -30,7 +30,7 @@ for package in lumen lumen-viewer; do
     fi
   done
 done
-rm -rf "$image/usr/share/man" "$image/usr/share/bash-completion"
+rm -rf "$image/usr/share/man" "$image/usr/share/bash-completion" "$image/usr/share/zsh" "$image/usr/share/fish"
 
 # Libraries under the names by which they are loaded, in the folders that the loader knows without a cache.
 for file in $(ldd /usr/bin/lumen | sed -nE 's/^.*=> (\/[^ ]+) .*$/\1/p; s/^\t(\/[^ ]*ld-linux[^ ]*) .*$/\1/p'); do

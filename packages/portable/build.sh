@@ -47,9 +47,11 @@ cp "$root/usr/bin/lumen" "$folder/libexec/lumen"
 # lumen looks for its page beside the file that runs, which is the loader: both lie one level down
 cp -a "$root/usr/share/lumen" "$folder/share/"
 cp -a "$root/usr/share/doc/lumen/." "$folder/share/doc/lumen/"
-mkdir -p "$folder/share/man/man1" "$folder/share/bash-completion/completions"
+mkdir -p "$folder/share/man/man1"
 gzip -dc "$root/usr/share/man/man1/lumen.1.gz" >"$folder/share/man/man1/lumen.1"
-cp "$root/usr/share/bash-completion/completions/lumen" "$folder/share/bash-completion/completions/"
+for script in bash-completion/completions/lumen zsh/vendor-completions/_lumen fish/vendor_completions.d/lumen.fish; do
+  install -D -m 644 "$root/usr/share/$script" "$folder/share/$script"
+done
 
 inside "$root" 'ldd /usr/bin/lumen' | awk '{for (i = 1; i <= NF; ++i) if ($i ~ "^/") print $i}' | sort -u >"$work/libraries"
 inside "$root" "while read -r file; do real=\$(readlink -f \"\$file\"); dpkg-query -S \"\$real\" 2>/dev/null || dpkg-query -S \"\${real#/usr}\"; done" \

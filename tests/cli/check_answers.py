@@ -240,7 +240,7 @@ def make_cases(lumen, folder):
     go("library.schema.json", "library", "extract", "lib", "extract", "--case", "two")
     go("library.schema.json", "library", "update", "lib", "two", "--title", "Another title")
     go("library.schema.json", "library", "remove", "lib", "two")
-    go("completion.schema.json", "completion", "bash")
+    for shell in ("bash", "fish", "zsh"): go("completion.schema.json", "completion", shell)
     hold("version.schema.json", lumen.run(["--version", "--json"], folder), "--version")
     (folder / "library").mkdir()
     (folder / "library/library.json").write_text(json.dumps(dict(

@@ -19,6 +19,7 @@ WORKFLOW = {f"share/lumen/pipelines/{p.relative_to(PIPELINES)}" for part in ("bi
             for p in (PIPELINES / part).rglob("*") if p.is_file() and p.suffix != ".pyc"}
 EXPECTED = SCHEMAS | ANSWERS | WORKFLOW | {
     "bin/lumen", "bin/lumen-bids", "share/man/man1/lumen.1", "share/bash-completion/completions/lumen",
+    "share/zsh/site-functions/_lumen", "share/fish/vendor_completions.d/lumen.fish",
     *(f"share/doc/lumen/{name}" for name in ("LICENSE", "THIRD_PARTY.md", "CITATION.cff")),
     *(f"share/doc/lumen/spec/{name}" for name in ("lumen.md", "seeds.md", "errors.md", "coverage.md", "schema", "answers")),
     *(f"share/doc/lumen/spec/figures/{p.name}" for p in (ROOT / "spec/figures").glob("*.png"))}

@@ -9,6 +9,7 @@
 
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/cli/commands.h"
 #include "converters/engine/answers/answer_text.h"
 #include "tests/cli/run_lumen.h"
 
@@ -100,6 +101,26 @@ TEST_F(CompletionTest, OptionsOfTheCommand) {
 TEST_F(CompletionTest, FormatsOfFromAndTo) {
   EXPECT_EQ(offered("convert --to g"), "glb gltf graphml\n");
   EXPECT_EQ(offered("convert --from nr"), "nrrd\n");
+}
+
+TEST_F(CompletionTest, WordsThatAnOptionTakes) {
+  EXPECT_EQ(offered("picture a.lumen a.png --view an"), "anterior\n");
+}
+
+TEST_F(CompletionTest, CommandsAndTopicsOfHelp) {
+  EXPECT_EQ(offered("help measu"), "measure measures\n");
+}
+
+TEST_F(CompletionTest, EveryShellCompletesEveryOptionOfEveryCommand) {
+  const std::string fish = lumen({"completion", "fish"}).out,
+                    zsh = lumen({"completion", "zsh"}).out;
+  for (const auto& [command, table] : cli::allCommands().commands())
+    for (const OptionRow& row : table->rows()) {
+      if (row.isArgument) continue;
+      const std::string within = "'__lumen_within " + command->name() + "' -l " + row.name + " -d ";
+      EXPECT_TRUE(contains(fish, within)) << within;
+      EXPECT_TRUE(contains(zsh, " '" + row.shownName() + ":")) << row.name;
+    }
 }
 
 TEST_F(CompletionTest, FileNamesAreLeftToTheShell) {

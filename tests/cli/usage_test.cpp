@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Help, arguments that are refused, and the exit code of each class of failure.
 #include <regex>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -98,6 +99,32 @@ TEST_F(UsageTest, HelpIsACommandToo) {
   EXPECT_EQ(lumen({"help"}).out, lumen({"--help"}).out);
   EXPECT_EQ(lumen({"help", "fit"}).out, lumen({"fit", "--help"}).out);
   EXPECT_EQ(lumen({"help", "fti"}).code, 2);
+}
+
+TEST_F(UsageTest, HelpPrintsEveryTopicThatItLists) {
+  const std::string list = lumen({"help"}).out;
+  std::istringstream lines(list.substr(list.find("lumen help TOPIC")));
+  std::string line, name;
+  std::getline(lines, line);
+  std::size_t topics = 0;
+  for (; std::getline(lines, line) && line.starts_with("  "); ++topics) {
+    std::istringstream(line) >> name;
+    const Outcome page = lumen({"help", name});
+    EXPECT_EQ(page.code, 0) << name;
+    const std::string title = page.out.substr(2, page.out.find('\n') - 2);
+    EXPECT_TRUE(line.ends_with(" " + title)) << line << ": " << title;
+    EXPECT_FALSE(contains(page.out, ".md)")) << name;
+    EXPECT_FALSE(contains(page.out, ".png)")) << name;
+  }
+  EXPECT_GT(topics, 15U);
+}
+
+TEST_F(UsageTest, AnUnknownTopicIsAUsageErrorThatNamesTheNearestOne) {
+  const Outcome unknown = lumen({"help", "volums"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_EQ(unknown.err,
+            "lumen: error: volums: there is no such command or topic; did you mean volumes?\n");
+  EXPECT_EQ(lumen({"help", "volumes", "flow"}).code, 2);
 }
 
 TEST_F(UsageTest, NoHelpTextHasTheParsersOwnMarks) {

@@ -107,6 +107,27 @@ TEST(BlobOpen, WhatIsMissingIsNamed) {
   EXPECT_EQ(open(bytes.data(), bytes.size()).status, BLOB_ERROR_NO_MODELS);
 }
 
+TEST(BlobOpen, AFileThatCannotBeOpenedNamesTheCauseOnce) {
+  const std::string empty = ::testing::TempDir() + "empty.lumen";
+  std::fclose(std::fopen(empty.c_str(), "w"));
+  const std::pair<std::string, std::string> causes[] = {
+      {"/no/such/file.lumen", "No such file or directory"},
+      {"/dev/null/file.lumen", "Not a directory"},
+      {"/dev/null", "found a device or a pipe, expected a file"},
+      {"/", "found a folder, expected a file"},
+      {empty, "the file is empty"}};
+  for (const auto& [file, cause] : causes) {
+    char message[200] = "";
+    blob_open_def def = blob_open_def_default();
+    def.message = message;
+    def.message_size = sizeof message;
+    blob_model* model = nullptr;
+    EXPECT_EQ(blob_model_open(file.c_str(), &def, &model), BLOB_ERROR_FILE) << file;
+    EXPECT_EQ(message, cause);
+  }
+  std::remove(empty.c_str());
+}
+
 TEST(BlobOpen, ADamagedBodyIsAChecksumError) {
   auto bytes = formats::encodeBinary(caseOf(tube(12)));
   bytes[bytes.size() - 70] ^= std::byte{1};
