@@ -21,7 +21,7 @@ TEST_F(MeasureTest, AnswersWithNumbersThatHoldTheTruth) {
   const Outcome made = lumen({"measure", "tube.lumen", "--json"});
   ASSERT_EQ(made.code, 0) << made.err;
   const Json vessel = Json::parse(made.out)["cases"][0]["vessels"][0];
-  const Json truth = Json::parse(lumen({"info", "truth.lumen", "--json"}).out)["branch_table"][0];
+  const Json truth = Json::parse(lumen({"info", "truth.lumen", "--json"}).out)["branches"][0];
   const auto radius = truth["radius_mm"]["mean"].get<double>();
   const Json& found = vessel["mean_radius_mm"];
   EXPECT_NEAR(found["value"].get<double>(), radius, found["plus_minus"].get<double>());

@@ -82,7 +82,7 @@ TEST_F(ReportTest, TellsWhatInfoAndCheckTell) {
   const std::string& html = fullPage();
   const Json info = Json::parse(lumen({"info", "tube.lumen", "--json"}).out);
   const Json check = Json::parse(lumen({"check", "tube.nrrd", "tube.lumen", "--json"}).out);
-  const Json& branch = info["branch_table"][0];
+  const Json& branch = info["branches"][0];
   const std::string row = sectionOf(html, "branches");
   EXPECT_NE(row.find("<bdi>" + branch["label"].get<std::string>() + "</bdi>"), row.npos);
   EXPECT_NE(row.find(cell(branch["nodes"])), row.npos);

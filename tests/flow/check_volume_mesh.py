@@ -102,7 +102,7 @@ def check_flow(program, folder):
     flow, case = 0.25, folder / "flow"  # ml/s: a Reynolds number of 21
     tube_file(folder / "long.swc", 40, 2)
     lumen(program, folder, "convert", "long.swc", "long.lumen", "--quiet")
-    label = json.loads(lumen(program, folder, "info", "long.lumen", "--json", "--quiet").stdout)["branch_table"][0]["label"]
+    label = json.loads(lumen(program, folder, "info", "long.lumen", "--json", "--quiet").stdout)["branches"][0]["label"]
     size = ["--edge", "0.15r", "--layers", "6", "--growth", "1.2"]
     filled = json.loads(lumen(program, folder, "convert", "long.lumen", "long.vtu", "--json", "--quiet", *size).stdout)["volume_mesh"]["volume_mm3"]
     lumen(program, folder, "export", "openfoam", "long.lumen", "flow", "--cells", "prisms", "--inlets", f"{label}={flow}", "--quiet", *size)

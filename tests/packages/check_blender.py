@@ -33,7 +33,7 @@ def outside(lumen, picture):
             return 1
         for exported in ("curves.lumen", "surface.lumen"):
             answer = json.loads(run(lumen, "info", exported, "--json", "--quiet").stdout)
-            check(answer["branches"] == 2 and answer["blobs"] > 0, f"{exported}: {answer}")
+            check(len(answer["branches"]) == 2 and answer["blobs"] > 0, f"{exported}: {answer}")
         check_exported(run, lumen, folder)
     print("Blender: all held")
     return 0

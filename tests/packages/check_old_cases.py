@@ -57,6 +57,13 @@ def answers_of(lumen, blob, case, work):
     return answers
 
 
+def named_as_now(answers):
+    """Answers of lumen 0.1.0 with the keys of today: the rows of branches were `branch_table`, beside their number `branches`."""
+    info = answers["info"]
+    if "branch_table" in info: info["branches"] = info.pop("branch_table")
+    return answers
+
+
 def differ(found, expected):
     """Lists of numbers differ beyond the last digits, which may change between versions, and objects where a key is gone or has
     another value, as versions add keys; anything else at all."""
@@ -91,7 +98,7 @@ def main(lumen, blob, make):
         if make: kept.write_text(json.dumps(found, indent=1) + "\n")
         elif set(found) != set(expected) or not found: wrong.append(f"{folder}: cases {sorted(found)}, answers for {sorted(expected)}")
         for case, answers in expected.items():
-            for name, answer in answers.items():
+            for name, answer in named_as_now(answers).items():
                 compared += 1
                 if differ(found.get(case, {}).get(name), answer): wrong.append(f"{folder.name}/{case}: another answer of {name}")
     for line in wrong: print(line)

@@ -87,7 +87,7 @@ def check_labels(seeds, fork, lumen, folder):
                   lumen=lumen, folder=folder)
     check(made.returncode == 0, f"LumenVessels with labels: {made.stderr}")
     info = json.loads(subprocess.run([lumen, "info", folder / "veins.lumen", "--json"], capture_output=True, text=True, check=True).stdout)
-    check({branch["system"] for branch in info["branch_table"]} == {"vein"}, f"systems of labelled vessels: {info['branch_table']}")
+    check({branch["system"] for branch in info["branches"]} == {"vein"}, f"systems of labelled vessels: {info['branches']}")
     check(not module("LumenVessels", "--labelMap", "labels.nrrd", "--roles", "1=bone, 2=bone", "--case", "bone.lumen", fork, lumen=lumen,
                      folder=folder).returncode == 0, "vessels are found where all is bone")
 

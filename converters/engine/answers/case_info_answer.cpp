@@ -125,7 +125,8 @@ void addExtras(const convert::CaseInfo& info, Lines& lines) {
 Json caseInfoJson(const convert::CaseInfo& info) {
   Json json;
   const auto perNode = blobsPerNode(info);
-  json["branches"] = info.branches.size();
+  json["branches"] = Json::array();
+  for (const auto& branch : info.branches) json["branches"].push_back(branchJson(branch));
   json["nodes"] = info.nodes;
   json["links"] = info.links;
   json["trees"] = info.trees;
@@ -151,8 +152,6 @@ Json caseInfoJson(const convert::CaseInfo& info) {
   json["seeds"] = nullptr;
   if (info.seeds)
     json["seeds"] = {{"tracked", info.seeds->tracked}, {"waiting", info.seeds->waiting}};
-  json["branch_table"] = Json::array();
-  for (const auto& branch : info.branches) json["branch_table"].push_back(branchJson(branch));
   return json;
 }
 

@@ -12,7 +12,7 @@
 namespace lumen::engine {
 
 /// branches, nodes, links, points, blobs, blobs_per_node, length_mm, radius_mm, error_of_fit_mm,
-/// provenance, note, node_arrays, seeds, branch_table. A value that the case does not have is null.
+/// provenance, note, node_arrays, seeds. A value that the case does not have is null.
 Json caseInfoJson(const convert::CaseInfo& info);
 /// `inlets`: inletsText() of the case.
 std::string caseInfoText(const convert::CaseInfo& info, const std::string& inlets);

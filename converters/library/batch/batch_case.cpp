@@ -234,8 +234,12 @@ private:
     const auto count = [&json](const char* key) {
       return static_cast<std::size_t>(json.at(key).number());
     };
-    BatchFigures figures{
-        count("branches"), count("trees"), count("links"), json.at("length_mm").number(), 0, 0};
+    BatchFigures figures{json.at("branches").elements().size(),
+                         count("trees"),
+                         count("links"),
+                         json.at("length_mm").number(),
+                         0,
+                         0};
     const JsonPlace radius = json.at("radius_mm");
     if (!radius.value().isNull()) {
       figures.least = radius.at("min").number();

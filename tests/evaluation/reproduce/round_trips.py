@@ -177,7 +177,7 @@ def there_and_back(lumen, folder, name, source, centerline, factor, in_edges):
         pass
     if "wall" in name:  # most of it is the outer side, which the lumen leaves out
         result[3:] = []
-    return [name, info["branches"]] + [f"{value:.3f}" for value in result] + ["-"] * (6 - len(result)) + [f"{seconds:.1f}"]
+    return [name, len(info["branches"])] + [f"{value:.3f}" for value in result] + ["-"] * (6 - len(result)) + [f"{seconds:.1f}"]
 
 
 def table(title, rows):

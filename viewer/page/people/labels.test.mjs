@@ -60,7 +60,7 @@ const spread = colour => Math.max(...colour) - Math.min(...colour);
 /** The names and systems of the vessels in a file, in the order of their names. */
 function vesselsOf(file) {
   return lumen("info", file)
-    .branch_table.map(({ label, system }) => `${label}: ${system}`)
+    .branches.map(({ label, system }) => `${label}: ${system}`)
     .sort();
 }
 
