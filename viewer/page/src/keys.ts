@@ -162,9 +162,9 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case ",":
       return source.live && work.walk(-1);
     case "y":
-      return source.live && work.accept();
+      return source.live && (e.repeat || work.accept()); // each place is seen before a key settles it
     case "i":
-      return source.live && work.dismiss();
+      return source.live && (e.repeat || work.dismiss());
     case "delete":
       return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected })));
     case "Shift+DELETE":
