@@ -15,18 +15,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSize = 48;
+constexpr int kClickSize = 48;
 constexpr double kAxis = 24;  // x and y of the vessel, which runs along z
 
 /// Voxels of 1 mm with a vessel of radius 3 and noise of a deviation; what is below `cut` is 0.
 Volume vesselIn(double noise, double contrast = 1000, double cut = -1e9) {
   Volume volume;
-  volume.geometry.size = {kSize, kSize, kSize};
+  volume.geometry.size = {kClickSize, kClickSize, kClickSize};
   Random random(1);
   std::vector<float> voxels;
-  for (int z = 0; z < kSize; ++z)
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
+  for (int z = 0; z < kClickSize; ++z)
+    for (int y = 0; y < kClickSize; ++y)
+      for (int x = 0; x < kClickSize; ++x) {
         const double inside = std::hypot(x - kAxis, y - kAxis) <= 3 ? contrast : 0;
         const double value = inside + noise * random.normal();
         voxels.push_back(static_cast<float>(value < cut ? 0 : value));

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { frames, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
+import { type } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 import { drawn, noteDrawings } from "./turning.mjs";
 
@@ -39,6 +40,34 @@ function keptShare(before, after) {
   for (let i = 0; i < before.data.length; i += 4)
     if (sum(before, i) > 150) shares.push(sum(after, i) / sum(before, i));
   return shares.sort((a, b) => a - b)[shares.length >> 1];
+}
+
+/** Sets by Shift and Ctrl, of a tree and of all in the list; hidden, and shown again. */
+async function chooseSets(page, rows) {
+  const row = k => rows.nth(k).locator(".name"),
+    all = await rows.count(),
+    count = page.locator("#set-count");
+  await row(3).click();
+  await row(6).click({ modifiers: ["Shift"] });
+  await count.filter({ hasText: `4 of ${all}` }).waitFor();
+  await row(5).click({ modifiers: ["Control"] });
+  await row(0).click({ modifiers: ["Control"] });
+  await count.filter({ hasText: `4 of ${all}` }).waitFor();
+  await picture(page, "many-set");
+  await page.locator("#set-hide").click();
+  assert.equal(await page.locator("#tree-list .off").count(), 4);
+  await page.keyboard.press("Shift+H");
+
+  await row(2).click();
+  await page.locator("#set-choose").selectOption("tree");
+  await count.filter({ hasText: `${all - 1} of ${all}` }).waitFor(); // all but the thin vessel, a tree of its own
+  await page.locator("#tree-list").focus();
+  await page.keyboard.press("Control+a");
+  await count.filter({ hasText: `${all} of ${all}` }).waitFor();
+  await page.locator("#set-none").click();
+  await page.locator("#set-choose").selectOption("below");
+  await type(page, "40 %");
+  await page.locator(".toast", { hasText: `0 of ${all} vessels are below 40 %` }).waitFor(); // none has a confidence
 }
 
 story(
@@ -107,5 +136,6 @@ story(
     for (let i = 0; i < plain.data.length; i += 4)
       if (sum(plain, i) > 150 && sum(through, i) > (kRest + 0.15) * sum(plain, i)) ++seen;
     assert.ok(seen > 100, `${seen} pixels of it are seen through the trunk`);
+    await chooseSets(page, rows);
   },
 );

@@ -8,6 +8,7 @@ import { kLayouts, type App, type Part } from "./model/model";
 import { askPosition } from "./panels/probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
 import { slabKey } from "./slices/slice_controls";
+import { hideSet } from "./model/vessel_set";
 import { resetPlanes } from "./tools/slice_input";
 import { renameBranch } from "./panels/vessel_detail";
 import type { WorkList } from "./panels/work_list";
@@ -121,7 +122,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
       actions.fly();
       return true;
     case "h":
-      return onVessel(() => toggleHidden(app, selected));
+      return hideSet(app) || onVessel(() => toggleHidden(app, selected));
     case "o":
       return onVessel(() => toggleSolo(app, selected));
     case "Shift+H":
@@ -162,9 +163,9 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case ",":
       return source.live && work.walk(-1);
     case "y":
-      return source.live && work.accept();
+      return source.live && (e.repeat || work.accept()); // each place is seen before a key settles it
     case "i":
-      return source.live && work.dismiss();
+      return source.live && (e.repeat || work.dismiss());
     case "delete":
       return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected })));
     case "Shift+DELETE":

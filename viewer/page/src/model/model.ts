@@ -86,6 +86,8 @@ interface DocumentView {
 /** The selected vessel, the cursor on it, and how each vessel looks. */
 interface SelectionView {
   selected: number;
+  /** Labels of vessels that are chosen together; fewer than two are no set. */
+  chosen: ReadonlySet<string>;
   /** Node of the selected vessel that the cursor is at, or -1. */
   node: number;
   hidden: ReadonlySet<string>;
@@ -201,6 +203,7 @@ export const kInitial: View = {
   },
   selection: {
     selected: -1,
+    chosen: new Set(),
     node: -1,
     hidden: new Set(),
     solo: null,

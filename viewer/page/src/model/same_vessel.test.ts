@@ -17,6 +17,9 @@ describe("sameVessels", () => {
     expect(
       sameVessels(where({ selected: 1, node: 13, hidden: new Set(["child"]), solo: "child" }), renamed),
     ).toMatchObject({ selected: 1, node: 13, hidden: new Set(["other"]), solo: "other" });
+    expect(sameVessels(where({ chosen: new Set(["trunk", "child", "gone"]) }), renamed).chosen).toEqual(
+      new Set(["trunk", "other"]),
+    );
   });
   it("leavesEveryVesselItsColour", () => {
     expect([...where({}).selection.colourNumbers]).toEqual([

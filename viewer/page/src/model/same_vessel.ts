@@ -48,7 +48,16 @@ export function sameVessels(view: Pick<View, "document" | "selection">, tree: Tr
       selection: before,
     } = view,
     { hidden, solo, opacity, colours, colourNumbers } = before,
-    none = { selected: -1, node: -1, hidden, solo, opacity, colours, colourNumbers };
+    none = {
+      selected: -1,
+      chosen: new Set<string>(),
+      node: -1,
+      hidden,
+      solo,
+      opacity,
+      colours,
+      colourNumbers,
+    };
   if (tree === null) return none;
   if (old === null) return { ...none, colourNumbers: numbered(colourNumbers, tree) };
   const names = renamed(old, tree),
@@ -69,6 +78,7 @@ export function sameVessels(view: Pick<View, "document" | "selection">, tree: Tr
   const alone = solo === null ? undefined : tree.branches.find(b => b.label === name(solo)); // one that is gone would leave nothing to see
   return {
     selected,
+    chosen: new Set([...before.chosen].map(name).filter(label => tree.branches.some(b => b.label === label))),
     node,
     hidden: new Set([...hidden].map(name)),
     solo: alone?.label ?? null,

@@ -72,8 +72,9 @@ const kGroups: Group[] = [
     [
       ["/", "Search; Enter takes the first that is found"],
       ["↑ ↓", "Select in the list"],
+      ["Shift+click, Ctrl+click, Ctrl+A", "Several vessels: to there, one more or less, all that are listed"],
       ["Space", "Show or hide"],
-      ["H", "Show or hide the selected"],
+      ["H", "Show or hide the selected, or hide those that are chosen"],
       ["O", "The selected alone"],
       ["Shift+H", "Show all"],
       ["L", "Names in the views"],

@@ -4,7 +4,9 @@ import { toHex, fromHex, systemWords } from "../base/colour";
 import { colourOf, isShown, type CursorPart, type View } from "../model/model";
 import { goToNode, showAll, showBranch, toggleHidden, toggleSolo } from "../model/selection";
 import type { Branch, Tree } from "../case/tree";
+import { afterClick, chooseVessels } from "../model/vessel_set";
 import { renameBranch, VesselDetail } from "./vessel_detail";
+import { vesselSetBar } from "./vessel_set_bar";
 import { brief, button, h, icon, mm, select } from "../base/ui";
 
 type Sort = "tree" | "label" | "system" | "length" | "radius" | "confidence" | "stop";
@@ -43,6 +45,7 @@ export class TreePanel {
     id: "tree-list",
     role: "tree",
     "aria-label": "Vessels",
+    "aria-multiselectable": true,
     tabindex: 0,
   });
   private readonly count = h("span", { class: "count", id: "tree-count" });
@@ -50,7 +53,7 @@ export class TreePanel {
 
   constructor(
     readonly element: HTMLElement,
-    private readonly app: CursorPart<never, "source" | "perform">,
+    private readonly app: CursorPart<never, "source" | "perform" | "inform">,
   ) {
     const search = h("input", {
       type: "search",
@@ -97,6 +100,7 @@ export class TreePanel {
         h("span", {}, "Conf."),
       ),
       this.list,
+      vesselSetBar(app, () => this.labels()),
       new VesselDetail(app).element,
     );
     this.list.addEventListener("keydown", e => this.key(e));
@@ -114,6 +118,7 @@ export class TreePanel {
       [
         "document.tree",
         "selection.selected",
+        "selection.chosen",
         "selection.hidden",
         "selection.solo",
         "selection.colours",
@@ -215,7 +220,12 @@ export class TreePanel {
     for (let d = 1; d <= 6; ++d) if (depth >= d) element.classList.add(`depth${d}`);
     element.addEventListener("click", e => {
       if ((e.target as HTMLElement).closest("button, input") === null) {
-        showBranch(app, b.index);
+        if (e.shiftKey) this.choose(b.label, "range");
+        else if (e.ctrlKey || e.metaKey) this.choose(b.label, "toggle");
+        else {
+          chooseVessels(app, []);
+          showBranch(app, b.index);
+        }
         this.list.focus({ preventScroll: true });
       }
     });
@@ -227,18 +237,32 @@ export class TreePanel {
     return element;
   }
 
+  /** Labels of the rows, from top to bottom. */
+  private labels(): string[] {
+    const branches = this.app.store.get().document.tree?.branches ?? [];
+    return this.rows.map(row => branches[row.branch].label);
+  }
+
+  /** Chooses a vessel beside others, or all from the selected one on. */
+  private choose(label: string, how: "toggle" | "range"): void {
+    const { document, selection } = this.app.store.get(),
+      anchor = document.tree?.branches[selection.selected]?.label ?? null;
+    chooseVessels(this.app, afterClick(selection.chosen, this.labels(), label, anchor, how));
+  }
+
   /** Updates selection, visibility and colours without a new list. */
   private mark(view: Pick<View, "document" | "selection">): void {
     for (const row of this.rows) {
       const { branch, element, eye, swatch } = row,
         on = branch === view.selection.selected,
+        isChosen = on || view.selection.chosen.has(view.document.tree?.branches[branch].label ?? ""),
         shown = isShown(view, branch),
         colour = toHex(colourOf(view, branch)),
         isolated = view.selection.solo !== null && shown,
-        marked = `${on} ${shown} ${isolated} ${colour}`;
+        marked = `${on} ${isChosen} ${shown} ${isolated} ${colour}`;
       if (marked === row.marked) continue;
       row.marked = marked;
-      element.setAttribute("aria-selected", String(on));
+      element.setAttribute("aria-selected", String(isChosen));
       element.classList.toggle("off", !shown);
       if (on) {
         this.list.setAttribute("aria-activedescendant", element.id);
@@ -256,6 +280,11 @@ export class TreePanel {
     const { app } = this,
       { selected } = app.store.get().selection,
       at = this.rows.findIndex(r => r.branch === selected);
+    if ((e.ctrlKey || e.metaKey) && e.key === "a") {
+      chooseVessels(app, this.labels());
+      e.preventDefault();
+      return;
+    }
     const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: this.rows.length - 1 }[e.key];
     if (to !== undefined) {
       if (this.rows[to] !== undefined) showBranch(app, this.rows[to].branch);

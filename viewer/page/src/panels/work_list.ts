@@ -2,7 +2,7 @@
 /** The check as a list of work: every place with what to do, walked through by keys, until nothing is left. */
 import type { CursorPart, Part } from "../model/model";
 import { goTo, goToNode } from "../model/selection";
-import type { IgnoredPlace, State, WorkItem } from "../base/types";
+import type { IgnoredPlace, Operation, State, WorkItem, WorkKind } from "../base/types";
 import { askText, button, h, link, mm, replaceRows, section } from "../base/ui";
 import { countKinds, kWorkTitles, remediesOf, requestOf, type Remedy } from "../case/work_items";
 
@@ -15,7 +15,53 @@ const kRemedyWords: Record<Remedy, { text: string; icon: string; label: string; 
 
 /** Acts on places and proposals, for buttons and keys alike. */
 export class WorkList {
-  constructor(private readonly app: CursorPart<never, "inform" | "perform">) {}
+  /** Number, among proposals and items, of what was settled by a key or button: the walk goes on from there; or -1. */
+  private settled = -1;
+
+  constructor(private readonly app: CursorPart<never, "inform" | "perform">) {
+    app.store.watch(["document.state"], () => this.goOn());
+  }
+
+  /** The number of what was shown last among proposals and items, or -1. */
+  private get at(): number {
+    const {
+        document: { state },
+        selection: { place, proposal },
+      } = this.app.store.get(),
+      proposed = state.proposals.findIndex(p => p.label === proposal),
+      listed = (state.work?.items ?? []).findIndex(item => item.id === place);
+    return proposed >= 0 ? proposed : listed >= 0 ? state.proposals.length + listed : -1;
+  }
+
+  /** Shows what has come to the place of what was settled, once that has left the list. */
+  private goOn(): void {
+    const { state } = this.app.store.get().document,
+      total = state.proposals.length + (state.work?.items.length ?? 0);
+    if (this.settled < 0 || state.job !== null || this.at >= 0) return;
+    const next = Math.min(this.settled, total - 1);
+    this.settled = -1;
+    if (next >= 0) this.showNumber(next);
+  }
+
+  private showNumber(number: number): void {
+    const { state } = this.app.store.get().document;
+    if (number >= state.proposals.length) {
+      this.show(state.work!.items[number - state.proposals.length]);
+      return;
+    }
+    const proposal = state.proposals[number];
+    this.settled = -1;
+    this.app.store.set({ selection: { proposal: proposal.label, place: null } });
+    goTo(this.app, proposal.position);
+  }
+
+  /** Performs what settles the thing that was shown last, or something else, after which the walk stays. */
+  private async settle(operation: Operation, isShown: boolean): Promise<void> {
+    const { at } = this;
+    if (!(await this.app.perform(operation)) || !isShown) return;
+    this.settled = at;
+    this.goOn();
+  }
 
   /** The item that was shown last and is left, or undefined. */
   private get current(): WorkItem | undefined {
@@ -38,6 +84,7 @@ export class WorkList {
   /** Shows a place in every view. */
   show(item: WorkItem): void {
     const { store } = this.app;
+    this.settled = -1;
     if (item.missing === null) goToNode(this.app, item.node);
     goTo(this.app, item.position);
     store.set({ selection: { place: item.id, proposal: null } });
@@ -45,12 +92,8 @@ export class WorkList {
 
   /** Goes to the next (1) or the one before (-1): proposals first, then places; round at the ends. */
   walk(by: 1 | -1): boolean {
-    const {
-        document: { state },
-        selection: { place, proposal },
-      } = this.app.store.get(),
-      items = state.work?.items ?? [],
-      total = state.proposals.length + items.length;
+    const { state } = this.app.store.get().document,
+      total = state.proposals.length + (state.work?.items.length ?? 0);
     if (total === 0) {
       this.app.inform(
         state.work === null
@@ -59,14 +102,8 @@ export class WorkList {
       );
       return true;
     }
-    const proposed = state.proposals.findIndex(p => p.label === proposal),
-      listed = items.findIndex(item => item.id === place),
-      at = proposed >= 0 ? proposed : listed >= 0 ? state.proposals.length + listed : by > 0 ? -1 : 0,
-      next = (at + by + total) % total;
-    if (next < state.proposals.length) {
-      this.app.store.set({ selection: { proposal: state.proposals[next].label, place: null } });
-      goTo(this.app, state.proposals[next].position);
-    } else this.show(items[next - state.proposals.length]);
+    const at = this.at >= 0 || by < 0 ? Math.max(this.at, 0) : -1;
+    this.showNumber((at + by + total) % total);
     return true;
   }
 
@@ -74,7 +111,7 @@ export class WorkList {
   accept(): boolean {
     const proposal = this.proposed,
       item = this.current;
-    if (proposal !== undefined) void this.app.perform({ op: "accept", labels: [proposal] });
+    if (proposal !== undefined) void this.settle({ op: "accept", labels: [proposal] }, true);
     else if (item !== undefined) void this.act(item, remediesOf(item)[0]);
     else return false;
     return true;
@@ -83,7 +120,7 @@ export class WorkList {
   dismiss(): boolean {
     const proposal = this.proposed,
       item = this.current;
-    if (proposal !== undefined) void this.app.perform({ op: "reject", labels: [proposal] });
+    if (proposal !== undefined) void this.settle({ op: "reject", labels: [proposal] }, true);
     else if (item !== undefined) void this.ignore(item);
     else return false;
     return true;
@@ -106,15 +143,20 @@ export class WorkList {
     }
     const request = requestOf(remedy, item, state, tree);
     if (request === null) this.app.inform("There is no other tree to join it to.", "warning");
-    else await this.app.perform(request);
+    else await this.settle(request, place === item.id);
   }
 
   async ignore(item: WorkItem): Promise<void> {
     const reason = (await askText("Ignore this place", "Reason, which the case keeps", ""))?.trim();
     if (reason === undefined || reason === "") return;
-    await this.app.perform({ op: "ignore", item: item.id, reason });
+    await this.settle(
+      { op: "ignore", item: item.id, reason },
+      this.app.store.get().selection.place === item.id,
+    );
   }
 }
+
+const kMostShown = 20; // places of a kind that are listed without being asked for
 
 function sentence(state: State): string {
   const { check, work } = state,
@@ -139,6 +181,25 @@ export function checkSection(
     progress = h("div", { class: "row", id: "work-progress" }, bar, done),
     set = h("ul", { class: "list", id: "ignored-list", "aria-label": "Ignored places" }),
     ignored = h("details", { id: "ignored" }, h("summary", { class: "hint" }, "Ignored"), set);
+  const opened = new Map<WorkKind, boolean>(); // by hand
+  const fill = (items: readonly WorkItem[]): void => {
+    const rows: HTMLElement[] = [];
+    for (const kind of Object.keys(kWorkTitles) as WorkKind[]) {
+      const own = items.filter(item => item.kind === kind),
+        isOpen = opened.get(kind) ?? own.length <= kMostShown;
+      if (own.length === 0) continue;
+      rows.push(
+        kindRow(own, isOpen, () => {
+          opened.set(kind, !isOpen);
+          fill(store.get().document.state.work?.items ?? []);
+        }),
+        ...own
+          .filter(item => isOpen || item.id === store.get().selection.place)
+          .map(item => workRow(app, work, item)),
+      );
+    }
+    replaceRows(list, rows);
+  };
   const run = button(
     {
       icon: "check",
@@ -165,16 +226,14 @@ export function checkSection(
     bar.max = Math.max(found, 1);
     bar.value = found - items.length;
     done.textContent = `${found - items.length} of ${found} done`;
-    replaceRows(
-      list,
-      items.map((item, i) => workRow(app, work, item, i > 0 && items[i - 1].kind === item.kind)),
-    );
+    fill(items);
     const places = state.work?.ignored ?? [];
     ignored.hidden = places.length === 0;
     ignored.querySelector("summary")!.textContent = `Ignored: ${places.length}`;
     set.replaceChildren(...places.map((place, i) => ignoredRow(app, place, i)));
   });
-  store.watch(["selection.place"], ({ selection: { place } }) => {
+  store.watch(["selection.place"], ({ document: { state }, selection: { place } }) => {
+    if (place !== null && list.querySelector(`#work-${place}`) === null) fill(state.work?.items ?? []);
     for (const row of list.children) {
       const isChosen = place !== null && row.id === `work-${place}`;
       row.classList.toggle("chosen", isChosen);
@@ -193,12 +252,20 @@ export function checkSection(
   );
 }
 
-function workRow(
-  app: Part<"document" | "selection">,
-  work: WorkList,
-  item: WorkItem,
-  goesOn: boolean,
-): HTMLElement {
+/** The head of the places of one kind, with their number, which shows or hides them. */
+function kindRow(items: readonly WorkItem[], isOpen: boolean, toggle: () => void): HTMLElement {
+  return h(
+    "li",
+    { class: "row kindrow", "data-group": items[0].kind },
+    h(
+      "button",
+      { type: "button", class: "link kind", "aria-expanded": String(isOpen), onclick: toggle },
+      countKinds(items),
+    ),
+  );
+}
+
+function workRow(app: Part<"document" | "selection">, work: WorkList, item: WorkItem): HTMLElement {
   const {
       document: { state },
       selection: { place },
@@ -229,7 +296,6 @@ function workRow(
     h(
       "div",
       { class: "what" },
-      goesOn ? null : h("div", { class: "kind" }, kWorkTitles[item.kind][1]),
       h(
         "button",
         { type: "button", class: "link about", title: "Show it", onclick: () => work.show(item) },

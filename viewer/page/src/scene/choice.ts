@@ -21,11 +21,13 @@ export class Choice {
   readonly place = new Group();
   private meshes: readonly Object3D[] = [];
 
-  /** Marks the vessel that is selected, of meshes whose `userData.branch` names theirs, and the place. */
+  /** Marks the vessels that are selected or chosen, of meshes whose `userData.branch` names theirs, and the place. */
   follow(view: Pick<View, "document" | "selection" | "scene">, meshes: readonly Mesh[]): void {
-    const { selected } = view.selection;
+    const { selected, chosen } = view.selection,
+      { tree } = view.document;
     this.meshes = meshes.filter(mesh => {
-      const isChosen = selected >= 0 && mesh.userData.branch === selected;
+      const branch = mesh.userData.branch as number,
+        isChosen = branch >= 0 && (branch === selected || chosen.has(tree?.branches[branch]?.label ?? ""));
       (mesh.material as PartMaterial).lit = isChosen;
       if (isChosen) mesh.layers.enable(kVessels);
       else mesh.layers.disable(kVessels);

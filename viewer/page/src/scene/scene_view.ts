@@ -105,7 +105,7 @@ export class SceneView implements StageView {
     store.watch(["document.proposals", "selection.proposal", "scene.layers"], () =>
       stage.invalidateOver(this),
     );
-    store.watch(["selection.selected", "selection.place"], view => {
+    store.watch(["selection.selected", "selection.chosen", "selection.place"], view => {
       this.choice.follow(view, [...this.walls, ...this.tubes]);
       stage.invalidateChoice(this);
     });
