@@ -148,8 +148,8 @@ TEST(Hints, WhoseParentNamesNoVesselAreReportedOnceAllIsTracked) {
 TEST(Hints, OfATreeApartFromTheStatedParentAreReportedWithTheGap) {
   Case value = comb();
   addBeads(value, "apart", alongX(0, 0.5F, 9, -6), 0.5F);
-  const auto unkept =
-      unkeptParents(value.tree, {seed("vessel-1", {0, 0, 0}), seed("apart", {0, -6, 0}, "vessel-1")}, {}, {});
+  const auto unkept = unkeptParents(
+      value.tree, {seed("vessel-1", {0, 0, 0}), seed("apart", {0, -6, 0}, "vessel-1")}, {}, {});
   ASSERT_EQ(unkept.size(), 1U);
   EXPECT_EQ(unkept[0].reason,
             "\"vessel-1\" ends 4.5 mm from it, by the walls; it begins a tree of its own");
