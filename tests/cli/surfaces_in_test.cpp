@@ -74,7 +74,7 @@ TEST_F(SurfacesInTest, AMeshBecomesACase) {
   const Outcome done = lumen({"convert", "tube.obj", "tube.lumen"});
   ASSERT_EQ(done.code, 0) << done.err;
   const Json told = info("tube.lumen");
-  EXPECT_EQ(told["branches"], 1);
+  EXPECT_EQ(told["branches"].size(), 1U);
   EXPECT_NEAR(told["radius_mm"]["max"].get<double>(), 2, 0.05);
   EXPECT_GT(told["blobs"].get<int>(), 0);
 }
