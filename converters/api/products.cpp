@@ -22,7 +22,7 @@ formats::Case caseOf(lumen_engine_source& from, Options options, Progress& progr
   operations::Source source = *std::exchange(from.source, std::nullopt);
   for (const auto& [option, name] : from.files) options.give(option, name);
   requireCompatible(options.table());
-  requireInScope(options.table(), {from.content, kAnyContent, source.name, {}}, progress);
+  requireInScope(options.table(), {from.content, kAnyContent, source.name, {}, true}, progress);
   const FormatKind kind = source.grey || source.labels ? FormatKind::Volume : FormatKind::Mesh;
   operations::CaseOptions made = options.values().caseOptions(kind);
   made.vessels.seeds = from.seeds;

@@ -140,6 +140,7 @@ void requireInScope(const OptionTable& table, const FileContents& contents, Prog
     else
       refuseUnused(row, reason, progress);
   }
+  if (contents.isAllRead) return;
   for (const OptionRow* const row : used) lookAtFiles(*row);
 }
 

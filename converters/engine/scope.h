@@ -47,6 +47,7 @@ struct FileContents {
   ContentMask input = kAnyContent;
   ContentMask output = kAnyContent;
   std::string inputName, outputName;  ///< names of the files, for messages
+  bool isAllRead = false;             ///< the files that options name were read before
 };
 
 /// One bit: the content of an input of this format. A case is taken as it is.

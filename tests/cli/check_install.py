@@ -77,7 +77,8 @@ def check_libraries(lumen, notices):
 
 def listed(program, *group):
     """The commands that a help lists, and in place of a group its own."""
-    names = re.findall(r"^  ([a-z]+) {2,}\S", run(program, *group, "--help").stdout, re.M)
+    commands = run(program, *group, "--help").stdout.partition("lumen help TOPIC")[0]
+    names = re.findall(r"^  ([a-z]+) {2,}\S", commands, re.M)
     if group: return [" ".join([*group, name]) for name in names]
     lists = {name: "[SUBCOMMAND]" in run(program, name, "--help").stdout for name in names}
     return [command for name in names for command in (listed(program, name) if lists[name] else [name])]

@@ -41,7 +41,8 @@ def paths_in(folder):
 
 
 def check_files(paths):
-    patterns = {f.name: f.read_text().split() for f in sorted(DEBIAN.glob("*.install"))}
+    # the first word of a line; a second one is the folder to which debhelper moves it
+    patterns = {f.name: [line.split()[0] for line in f.read_text().splitlines()] for f in sorted(DEBIAN.glob("*.install"))}
     fits = lambda path, pattern: fnmatch.fnmatchcase(path, pattern) or path.startswith(pattern + "/")
     check(len(paths) > 30, f"only {len(paths)} files are installed")
     for path in paths:

@@ -220,10 +220,11 @@ class Case:
         """
         source: Any = case
         name, core = case._given() if isinstance(case, Case) else (os.fsdecode(source), read(source)._core)
+        words = _OF_SURFACES + ([(name, name.partition(".")[0])] if isinstance(case, Case) else [])
         watch = watch_of(options)
         *arrays, warnings, details = called(_lumen.mesh_of, core, name, texts_of("convert", options), *watch,
-                                            known=[name], words=_OF_SURFACES)
-        report(warnings, details, _OF_SURFACES)
+                                            known=[name], words=words)
+        report(warnings, details, words)
         return Mesh(*arrays)
 
     def surface(self, **options) -> Tuple[np.ndarray, np.ndarray]:

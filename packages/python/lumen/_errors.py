@@ -11,7 +11,7 @@ KINDS = {1: "failed", 2: "usage", 3: "invalid input", 4: "unsupported", 130: "in
 _PLACE = re.compile(r'\bat "(?P<pointer>/[^"]*)"|\b(?P<count>(?:byte|line) \d+)')
 _FOUND = re.compile(r"(?:\bfound (?P<found>.+?))?[,;] expected (?P<expected>.+)", re.DOTALL)
 _CODE = re.compile(r" \[([a-z-]+)\]$")
-_MISSING = re.compile(r": (there is no such (?!command)|no such file|IO_MISSING\b)")
+_MISSING = re.compile(r": (there is no such (?!command)|[Nn]o such file|IO_MISSING\b)")
 
 
 class Warning(UserWarning):  # pylint: disable=redefined-builtin
@@ -26,7 +26,7 @@ class Warning(UserWarning):  # pylint: disable=redefined-builtin
     @property
     def code(self) -> Optional[str]:
         match = _CODE.search(str(self))
-        return match and match[1]
+        return match[1] if match else None
 
 
 class Error(Exception):

@@ -199,7 +199,7 @@ class OptionsTest(unittest.TestCase):
         volume, missing = sample().phantom.volume, "absent.nrrd"
         calls = ((lambda: lumen.convert(missing), missing, None),
                  (lambda: lumen.Volume.read(missing), missing, None),
-                 (lambda: lumen.track(volume, seeds=[{"label": "a"}]), "seeds.json", "/branches/0"),
+                 (lambda: lumen.track(volume, seeds=[{"label": "a"}]), "seeds", "/branches/0"),
                  (lambda: self.case.export("sofaa", "nowhere"), None, None))
         for call, file, place in calls:
             with self.assertRaises(lumen.Error) as raised:
