@@ -11,11 +11,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/base/tree_figures.h"
+#include "converters/base/radius_range.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "formats/case/node_origin.h"
-#include "formats/case/topology.h"
 
 namespace lumen::operations {
 namespace {
@@ -169,8 +169,9 @@ void addEnds(const CenterlineTree& tree, const formats::Branch& branch,
 }
 
 /// Adds the branches that are named after a label, which has this place in this map.
-void addBranches(const formats::Case& value, const std::vector<BranchLabel>& labels,
-                 std::size_t map, std::size_t place, MappedLabel& label) {
+void addBranches(const formats::Case& value, const std::vector<double>& lengths,
+                 const std::vector<BranchLabel>& labels, std::size_t map, std::size_t place,
+                 MappedLabel& label) {
   const CenterlineTree& tree = value.tree;
   const std::vector<formats::NodeOrigin> origins = formats::readNodeOrigins(value);
   std::vector<float> radii;
@@ -181,7 +182,7 @@ void addBranches(const formats::Case& value, const std::vector<BranchLabel>& lab
     const bool isContinued =
         branch.parentNode != formats::kNoParent && labels[tree.branch[above]].stretch.label != 0;
     label.branches.push_back(branch.label);
-    label.length += formats::branchLength(tree, branch);
+    label.length += lengths[b];
     for (std::uint32_t n = branch.firstNode + 1; n < branch.firstNode + branch.nodeCount; ++n)
       if (origins[n] == formats::NodeOrigin::Given) label.stated += lengthAlong(tree, n - 1, n);
     addEnds(tree, branch, labels[b].stretch, isContinued, label);
@@ -229,6 +230,7 @@ LabelInventory inventoryOf(const std::vector<LabelPart>& maps, const std::vector
   if (maps.empty()) return {};
   const CenterlineTree& tree = value.tree;
   const std::vector<BranchLabel> labels = labelsOfBranches(naming, tree);
+  const std::vector<double> lengths = convert::vesselLengths(tree).branch;
   const VesselLight light = image ? vesselLight(*image, tree) : VesselLight();
   LabelInventory made;
   for (std::size_t m = 0; m < maps.size(); ++m) {
@@ -251,7 +253,7 @@ LabelInventory inventoryOf(const std::vector<LabelPart>& maps, const std::vector
       const LabelCounts& count = counts[place];
       if (count.inside > 0)
         label.heldShare = static_cast<double>(count.held) / static_cast<double>(count.inside);
-      addBranches(value, labels, m, place, label);
+      addBranches(value, lengths, labels, m, place, label);
       if (!isOfVessels(meaning.role)) continue;
       if (label.branches.empty()) label.missing = whyMissing(count, tree, image != nullptr);
       if (image && tree.nodeCount() > 0)
@@ -261,7 +263,7 @@ LabelInventory inventoryOf(const std::vector<LabelPart>& maps, const std::vector
   for (std::size_t b = 0; b < labels.size(); ++b) {
     if (labels[b].stretch.label != 0) continue;
     made.unlabelled.push_back(tree.branches[b].label);
-    made.unlabelledLength += formats::branchLength(tree, tree.branches[b]);
+    made.unlabelledLength += lengths[b];
   }
   return made;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "formats/case/topology.h"
 
@@ -97,8 +96,8 @@ void findClosedPlaces(const CenterlineTree& tree, const field::BlendedField& fie
 Reachability measureReachability(const CenterlineTree& tree, const field::BlendedField& field,
                                  const std::function<void()>& check) {
   Reachability result;
-  std::vector<std::optional<std::size_t>> barrier(
-      tree.nodeCount());            // the barrier between a node and its root
+  std::vector<std::int32_t>& barrier = result.barrierOf;
+  barrier.assign(tree.nodeCount(), -1);
   std::vector<ClosedPlace> closed;  // in node order
   findClosedPlaces(
       tree, field,
@@ -112,14 +111,15 @@ Reachability measureReachability(const CenterlineTree& tree, const field::Blende
     const bool isClosed = next != closed.end() && next->node == node;
     if (tree.parent[node] != kNoParent)
       barrier[node] = barrier[static_cast<std::size_t>(tree.parent[node])];
-    if (isClosed && !barrier[node]) {
-      barrier[node] = result.barriers.size();
+    if (isClosed && barrier[node] < 0) {
+      barrier[node] = static_cast<std::int32_t>(result.barriers.size());
       result.barriers.push_back({node, next->place, 0});
     }
     if (isClosed) ++next;
     const double length = edgeLength(tree, node);
     result.total += length;
-    (barrier[node] ? result.barriers[*barrier[node]].beyond : result.reachable) += length;
+    const auto before = static_cast<std::size_t>(barrier[node]);
+    (barrier[node] < 0 ? result.reachable : result.barriers[before].beyond) += length;
   }
   return result;
 }

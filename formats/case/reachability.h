@@ -44,6 +44,8 @@ struct Reachability {
   double total = 0;
   double reachable = 0;           ///< from all roots
   std::vector<Barrier> barriers;  ///< the first on each path from a root, in node order
+  /// Index into `barriers`, by node: the one between the node and its root; -1 where there is none.
+  std::vector<std::int32_t> barrierOf;
 };
 
 /// Reachable lengths and barriers by findClosedPlaces(), whose conditions and cost apply. An edge

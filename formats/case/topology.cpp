@@ -70,21 +70,4 @@ double branchLength(const CenterlineTree& tree, const Branch& branch) {
   return length;
 }
 
-std::vector<TreeExtent> listTrees(const CenterlineTree& tree) {
-  std::vector<TreeExtent> trees(tree.branches.size());
-  for (const Branch& branch : tree.branches) {
-    const Branch* root = &branch;
-    while (root->parentNode >= 0)
-      root = &tree.branches[tree.branch[static_cast<std::size_t>(root->parentNode)]];
-    const auto index = static_cast<std::uint32_t>(root - tree.branches.data());
-    trees[index].root = index;
-    trees[index].length += branchLength(tree, branch);
-    ++trees[index].branches;
-  }
-  std::erase_if(trees, [](const TreeExtent& at) { return at.branches == 0; });
-  std::stable_sort(trees.begin(), trees.end(),
-                   [](const TreeExtent& a, const TreeExtent& b) { return a.length > b.length; });
-  return trees;
-}
-
 }  // namespace lumen::formats

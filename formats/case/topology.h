@@ -32,13 +32,4 @@ double edgeLength(const CenterlineTree& tree, std::uint32_t node);
 /// Length of a branch, mm: the sum over the edges of all its nodes.
 double branchLength(const CenterlineTree& tree, const Branch& branch);
 
-/// A tree of branches that hang on one another.
-struct TreeExtent {
-  std::uint32_t root = 0;  ///< its first branch
-  std::uint32_t branches = 0;
-  double length = 0;  ///< mm, the sum of branchLength()
-};
-/// The trees of a valid case, the longest first.
-std::vector<TreeExtent> listTrees(const CenterlineTree& tree);
-
 }  // namespace lumen::formats

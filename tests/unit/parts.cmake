@@ -95,7 +95,7 @@ lumen_test(gate_test FOLDER gate
   LIBS lumen_gate)
 lumen_test(measure_test FOLDER measure
   LABELS threads
-  LIBS lumen_measure lumen_fitting lumen_phantom lumen_geometry)
+  LIBS lumen_measure lumen_facts lumen_fitting lumen_phantom lumen_geometry)
 lumen_test(picture_test FOLDER picture
   LABELS threads
   LIBS lumen_picture lumen::blob_static TBB::tbb)

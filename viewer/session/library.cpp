@@ -9,8 +9,8 @@
 
 #include "converters/base/shown_text.h"
 #include "converters/engine/file_format.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "converters/library/index/library_file.h"
-#include "formats/case/topology.h"
 #include "formats/container/printable.h"
 #include "viewer/session/events.h"
 
@@ -87,8 +87,7 @@ void Library::read() {
       const fs::path& file = m_list.cases[i].file;
       const formats::Case value = engine::inputFormat(file, "").readCase(file);
       figures.branches = value.tree.branches.size();
-      for (const formats::Branch& branch : value.tree.branches)
-        figures.length += formats::branchLength(value.tree, branch);
+      figures.length = convert::vesselLengths(value.tree).total;
     } catch (const std::exception& error) {
       figures.error = messageText(error.what());
     }

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "converters/base/options/edit_steps.h"
+#include "converters/base/radius_range.h"
 #include "converters/base/text.h"
-#include "converters/base/tree_figures.h"
 #include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "converters/stages/editing/selection.h"
 #include "formats/case/enum_names.h"
-#include "formats/case/topology.h"
 #include "formats/case/vessel_system.h"
 #include "formats/container/printable.h"
 #include "viewer/session/proposal_joints.h"
@@ -175,6 +175,7 @@ Json proposalsJson(const Document& document) {
   if (!document.proposals) return list;
   const CenterlineTree& tree = document.proposals->tree;
   const Joints joints(*document.proposals);
+  const std::vector<double> lengths = convert::vesselLengths(tree).branch;
   const std::vector<formats::VesselSystem> systems =
       formats::readBranchSystems(*document.proposals);
   for (const formats::Branch& branch : tree.branches) {
@@ -192,7 +193,7 @@ Json proposalsJson(const Document& document) {
         {{"label", branch.label},
          {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
          {"system", formats::kVesselSystemNames[static_cast<std::size_t>(systems[list.size()])]},
-         {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))},
+         {"length_mm", engine::jsonNumber(lengths[list.size()])},
          {"radius_mm", engine::jsonNumber(static_cast<double>(radiusRange(radii).mean))},
          {"confidence", confidence ? engine::jsonNumber(*confidence) : Json(nullptr)},
          {"parent", std::move(on)},

@@ -12,7 +12,7 @@
 #include "converters/base/vectors.h"
 #include "converters/draw/report/report_page.h"
 #include "converters/draw/report/tree_profiles.h"
-#include "formats/case/topology.h"
+#include "converters/judge/measure/vessel_length.h"
 
 namespace lumen::convert {
 
@@ -43,8 +43,9 @@ Markup heading(const char* ours) {
 std::array<double, 4> measureLengths(const formats::CenterlineTree& tree,
                                      const CheckReport& report) {
   std::array<double, 4> lengths{};
+  const std::vector<double> edge = convert::vesselLengths(tree).edge;
   for (std::uint32_t node = 0; node < tree.nodeCount(); ++node)
-    lengths[static_cast<std::size_t>(report.nodes[node])] += formats::edgeLength(tree, node);
+    lengths[static_cast<std::size_t>(report.nodes[node])] += edge[node];
   return lengths;
 }
 

@@ -14,6 +14,9 @@ namespace {
 /// "12.3 ± 0.4", or "-" with the reason as a title.
 Markup measureCell(const Measured& m, int decimals) {
   if (!m.absent.empty()) return element("span", text("-"), "title=\"" + htmlText(m.absent) + "\"");
+  if (std::isfinite(m.atMost))
+    return element("span", text("\u2264 " + fixedText(m.atMost, decimals)),
+                   "title=\"the volume shows no less\"");
   std::string shown = fixedText(m.value, decimals);
   if (std::isfinite(m.plusMinus)) shown += " \u00b1 " + fixedText(m.plusMinus, decimals);
   return text(shown);

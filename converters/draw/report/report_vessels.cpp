@@ -2,6 +2,7 @@
 // The vessels in a report: table, radius along each, confidence.
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/report_page.h"
 #include "converters/draw/report/tree_profiles.h"
+#include "converters/judge/measure/shown_radius.h"
 
 namespace lumen::convert {
 
@@ -66,6 +68,10 @@ Markup branchSection(const ReportFacts& facts) {
                                           {"confidence"}, {"end", false}};
   if (hasSystems) columns.insert(columns.begin() + 3, {"system", false});
   convert::Table table("branch-table", columns);
+  const std::optional<double> least = facts.info.leastShown;
+  const auto radius = [&](float mm) {
+    return text(shownRadius(static_cast<double>(mm), least, 2));
+  };
   for (const std::uint32_t b : convert::inTreeOrder(tree)) {
     const BranchInfo& info = facts.info.branches[b];
     std::vector<Markup> cells = {text(std::to_string(numbers[b])),
@@ -74,9 +80,9 @@ Markup branchSection(const ReportFacts& facts) {
                                  text(parentText(tree, tree.branches[b], numbers)),
                                  text(std::to_string(info.nodes)),
                                  text(fixedText(info.length, 1)),
-                                 text(fixedText(info.radius.mean, 2)),
-                                 text(fixedText(info.radius.min, 2)),
-                                 text(fixedText(info.radius.max, 2)),
+                                 radius(info.radius.mean),
+                                 radius(info.radius.min),
+                                 radius(info.radius.max),
                                  text(fixedText(info.inlierRate, 2)),
                                  text(info.end)};
     if (hasSystems) cells.insert(cells.begin() + 3, text(info.system));
@@ -85,7 +91,9 @@ Markup branchSection(const ReportFacts& facts) {
   Markup content = paragraph(
       "Each vessel stands before those that leave it. From: the number of the vessel that it "
       "leaves. Length: from the wall "
-      "of that vessel on. Radius: mean, least and greatest. Confidence: the mean inlier rate. End: "
+      "of that vessel on. Radius: mean, least and greatest, <= where it is below the least that "
+      "the "
+      "volume shows. Confidence: the mean inlier rate. End: "
       "what is seen at its last "
       "node, place in mm, LPS.");
   content += table.markup();

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "formats/case/topology.h"
+#include "converters/judge/measure/vessel_length.h"
 
 namespace lumen::convert {
 
@@ -25,14 +25,15 @@ std::vector<std::vector<std::uint32_t>> branchesOfEach(const CenterlineTree& tre
 }
 
 TreeProfile makeProfile(const CenterlineTree& tree, std::uint32_t index,
-                        const std::vector<std::uint32_t>& children) {
+                        const std::vector<std::uint32_t>& children,
+                        const std::vector<double>& edge) {
   const Branch& branch = tree.branches[index];
   TreeProfile profile;
   profile.branch = index;
   profile.firstNode = branch.firstNode;
   double along = 0;
   for (std::uint32_t node = branch.firstNode; node < branch.firstNode + branch.nodeCount; ++node) {
-    along += formats::edgeLength(tree, node);
+    along += edge[node];
     profile.along.push_back(along);
     profile.radius.push_back(tree.radius[node]);
     if (!tree.inlierRate.empty()) profile.confidence.push_back(tree.inlierRate[node]);
@@ -62,9 +63,10 @@ std::vector<std::uint32_t> inTreeOrder(const CenterlineTree& tree) {
 
 std::vector<TreeProfile> treeProfiles(const CenterlineTree& tree) {
   const auto children = branchesOfEach(tree);
+  const std::vector<double> edge = vesselLengths(tree).edge;
   std::vector<TreeProfile> profiles;
   for (const std::uint32_t branch : inTreeOrder(tree))
-    profiles.push_back(makeProfile(tree, branch, children[branch]));
+    profiles.push_back(makeProfile(tree, branch, children[branch], edge));
   return profiles;
 }
 
@@ -91,9 +93,10 @@ ConfidenceShares confidenceShares(const CenterlineTree& tree) {
   constexpr int kClasses = 10;
   ConfidenceShares shares;
   shares.length.resize(kClasses);
+  const std::vector<double> edge = vesselLengths(tree).edge;
   double sum = 0;
   for (std::uint32_t node = 0; node < tree.inlierRate.size(); ++node) {
-    const double length = formats::edgeLength(tree, node);
+    const double length = edge[node];
     const auto rate = static_cast<double>(tree.inlierRate[node]);
     const int at = std::clamp(static_cast<int>(rate * kClasses), 0, kClasses - 1);
     shares.length[static_cast<std::size_t>(at)] += length;

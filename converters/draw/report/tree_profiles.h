@@ -16,7 +16,7 @@ namespace lumen::convert {
 std::vector<std::uint32_t> inTreeOrder(const formats::CenterlineTree& tree);
 
 /// One branch, node by node. Places along it are in mm from where it leaves the lumen of its
-/// parent, so the last node is at formats::branchLength().
+/// parent, as of vesselLengths().
 struct TreeProfile {
   std::uint32_t branch = 0;       ///< index
   std::uint32_t firstNode = 0;    ///< index of the node of the first entries

@@ -7,6 +7,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/options/option_name.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 
@@ -47,7 +48,7 @@ Json caseSummary(const formats::Case& value) {
   json["nodes"] = value.tree.nodeCount();
   json["points"] = pointCount(value);
   json["blobs"] = blobCount(value);
-  json["length_mm"] = jsonNumber(totalLength(value.tree));
+  json["length_mm"] = jsonNumber(convert::vesselLengths(value.tree).total);
   return json;
 }
 
@@ -56,8 +57,8 @@ std::string caseLine(const std::string& file, const formats::Case& value) {
          counted(value.tree.branches.size(), "branch", "branches") + ", " +
          counted(value.tree.nodeCount(), "node", "nodes") + ", " +
          counted(pointCount(value), "point", "points") + ", " +
-         counted(blobCount(value), "blob", "blobs") + ", " + fixedText(totalLength(value.tree), 1) +
-         " mm\n";
+         counted(blobCount(value), "blob", "blobs") + ", " +
+         fixedText(convert::vesselLengths(value.tree).total, 1) + " mm\n";
 }
 
 FieldWord optionWord(const OptionTable* table) {

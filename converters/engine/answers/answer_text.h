@@ -16,7 +16,6 @@
 #include "converters/base/progress.h"
 #include "converters/base/shown_lines.h"
 #include "converters/base/text.h"
-#include "converters/base/tree_figures.h"
 #include "converters/operations/context.h"
 #include "formats/case/case.h"
 

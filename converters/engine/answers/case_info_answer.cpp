@@ -6,6 +6,7 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/engine/answers/volume_info.h"
+#include "converters/judge/measure/shown_radius.h"
 
 namespace lumen::engine {
 
@@ -16,10 +17,13 @@ std::optional<double> blobsPerNode(const convert::CaseInfo& info) {
   return static_cast<double>(*info.blobs) / static_cast<double>(info.nodes);
 }
 
-Json radiusJson(const RadiusRange& radius) {
+/// `least`: of the radii that the volume shows.
+Json radiusJson(const RadiusRange& radius, std::optional<double> least) {
+  const bool isBound = least && static_cast<double>(radius.min) < *least;
   return {{"mean", jsonNumber(radius.mean)},
           {"min", jsonNumber(radius.min)},
-          {"max", jsonNumber(radius.max)}};
+          {"max", jsonNumber(radius.max)},
+          {"min_at_most", isBound ? jsonNumber(*least) : Json(nullptr)}};
 }
 
 Json provenanceJson(const formats::Metadata& metadata) {
@@ -34,14 +38,14 @@ Json provenanceJson(const formats::Metadata& metadata) {
   return json;
 }
 
-Json branchJson(const convert::BranchInfo& branch) {
+Json branchJson(const convert::BranchInfo& branch, std::optional<double> least) {
   Json json;
   json["label"] = branch.label;
   json["parent"] = branch.parent.empty() ? Json(nullptr) : Json(branch.parent);
   json["kind"] = branch.kind;
   json["nodes"] = branch.nodes;
   json["length_mm"] = jsonNumber(branch.length);
-  json["radius_mm"] = branch.nodes > 0 ? radiusJson(branch.radius) : Json(nullptr);
+  json["radius_mm"] = branch.nodes > 0 ? radiusJson(branch.radius, least) : Json(nullptr);
   json["stop_reason"] = branch.stopReason;
   json["end"] = branch.end;
   json["inlier_rate"] = branch.inlierRate ? jsonNumber(*branch.inlierRate) : Json(nullptr);
@@ -53,10 +57,13 @@ std::string branchTable(const convert::CaseInfo& info) {
   std::vector<std::vector<std::string>> rows;
   rows.push_back(
       {"branch", "from", "kind", "nodes", "length", "radius", "min", "max", "inliers", "end"});
+  const auto radius = [&](float r) {
+    return convert::shownRadius(static_cast<double>(r), info.leastShown, 3);
+  };
   for (const auto& b : info.branches)
     rows.push_back({b.label, b.parent.empty() ? "-" : b.parent, b.kind, std::to_string(b.nodes),
-                    fixedText(b.length, 1), fixedText(b.radius.mean, 3), fixedText(b.radius.min, 3),
-                    fixedText(b.radius.max, 3), fixedText(b.inlierRate, 2), b.end});
+                    fixedText(b.length, 1), radius(b.radius.mean), radius(b.radius.min),
+                    radius(b.radius.max), fixedText(b.inlierRate, 2), b.end});
   for (std::size_t b = 0; b < info.branches.size(); ++b)
     if (const std::string& system = info.branches[b].system; !system.empty())
       rows[b + 1].insert(rows[b + 1].begin() + 3, system);
@@ -126,7 +133,8 @@ Json caseInfoJson(const convert::CaseInfo& info) {
   Json json;
   const auto perNode = blobsPerNode(info);
   json["branches"] = Json::array();
-  for (const auto& branch : info.branches) json["branches"].push_back(branchJson(branch));
+  for (const auto& branch : info.branches)
+    json["branches"].push_back(branchJson(branch, info.leastShown));
   json["nodes"] = info.nodes;
   json["links"] = info.links;
   json["trees"] = info.trees;
@@ -140,6 +148,7 @@ Json caseInfoJson(const convert::CaseInfo& info) {
   if (info.radius)
     json["radius_mm"] = {{"min", jsonNumber(info.radius->min)},
                          {"max", jsonNumber(info.radius->max)}};
+  json["least_shown_radius_mm"] = info.leastShown ? jsonNumber(*info.leastShown) : Json(nullptr);
   json["error_of_fit_mm"] = nullptr;
   if (info.errorOfFit)
     json["error_of_fit_mm"] = {{"median", jsonNumber(info.errorOfFit->median)},
@@ -171,7 +180,8 @@ std::string caseInfoText(const convert::CaseInfo& info, const std::string& inlet
     for (const std::string& text : convert::closedTexts(*info.reach)) lines.add("closed", text);
   if (info.radius)
     lines.add("radius",
-              fixedText(info.radius->min, 3) + " to " + fixedText(info.radius->max, 3) + " mm");
+              convert::shownRadius(static_cast<double>(info.radius->min), info.leastShown, 3) +
+                  " to " + fixedText(info.radius->max, 3) + " mm");
   if (const auto& e = info.errorOfFit)
     lines.add("error of fit", "median " + fixedText(e->median, 4) + ", 90th percentile " +
                                   fixedText(e->p90, 4) + ", greatest " + fixedText(e->max, 4) +
@@ -181,7 +191,11 @@ std::string caseInfoText(const convert::CaseInfo& info, const std::string& inlet
   if (info.metadata.source) lines.add("source", sourceText(*info.metadata.source));
   addExtras(info, lines);
   for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));
-  return lines.text() + "\n" + branchTable(info) + "\nLengths and radii in mm.\n";
+  std::string text = lines.text() + "\n" + branchTable(info) + "\nLengths and radii in mm.";
+  if (info.leastShown)
+    text += " <= stands where a radius is below the least that the volume shows, " +
+            fixedText(*info.leastShown, 3) + " mm.";
+  return text + "\n";
 }
 
 Json stepsJson(const formats::Metadata& metadata) {

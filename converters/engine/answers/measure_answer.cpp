@@ -14,6 +14,7 @@ namespace {
 
 std::string measuredText(const Measured& m, int digits) {
   if (!m.absent.empty()) return "-";
+  if (std::isfinite(m.atMost)) return "<= " + fixedText(m.atMost, digits);
   const std::string value = fixedText(m.value, digits);
   return std::isfinite(m.plusMinus) ? value + " +- " + fixedText(m.plusMinus, digits) : value;
 }

@@ -12,8 +12,8 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
+#include "converters/judge/facts/reachable.h"
 #include "converters/operations/ends_of.h"
-#include "formats/case/topology.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -71,7 +71,7 @@ public:
       ends = operations::endsOf(value);
     }
     Json json = caseSummary(value);
-    json["trees"] = formats::listTrees(value.tree).size();
+    json["trees"] = convert::countTrees(value.tree);
     json["links"] = value.tree.links.size();
     json["fitted"] = isFitted;
     json["ends"] = openEndsJson(ends, value.tree);

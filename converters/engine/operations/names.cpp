@@ -2,6 +2,7 @@
 // lumen names: the names of a case's branches, as a list or a table, and other ones.
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,8 +16,9 @@
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
 #include "converters/engine/stage_options.h"
+#include "converters/judge/measure/shown_radius.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "converters/operations/renamed.h"
-#include "formats/case/topology.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -36,13 +38,14 @@ struct NameRow {
 };
 
 std::vector<NameRow> nameRows(const CenterlineTree& tree) {
+  const std::vector<double> lengths = convert::vesselLengths(tree).branch;
   std::vector<NameRow> rows;
   for (const formats::Branch& branch : tree.branches) {
     NameRow& row = rows.emplace_back();
     row.label = branch.label;
     if (branch.parentNode != formats::kNoParent)
       row.from = tree.branches[tree.branch[static_cast<std::size_t>(branch.parentNode)]].label;
-    row.length = formats::branchLength(tree, branch);
+    row.length = lengths[rows.size() - 1];
     if (branch.nodeCount == 0) continue;
     const std::uint32_t node = branch.firstNode + branch.nodeCount / 2;
     row.radius = double{tree.radius[node]};
@@ -72,13 +75,14 @@ Json nameRowsJson(const std::vector<NameRow>& rows) {
   return list;
 }
 
-std::string nameText(const std::vector<NameRow>& rows) {
+/// `least`: of the radii that the volume shows.
+std::string nameText(const std::vector<NameRow>& rows, std::optional<double> least) {
   std::vector<std::vector<std::string>> table{{"name", "from", "length", "radius", "x", "y", "z"}};
   for (const NameRow& row : rows)
     table.push_back(
         {formats::printable(row.label), row.from.empty() ? "-" : formats::printable(row.from),
-         fixedText(row.length, 1), fixedText(row.radius, 2), fixedText(row.middle.x(), 1),
-         fixedText(row.middle.y(), 1), fixedText(row.middle.z(), 1)});
+         fixedText(row.length, 1), convert::shownRadius(row.radius, least, 2),
+         fixedText(row.middle.x(), 1), fixedText(row.middle.y(), 1), fixedText(row.middle.z(), 1)});
   return alignColumns(std::move(table)) +
          "Lengths, and radii and places of the middle, in mm, LPS.\n";
 }
@@ -157,7 +161,8 @@ public:
     }
     const std::vector<NameRow> rows = nameRows(value.tree);
     if (!m_table.empty()) writeText(nameTable(rows), m_table);
-    return {Json{{"renamed", names.size()}, {"names", nameRowsJson(rows)}}, nameText(rows), 0,
+    return {Json{{"renamed", names.size()}, {"names", nameRowsJson(rows)}},
+            nameText(rows, convert::leastShownRadius(value.metadata)), 0,
             to == nullptr && m_table.empty()};
   }
 

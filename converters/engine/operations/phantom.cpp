@@ -14,6 +14,7 @@
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "converters/stages/phantom/into_scan.h"
 
 namespace lumen::engine {
@@ -198,11 +199,11 @@ private:
     json["seeds"] = phantom.seeds.size();
     json["scan"] = nullptr;
     json["phases"] = phantom.truth.motion ? phantom.truth.motion->time.size() : 1;
-    return {std::move(json), shownVolumes(phantom) + ": " + joinedNumbers(size, " x ") +
-                                 " voxels of " + fixedText(phantom.volume.geometry.voxelSize(), 3) +
-                                 " mm, " + std::to_string(phantom.truth.tree.branches.size()) +
-                                 " true branches, " +
-                                 fixedText(totalLength(phantom.truth.tree), 1) + " mm\n"};
+    return {std::move(json),
+            shownVolumes(phantom) + ": " + joinedNumbers(size, " x ") + " voxels of " +
+                fixedText(phantom.volume.geometry.voxelSize(), 3) + " mm, " +
+                std::to_string(phantom.truth.tree.branches.size()) + " true branches, " +
+                fixedText(convert::vesselLengths(phantom.truth.tree).total, 1) + " mm\n"};
   }
 
   [[nodiscard]] std::string shownVolumes(const convert::Phantom& phantom) const {

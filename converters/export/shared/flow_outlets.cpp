@@ -2,10 +2,13 @@
 #include "converters/export/shared/flow_outlets.h"
 
 #include <cstddef>
+#include <utility>
 
 #include "converters/base/csv_rows.h"
 #include "converters/base/number_text.h"
+#include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/network.h"
+#include "converters/export/shared/target.h"
 
 namespace lumen::convert {
 
@@ -59,6 +62,15 @@ std::vector<Warning> outletWarnings(const FlowNetwork& network,
                         {outlet.place}});
   }
   return warnings;
+}
+
+void addOutlets(const FlowNetwork& network, ExportResult& result) {
+  result.outlets = outletRows(network);
+  result.warnings = pressureWarnings(network);
+  for (Warning& warning : outletWarnings(network, result.outlets))
+    result.warnings.push_back(std::move(warning));
+  result.files.push_back({"outlets.csv", outletTable(result.outlets),
+                          "radius, share and flow of each outlet, ml/s, and the reason", ""});
 }
 
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 
 namespace lumen::convert {
 
+struct ExportResult;
 struct FlowNetwork;
 
 struct OutletRow {
@@ -34,5 +35,8 @@ std::string outletTable(const std::vector<OutletRow>& outlets);
 /// A warning for each outlet of a short vessel that takes much of its tree's flow, with its place.
 std::vector<Warning> outletWarnings(const FlowNetwork& network,
                                     const std::vector<OutletRow>& outlets);
+
+/// Adds the outlets, their table as a file, and the warnings of pressures and outlets.
+void addOutlets(const FlowNetwork& network, ExportResult& result);
 
 }  // namespace lumen::convert

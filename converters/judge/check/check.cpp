@@ -14,6 +14,7 @@
 #include "converters/base/options/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/judge/measure/shown_radius.h"
 #include "converters/stages/finding/bright_voxels.h"
 #include "converters/voxels/image_region.h"
 #include "formats/case/case_field.h"
@@ -216,14 +217,10 @@ std::vector<bool> tissueOf(const Volume& volume, bool dark, const Progress& prog
 
 EdgeOptions recordedEdgeOptions(const formats::Case& value) {
   EdgeOptions options;
-  for (const formats::Step& step : value.metadata.steps) {
-    const auto blur = step.parameters.find("point-spread");
-    if (blur != step.parameters.end())
-      if (const auto* s = std::get_if<double>(&blur->second)) options.pointSpread = *s;
-    const auto dark = step.parameters.find("dark");
-    if (dark != step.parameters.end())
+  options.pointSpread = recordedBlur(value.metadata);
+  for (const formats::Step& step : value.metadata.steps)
+    if (const auto dark = step.parameters.find("dark"); dark != step.parameters.end())
       if (const auto* is = std::get_if<bool>(&dark->second)) options.dark = *is;
-  }
   return options;
 }
 

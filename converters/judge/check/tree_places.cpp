@@ -6,6 +6,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/geometry/box.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {
@@ -86,7 +87,7 @@ void addDoubled(const formats::CenterlineTree& tree, std::uint32_t b, std::uint3
 std::vector<LooseTree> findLooseTrees(const formats::CenterlineTree& tree,
                                       const VolumeGeometry& geometry) {
   std::vector<LooseTree> trees;
-  for (const formats::TreeExtent& each : formats::listTrees(tree))
+  for (const TreeExtent& each : listTrees(tree, vesselLengths(tree)))
     trees.push_back({tree.branches[each.root].firstNode, each.branches, each.length});
   if (!trees.empty()) trees.erase(trees.begin());
   std::erase_if(trees, [&](const LooseTree& at) {
@@ -102,9 +103,7 @@ std::vector<DoubledTrack> findDoubledTracks(const formats::CenterlineTree& tree)
   std::vector<Box3d> boxes(tree.branches.size());
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
     boxes[tree.branch[n]].add(toEigen(tree.centre[n]), static_cast<double>(tree.radius[n]));
-  std::vector<double> length;
-  for (const formats::Branch& branch : tree.branches)
-    length.push_back(formats::branchLength(tree, branch));
+  const std::vector<double> length = vesselLengths(tree).branch;
   std::vector<DoubledTrack> found;
   for (std::uint32_t b = 0; b < length.size(); ++b)
     for (std::uint32_t other = 0; other < length.size(); ++other) {

@@ -7,9 +7,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/base/tree_figures.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/measure/vessel_length.h"
 
 namespace lumen::convert {
 namespace {
@@ -35,12 +35,11 @@ double meanOver(const formats::Branch& branch, std::span<const std::uint8_t> nod
 
 /// Calls visit(branch index, length) for the long vessels of which less than half is found.
 template <class Visit>
-void eachLost(const formats::CenterlineTree& tree, std::span<const std::uint8_t> isFound,
-              const Visit& visit) {
+void eachLost(const formats::CenterlineTree& tree, const std::vector<double>& lengths,
+              std::span<const std::uint8_t> isFound, const Visit& visit) {
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
     const formats::Branch& branch = tree.branches[b];
-    const double length = formats::branchLength(tree, branch);
-    if (length > kLongVessel && meanOver(branch, isFound) < kFound) visit(b, length);
+    if (lengths[b] > kLongVessel && meanOver(branch, isFound) < kFound) visit(b, lengths[b]);
   }
 }
 
@@ -50,18 +49,19 @@ Repetition compareRuns(const formats::Case& judged, std::span<const formats::Cas
   const formats::CenterlineTree& tree = judged.tree;
   Repetition out;
   out.runs = runs.size();
-  out.leastLength = out.greatestLength = totalLength(tree);
+  const VesselLengths own = vesselLengths(tree);
+  out.leastLength = out.greatestLength = own.total;
   out.nodes.assign(tree.nodeCount(), 0);
   std::vector<std::size_t> lost(tree.branches.size(), 0);
   std::vector<Repetition::Vessel> others;
   for (const formats::Case& run : runs) {
-    const double length = totalLength(run.tree);
-    out.leastLength = std::min(out.leastLength, length);
-    out.greatestLength = std::max(out.greatestLength, length);
+    const VesselLengths lengths = vesselLengths(run.tree);
+    out.leastLength = std::min(out.leastLength, lengths.total);
+    out.greatestLength = std::max(out.greatestLength, lengths.total);
     const std::vector<std::uint8_t> isFound = nodesWithin(tree, run.tree);
     for (std::size_t n = 0; n < isFound.size(); ++n) out.nodes[n] += isFound[n];
-    eachLost(tree, isFound, [&](std::size_t b, double) { ++lost[b]; });
-    eachLost(run.tree, nodesWithin(run.tree, tree), [&](std::size_t, double extra) {
+    eachLost(tree, own.branch, isFound, [&](std::size_t b, double) { ++lost[b]; });
+    eachLost(run.tree, lengths.branch, nodesWithin(run.tree, tree), [&](std::size_t, double extra) {
       others.push_back({"", extra, 1});
     });
   }
@@ -71,8 +71,7 @@ Repetition compareRuns(const formats::Case& judged, std::span<const formats::Cas
     const auto first = out.nodes.begin() + branch.firstNode;
     out.branches.push_back(std::accumulate(first, first + branch.nodeCount, 0.0F) /
                            static_cast<float>(branch.nodeCount));
-    if (lost[b] > 0)
-      out.unstable.push_back({branch.label, formats::branchLength(tree, branch), lost[b]});
+    if (lost[b] > 0) out.unstable.push_back({branch.label, own.branch[b], lost[b]});
   }
   out.unstable.insert(out.unstable.end(), others.begin(), others.end());
   return out;

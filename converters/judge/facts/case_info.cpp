@@ -6,20 +6,22 @@
 #include "converters/base/error.h"
 #include "converters/base/warning.h"
 #include "converters/judge/facts/branch_end.h"
+#include "converters/judge/measure/shown_radius.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "formats/case/enum_names.h"
-#include "formats/case/topology.h"
 #include "formats/case/vessel_system.h"
 
 namespace lumen::convert {
 
 namespace {
 
-BranchInfo describeBranch(const formats::CenterlineTree& tree, const formats::Branch& branch) {
+BranchInfo describeBranch(const formats::CenterlineTree& tree, const formats::Branch& branch,
+                          double length) {
   BranchInfo info;
   info.label = branch.label;
   info.kind = formats::enumName(formats::kBranchKindNames, branch.kind);
   info.nodes = branch.nodeCount;
-  info.length = formats::branchLength(tree, branch);
+  info.length = length;
   if (branch.nodeCount > 0)
     info.radius = radiusRange(std::span(tree.radius).subspan(branch.firstNode, branch.nodeCount));
   info.stopReason = formats::enumName(formats::kStopReasonNames, branch.stopReason);
@@ -42,7 +44,7 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   if (value.points) info.points = value.points->position.size();
   if (value.models) info.blobs = value.models->centre.size();
   info.links = value.tree.links.size();
-  info.trees = formats::listTrees(value.tree).size();
+  info.trees = countTrees(value.tree);
   info.networks = countNetworks(value.tree);
   if (value.motion) info.motion = describeMotion(value.tree, *value.motion);
   for (const auto& array : value.nodeArrays) info.nodeArrays.push_back(array.name);
@@ -51,13 +53,15 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   } catch (const Error& error) {
     warn(progress, {WarningCode::CaseSeeds, error.what()});
   }
-  info.length = totalLength(value.tree);
+  const VesselLengths lengths = vesselLengths(value.tree);
+  info.length = lengths.total;
   if (info.nodes > 0) info.radius = radiusRange(value.tree.radius);
+  info.leastShown = leastShownRadius(value.metadata);
   info.errorOfFit = fittedError(value, progress);
   info.reach = measureReach(value, progress);
   const std::vector<std::string> ends = describeEnds(value);
   for (std::size_t b = 0; b < ends.size(); ++b) {
-    info.branches.push_back(describeBranch(value.tree, value.tree.branches[b]));
+    info.branches.push_back(describeBranch(value.tree, value.tree.branches[b], lengths.branch[b]));
     info.branches.back().end = ends[b];
   }
   const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(value);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/base/tree_figures.h"
+#include "converters/base/radius_range.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/judge/facts/reachable.h"
 #include "converters/stages/fitting/error_of_fit.h"
@@ -48,6 +48,7 @@ struct CaseInfo {
   std::optional<SeedCounts> seeds;              ///< absent if they cannot be read
   double length = 0;                            ///< mm
   std::optional<RadiusRange> radius;            ///< absent without nodes
+  std::optional<double> leastShown;             ///< mm, as of leastShownRadius()
   std::optional<ErrorOfFitSummary> errorOfFit;  ///< over the nodes
   std::optional<Reach> reach;                   ///< absent without models
   std::vector<BranchInfo> branches;

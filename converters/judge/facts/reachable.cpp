@@ -9,12 +9,18 @@
 #include "converters/base/text.h"
 #include "converters/base/warning.h"
 #include "converters/geometry/disjoint_sets.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
-#include "formats/case/topology.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
+
+std::size_t countTrees(const formats::CenterlineTree& tree) {
+  return static_cast<std::size_t>(std::count_if(
+      tree.branches.begin(), tree.branches.end(),
+      [](const formats::Branch& branch) { return branch.parentNode == formats::kNoParent; }));
+}
 
 std::size_t countNetworks(const formats::CenterlineTree& tree) {
   DisjointSets parts(tree.branches.size());
@@ -31,16 +37,21 @@ std::optional<Reach> measureReach(const formats::Case& value, const Progress& pr
   if (!value.models) return std::nullopt;
   const auto found = formats::measureReachability(value.tree, formats::caseField(value),
                                                   [&progress] { progress.check(); });
-  const auto trees = formats::listTrees(value.tree);
-  Reach reach{found.reachable,
-              found.total,
-              trees.size(),
-              countNetworks(value.tree),
-              trees.empty() ? 0 : trees.front().length,
-              {}};
+  const VesselLengths lengths = vesselLengths(value.tree);
+  Reach reach;
   for (const formats::Barrier& barrier : found.barriers)
     reach.closed.push_back({value.tree.branches[value.tree.branch[barrier.node]].label,
-                            barrier.node, barrier.place, barrier.beyond});
+                            barrier.node, barrier.place, 0});
+  for (std::size_t n = 0; n < lengths.edge.size(); ++n) {
+    const std::int32_t barrier = found.barrierOf[n];
+    (barrier < 0 ? reach.length : reach.closed[static_cast<std::size_t>(barrier)].beyond) +=
+        lengths.edge[n];
+  }
+  reach.of = lengths.total;
+  const std::vector<TreeExtent> trees = listTrees(value.tree, lengths);
+  reach.trees = trees.size();
+  reach.networks = countNetworks(value.tree);
+  if (!trees.empty()) reach.longest = trees.front().length;
   std::stable_sort(reach.closed.begin(), reach.closed.end(),
                    [](const ClosedPath& a, const ClosedPath& b) { return a.beyond > b.beyond; });
   return reach;

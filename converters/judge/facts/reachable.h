@@ -22,12 +22,15 @@ struct ClosedPath {
 };
 
 struct Reach {
-  double length = 0, of = 0;       ///< mm
+  double length = 0, of = 0;       ///< mm, of vesselLengths()
   std::size_t trees = 0;           ///< that are reached each from its own root
   std::size_t networks = 0;        ///< parts that neither a parent nor a link joins
   double longest = 0;              ///< mm of the longest tree
   std::vector<ClosedPath> closed;  ///< the one with the greatest length beyond it first
 };
+
+/// Number of roots.
+std::size_t countTrees(const formats::CenterlineTree& tree);
 
 /// Number of parts of a tree that neither a parent nor a link joins.
 std::size_t countNetworks(const formats::CenterlineTree& tree);

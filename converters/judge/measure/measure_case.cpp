@@ -11,6 +11,7 @@
 
 #include "converters/base/csv_rows.h"
 #include "converters/base/number_text.h"
+#include "converters/judge/measure/shown_radius.h"
 #include "converters/judge/measure/vessel_course.h"
 #include "converters/judge/measure/vessel_measures.h"
 
@@ -119,6 +120,7 @@ CaseMeasures measureCase(const formats::Case& source, const MeasureOptions& opti
   // a sac is the work of one thread, which is as long as that of all vessels
   tbb::parallel_invoke([&] { out.sacs = measureSacs(source, spread, progress); },
                        [&] { measureVesselsOf(source, options, cut, spread, progress, out); });
+  boundRadii(leastShownRadius(source.metadata), out);
   return out;
 }
 
@@ -145,7 +147,8 @@ Json jsonOf(const Measured& m) {
   const bool isThere = m.absent.empty();
   return {{"value", isThere ? jsonOf(m.value) : Json(nullptr)},
           {"plus_minus", isThere ? jsonOf(m.plusMinus) : Json(nullptr)},
-          {"absent", isThere ? Json(nullptr) : Json(m.absent)}};
+          {"absent", isThere ? Json(nullptr) : Json(m.absent)},
+          {"at_most", jsonOf(m.atMost)}};
 }
 
 /// Vectors have no unit; places do.
@@ -159,6 +162,12 @@ std::string placeKey(std::string_view name) {
 
 std::string cell(double value) {
   return std::isfinite(value) ? numberText(value, kDigits) : std::string();
+}
+
+/// Why a number is not there, or is a bound; empty for others.
+std::string remark(const Measured& m) {
+  if (!std::isfinite(m.atMost)) return std::string(m.absent);
+  return "at most " + cell(m.atMost) + ": the volume shows no less";
 }
 
 bool hasSystems(const MeasureTable& table) {
@@ -199,9 +208,8 @@ void addRow(const std::string& name, const MeasureTable& table, const MeasureRow
     const Measured& m = row.values[i];
     const bool isThere = m.absent.empty();
     text += ',' + (isThere ? cell(m.value) : "") + ',' + (isThere ? cell(m.plusMinus) : "");
-    if (!isThere)
-      absent += (absent.empty() ? "" : "; ") + std::string(table.values[i]) + ": " +
-                std::string(m.absent);
+    if (const std::string why = remark(m); !why.empty())
+      absent += (absent.empty() ? "" : "; ") + std::string(table.values[i]) + ": " + why;
   }
   text += ',' + csvCell(absent) + '\n';
 }
@@ -261,8 +269,7 @@ std::string measuresLongCsv(std::span<const MeasuredCase> cases) {
           const Measured& m = row.values[i];
           const bool isThere = m.absent.empty();
           text += head + ',' + std::string(table.values[i]) + ',' + (isThere ? cell(m.value) : "") +
-                  ',' + (isThere ? cell(m.plusMinus) : "") + ',' + csvCell(std::string(m.absent)) +
-                  '\n';
+                  ',' + (isThere ? cell(m.plusMinus) : "") + ',' + csvCell(remark(m)) + '\n';
         }
       }
   return text;

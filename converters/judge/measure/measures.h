@@ -25,6 +25,8 @@ struct Measured {
   double plusMinus = std::numeric_limits<double>::quiet_NaN();
   /// why the value is not defined here; empty where it is
   std::string_view absent = {};
+  /// a bound, where the volume does not show a value as small; else NaN
+  double atMost = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace lumen

@@ -19,7 +19,6 @@ namespace {
 using formats::CenterlineTree;
 
 constexpr double kPathStepRadii = 0.5;
-constexpr double kFrenchPerMm = 3;  // of diameter
 constexpr std::string_view kNoFork = "no fork lies on the path";
 constexpr std::string_view kAneurysm = "the path leads through an aneurysm";
 

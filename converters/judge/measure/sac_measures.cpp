@@ -6,12 +6,12 @@
 #include <numbers>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "converters/base/vectors.h"
 #include "converters/judge/measure/measures.h"
 #include "converters/judge/measure/sac_shape.h"
 #include "converters/judge/measure/sac_tree.h"
+#include "converters/judge/measure/shown_radius.h"
 #include "converters/judge/measure/vessel_measures.h"
 #include "converters/judge/measure/wall.h"
 #include "formats/case/case_field.h"
@@ -118,15 +118,6 @@ DomeShape widened(const DomeShape& dome, double by) {
   return out;
 }
 
-// Blur of the volume from which a case was tracked, mm, a standard deviation; 0 if none is recorded.
-double recordedBlur(const formats::Case& source) {
-  double blur = 0;
-  for (const formats::Step& step : source.metadata.steps)
-    if (const auto found = step.parameters.find("point-spread"); found != step.parameters.end())
-      if (const auto* mm = std::get_if<double>(&found->second)) blur = *mm;
-  return blur;
-}
-
 /// Measures one sac.
 class SacSurvey {
 public:
@@ -213,7 +204,7 @@ private:
     uneven.hullVolume += shape.hullArea * single;
     spread.add(valuesOf(uneven, vessel));
     spread.add(valuesOf(sac.moved, vessel));
-    spread.add(valuesOf(widened(shape, kRimBlurs * recordedBlur(m_source)), vessel));
+    spread.add(valuesOf(widened(shape, kRimBlurs * recordedBlur(m_source.metadata)), vessel));
     spread.add(valuesOf(
         shape, vessel * (1 + kSdOfRadius / std::sqrt(std::max<std::size_t>(1, vessels.size())))));
     const std::array<Measured*, kValues> outs = {

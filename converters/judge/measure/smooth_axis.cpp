@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 constexpr int kMostTerms = 6;             // of a polynomial of fifth degree
 constexpr std::size_t kFewestNodes = 15;  // nodes of a window: 2.5 for each unknown
 constexpr double kGridRadii = 0.3;        // step of the table of arc lengths, in local radii
+constexpr int kMostPieces = 16;           // of that table between two nodes
 constexpr double kWholeShare = 0.5;       // of a half-width that an end may cut off
 constexpr double kSignificant = 1.96;     // standard deviations: 95 %
 // A helix that turns by w = sqrt(curvature^2 + torsion^2) per mm loses by the fit this share of
@@ -201,7 +202,8 @@ void SmoothAxis::findArcs() {
     const double span = m_chord[i] - m_chord[i - 1];
     if (!(span > 0)) continue;
     const double step = kGridRadii * std::min(m_nodes.radius[i - 1], m_nodes.radius[i]);
-    const int pieces = std::clamp(static_cast<int>(std::ceil(span / step)), 1, 1000);
+    const int pieces = std::clamp(
+        static_cast<int>(std::min(std::ceil(span / step), 1.0 * kMostPieces)), 1, kMostPieces);
     for (int k = 1; k <= pieces; ++k) {
       const double chord = m_chord[i - 1] + span * k / pieces;
       AxisPlace place = placeAt(chord);

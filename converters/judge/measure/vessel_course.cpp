@@ -22,6 +22,8 @@ using formats::CenterlineTree;
 
 constexpr double kStepRadii = 0.5;     // between samples, of the vessel's median radius
 constexpr double kLeavingRadii = 0.1;  // step of the search for the parent's wall
+constexpr double kMostSteps = 1000;    // of that search along an axis
+constexpr double kNearestRadii = 0.1;  // between nodes of an axis: nearer ones add time alone
 constexpr std::size_t kBlock = 16;     // samples whose rays run together
 constexpr double kEndSteps = 0.5;      // steps of the nodes by which an end is uncertain
 constexpr double kShortest = 1;        // radii: a vessel that is shorter is a stub
@@ -48,7 +50,7 @@ double leavingPlace(const SmoothAxis& axis, const TubeTreeDistance& parent, doub
   const auto isInside = [&](double along) {
     return parent.nearest(axis.at(along).position).distance < 0;
   };
-  const double step = kLeavingRadii * radius;
+  const double step = std::max(kLeavingRadii * radius, axis.length() / kMostSteps);
   double inside = 0, outside = 0;
   if (!isInside(0)) return 0;
   for (outside = step; outside < axis.length() && isInside(outside); outside += step)
@@ -60,35 +62,6 @@ double leavingPlace(const SmoothAxis& axis, const TubeTreeDistance& parent, doub
     (isInside(middle) ? inside : outside) = middle;
   }
   return outside;
-}
-
-VesselCourse courseOf(const formats::Case& source, std::uint32_t index) {
-  const CenterlineTree& tree = source.tree;
-  const formats::Branch& branch = tree.branches[index];
-  VesselCourse course;
-  course.branch = index;
-  if (branch.kind == formats::BranchKind::Aneurysm) {
-    course.absent = "an aneurysm is no tube";
-    return course;
-  }
-  std::vector<std::uint32_t> nodes;
-  for (std::uint32_t n = 0; n < branch.nodeCount; ++n) nodes.push_back(branch.firstNode + n);
-  course.axis = axisOfNodes(tree, nodes, course.nodes);
-  if (!course.axis) {
-    course.absent = "a stub: its nodes are at one place";
-    return course;
-  }
-  const double radius = medianRadius(tree, course.nodes);
-  if (branch.parentNode != formats::kNoParent) {
-    const auto from = static_cast<std::size_t>(branch.parentNode);
-    course.begin = leavingPlace(*course.axis, TubeTreeDistance(tree, tree.branch[from]), radius);
-    if (course.begin == 0) course.gap = formats::edgeLength(tree, branch.firstNode);
-  }
-  if (course.axis->length() - course.begin < kShortest * radius)
-    course.absent = "a stub: it is shorter than its radius beyond its parent's lumen";
-  const double step = medianSpacing(*course.axis);
-  course.endSd = kEndSteps * step;
-  return course;
 }
 
 void addSection(const CutPlane& plane, const WallRing& ring, const Wall& wall,
@@ -118,9 +91,14 @@ std::optional<SmoothAxis> axisOfNodes(const CenterlineTree& tree,
   std::vector<double> height;
   for (const std::uint32_t n : nodes) {
     const Vector3d centre = toEigen(tree.centre[n]);
-    if (!axis.position.empty() && !((centre - axis.position.back()).norm() > 0)) continue;
+    const double radius = double{tree.radius[n]};
+    if (!axis.position.empty()) {
+      const double from = (centre - axis.position.back()).norm();
+      const double least = kNearestRadii * std::max(radius, axis.radius.back());
+      if (!(from > 0) || (from < least && n != nodes.back())) continue;
+    }
     axis.position.push_back(centre);
-    axis.radius.push_back(double{tree.radius[n]});
+    axis.radius.push_back(radius);
     height.push_back(double{tree.height[n]});
     kept.push_back(n);
   }
@@ -162,12 +140,40 @@ std::vector<CourseSample> sampleCourse(const CenterlineTree& tree, const VesselC
   return samples;
 }
 
+VesselCourse vesselCourse(const CenterlineTree& tree, std::uint32_t index) {
+  const formats::Branch& branch = tree.branches[index];
+  VesselCourse course;
+  course.branch = index;
+  if (branch.kind == formats::BranchKind::Aneurysm) {
+    course.absent = "an aneurysm is no tube";
+    return course;
+  }
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t n = 0; n < branch.nodeCount; ++n) nodes.push_back(branch.firstNode + n);
+  course.axis = axisOfNodes(tree, nodes, course.nodes);
+  if (!course.axis) {
+    course.absent = "a stub: its nodes are at one place";
+    return course;
+  }
+  const double radius = medianRadius(tree, course.nodes);
+  if (branch.parentNode != formats::kNoParent) {
+    const auto from = static_cast<std::size_t>(branch.parentNode);
+    course.begin = leavingPlace(*course.axis, TubeTreeDistance(tree, tree.branch[from]), radius);
+    if (course.begin == 0) course.gap = formats::edgeLength(tree, branch.firstNode);
+  }
+  if (course.axis->length() - course.begin < kShortest * radius)
+    course.absent = "a stub: it is shorter than its radius beyond its parent's lumen";
+  const double step = medianSpacing(*course.axis);
+  course.endSd = kEndSteps * step;
+  return course;
+}
+
 std::vector<VesselCourse> vesselCourses(const formats::Case& source, const Wall* wall,
                                         const WallNoise* noise, const Progress& progress) {
   std::vector<VesselCourse> courses(source.tree.branches.size());
   tbb::parallel_for(std::size_t{0}, courses.size(), [&](std::size_t b) {
     if (progress.cancelled()) return;
-    VesselCourse course = courseOf(source, static_cast<std::uint32_t>(b));
+    VesselCourse course = vesselCourse(source.tree, static_cast<std::uint32_t>(b));
     if (course.absent.empty()) {
       const double step = kStepRadii * medianRadius(source.tree, course.nodes);
       const double length = course.axis->length() - course.begin;

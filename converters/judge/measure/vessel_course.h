@@ -43,7 +43,7 @@ struct VesselCourse {
 };
 
 /// The nodes of a branch as a smoothed axis; empty if they are at fewer than two places. `kept`
-/// receives the nodes of the axis.
+/// receives the nodes of the axis: those that are a tenth of a radius from the one before, and the last.
 std::optional<SmoothAxis> axisOfNodes(const formats::CenterlineTree& tree,
                                       const std::vector<std::uint32_t>& nodes,
                                       std::vector<std::uint32_t>& kept);
@@ -52,6 +52,9 @@ std::optional<SmoothAxis> axisOfNodes(const formats::CenterlineTree& tree,
 std::vector<CourseSample> sampleCourse(const formats::CenterlineTree& tree,
                                        const VesselCourse& course, const std::vector<double>& along,
                                        const Wall* wall, const WallNoise* noise);
+
+/// The curve of one branch of a valid tree, without samples.
+VesselCourse vesselCourse(const formats::CenterlineTree& tree, std::uint32_t branch);
 
 /// All branches of a valid case in their order, each sampled every half of its median radius.
 std::vector<VesselCourse> vesselCourses(const formats::Case& source, const Wall* wall,

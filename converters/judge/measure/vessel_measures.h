@@ -11,6 +11,8 @@
 
 namespace lumen::convert {
 
+inline constexpr double kFrenchPerMm = 3;  ///< French of a catheter for each mm of its diameter
+
 /// A value whose half interval follows from a standard deviation and a bound of its bias.
 Measured measured(double value, double sd, double bias = 0);
 /// No value, for a reason.

@@ -9,9 +9,10 @@
 #include <variant>
 
 #include "converters/base/error.h"
-#include "converters/base/tree_figures.h"
+#include "converters/base/radius_range.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/judge/measure/measure_case.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
@@ -84,7 +85,8 @@ CaseFigures measureFigures(const formats::Case& source, Progress& progress) {
       tree.branches.begin(), tree.branches.end(),
       [](const formats::Branch& branch) { return branch.kind == formats::BranchKind::Aneurysm; }));
   figures.nodes = tree.nodeCount();
-  figures.length = asFloat(totalLength(tree));
+  const VesselLengths lengths = vesselLengths(tree);
+  figures.length = asFloat(lengths.total);
   const RadiusRange radius = radiusRange(tree.radius);
   figures.radiusMin = asFloat(radius.min);
   figures.radiusMean = asFloat(radius.mean);
@@ -94,11 +96,14 @@ CaseFigures measureFigures(const formats::Case& source, Progress& progress) {
     figures.errorMedian = asFloat(error->median);
     figures.errorP90 = asFloat(error->p90);
   }
-  if (source.models)
-    figures.reachable =
-        asFloat(formats::measureReachability(tree, formats::caseField(source), [&progress] {
-                  progress.check();
-                }).reachable);
+  if (source.models) {
+    const formats::Reachability reach = formats::measureReachability(
+        tree, formats::caseField(source), [&progress] { progress.check(); });
+    double reachable = 0;
+    for (std::size_t n = 0; n < lengths.edge.size(); ++n)
+      if (reach.barrierOf[n] < 0) reachable += lengths.edge[n];
+    figures.reachable = asFloat(reachable);
+  }
   figures.geometry = measureGeometry(source, progress);
   const std::vector<formats::VesselSystem> systems = formats::knownBranchSystems(source);
   for (const formats::VesselSystem one : std::set(systems.begin(), systems.end()))

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
-#include <tuple>
 
 #include "converters/base/number_text.h"
 #include "converters/base/shown_text.h"

@@ -117,10 +117,16 @@ def columns_of(kind: str) -> List[str]:
 def _row(facts: Dict[str, Any]) -> Dict[str, Any]:
     """The cells of a row, in the columns that ``lumen measure --out`` writes."""
     row = dict(itertools.chain.from_iterable(_cells(name, value) for name, value in facts.items()))
-    absent = [f"{name}: {value['absent']}" for name, value in facts.items()
-              if isinstance(value, dict) and value["absent"]]
+    absent = [f"{name}: {_remark(value)}" for name, value in facts.items() if isinstance(value, dict) and _remark(value)]
     row["absent"] = "; ".join(absent)
     return row
+
+
+def _remark(value: Dict[str, Any]) -> str:
+    """Why a number is not there, or is a bound."""
+    if value.get("at_most") is not None:
+        return f"at most {value['at_most']:g}: the volume shows no less"
+    return value["absent"] or ""
 
 
 def _cells(name: str, value: Any) -> Iterator[Tuple[str, Any]]:

@@ -18,11 +18,13 @@
 
 #include "converters/base/error.h"
 #include "converters/engine/answers/case_info_answer.h"
+#include "converters/judge/facts/branch_end.h"
 #include "converters/judge/facts/reachable.h"
+#include "converters/judge/measure/shown_radius.h"
+#include "converters/judge/measure/vessel_length.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/node_origin.h"
-#include "formats/case/topology.h"
 #include "formats/case/vessel_system.h"
 #include "formats/field/pose.h"
 #include "viewer/session/packs/pack.h"
@@ -31,9 +33,10 @@ namespace lumen::viewer {
 
 namespace {
 
-Json branchesJson(const formats::Case& value) {
+Json branchesJson(const formats::Case& value, const convert::VesselLengths& lengths) {
   const formats::CenterlineTree& tree = value.tree;
   const std::vector<formats::VesselSystem> systems = formats::readBranchSystems(value);
+  const std::vector<std::string> ends = convert::describeEnds(value);
   Json list = Json::array();
   for (const formats::Branch& branch : tree.branches) {
     const auto mean = branch.meanInlierRate;
@@ -43,20 +46,22 @@ Json branchesJson(const formats::Case& value) {
          {"parent_node", branch.parentNode},
          {"first_node", branch.firstNode},
          {"node_count", branch.nodeCount},
+         {"end", ends[list.size()]},
          {"stop_reason", formats::enumName(formats::kStopReasonNames, branch.stopReason)},
          {"confidence", mean ? engine::jsonNumber(*mean) : Json(nullptr)},
-         {"length_mm", engine::jsonNumber(formats::branchLength(tree, branch))},
+         {"length_mm", engine::jsonNumber(lengths.branch[list.size()])},
          {"system", formats::kVesselSystemNames[static_cast<std::size_t>(systems[list.size()])]}});
   }
   return list;
 }
 
 /// mm along the tree from each node's root; a node's parent has a smaller index.
-std::vector<float> rootDistances(const formats::CenterlineTree& tree) {
+std::vector<float> rootDistances(const formats::CenterlineTree& tree,
+                                 const std::vector<double>& edge) {
   std::vector<double> distance(tree.nodeCount(), 0);
   for (std::uint32_t node = 0; node < tree.nodeCount(); ++node)
     if (const std::int32_t parent = tree.parent[node]; parent >= 0)
-      distance[node] = distance[static_cast<std::size_t>(parent)] + formats::edgeLength(tree, node);
+      distance[node] = distance[static_cast<std::size_t>(parent)] + edge[node];
   return {distance.begin(), distance.end()};
 }
 
@@ -74,7 +79,8 @@ Json reachableJson(const formats::Case& value, const Progress& progress) {
           {"closed", std::move(closed)}};
 }
 
-void addNodes(PackWriter& pack, const formats::CenterlineTree& tree) {
+void addNodes(PackWriter& pack, const formats::CenterlineTree& tree,
+              const convert::VesselLengths& lengths) {
   pack.add("centre", std::span(tree.centre));
   pack.add("direction", std::span(tree.direction));
   pack.add("radius_mm", tree.radius);
@@ -82,7 +88,7 @@ void addNodes(PackWriter& pack, const formats::CenterlineTree& tree) {
   pack.add("parent", tree.parent);
   pack.add("branch", tree.branch);
   if (!tree.inlierRate.empty()) pack.add("inlier_rate", tree.inlierRate);
-  pack.add("root_distance_mm", rootDistances(tree));
+  pack.add("root_distance_mm", rootDistances(tree, lengths.edge));
   pack.add("links", std::span(tree.links));
 }
 
@@ -129,7 +135,8 @@ void addMotion(PackWriter& pack, const std::optional<formats::Motion>& motion) {
 
 std::string casePack(const formats::Case& value, bool withPoints, Progress& progress) {
   PackWriter pack;
-  addNodes(pack, value.tree);
+  const convert::VesselLengths lengths = convert::vesselLengths(value.tree);
+  addNodes(pack, value.tree, lengths);
   addOrigins(pack, value);
   addEdited(pack, value);
   if (value.points && value.models)
@@ -140,9 +147,11 @@ std::string casePack(const formats::Case& value, bool withPoints, Progress& prog
     pack.add("point", std::span(value.points->position));
   }
   addMotion(pack, value.motion);
-  pack.set("branches", branchesJson(value));
+  pack.set("branches", branchesJson(value, lengths));
   const auto& voxel = value.metadata.voxelSize;
   pack.set("voxel_size_mm", voxel ? engine::jsonNumber(*voxel) : Json(nullptr));
+  const auto least = convert::leastShownRadius(value.metadata);
+  pack.set("least_shown_radius_mm", least ? engine::jsonNumber(*least) : Json(nullptr));
   pack.set("has_models", value.models.has_value());
   pack.set("reachable", reachableJson(value, progress));
   pack.set("steps", engine::stepsJson(value.metadata));

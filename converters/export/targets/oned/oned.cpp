@@ -154,12 +154,7 @@ ExportResult exportOneD(const ExportInput& input) {
   result.ends = findEnds(network);
   result.losses = std::move(flowing.losses);
   result.losses.insert(result.losses.end(), network.messages.begin(), network.messages.end());
-  result.outlets = outletRows(network);
-  result.warnings = pressureWarnings(network);
-  for (Warning& warning : outletWarnings(network, result.outlets))
-    result.warnings.push_back(std::move(warning));
-  result.files.push_back({"outlets.csv", outletTable(result.outlets),
-                          "radius, share and flow of each outlet, ml/s, and the reason", ""});
+  addOutlets(network, result);
   if (lengthened > 0)
     result.losses.push_back("segments that are shorter than their radius are as long as it here: " +
                             std::to_string(lengthened));

@@ -140,12 +140,7 @@ ExportResult exportSvZeroD(const ExportInput& input) {
   result.ends = findEnds(network);
   result.losses = std::move(flowing.losses);
   result.losses.insert(result.losses.end(), network.messages.begin(), network.messages.end());
-  result.outlets = outletRows(network);
-  result.warnings = pressureWarnings(network);
-  for (Warning& warning : outletWarnings(network, result.outlets))
-    result.warnings.push_back(std::move(warning));
-  result.files.push_back({"outlets.csv", outletTable(result.outlets),
-                          "radius, share and flow of each outlet, ml/s, and the reason", ""});
+  addOutlets(network, result);
   result.remarks = {networkSummary(network)};
   return result;
 }

@@ -243,6 +243,8 @@ export interface BranchRecord {
   first_node: number;
   node_count: number;
   stop_reason: string;
+  /** Sentence on the last node. */
+  end?: string;
   confidence: number | null;
   /** mm, as `lumen info` reports it: with the edge to its parent. */
   length_mm: number;

@@ -7,6 +7,8 @@ interface Measured {
   value: number | null;
   plus_minus: number | null;
   absent: string | null;
+  /** A bound, where the volume does not show a value as small. */
+  at_most?: number | null;
 }
 
 /** A row of a table: texts, places whose names end with `_place_mm` (null: it has none), vectors, and measures with their units. */
@@ -69,6 +71,7 @@ function digitsOf(value: number, half: number | null): number {
 export function figureText(measured: Measured, unit: string): string {
   const { value, plus_minus: half, absent } = measured;
   if (value === null) return absent ?? "–";
+  if (typeof measured.at_most === "number") return `≤ ${measured.at_most.toFixed(2)} ${unit}`.trim();
   const digits = digitsOf(value, half),
     number =
       half === null

@@ -34,6 +34,8 @@ export class Tree {
   readonly branches: Branch[];
   readonly hasModels: boolean;
   readonly voxelSize: number;
+  /** Least radius that the volume shows, mm; 0: not known. */
+  readonly leastShown: number;
   readonly reachable: { reached_mm: number; total_mm: number; trees: number } | null;
   readonly count: number;
   /** Null: the case does not move. */
@@ -55,6 +57,8 @@ export class Tree {
     this.links = pack.optional("links", "u32") ?? new Uint32Array(0);
     this.hasModels = pack.meta.has_models === true;
     this.voxelSize = typeof pack.meta.voxel_size_mm === "number" ? pack.meta.voxel_size_mm : 0;
+    const least = pack.meta.least_shown_radius_mm;
+    this.leastShown = typeof least === "number" ? least : 0;
     this.reachable = (pack.meta.reachable ?? null) as Tree["reachable"];
     this.count = this.radius.length;
     this.motion = Motion.of(pack);

@@ -42,11 +42,13 @@ export class VesselDetail {
       return;
     }
     const parent = b.parentBranch < 0 ? "none: a root" : view.document.tree!.branches[b.parentBranch].label;
+    const least = view.document.tree!.leastShown;
+    const radius = (mm: number): string => (mm < least ? `≤ ${brief(least)}` : brief(mm));
     const rows: [string, string][] = [
       ["Length", mm(b.length_mm)],
-      ["Radius", `${brief(b.mean)} (${brief(b.least)} – ${brief(b.greatest)}) mm`],
+      ["Radius", `${radius(b.mean)} (${radius(b.least)} – ${radius(b.greatest)}) mm`],
       ["Confidence", b.confidence === null ? "–" : `${Math.round(100 * b.confidence)} %`],
-      ["Stopped by", b.stop_reason.replaceAll("-", " ")],
+      ["End", b.end ?? b.stop_reason.replaceAll("-", " ")],
       ["Parent", parent],
     ];
     if (view.document.tree!.systems.length > 0)
