@@ -70,7 +70,8 @@ public:
                        "; or mesh, which holds the surface of the " + "vessels and no more, " +
                        formatEndings(canWriteMesh) + "; or volume mesh, " +
                        formatEndings(canWriteVolumeMesh) +
-                       "; or centerline, which holds the tree and its radii and no more, " +
+                       "; or centerline, which holds the tree and its radii and no more, so no "
+                       "models are fitted, " +
                        formatEndings(canWriteCenterline));
     addFormatRow(table, "from", m_from, "INPUT");
     addFormatRow(table, "to", m_to, "OUTPUT");
@@ -92,7 +93,8 @@ public:
 
     operations::Source source =
         isCase ? loadCase(from, to, contents, context) : loadNew(from, options, contents, context);
-    if (!isCase || contents.input == kUnfittedCase)
+    const bool showsModels = (contents.output & kModelled) != 0;
+    if (showsModels && (!isCase || contents.input == kUnfittedCase))
       options.models = m_options.modelOptions(source, *context.table, context.progress);
     const operations::MadeCase made =
         operations::caseOf(std::move(source), options, operationContext(context));
@@ -179,7 +181,8 @@ private:
     return {withRemarks(std::move(json), made.remarks),
             caseLine(m_output.name(), made.value) + replayedLine(made.replayed) +
                 frameLine("mesh", made.meshFrame) + frameLine("centerline", made.centerlineFrame) +
-                convert::reachLine(reach) + "inlets: " + inletsText(ends, made.value.tree) + "\n" +
+                (reach ? convert::reachLine(reach) : "") +
+                "inlets: " + inletsText(ends, made.value.tree) + "\n" +
                 surfaceLines(meshes.surface, made.value) + volumeMeshLines(meshes.cells) +
                 repetitionLines(made.repetition) + inventoryLines(made.labels) +
                 nativeLines(made.native) + endLines(made.remarks)};
