@@ -47,7 +47,7 @@ ROOMS = [
     {"judge/compare": [], "judge/check": []},
     {"judge/facts": []},
     {"judge/gate": []},
-    {"draw/raster": [], "draw/overlay": ["draw/raster"], "draw/picture": ["draw/raster"],
+    {"draw/raster": [], "draw/overlay": ["draw/raster"], "draw/picture": ["draw/raster"], "draw/xray": ["draw/raster"],
      "draw/report": ["draw/overlay", "draw/raster"]},
     {"export/shared": []},
     {"export/targets": []},

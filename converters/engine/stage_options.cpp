@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <regex>
 #include <utility>
 
 #include "converters/base/error.h"
@@ -81,6 +82,21 @@ ValueCheck pairText(std::string expected) {
     const bool isPair = at != std::string::npos && at > 0 && at + 1 < text.size();
     return isPair ? "" : foundText(text, expected);
   };
+}
+
+std::pair<int, int> pictureSize(const std::string& text) {
+  constexpr int kLeastPixels = 16, kMostPixels = 4096;  // 1.6 GB of a picture's samples
+  static const std::regex kSize("([0-9]{1,5})x([0-9]{1,5})");
+  const auto fits = [](int pixels) { return pixels >= kLeastPixels && pixels <= kMostPixels; };
+  std::smatch parts;
+  if (std::regex_match(text, parts, kSize)) {
+    const std::pair size(std::stoi(parts[1]), std::stoi(parts[2]));
+    if (fits(size.first) && fits(size.second)) return size;
+  }
+  throw Error(ErrorKind::Usage, "--size: found " + formats::printable(text) +
+                                    ", expected WxH with numbers from " +
+                                    std::to_string(kLeastPixels) + " to " +
+                                    std::to_string(kMostPixels) + ", such as 1000x800");
 }
 
 std::string placeFault(const std::string& text) {

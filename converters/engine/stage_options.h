@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -78,6 +79,9 @@ ValueCheck pairText(std::string expected);
 
 /// Why a text is no place, three coordinates in mm with commas between them; empty if it is one.
 std::string placeFault(const std::string& text);
+/// Pixels across and down of a text such as "1000x800", 16 to 4096 each; throws Error(Usage) about
+/// --size.
+std::pair<int, int> pictureSize(const std::string& text);
 /// The place that a text without such a fault is.
 Eigen::Vector3d placeIn(const std::string& text);
 

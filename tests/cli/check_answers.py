@@ -230,6 +230,7 @@ def make_cases(lumen, folder):
     go("measure.schema.json", "measure", "s.lumen", "--against", "s.lumen")
     go("measure.schema.json", "measure", "fitted.lumen", "truth.lumen")
     go("picture.schema.json", "picture", "fitted.lumen", "fitted.png", "--size", "200x160")
+    go("xray.schema.json", "xray", "fitted.lumen", "xray.png", "--size", "64x48")
     go("picture.schema.json", "picture", "fitted.lumen", "turn.png", "--size", "64x64", "--turntable", "3")
     go("report.schema.json", "report", "fitted.lumen", "page.html", "--volume", "a.nrrd")
     go("report.schema.json", "report", "truth.lumen", "bare.html")

@@ -93,6 +93,16 @@ picture case.lumen out/p.png --size 80x60 --volume times.nii
   --volume-index 1
 picture case.lumen out/p.png --size 80x60 --volume header/tube.nhdr
   --allow-detached .
+xray case.lumen out/x.png --size 40x30
+  --lao 10 --cra 20 --isocentre 0,0,0 --source-distance 700 --detector-distance 1100 --pixel 0.2
+xray case.lumen out/x.nrrd --size 40x30
+  --volume cta.nrrd
+xray case.lumen out/x.nrrd --size 40x30
+  --kv 90 --filter 3 --iodine 200 --tissue 100 --scatter 0.5 --photons 1000 --subtract true
+xray case.lumen out/x.nrrd --size 40x30 --photons 100
+  --random-seed 2
+xray moving-case.lumen.json out/x.png --size 40x30
+  --time 1
 report tracked.lumen out/r.html
   --title Tube --volume tube.nrrd
 report case.lumen out/r.html --volume tube.nrrd

@@ -35,6 +35,7 @@ compare case.lumen tree.lumen
 info halves.nii --voxels true --label-table table.csv
 info plain.stl
 picture case.lumen out/p.png --size 80x60 --volume tube.nrrd
+xray case.lumen out/x.png --size 40x30 --volume cta.nrrd --isocentre 0,0,0 --photons 100
 report tracked.lumen out/r.html --volume tube.nrrd
 phantom tube out/p.nrrd --size 32 --truth out/t.lumen --seeds out/s.json
 phantom out/p.nrrd --tree apart.swc --into scan.nrrd --veins apart.swc --truth out/t.lumen

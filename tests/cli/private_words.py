@@ -58,6 +58,8 @@ phantom --tree OUT/a.swc OUT/p.nrrd --truth OUT/pt.lumen.json --seeds OUT/ps.jso
 phantom tube OUT/p.mha --size 32
 picture IN/tube.lumen OUT/p.png
 picture IN/tube.lumen OUT/pv.png --volume IN/tube.nii
+xray IN/tube.lumen OUT/x.png --size 64x48
+xray IN/tube.lumen OUT/x.nrrd --size 64x48
 report IN/tube.lumen OUT/r.html --volume IN/tube.nrrd
 report OUT/dicom.lumen.json OUT/rd.html
 """

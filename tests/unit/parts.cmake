@@ -96,6 +96,10 @@ lumen_test(gate_test FOLDER gate
 lumen_test(measure_test FOLDER measure
   LABELS threads
   LIBS lumen_measure lumen_facts lumen_fitting lumen_phantom lumen_geometry)
+lumen_test(xray_test FOLDER xray
+  LABELS threads
+  LIBS lumen_xray lumen_measure lumen_fitting lumen_phantom
+  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/measure/shapes.cpp)
 lumen_test(picture_test FOLDER picture
   LABELS threads
   LIBS lumen_picture lumen::blob_static TBB::tbb)

@@ -7,14 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <string>
 
 #include <tbb/parallel_for.h>
 
 #include "blob.h"
-#include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "formats/case/case_encoding.h"
 
 namespace lumen::convert {
 
@@ -158,15 +155,8 @@ void addSides(Balls& balls, const formats::CenterlineTree& tree, const blob_mode
 
 }  // namespace
 
-SurfaceTracer::SurfaceTracer(const formats::Case& source) : m_tree(source.tree) {
-  const std::vector<std::byte> file = formats::encodeBinary(source);
-  blob_model* opened = nullptr;
-  const blob_status status = blob_model_open_bytes(file.data(), file.size(), nullptr, &opened);
-  if (status != BLOB_OK)
-    throw failed(std::string("the case's models: ") + blob_status_text(status));
-  m_model = std::shared_ptr<const blob_model>(
-      opened, [](const blob_model* model) { blob_model_close(const_cast<blob_model*>(model)); });
-}
+SurfaceTracer::SurfaceTracer(const formats::Case& source)
+    : m_tree(source.tree), m_model(openModels(source)) {}
 
 TracedSurface SurfaceTracer::trace(const Camera& camera, Progress& progress) const {
   TracedSurface surface;

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,9 +11,8 @@
 #include "converters/base/progress.h"
 #include "converters/draw/picture/camera.h"
 #include "converters/draw/raster/picture.h"
+#include "converters/geometry/case_model.h"
 #include "formats/case/case.h"
-
-struct blob_model;
 
 namespace lumen::convert {
 
@@ -38,7 +36,7 @@ struct TracedSurface {
 /// apart.
 class SurfaceTracer {
 public:
-  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob refuses it.
+  /// `source` has models and a node, and must stay. Throws as openModels().
   explicit SurfaceTracer(const formats::Case& source);
 
   /// Traces on all cores; the bits do not depend on their number. Throws Error(Cancelled).
@@ -46,7 +44,7 @@ public:
 
 private:
   const formats::CenterlineTree& m_tree;
-  std::shared_ptr<const blob_model> m_model;
+  OwnedModel m_model;
 };
 
 // Light on a traced surface.

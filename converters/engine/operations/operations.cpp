@@ -10,7 +10,7 @@ Engine makeEngine() {
        {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand,
         makeMotionCommand, makeTrimCommand, makeEndsCommand, makeNamesCommand, makeInfoCommand,
         makeValidateCommand, makeCompareCommand, makeCheckCommand, makeMeasureCommand,
-        makePictureCommand, makeReportCommand, makePhantomCommand})
+        makePictureCommand, makeXrayCommand, makeReportCommand, makePhantomCommand})
     engine.add(make);
 #ifdef LUMEN_WITH_LIBRARY
   for (const auto make :

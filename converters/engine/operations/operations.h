@@ -23,6 +23,7 @@ std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeCheckCommand();
 std::unique_ptr<Command> makeMeasureCommand();
 std::unique_ptr<Command> makePictureCommand();
+std::unique_ptr<Command> makeXrayCommand();
 std::unique_ptr<Command> makeReportCommand();
 std::unique_ptr<Command> makePhantomCommand();
 std::unique_ptr<Command> makeBatchCommand();

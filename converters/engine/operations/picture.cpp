@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <regex>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -39,23 +38,7 @@ const std::map<std::string, ColorBy> kColours = {{"vessel", ColorBy::None},
                                                  {"radius", ColorBy::Radius},
                                                  {"confidence", ColorBy::Confidence},
                                                  {"system", ColorBy::System}};
-constexpr int kLeastPixels = 16, kMostPixels = 4096;  // across and down: 1.6 GB of samples
-constexpr int kMostFrames = 360;                      // one for each degree
-
-/// Width and height of a text such as "1000x800".
-std::pair<int, int> parseSize(const std::string& text) {
-  static const std::regex kSize("([0-9]{1,5})x([0-9]{1,5})");
-  const auto fits = [](int pixels) { return pixels >= kLeastPixels && pixels <= kMostPixels; };
-  std::smatch parts;
-  if (std::regex_match(text, parts, kSize)) {
-    const std::pair size(std::stoi(parts[1]), std::stoi(parts[2]));
-    if (fits(size.first) && fits(size.second)) return size;
-  }
-  throw Error(ErrorKind::Usage, "--size: found " + formats::printable(text) +
-                                    ", expected WxH with numbers from " +
-                                    std::to_string(kLeastPixels) + " to " +
-                                    std::to_string(kMostPixels) + ", such as 1000x800");
-}
+constexpr int kMostFrames = 360;  // one for each degree
 
 /// Files that appear together, when all of them are written: until then none of them does.
 class PendingPictures {
@@ -131,7 +114,7 @@ public:
         .add(
             "size",
             [&picture](const std::vector<std::string>& texts) {
-              std::tie(picture.width, picture.height) = parseSize(texts.back());
+              std::tie(picture.width, picture.height) = pictureSize(texts.back());
             },
             "WxH", "Width and height in pixels; below 160, without scale and sides")
         .defaults("1000x800");

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "blob.h"
-#include "converters/base/error.h"
 #include "converters/base/vectors.h"
-#include "formats/case/case_encoding.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {
@@ -39,16 +36,6 @@ const double (*coordinates(std::span<const Eigen::Vector3d> points))[3] {
 }
 
 }  // namespace
-
-OwnedModel openModels(const formats::Case& source) {
-  const std::vector<std::byte> file = formats::encodeBinary(source);
-  blob_model* model = nullptr;
-  const blob_status status = blob_model_open_bytes(file.data(), file.size(), nullptr, &model);
-  if (status != BLOB_OK)
-    throw invalidInput(std::string("libblob refuses the models of this case: ") +
-                       blob_status_text(status));
-  return {model, &blob_model_close};
-}
 
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch) {
   const formats::Neighbours neighbours(tree);

@@ -4,22 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "converters/geometry/box.h"
+#include "converters/geometry/case_model.h"
 #include "formats/case/case.h"
 
-struct blob_model;
-
 namespace lumen::convert {
-
-/// The models of a case in libblob.
-using OwnedModel = std::unique_ptr<blob_model, void (*)(blob_model*)>;
-
-/// Throws Error(InvalidInput) for a case whose models libblob refuses.
-OwnedModel openModels(const formats::Case& source);
 
 /// A distance, and whose wall it is to.
 struct WallDistance {
@@ -83,7 +75,7 @@ private:
   [[nodiscard]] double power(std::uint32_t node, const Eigen::Vector3d& p) const;
 
   const formats::CenterlineTree& m_tree;
-  std::unique_ptr<blob_model, void (*)(blob_model*)> m_model;
+  OwnedModel m_model;
   std::uint32_t m_flags;
   std::vector<Box3d> m_reach;  ///< each branch's box of its nodes' balls of twice the radius
 };

@@ -22,7 +22,7 @@ using formats::CenterlineTree;
 
 constexpr double kStepRadii = 0.5;     // between samples, of the vessel's median radius
 constexpr double kLeavingRadii = 0.1;  // step of the search for the parent's wall
-constexpr double kMostSteps = 1000;    // of that search along an axis
+constexpr double kMostLeaving = 1000;  // of that search along an axis
 constexpr double kNearestRadii = 0.1;  // between nodes of an axis: nearer ones add time alone
 constexpr std::size_t kBlock = 16;     // samples whose rays run together
 constexpr double kEndSteps = 0.5;      // steps of the nodes by which an end is uncertain
@@ -50,7 +50,7 @@ double leavingPlace(const SmoothAxis& axis, const TubeTreeDistance& parent, doub
   const auto isInside = [&](double along) {
     return parent.nearest(axis.at(along).position).distance < 0;
   };
-  const double step = std::max(kLeavingRadii * radius, axis.length() / kMostSteps);
+  const double step = std::max(kLeavingRadii * radius, axis.length() / kMostLeaving);
   double inside = 0, outside = 0;
   if (!isInside(0)) return 0;
   for (outside = step; outside < axis.length() && isInside(outside); outside += step)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +15,9 @@
 #include "converters/export/shared/text_files.h"
 #include "converters/export/targets/cathsim/wall_prisms.h"
 #include "converters/export/targets/targets.h"
+#include "converters/geometry/case_model.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/vertex_streams.h"
-#include "formats/case/case_encoding.h"
 
 namespace lumen::convert {
 
@@ -82,20 +81,10 @@ ExportedSurface makeSurfaces(const ExportInput& input, std::vector<std::string>&
   return made;
 }
 
-struct CloseModel {
-  void operator()(blob_model* model) const { blob_model_close(model); }
-};
-
 std::vector<SurfaceMesh> makeHulls(const ExportInput& input, const SurfaceMesh& mesh) {
   constexpr double kHeight = 0.5;         // radii: a wire sinks in by much less
   constexpr double kLeastVolume = 2e-15;  // m^3: MuJoCo refuses meshes of less than half of it
-  const auto bytes = formats::encodeBinary(input.source);
-  blob_model* opened = nullptr;
-  const blob_status status = blob_model_open_bytes(bytes.data(), bytes.size(), nullptr, &opened);
-  if (status != BLOB_OK)
-    throw invalidInput(std::string("libblob cannot take the models of this case: ") +
-                       blob_status_text(status));
-  const std::unique_ptr<blob_model, CloseModel> model(opened);
+  const OwnedModel model = openModels(input.source);
   const Eigen::Matrix3d back = input.frame.rotation().transpose() / input.frame.scale();
   return wallPrisms(mesh, kHeight, kLeastVolume, [&](const Float3& point) {
     const Eigen::Vector3d lps = back * Eigen::Vector3d(point[0], point[1], point[2]);
