@@ -14,6 +14,7 @@ Work:
     find_vessels          vessels of a volume as seeds to edit
     read, validate        a case from its file; all faults of one
     mesh, picture         the surface of a case as arrays; its picture as a PNG
+    xray                  what a C-arm sees of it, as an array
     measure, check        numbers on vessels, with uncertainties; agreement of a case with its volume
     export, targets       a folder that a simulator loads; the simulators
     phantom               a synthetic volume with its truth
@@ -48,13 +49,13 @@ from ._editing import Editor
 from ._running import Answer, run
 from ._case import Case, read
 from ._operations import (Phantom, case_of, check, convert, export, find_vessels, fit, measure, mesh,
-                          options_of, phantom, picture, targets, track, validate)
+                          options_of, phantom, picture, targets, track, validate, xray)
 from . import blob, options
 
 __all__ = ["Answer", "Branch", "Case", "Change", "Editor", "Error", "Mesh", "MissingFile", "Models",
            "Motion", "Phantom", "Picture", "Points", "Tree", "ValueFault", "Volume", "Warning", "blob",
            "case_of", "check", "convert", "export", "find_vessels", "fit", "measure", "mesh", "options", "options_of",
-           "phantom", "picture", "read", "run", "targets", "track", "validate"]
+           "phantom", "picture", "read", "run", "targets", "track", "validate", "xray"]
 
 
 def __dir__():

@@ -14,6 +14,7 @@ from ._calls import called, report, watch_of
 from ._editing import Editor
 from ._errors import Error, ValueFault, shown
 from ._exchange import graph_of
+from ._inputs import Volume
 from ._options import check_flag, document, mesh_rows, texts_of
 from ._parts import Change, Mesh, Models, Motion, Picture, Points, Tree
 from ._running import Answer, Kept, call, run
@@ -320,6 +321,12 @@ class Case:
         """Draws the case: the bytes of a PNG, which a notebook shows. ``volume`` may be a path, a
         :class:`Volume` or an image; ``size`` is (width, height)."""
         return Picture(call("picture", case, Kept("picture.png"), **options)[1][0])
+
+    @document("xray")
+    def xray(case, **options) -> Volume:
+        """The X-ray of the case with contrast agent in it: -ln of the share of the energy that arrives at each pixel,
+        as a volume of one slice in the place of the detector; ``.array[0]`` is the picture, rows from the top."""
+        return Volume.from_bytes(call("xray", case, Kept("xray.nrrd"), **options)[1][0])
 
     def _repr_png_(self) -> Optional[bytes]:
         return None if self.models is None else bytes(self.picture(size=(800, 600)))

@@ -211,7 +211,8 @@ def export(target: str, case, folder, **options) -> Answer:
 
 
 # of a case, or of a path of one
-validate, fit, mesh, measure, picture = Case.validate, Case.fit, Case.mesh, Case.measure, Case.picture
+validate, fit, mesh, measure = Case.validate, Case.fit, Case.mesh, Case.measure
+picture, xray = Case.picture, Case.xray
 
 
 def targets() -> List[dict]:
