@@ -113,7 +113,9 @@ std::string chooseSeries(const DicomFolder& folder, const ReadVolumeOptions& opt
   const auto& series = folder.series;
   if (series.empty() && !folder.faulty.empty()) throw *folder.faulty[0].fault;
   if (series.empty())
-    throw invalidInput(path + ": holds no DICOM images, and no folder below it does" +
+    throw invalidInput(path +
+                       ": holds no DICOM images, and no folder below it does; lumen batch "
+                       "takes a folder of other volumes" +
                        (folder.structures.empty()
                             ? ""
                             : "; " + printable(folder.structures[0].path().filename().string()) +
