@@ -145,4 +145,10 @@ FAULTS = [
           "difference |= static_cast", "difference = static_cast", "viewer_test"),
     Fault("the steepest place lies on the other side of the wall", "converters/judge/check/wall_offsets.cpp",
           "result.fromSteepest = -edge.steepest", "result.fromSteepest = edge.steepest", "check_test"),
+    Fault("a vessel's length begins within its parent", "converters/judge/measure/vessel_length.cpp",
+          "course.gap + course.axis->alongOf(i) - course.begin", "course.gap + course.axis->alongOf(i)", "measure_test",
+          "VesselLengths*"),
+    Fault("a path counts twice where two vessels overlap", "converters/draw/xray/lumen_rays.cpp",
+          "if (!merged.empty() && next->chord.from <= merged.back().to)", "if (merged.size() > 9)", "xray_test",
+          "LumenRays*"),
 ]
