@@ -93,6 +93,8 @@ picture case.lumen out/p.png --size 80x60 --volume times.nii
   --volume-index 1
 picture case.lumen out/p.png --size 80x60 --volume header/tube.nhdr
   --allow-detached .
+xray case.lumen out/x.png
+  --size 40x30
 xray case.lumen out/x.png --size 40x30
   --lao 10 --cra 20 --isocentre 0,0,0 --source-distance 700 --detector-distance 1100 --pixel 0.2
 xray case.lumen out/x.nrrd --size 40x30

@@ -57,6 +57,7 @@ TEST_F(FittedTubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
                                "length_mm",
                                "reachable",
                                "radius_mm",
+                               "least_shown_radius_mm",
                                "error_of_fit_mm",
                                "provenance",
                                "note",

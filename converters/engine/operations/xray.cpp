@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen xray: the picture that a C-arm takes of a case.
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -131,7 +133,8 @@ private:
         .add("photons", &m_options.photons, "N",
              "Photons of the bare beam for each pixel, of which noise follows; 0: without noise")
         .in(NumberRange{0, 1e12});
-    table.add("random-seed", &m_options.seed, "K", "Start of the random numbers")
+    table.add("random-seed", &m_options.seed, "K", "Seed of the random numbers of the noise")
+        .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})
         .onlyWith("photons");
     table.flag("subtract", m_options.isSubtracted,
                "Less the same picture without contrast agent (DSA)");

@@ -34,7 +34,9 @@ describe("a measure", () => {
   });
   it("that is not defined is its reason", () => {
     expect(figureText({ value: null, plus_minus: null, absent: "a stub" }, "mm")).toBe("a stub");
-    expect(figureText({ value: 0.1, plus_minus: null, absent: null, at_most: 0.4329 }, "mm")).toBe("≤ 0.43 mm");
+    expect(figureText({ value: 0.1, plus_minus: null, absent: null, at_most: 0.4329 }, "mm")).toBe(
+      "≤ 0.43 mm",
+    );
   });
 });
 
