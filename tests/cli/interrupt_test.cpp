@@ -54,7 +54,7 @@ TEST_F(InterruptTest, AKilledRunLeavesNothingThatTheNextOneDoesNotRemove) {
   }
   int status = 0;
   ASSERT_EQ(::waitpid(writer, &status, 0), writer);
-  ASSERT_EQ(entries().size(), 4U);
+  ASSERT_GE(entries().size(), 4U);  // the killed run may have been at a file, too
   ASSERT_EQ(lumen({"phantom", "tube", "tube.nrrd", "--size", "32"}).code, 0);
   EXPECT_EQ(entries(), (Names{"seeds.json", "truth.lumen", "tube.nrrd"}));
 }
