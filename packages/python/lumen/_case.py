@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import numbers
 import os
+import zlib
 from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
@@ -14,7 +15,6 @@ from ._calls import called, report, watch_of
 from ._editing import Editor
 from ._errors import Error, ValueFault, shown
 from ._exchange import graph_of
-from ._inputs import Volume
 from ._options import check_flag, document, mesh_rows, texts_of
 from ._parts import Change, Mesh, Models, Motion, Picture, Points, Tree
 from ._running import Answer, Kept, call, run
@@ -323,10 +323,13 @@ class Case:
         return Picture(call("picture", case, Kept("picture.png"), **options)[1][0])
 
     @document("xray")
-    def xray(case, **options) -> Volume:
-        """The X-ray of the case with contrast agent in it: -ln of the share of the energy that arrives at each pixel,
-        as a volume of one slice in the place of the detector; ``.array[0]`` is the picture, rows from the top."""
-        return Volume.from_bytes(call("xray", case, Kept("xray.nrrd"), **options)[1][0])
+    def xray(case, **options) -> np.ndarray:
+        """The X-ray of the case with contrast agent in it: an array (height, width) of float32, rows from the top, with
+        -ln of the share of the energy that arrives at each pixel. ``lumen.run("xray", case, "a.png")`` answers where
+        source and detector are."""
+        header, _, voxels = call("xray", case, Kept("xray.nrrd"), **options)[1][0].partition(b"\n\n")
+        width, height, _ = (int(n) for n in header.partition(b"sizes: ")[2].split(b"\n", 1)[0].split())
+        return np.frombuffer(zlib.decompress(voxels, zlib.MAX_WBITS | 16), "<f4").reshape(height, width)  # gzip
 
     def _repr_png_(self) -> Optional[bytes]:
         return None if self.models is None else bytes(self.picture(size=(800, 600)))
