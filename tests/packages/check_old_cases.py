@@ -58,9 +58,12 @@ def answers_of(lumen, blob, case, work):
 
 
 def named_as_now(answers):
-    """Answers of lumen 0.1.0 with the keys of today: the rows of branches were `branch_table`, beside their number `branches`."""
+    """Answers of lumen 0.1.0 with the keys of today: the rows of branches were `branch_table`, beside their number `branches`.
+    Lengths were those of the line through the nodes, not of the smoothed axis, and are not compared."""
     info = answers["info"]
     if "branch_table" in info: info["branches"] = info.pop("branch_table")
+    for one in (info, info.get("reachable") or {}, *info.get("branches", [])):
+        for key in ("length_mm", "of_mm", "longest_tree_mm"): one.pop(key, None)
     return answers
 
 

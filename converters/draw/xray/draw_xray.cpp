@@ -95,7 +95,7 @@ double unitOffset(const Volume& volume, const Progress& progress) {
   return best;
 }
 
-XrayImage xrayOf(const formats::Case& source, const XrayOptions& options, const CtScan& scan,
+XrayImage xrayOf(const formats::Case& source, const XrayOptions& options, const TissueScan& scan,
                  Progress& progress) {
   if (!source.models || source.tree.nodeCount() == 0)
     throw invalidInput(

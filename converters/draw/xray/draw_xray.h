@@ -40,7 +40,7 @@ struct XrayImage {
 };
 
 /// Computed tomography around the vessels.
-struct CtScan {
+struct TissueScan {
   const Volume* volume = nullptr;  ///< null: water
   double offset = 0;               ///< what its values exceed Hounsfield units by
 };
@@ -53,7 +53,7 @@ double unitOffset(const Volume& volume, const Progress& progress);
 /// whose lumen it takes the place of, or in water. Bits do not depend on the number of threads.
 /// Throws Error(InvalidInput) for a case without models or a node and for vessels that do not lie
 /// between source and detector; Error(Cancelled).
-XrayImage xrayOf(const formats::Case& source, const XrayOptions& options, const CtScan& scan,
+XrayImage xrayOf(const formats::Case& source, const XrayOptions& options, const TissueScan& scan,
                  Progress& progress);
 
 /// The picture as people know it: the more is attenuated, the darker, from the thousandth of the

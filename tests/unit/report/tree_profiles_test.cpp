@@ -65,8 +65,10 @@ TEST(TreeProfiles, PlacesAreLengthsFromTheWallOfTheParent) {
   const formats::CenterlineTree tree = forest();
   const std::vector<TreeProfile> profiles = treeProfiles(tree);
   ASSERT_EQ(profiles.size(), 5U);
-  EXPECT_EQ(profiles[0].along, (std::vector<double>{0, 1, 2, 3, 4}));
-  EXPECT_EQ(profiles[0].forks, (std::vector<double>{1, 3}));
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(profiles[0].along.at(i), double(i), 1e-9);
+  ASSERT_EQ(profiles[0].forks.size(), 2U);
+  EXPECT_NEAR(profiles[0].forks[0], 1, 1e-9);
+  EXPECT_NEAR(profiles[0].forks[1], 3, 1e-9);
   EXPECT_DOUBLE_EQ(profiles[1].along[0], 1.75);  // 2 mm from an axis whose vessel has 0.25 mm
   for (const TreeProfile& profile : profiles)
     EXPECT_DOUBLE_EQ(profile.along.back(),
