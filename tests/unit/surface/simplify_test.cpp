@@ -63,7 +63,7 @@ double farthestOf(const FieldOfCase& of, const CaseSurface& surface) {
 }
 
 void expectProof(const CaseSurface& surface) {
-  const test::MeshFacts facts = measureFacts(surface.mesh);
+  const test::MeshFacts facts = test::measureFacts(surface.mesh);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(facts.euler, 2);
