@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -63,8 +64,10 @@ RayMatter matterOn(const LumenRays& rays, const XrayOptions& options, const Xray
 std::vector<double> signalsOf(const std::vector<Matter>& matter, const Spectrum& spectrum,
                               const XrayOptions& options, std::uint64_t exposure) {
   std::vector<double> signal(matter.size());
-  tbb::parallel_for(std::size_t{0}, signal.size(),
-                    [&](std::size_t i) { signal[i] = spectrum.transmitted(matter[i]); });
+  tbb::parallel_for(std::size_t{0}, signal.size(), [&](std::size_t i) {
+    // metres of contrast agent let nothing through, and the logarithm of that is no number
+    signal[i] = std::max(spectrum.transmitted(matter[i]), std::numeric_limits<double>::min());
+  });
   double scatter = 0;
   for (const double s : signal) scatter += s;
   scatter *= options.scatter / static_cast<double>(signal.size());

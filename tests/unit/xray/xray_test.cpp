@@ -307,6 +307,20 @@ TEST(Xray, IsDarkWhereMuchIsAttenuated) {
   EXPECT_LT(picture.pixels[picture.pixels.size() / 2][1], 5);
 }
 
+TEST(Xray, OfWhatLetsNothingThroughHasNumbersYet) {
+  XrayOptions options;
+  options.view = viewOf(0, 0, 0);
+  options.view.sourceToIsocentre = 5000;
+  options.view.sourceToDetector = 9000;
+  options.peak = 30;
+  options.iodine = 1000;
+  Progress progress;
+  const XrayImage image = xrayOf(caseOf({straightTube({0, 0, -900}, {0, 0, 1}, 1800, 900)}, 250),
+                                 options, {}, progress);
+  EXPECT_GT(image.longest, 1700);
+  for (const float a : image.attenuation) EXPECT_TRUE(std::isfinite(a));
+}
+
 TEST(Xray, RefusesWhatItCannotTake) {
   Progress progress;
   formats::Case bare = tubeCase();
