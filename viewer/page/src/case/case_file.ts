@@ -111,7 +111,8 @@ interface Nodes {
   branch: Uint32Array<ArrayBuffer>;
 }
 
-/** mm along the tree from each node's root. Adds up the lengths of branches. Throws where a node's parent or branch does not exist. */
+/** mm along the tree from each node's root. Adds up the lengths of branches: of the line through the nodes, which noise makes some
+ * percent longer than the smoothed axis that the server measures. Throws where a node's parent or branch does not exist. */
 function measure(
   { centre, radius, parent, branch }: Nodes,
   branches: BranchRecord[],
