@@ -77,22 +77,21 @@ Spectrum::Spectrum(double peak, double filter) {
   }
 }
 
-double Spectrum::transmitted(const Matter& matter) const {
+double Spectrum::sum(double Bin::*weight, const Matter& matter) const {
   double sum = 0;
   for (const Bin& bin : m_bins)
     sum +=
-        bin.share *
+        bin.*weight *
         std::exp(-(bin.water * matter.water + bin.bone * matter.bone + bin.iodine * matter.iodine));
   return sum;
 }
 
+double Spectrum::transmitted(const Matter& matter) const {
+  return sum(&Bin::share, matter);
+}
+
 double Spectrum::variance(const Matter& matter) const {
-  double sum = 0;
-  for (const Bin& bin : m_bins)
-    sum +=
-        bin.square *
-        std::exp(-(bin.water * matter.water + bin.bone * matter.bone + bin.iodine * matter.iodine));
-  return sum;
+  return sum(&Bin::square, matter);
 }
 
 }  // namespace lumen::convert

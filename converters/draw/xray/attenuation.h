@@ -39,6 +39,9 @@ private:
     double square = 0;  ///< of a photon's energy over the mean, squared, times the bin's photons
     double water = 0, bone = 0, iodine = 0;  ///< cm^2/g
   };
+  /// Over the bins, what matter lets through of each.
+  [[nodiscard]] double sum(double Bin::*weight, const Matter& matter) const;
+
   std::vector<Bin> m_bins;
   double m_meanEnergy = 0;
 };
