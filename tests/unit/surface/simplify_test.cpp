@@ -15,7 +15,9 @@
 #include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/closing/cut_ends.h"
 #include "converters/stages/surface/extract.h"
+#include "converters/stages/surface/remesh/mend_crossings.h"
 #include "converters/stages/surface/simplify/close_sheets.h"
+#include "converters/stages/surface/simplify/collapsing_mesh.h"
 
 namespace lumen::convert {
 namespace {
@@ -187,8 +189,9 @@ void addSquare(TriangleMesh& mesh, double z, bool isUp) {
 }
 
 std::size_t countClose(const TriangleMesh& mesh, const std::vector<double>& reach) {
-  const auto isClose = closeVertices(mesh, reach);
-  return static_cast<std::size_t>(std::count(isClose.begin(), isClose.end(), 1));
+  const std::vector<float> share = closeVertices(mesh, reach);
+  return static_cast<std::size_t>(
+      std::count_if(share.begin(), share.end(), [](float of) { return of < 1; }));
 }
 
 TEST(CloseVertices, FaceEachOther) {
@@ -201,6 +204,49 @@ TEST(CloseVertices, FaceEachOther) {
   EXPECT_EQ(count(0.3, true, 0.31), 2U * 21 * 21);
   EXPECT_EQ(count(0.3, true, 0.29), 0U);
   EXPECT_EQ(count(0.3, false, 0.5), 0U);
+}
+
+TEST(CloseVertices, StateTheirDistanceAsAShare) {
+  TriangleMesh mesh;
+  addSquare(mesh, 0, true);
+  addSquare(mesh, 0.3, false);
+  const std::vector<double> reach(mesh.position.size(), 0.4);
+  for (const float share : closeVertices(mesh, reach)) EXPECT_NEAR(share, 0.75F, 1e-6F);
+  mesh.position.back().z() = 1;  // no other one faces it
+  EXPECT_EQ(closeVertices(mesh, reach).back(), kNotClose);
+}
+
+TEST(CollapsingMesh, LooksAtTrianglesThatAreCloseWithinAShare) {
+  const FieldOfCase of(test::tubeCase(4));
+  Progress silent;
+  ExtractionReport report;
+  CaseSurface surface = extractSurface(of.sheet, 1, report, silent);
+  std::vector<float> closeFrom(surface.mesh.position.size(), kNotClose);
+  const std::uint32_t one = surface.mesh.triangle[0][0];
+  closeFrom[one] = 0.5F;
+  CollapsingMesh mesh(surface, closeFrom);
+  const auto count = [&](double share) {
+    mesh.lookWithin(share);
+    return std::count(mesh.isClose().begin(), mesh.isClose().end(), 1);
+  };
+  EXPECT_EQ(count(0.49), 0);
+  mesh.beginPass();
+  EXPECT_EQ(count(0.51), static_cast<std::ptrdiff_t>(mesh.fan(one).size()));
+}
+
+TEST(SmoothCrossings, PullsAFoldStraight) {
+  const FieldOfCase of(test::tubeCase(4));
+  Progress silent;
+  ExtractionReport report;
+  CaseSurface surface = extractSurface(of.sheet, 1, report, silent);
+  const Eigen::Vector3d place = surface.mesh.position[0];
+  surface.mesh.position[0] = 2 * surface.mesh.position.back() - place;  // through the tube
+  SelfIntersections found = selfIntersections(surface.mesh);
+  ASSERT_FALSE(found.pairs.empty());
+  EXPECT_GT(smoothCrossings(surface, found, silent), 0U);
+  EXPECT_TRUE(found.pairs.empty());
+  EXPECT_TRUE(selfIntersections(surface.mesh).pairs.empty());
+  EXPECT_LT((surface.mesh.position[0] - place).norm(), 1);
 }
 
 TEST(CloseVertices, CountTheLongerReachOfBoth) {

@@ -227,14 +227,6 @@ SelfIntersections mendCrossings(CaseSurface& surface, const SeparatedField& fiel
   return found;
 }
 
-namespace {
-
-constexpr int kMostRepeats = 4;
-constexpr double kFirstReach = 1;  // radii around a crossing
-
-// Takes the surface off its field where nothing else helps: moves the vertices of the crossing
-// triangles `found` to the middles of their neighbours until none cross. Leaves the surface as it
-// was if no fewer pairs are left; else `found` becomes those. Returns the number of moved vertices.
 std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress) {
   progress.begin("crossings", 0);
   const std::vector<bool> isFixed = isOnEnd(surface);
@@ -254,6 +246,11 @@ std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Prog
   std::sort(all.begin(), all.end());
   return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
 }
+
+namespace {
+
+constexpr int kMostRepeats = 4;
+constexpr double kFirstReach = 1;  // radii around a crossing
 
 // Adds the boxes of `radii` local radii around the corners of crossing triangles.
 void addPlaces(const CaseSurface& surface, const SeparatedField& field,

@@ -69,6 +69,11 @@ private:
 SelfIntersections mendCrossings(CaseSurface& surface, const SeparatedField& field,
                                 CrossingSearch& search, Progress& progress);
 
+/// Takes a surface off its field where nothing else helps: moves the vertices of the crossing
+/// triangles `found` to the middles of their neighbours until none cross. Leaves the surface as it was
+/// if no fewer pairs are left; else `found` becomes those. Returns the number of moved vertices.
+std::size_t smoothCrossings(CaseSurface& surface, SelfIntersections& found, Progress& progress);
+
 // Remeshing that does not make a surface pass through itself.
 
 /// Remaining faults after refine().

@@ -91,7 +91,7 @@ private:
 };
 
 /// Marks the corners of triangles that are turned from the surface around.
-void markFolds(const TriangleMesh& mesh, std::vector<std::uint8_t>& isMarked) {
+void markFolds(const TriangleMesh& mesh, std::vector<float>& share) {
   const std::vector<Eigen::Vector3f> normal = roughNormals(mesh);
   for (const Triangle& t : mesh.triangle) {
     const Eigen::Vector3f across = vectorArea(mesh, t).cast<float>();
@@ -99,35 +99,38 @@ void markFolds(const TriangleMesh& mesh, std::vector<std::uint8_t>& isMarked) {
       return across.dot(normal[v]) < kFold * across.norm() * normal[v].norm();
     });
     if (!isFold) continue;
-    for (const std::uint32_t v : t) isMarked[v] = 1;
+    for (const std::uint32_t v : t) share[v] = 0;
   }
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> closeVertices(const TriangleMesh& mesh,
-                                        const std::vector<double>& reach) {
+std::vector<float> closeVertices(const TriangleMesh& mesh, const std::vector<double>& reach) {
   if (reach.empty()) return {};
   std::vector<double> sorted = reach;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   const VertexGrid grid(mesh, reach, *middle);
   // in fuller cubes one side of a vessel reaches the other
-  if (reach.size() > kMostInCube * grid.cubes()) return std::vector<std::uint8_t>(reach.size(), 1);
-  std::vector<std::uint8_t> isClose(reach.size(), 0);
-  const auto mark = [&](std::uint32_t v) {
-    std::atomic_ref(isClose[v]).store(1, std::memory_order_relaxed);
+  if (reach.size() > kMostInCube * grid.cubes()) return std::vector<float>(reach.size(), 0);
+  std::vector<float> share(reach.size(), kNotClose);
+  const auto note = [&](std::uint32_t v, float found) {
+    const std::atomic_ref least(share[v]);
+    float known = least.load(std::memory_order_relaxed);
+    while (found < known && !least.compare_exchange_weak(known, found, std::memory_order_relaxed)) {
+    }
   };
   tbb::parallel_for(std::size_t{0}, grid.cubes(), [&](std::size_t cube) {
     grid.eachPair(cube, [&](const GridVertex& one, const GridVertex& other) {
-      if (!(one.normal.dot(other.normal) < 0) || !((one.place - other.place).norm() < one.reach))
-        return;
-      mark(one.vertex);
-      mark(other.vertex);
+      if (!(one.normal.dot(other.normal) < 0)) return;
+      const float distance = (one.place - other.place).norm();
+      if (!(distance < one.reach)) return;
+      note(one.vertex, distance / one.reach);
+      note(other.vertex, distance / one.reach);
     });
   });
-  markFolds(mesh, isClose);
-  return isClose;
+  markFolds(mesh, share);
+  return share;
 }
 
 std::vector<std::array<std::uint32_t, 2>> crossingsOfChanged(

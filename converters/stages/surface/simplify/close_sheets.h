@@ -10,10 +10,12 @@
 
 namespace lumen::convert {
 
-/// For each vertex whether another one that is nearer than `reach` of either, by vertex, mm, has a
-/// normal against its own: two vessels side by side, the valley of a sharp fork, the two sides of a
-/// thin wall; or whether it is at a fold, where triangles around it turn by more than 60 degrees.
-std::vector<std::uint8_t> closeVertices(const TriangleMesh& mesh, const std::vector<double>& reach);
+/// For each vertex the distance of the nearest one whose normal is against its own, as a share of the
+/// `reach` of either, by vertex, mm: two vessels side by side, the valley of a sharp fork, the two sides
+/// of a thin wall; kNotClose beyond the reach; 0 at a fold, where triangles around it turn by more than
+/// 60 degrees.
+constexpr float kNotClose = 2;
+std::vector<float> closeVertices(const TriangleMesh& mesh, const std::vector<double>& reach);
 
 /// The pairs of intersecting triangles of which one `isChanged` and both are among `isSearched`, by
 /// triangle. Throws Error(Cancelled).

@@ -14,8 +14,8 @@ namespace lumen::convert {
 struct CollapseRules {
   /// Greatest distance of each vertex of the given surface from the result, mm; empty: any.
   std::vector<double> allowed;
-  std::size_t triangles = 0;          ///< ends at this number
-  std::vector<std::uint8_t> isClose;  ///< vertices near other sheets (close_sheets.h); empty: all
+  std::size_t triangles = 0;     ///< ends at this number
+  std::vector<float> closeFrom;  ///< closeVertices(); empty: all vertices are near other sheets
 };
 
 /// Removes vertices of a closed surface, each by a collapse of an edge onto its other end, in the
@@ -26,8 +26,9 @@ struct CollapseRules {
 /// place than `allowed` for it. Topology and groups are kept, at least eight edges of a rim are, and
 /// no triangle turns by more than 60 degrees from the surface's normals at its corners, or becomes
 /// sharper than 5 degrees, unless one that it replaces did; if `triangles` cannot be reached so, than 1
-/// and 80 degrees. No triangle near a vertex that `isClose` comes to pass through another one there.
-/// Returns for each triangle whether it is near one. Deterministic. Throws Error(Cancelled).
+/// and 80 degrees. With `allowed`, vertices go first that stay within a quarter of it. No triangle comes
+/// to pass through another one where both are near a vertex that is as close to another sheet as the
+/// share of `allowed` that counts then. Returns for each triangle whether it is near one. Deterministic. Throws Error(Cancelled).
 std::vector<std::uint8_t> collapseEdges(CaseSurface& surface, const CollapseRules& rules,
                                         const Progress& progress);
 

@@ -8,23 +8,29 @@
 
 namespace lumen::convert {
 
-CollapsingMesh::CollapsingMesh(CaseSurface& surface, const std::vector<std::uint8_t>& isClose)
+CollapsingMesh::CollapsingMesh(CaseSurface& surface, const std::vector<float>& closeFrom)
     : m_surface(surface),
       m_place(surface.mesh.position),
       m_triangle(surface.mesh.triangle),
-      m_isCloseVertex(isClose),
+      m_closeFrom(closeFrom),
       m_isCloseTriangle(m_triangle.size(), 1),
       m_kinds(surface),
       m_nextGone(m_place.size(), kNone),
       m_firstGone(m_triangle.size(), kNone) {
-  if (m_isCloseVertex.empty()) return;
-  for (std::size_t f = 0; f < m_triangle.size(); ++f)
+  lookWithin(1);
+}
+
+void CollapsingMesh::lookWithin(double share) {
+  m_share = share;
+  for (std::size_t f = 0; f < m_triangle.size(); ++f) {
     m_isCloseTriangle[f] = hasCloseCorner(m_triangle[f]);
+    for (std::uint32_t v = m_firstGone[f]; v != kNone; v = m_nextGone[v])
+      m_isCloseTriangle[f] |= isCloseVertex(v);
+  }
 }
 
 std::uint8_t CollapsingMesh::hasCloseCorner(const Triangle& t) const {
-  if (m_isCloseVertex.empty()) return 1;
-  return m_isCloseVertex[t[0]] | m_isCloseVertex[t[1]] | m_isCloseVertex[t[2]];
+  return isCloseVertex(t[0]) | isCloseVertex(t[1]) | isCloseVertex(t[2]);
 }
 
 void CollapsingMesh::beginPass() {
@@ -69,7 +75,7 @@ void CollapsingMesh::collapse(std::uint32_t gone, std::uint32_t kept,
   }
   for (const GoneVertex& v : taken) {
     setGone(v);
-    if (!m_isCloseVertex.empty()) m_isCloseTriangle[v.triangle] |= m_isCloseVertex[v.vertex];
+    m_isCloseTriangle[v.triangle] |= isCloseVertex(v.vertex);
   }
   m_kinds.remove(gone);
 }

@@ -30,9 +30,8 @@ class CollapsingMesh {
 public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
-  /// `isClose`: for each vertex, whether undoCrossings() looks at the triangles that it is a corner
-  /// of, or is near when it went; empty: it looks at all.
-  CollapsingMesh(CaseSurface& surface, const std::vector<std::uint8_t>& isClose);
+  /// `closeFrom`: closeVertices(), for lookWithin(); empty: undoCrossings() looks at all triangles.
+  CollapsingMesh(CaseSurface& surface, const std::vector<float>& closeFrom);
 
   [[nodiscard]] std::size_t vertices() const { return m_place.size(); }
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return m_triangle; }
@@ -53,6 +52,9 @@ public:
     bool isUndone = false;
   };
 
+  /// From now on undoCrossings() looks at triangles with a corner, or a vertex that went near them, that
+  /// is close to another sheet within a share of its reach.
+  void lookWithin(double share);
   void beginPass();
   /// Whether an earlier collapse of this pass has changed a triangle around the vertex.
   [[nodiscard]] bool isTouched(std::uint32_t v) const { return m_isTouched[v] != 0; }
@@ -82,12 +84,16 @@ private:
   void undo(Collapse& collapse);
   [[nodiscard]] std::span<const GoneVertex> goneBefore(const Collapse& collapse) const;
   void setGone(const GoneVertex& gone);
+  [[nodiscard]] std::uint8_t isCloseVertex(std::uint32_t v) const {
+    return m_closeFrom.empty() || double{m_closeFrom[v]} < m_share ? 1 : 0;
+  }
   [[nodiscard]] std::uint8_t hasCloseCorner(const Triangle& t) const;
 
   CaseSurface& m_surface;
   std::vector<Eigen::Vector3d>& m_place;
   std::vector<Triangle>& m_triangle;
-  const std::vector<std::uint8_t>& m_isCloseVertex;
+  const std::vector<float>& m_closeFrom;
+  double m_share = 1;
   std::vector<std::uint8_t> m_isCloseTriangle;
   VertexKinds m_kinds;
   std::vector<std::uint32_t> m_offset, m_fan, m_at;  ///< CSR: triangles around each vertex

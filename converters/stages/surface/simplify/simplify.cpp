@@ -32,15 +32,15 @@ std::size_t countCrossings(const CaseSurface& surface, const Progress& progress)
   return selfIntersections(surface.mesh, kMostCounted, &progress).pairs.size();
 }
 
-/// The vertices that could meet others within bounds, by vertex.
-std::vector<std::uint8_t> closeWithin(const CaseSurface& surface, std::vector<double> allowed) {
+/// How close vertices are to others that they could meet within bounds, by vertex.
+std::vector<float> closeWithin(const CaseSurface& surface, std::vector<double> allowed) {
   for (double& mm : allowed) mm *= kCloseErrors;
   return closeVertices(surface.mesh, allowed);
 }
 
-/// Adds the vertices of a surface that are near crossing triangles of one made from it.
+/// Makes the vertices of a surface close that are near crossing triangles of one made from it.
 void markNear(const CaseSurface& surface, const CaseSurface& made, const SelfIntersections& found,
-              std::vector<std::uint8_t>& isClose) {
+              std::vector<float>& closeFrom) {
   std::vector<Box3d> boxes;
   for (const auto& pair : found.pairs)
     for (const std::uint32_t t : pair) {
@@ -50,11 +50,11 @@ void markNear(const CaseSurface& surface, const CaseSurface& made, const SelfInt
       box.add(box.high, margin);
     }
   const BoxSet near(std::move(boxes));
-  isClose.resize(surface.mesh.position.size(), 0);
-  tbb::parallel_for(std::size_t{0}, isClose.size(), [&](std::size_t v) {
+  closeFrom.resize(surface.mesh.position.size(), kNotClose);
+  tbb::parallel_for(std::size_t{0}, closeFrom.size(), [&](std::size_t v) {
     Box3d point;
     point.add(surface.mesh.position[v]);
-    if (near.meets(point)) isClose[v] = 1;
+    if (near.meets(point)) closeFrom[v] = 0;
   });
 }
 
@@ -67,10 +67,23 @@ std::vector<std::uint8_t> collapseTo(CaseSurface& surface, const SeparatedField&
     CollapseRules rules{{}, small, {}};
     std::vector<double> reach;
     for (const std::uint32_t node : surface.node) reach.push_back(kFar * field.radius(node));
-    rules.isClose = closeVertices(surface.mesh, reach);
+    rules.closeFrom = closeVertices(surface.mesh, reach);
     collapseEdges(surface, rules, progress);
   }
   return collapseEdges(surface, {{}, triangles, {}}, progress);
+}
+
+/// Smooths places where triangles pass through others, if that helps and leaves none farther off than
+/// the farthest was.
+void smooth(CaseSurface& surface, SelfIntersections found, const SeparatedField& field,
+            const SurfaceError& allowed, SimplifyReport& report, Progress& progress) {
+  CaseSurface smoothed = surface;
+  smoothCrossings(smoothed, found, progress);
+  if (!found.pairs.empty()) return;
+  const FieldError error = fieldErrorOf(smoothed, field, allowed, progress);
+  if (error.greatest > report.error.greatest) return;
+  surface = std::move(smoothed);
+  report = {error, 0};
 }
 
 std::vector<bool> flatGroups(const CaseSurface& surface) {
@@ -94,7 +107,7 @@ SimplifyReport simplifyToField(CaseSurface& surface, const SeparatedField& field
   if (isBounded)
     for (const std::uint32_t node : surface.node)
       rules.allowed.push_back(kBoundShare * chordAt(field, node, allowed));
-  if (isBounded) rules.isClose = closeWithin(surface, rules.allowed);
+  if (isBounded) rules.closeFrom = closeWithin(surface, rules.allowed);
   for (int attempt = 1;; ++attempt) {
     std::vector<std::uint8_t> isClose = isBounded || attempt == kMostAttempts
                                             ? collapseEdges(surface, rules, progress)
@@ -102,12 +115,13 @@ SimplifyReport simplifyToField(CaseSurface& surface, const SeparatedField& field
     report.error = splitFarEdges(surface, field, allowed, isClose, progress);
     const SelfIntersections found = selfIntersections(surface.mesh, kMostCounted, &progress);
     report.crossings = found.pairs.size();
+    if (report.crossings > 0) smooth(surface, found, field, allowed, report, progress);
     if (report.crossings == 0 || attempt == kMostAttempts) break;
     // between sheets that did not seem close: once more, looking there, and then everywhere
     if (attempt + 1 == kMostAttempts)
-      rules.isClose.clear();
+      rules.closeFrom.clear();
     else
-      markNear(given, surface, found, rules.isClose);
+      markNear(given, surface, found, rules.closeFrom);
     surface = given;
   }
   if (report.crossings > 0) {
@@ -134,12 +148,12 @@ double simplify(CaseSurface& surface, const SimplifyOptions& options, Progress& 
     CollapseRules rules{{}, options.triangles, {}};
     if (bound > 0) {
       rules.allowed.assign(surface.mesh.position.size(), bound);
-      rules.isClose = closeWithin(surface, rules.allowed);
+      rules.closeFrom = closeWithin(surface, rules.allowed);
     }
     collapseEdges(surface, rules, progress);
-    if (!rules.isClose.empty() && countCrossings(surface, progress) > 0) {
+    if (!rules.closeFrom.empty() && countCrossings(surface, progress) > 0) {
       surface = before;
-      rules.isClose.clear();
+      rules.closeFrom.clear();
       collapseEdges(surface, rules, progress);
     }
     progress.check();
