@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/mesh_measures.h"
@@ -92,12 +92,34 @@ private:
       marchTetrahedron(t, m_lattice.split(), inside, found[block]);
     });
     m_triangles = SampledLattice::joined(found);
-    m_crossings.clear();
-    m_crossings.reserve(m_triangles.size() * 3);
+    gatherCrossings();
+  }
+
+  /// The crossings of all triangles, each once, in order: those of a vertex together.
+  void gatherCrossings() {
+    const std::size_t vertices = m_lattice.size();
+    std::vector<std::size_t> first(vertices + 1, 0), next;
     for (const CrossingTriangle& t : m_triangles)
-      m_crossings.insert(m_crossings.end(), t.begin(), t.end());
-    tbb::parallel_sort(m_crossings.begin(), m_crossings.end());
-    m_crossings.erase(std::unique(m_crossings.begin(), m_crossings.end()), m_crossings.end());
+      for (const Crossing& c : t) ++first[c.inside + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    next.assign(first.begin(), first.end() - 1);
+    std::vector<std::uint32_t> outside(first.back());
+    for (const CrossingTriangle& t : m_triangles)
+      for (const Crossing& c : t) outside[next[c.inside]++] = c.outside;
+    tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+      const auto begin = outside.begin() + static_cast<std::ptrdiff_t>(first[v]);
+      const auto end = outside.begin() + static_cast<std::ptrdiff_t>(first[v + 1]);
+      std::sort(begin, end);
+      next[v] = static_cast<std::size_t>(std::unique(begin, end) - begin);
+    });
+    m_firstCrossing.assign(vertices + 1, 0);
+    std::partial_sum(next.begin(), next.end(), m_firstCrossing.begin() + 1);
+    m_crossings.resize(m_firstCrossing.back());
+    tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+      for (std::size_t i = 0; i < next[v]; ++i)
+        m_crossings[m_firstCrossing[v] + i] = {static_cast<std::uint32_t>(v),
+                                               outside[first[v] + i]};
+    });
   }
 
   // Euler characteristic of the closed surfaces around a lumen: each edge is that of two triangles.
@@ -118,8 +140,11 @@ private:
     surface.group.assign(m_triangles.size(), 0);
     tbb::parallel_for(std::size_t{0}, m_triangles.size(), [&](std::size_t i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = std::lower_bound(m_crossings.begin(), m_crossings.end(), m_triangles[i][k]);
-        surface.mesh.triangle[i][k] = static_cast<std::uint32_t>(at - m_crossings.begin());
+        const Crossing& corner = m_triangles[i][k];
+        const auto at =
+            std::lower_bound(&m_crossings[m_firstCrossing[corner.inside]],
+                             m_crossings.data() + m_firstCrossing[corner.inside + 1], corner);
+        surface.mesh.triangle[i][k] = static_cast<std::uint32_t>(at - m_crossings.data());
       }
     });
     surface.mesh.position.resize(m_crossings.size());
@@ -210,8 +235,9 @@ private:
   std::vector<std::uint32_t> m_lumens;
   std::vector<TreeLumen> m_trees;
   std::vector<CrossingTriangle> m_triangles;
-  std::vector<Crossing> m_crossings;  // ascending
-  std::vector<SplitPlace> m_splits;   // by the points of split edges
+  std::vector<Crossing> m_crossings;         // ascending
+  std::vector<std::size_t> m_firstCrossing;  // by vertex
+  std::vector<SplitPlace> m_splits;          // by the points of split edges
 };
 
 }  // namespace
