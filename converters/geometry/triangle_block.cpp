@@ -10,8 +10,8 @@ using Eigen::Vector3d;
 
 /// T. Moeller and B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
 LUMEN_SIMD_CLONES void meetFour(const double* __restrict corner, const double* __restrict from,
-                            const double* __restrict to, double* __restrict distances,
-                            double* __restrict dets) {
+                                const double* __restrict to, double* __restrict distances,
+                                double* __restrict dets) {
   constexpr std::size_t kWidth = TriangleBlock::kWidth;
   for (std::size_t k = 0; k < kWidth; ++k) {
     const double ax = corner[k], ay = corner[kWidth + k], az = corner[2 * kWidth + k];
@@ -38,8 +38,8 @@ LUMEN_SIMD_CLONES void meetFour(const double* __restrict corner, const double* _
 
 // nearestPointOnTriangle() without branches, by the same operations.
 LUMEN_SIMD_CLONES void nearestFour(const double* __restrict corner, const double* __restrict p,
-                                      double* __restrict squared, double* __restrict outX,
-                                      double* __restrict outY, double* __restrict outZ) {
+                                   double* __restrict squared, double* __restrict outX,
+                                   double* __restrict outY, double* __restrict outZ) {
   constexpr std::size_t kWidth = TriangleBlock::kWidth;
   for (std::size_t k = 0; k < kWidth; ++k) {
     const double ax = corner[k], ay = corner[kWidth + k], az = corner[2 * kWidth + k];

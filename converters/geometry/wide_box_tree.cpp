@@ -21,8 +21,8 @@ using KeyBits [[gnu::vector_size(32)]] = std::int64_t;
 inline std::uint32_t bitsOf(const double* one, const double* other) {
   const auto* a = reinterpret_cast<const KeyLanes*>(one);
   const auto* b = reinterpret_cast<const KeyLanes*>(other);
-  const KeyBits bits =
-      (KeyBits(a[0] <= b[0]) & KeyBits{1, 2, 4, 8}) | (KeyBits(a[1] <= b[1]) & KeyBits{16, 32, 64, 128});
+  const KeyBits bits = (KeyBits(a[0] <= b[0]) & KeyBits{1, 2, 4, 8}) |
+                       (KeyBits(a[1] <= b[1]) & KeyBits{16, 32, 64, 128});
   return static_cast<std::uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
 }
 
@@ -62,8 +62,10 @@ LUMEN_SIMD_CLONES std::uint32_t nearBoxes(const float* __restrict plane, double 
   std::array<double, kWidth> limits;
   for (std::size_t k = 0; k < kWidth; ++k) {
     const double lowX = double{plane[k]} - x, highX = x - double{plane[kWidth + k]};
-    const double lowY = double{plane[2 * kWidth + k]} - y, highY = y - double{plane[3 * kWidth + k]};
-    const double lowZ = double{plane[4 * kWidth + k]} - z, highZ = z - double{plane[5 * kWidth + k]};
+    const double lowY = double{plane[2 * kWidth + k]} - y,
+                 highY = y - double{plane[3 * kWidth + k]};
+    const double lowZ = double{plane[4 * kWidth + k]} - z,
+                 highZ = z - double{plane[5 * kWidth + k]};
     double awayX = lowX > highX ? lowX : highX;
     double awayY = lowY > highY ? lowY : highY;
     double awayZ = lowZ > highZ ? lowZ : highZ;
@@ -103,7 +105,8 @@ std::uint32_t BoxRay::entries(const WideNode& node, double most, WideNode::Keys&
 
 std::uint32_t boxesNear(const WideNode& node, const Eigen::Vector3d& point, double most,
                         WideNode::Keys& out) {
-  return nearBoxes(node.plane[0].data(), point.x(), point.y(), point.z(), std::min(most, kLargest), out.data());
+  return nearBoxes(node.plane[0].data(), point.x(), point.y(), point.z(), std::min(most, kLargest),
+                   out.data());
 }
 
 WideBoxTree::WideBoxTree(const BoxTree<float>& tree) {
@@ -119,9 +122,10 @@ void WideBoxTree::build(const BoxTree<float>& tree, std::uint32_t from, std::uin
   // the largest box that is no leaf is opened, until there are eight
   std::vector<std::uint32_t> chosen{from};
   while (chosen.size() < WideNode::kWidth) {
-    const auto largest = std::max_element(
-        chosen.begin(), chosen.end(),
-        [&](std::uint32_t a, std::uint32_t b) { return openingGain(tree, a) < openingGain(tree, b); });
+    const auto largest =
+        std::max_element(chosen.begin(), chosen.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return openingGain(tree, a) < openingGain(tree, b);
+        });
     if (tree.node(*largest).count > 0) break;
     const std::uint32_t second = tree.node(*largest).at;
     ++*largest;
