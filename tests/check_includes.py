@@ -37,7 +37,7 @@ ROOMS = [
     {"io/content": []},
     {"io/vtk": [], "io/volume": [], "io/volume/dicom": ["io/volume"], "io/labels": ["io/volume", "io/volume/dicom"], "io/mesh": ["io/vtk", "io/volume/dicom"], "io/seeds": ["io/volume"],
      "io/centerline": ["io/seeds", "io/vtk", "io/volume"]},
-    {"stages/finding": [], "stages/native": ["stages/finding"], "stages/tracking/cylinders": [], "stages/tracking": ["stages/tracking/cylinders"], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
+    {"stages/finding": [], "stages/native": ["stages/finding"], "stages/tracking/cylinders": [], "stages/tracking": ["stages/tracking/cylinders"], "stages/fitting": [], "stages/fitting/image": [], "stages/editing": ["stages/fitting"], "stages/anatomy": [], "stages/repair": [],
      "stages/surface": [], "stages/surface/remesh": ["stages/surface"], "stages/surface/simplify": ["stages/surface", "stages/surface/remesh"],
      "stages/surface/closing": ["stages/surface", "stages/surface/remesh", "stages/surface/simplify"],
      "stages/surface/patches": ["stages/surface", "stages/surface/closing"],

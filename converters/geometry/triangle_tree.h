@@ -13,6 +13,8 @@
 
 #include "converters/geometry/box_tree.h"
 #include "converters/geometry/mesh_measures.h"
+#include "converters/geometry/triangle_block.h"
+#include "converters/geometry/wide_box_tree.h"
 
 namespace lumen::convert {
 
@@ -29,10 +31,6 @@ struct NearestPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-/// The point of the triangle a, b, c that is nearest to `p`.
-Eigen::Vector3d nearestPointOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                                       const Eigen::Vector3d& b, const Eigen::Vector3d& c);
-
 /// A bounding-volume hierarchy of the triangles of a mesh that computes in doubles and in one fixed
 /// order: results have equal bits on every machine, unlike those of single-precision kernels that
 /// depend on the instruction set. Immutable after construction, so safe to query from any thread.
@@ -41,7 +39,7 @@ public:
   /// `mesh` has at least one triangle and must outlive this object.
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  /// The first triangle that the ray meets at `least` or farther; `direction` is a unit vector. The
+  /// The first triangle that the ray meets at `least`, 0 or more, or farther; `direction` is a unit vector. The
   /// lowest index wins where several lie in one place.
   [[nodiscard]] std::optional<RayHit> firstHit(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction,
@@ -52,13 +50,9 @@ public:
   [[nodiscard]] NearestPoint nearest(const Eigen::Vector3d& point,
                                      double reach = std::numeric_limits<double>::infinity()) const;
   /// Calls visit(triangle, its nearest point, squared distance) for the triangles whose boxes are
-  /// within the square root of `most`, which `visit` may lower, of the point: near ones first.
-  template <class Visit>
-  void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit) const {
-    visitNear(point, most, visit, [](std::uint32_t, double) { return true; });
-  }
-  /// Passes over a node of boxes() and all below it where enters(node, squared distance of its box)
-  /// is false; otherwise as visitNear() without it, in the same order.
+  /// within the square root of `most`, which `visit` may lower, of the point: near ones first. Passes
+  /// over a node of boxes() and all below it where enters(node, squared distance of its box) is
+  /// false.
   template <class Visit, class Enters>
   void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit,
                  const Enters& enters) const;
@@ -73,7 +67,6 @@ public:
 
 private:
   using Tree = BoxTree<float>;
-  class Ray;
   [[nodiscard]] static double squaredDistance(const Box3f& box, const Eigen::Vector3d& point);
   [[nodiscard]] int winding(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   [[nodiscard]] Eigen::Vector3d corner(std::uint32_t triangle, std::size_t i) const {
@@ -84,8 +77,9 @@ private:
                  const double& most, Visit&& visit) const;
 
   const TriangleMesh& m_mesh;
-  Tree m_tree;                                           // boxes enclose their triangles
-  std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // in the order of the tree's items
+  Tree m_tree;                         // boxes enclose their triangles
+  WideBoxTree m_wide;                  // the same boxes, for rays and nearest points
+  std::vector<TriangleBlock> m_block;  // of each leaf
 };
 
 template <class Visit, class Enters>
@@ -100,10 +94,11 @@ void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most, V
     if (apart > most || !enters(i, apart)) continue;
     if (node.count > 0) {
       for (std::uint32_t k = node.at; k < node.at + node.count; ++k) {
-        const auto& [a, b, c] = m_corner[k];
-        const Eigen::Vector3d at = nearestPointOnTriangle(point, a, b, c);
+        const std::uint32_t t = m_tree.items()[k];
+        const Eigen::Vector3d at =
+            nearestPointOnTriangle(point, corner(t, 0), corner(t, 1), corner(t, 2));
         const double squared = (at - point).squaredNorm();
-        if (squared <= most) visit(m_tree.items()[k], at, squared);
+        if (squared <= most) visit(t, at, squared);
       }
       continue;
     }

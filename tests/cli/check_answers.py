@@ -220,6 +220,7 @@ def make_cases(lumen, folder):
     go("ends.schema.json", "ends", "both.lumen")
     go("ends.schema.json", "ends", "both.lumen", "--root", "2", "--out", "rooted.lumen")
     go("names.schema.json", "names", "both.lumen")
+    go("names.schema.json", "names", "both.lumen", "--anatomy")
     (folder / "scans").mkdir()
     shutil.copy(folder / "a.nrrd", folder / "scans")
     (folder / "scans" / "broken.nrrd").write_text("NRRD0004\n")

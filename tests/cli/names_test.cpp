@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen names, from outside.
+#include <set>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_lumen.h"
@@ -81,6 +84,34 @@ TEST_F(NamesTest, MistakesAreRefusedAndNothingIsWritten) {
   write("other.csv", "label,new_name\n");
   refused({"--names", "other.csv"}, "no column name");
   EXPECT_EQ(lumen({"names", "y.lumen", "--rename", "a=b"}).code, 2);
+  refused({"--anatomy"}, "has no source volume");
+  refused({"--anatomy", "--rename", m_names[1] + "=a"}, "--rename");
+}
+
+TEST_F(NamesTest, TheCircleOfWillisGetsItsNames) {
+  make({"phantom", "willis", "willis.nrrd", "--truth", "true.lumen", "--size", "64", "--voxel",
+        "0.8", "--quiet"});
+  const Json found = names({"true.lumen", "--anatomy"});
+  ASSERT_EQ(found["anatomy"].size(), 12U);
+  for (const Json& row : found["anatomy"]) {
+    EXPECT_EQ(row["name"], row["branch"]);
+    EXPECT_GE(row["probability"], 0.7);
+  }
+  EXPECT_EQ(found["renamed"], 0);
+  EXPECT_TRUE(contains(lumen({"names", "true.lumen", "--anatomy"}).out, "L-Pcom"));
+  // branches with the names of a search get theirs
+  make({"names", "true.lumen", "--rename", "BA=vessel-1", "--rename", "L-MCA=vessel-2", "--out",
+        "blank.lumen", "--quiet"});
+  const Json named = names({"blank.lumen", "--anatomy", "--out", "named.lumen"});
+  EXPECT_EQ(named["renamed"], 2);
+  std::set<std::string> labels;
+  for (const Json& row : named["names"]) labels.insert(row["name"]);
+  EXPECT_TRUE(labels.contains("BA"));
+  EXPECT_TRUE(labels.contains("L-MCA"));
+  EXPECT_EQ(lumen({"validate", "named.lumen"}).code, 0);
+  // nothing of a single vessel
+  make({"phantom", "tube", "tube.nrrd", "--truth", "tube.lumen", "--size", "32", "--quiet"});
+  EXPECT_TRUE(names({"tube.lumen", "--anatomy"})["anatomy"].empty());
 }
 
 }  // namespace lumen::test

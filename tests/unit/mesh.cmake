@@ -60,5 +60,6 @@ lumen_test(read_mesh_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_faults_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/triangle_tree_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_vtk_frame_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/repair_test.cpp)

@@ -68,6 +68,8 @@ lumen_test(trees_from_surfaces_test FOLDER trees_from_surfaces
 lumen_test(operations_test FOLDER operations
   LABELS threads
   LIBS lumen_operations lumen_phantom)
+lumen_test(anatomy_test FOLDER anatomy
+  LIBS lumen_anatomy lumen_phantom)
 lumen_test(phantom_test FOLDER phantom
   LABELS threads
   LIBS lumen_phantom lumen_geometry)

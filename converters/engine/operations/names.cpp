@@ -18,6 +18,7 @@
 #include "converters/engine/stage_options.h"
 #include "converters/judge/measure/shown_radius.h"
 #include "converters/judge/measure/vessel_length.h"
+#include "converters/operations/anatomical_names.h"
 #include "converters/operations/renamed.h"
 #include "formats/container/printable.h"
 
@@ -87,6 +88,37 @@ std::string nameText(const std::vector<NameRow>& rows, std::optional<double> lea
          "Lengths, and radii and places of the middle, in mm, LPS.\n";
 }
 
+std::string anatomyText(const std::vector<convert::ArteryStretch>& stretches,
+                        const CenterlineTree& tree) {
+  if (stretches.empty())
+    return "No artery of the circle of Willis is recognised: two carotid arteries side by side as "
+           "inlets, "
+           "and the first segment of an anterior cerebral artery, come first.\n";
+  std::vector<std::vector<std::string>> table{
+      {"name", "probability", "branch", "nodes", "x", "y", "z", "to x", "y", "z"}};
+  for (const convert::ArteryStretch& stretch : stretches) {
+    std::vector<std::string>& row = table.emplace_back();
+    row = {stretch.name, fixedText(stretch.plausibility, 2),
+           formats::printable(tree.branches[stretch.branch].label),
+           std::to_string(stretch.end - stretch.first)};
+    for (const std::uint32_t node : {stretch.first, stretch.end - 1})
+      for (const double at : toEigen(tree.centre[node])) row.push_back(fixedText(at, 1));
+  }
+  return alignColumns(std::move(table)) + "Places of the first and last node in mm, LPS.\n";
+}
+
+Json anatomyJson(const std::vector<convert::ArteryStretch>& stretches, const CenterlineTree& tree) {
+  Json list = Json::array();
+  for (const convert::ArteryStretch& stretch : stretches)
+    list.push_back({{"name", stretch.name},
+                    {"probability", jsonNumber(stretch.plausibility)},
+                    {"branch", tree.branches[stretch.branch].label},
+                    {"nodes", stretch.end - stretch.first},
+                    {"from", vectorJson(toEigen(tree.centre[stretch.first]))},
+                    {"to", vectorJson(toEigen(tree.centre[stretch.end - 1]))}});
+  return list;
+}
+
 /// The rows of a table whose new name is not empty and another one.
 std::vector<NewName> namesOfTable(const InputFile& file) {
   const std::string name = formats::printable(file.name());
@@ -119,7 +151,8 @@ public:
   [[nodiscard]] std::string example() const override {
     return "  lumen names head.lumen --table names.csv            # fill in its column new_name\n"
            "  lumen names head.lumen --names names.csv --out named.lumen\n"
-           "  lumen names head.lumen --rename vessel-4=ICA_L --out head.lumen";
+           "  lumen names head.lumen --rename vessel-4=ICA_L --out head.lumen\n"
+           "  lumen names head.lumen --anatomy --out named.lumen   # the circle of Willis";
   }
 
   void addRows(OptionTable& table) override {
@@ -132,6 +165,13 @@ public:
         .add("rename", &m_renames, "NAME=NEW", "Name of a vessel, and its new one; may be repeated")
         .many()
         .checkedBy(pairText("NAME=NEW, such as vessel-4=ICA_L"));
+    table
+        .flag(
+            "anatomy", m_isAnatomy,
+            "List the arteries of the circle of Willis that geometry shows, with a probability of "
+            "0.7 or more; with --out, cut branches where they begin and end, and name them so")
+        .without("names")
+        .without("rename");
     table.file(
         "out", m_output,
         "Case to write with the new names, " + formatEndings(canWriteCase) + "; may be CASE");
@@ -147,23 +187,36 @@ public:
     if (!m_output.empty()) {
       requireOrder(m_input, m_output);
       to = &caseOutputFormat(m_output, m_to, "the case with other names");
-      if (m_names.empty() && m_renames.empty())
-        throw Error(ErrorKind::Usage,
-                    m_output.name() + ": nothing to write; expected --rename or --names");
+      if (m_names.empty() && m_renames.empty() && !m_isAnatomy)
+        throw Error(
+            ErrorKind::Usage,
+            m_output.name() + ": nothing to write; expected --rename, --names or --anatomy");
       requireWritable(m_output, convert::ContentKind::Case);
     }
     if (!m_table.empty()) requireWritable(m_table, convert::ContentKind::Other);
     const std::vector<NewName> names = newNames();
     formats::Case value = to == nullptr ? readCase(m_input) : readParentCase(m_input);
+    std::vector<convert::ArteryStretch> arteries;
+    if (m_isAnatomy) arteries = operations::anatomicalNames(value, m_input.name());
+    // as the branches of the input are called
+    const Json anatomy = anatomyJson(arteries, value.tree);
+    const std::string anatomyRows = m_isAnatomy ? anatomyText(arteries, value.tree) : "";
+    std::size_t renamed = names.size();
     if (to != nullptr) {
-      value = operations::renamed(std::move(value), names, m_input.name());
+      if (m_isAnatomy) {
+        auto named = operations::anatomicallyNamed(std::move(value), arteries);
+        value = std::move(named.value);
+        renamed = named.renamed;
+      } else {
+        value = operations::renamed(std::move(value), names, m_input.name());
+      }
       to->writeCase(value, m_output, {}, context.progress);
     }
     const std::vector<NameRow> rows = nameRows(value.tree);
     if (!m_table.empty()) writeText(nameTable(rows), m_table);
-    return {Json{{"renamed", names.size()}, {"names", nameRowsJson(rows)}},
-            nameText(rows, convert::leastShownRadius(value.metadata)), 0,
-            to == nullptr && m_table.empty()};
+    return {Json{{"renamed", renamed}, {"names", nameRowsJson(rows)}, {"anatomy", anatomy}},
+            m_isAnatomy ? anatomyRows : nameText(rows, convert::leastShownRadius(value.metadata)),
+            0, to == nullptr && m_table.empty()};
   }
 
 private:
@@ -181,6 +234,7 @@ private:
   OutputFile m_output, m_table;
   std::string m_to;
   std::vector<std::string> m_renames;
+  bool m_isAnatomy = false;
 };
 
 }  // namespace

@@ -193,6 +193,7 @@ private:
     centre(line, parent, m_lumen);
     if (!parent) extend(line, true, kEndDepths, m_lumen);
     if (!goesOn) extend(line, false, kEndDepths, m_lumen);
+    measureDepths(line, m_lumen);
     return line;
   }
 

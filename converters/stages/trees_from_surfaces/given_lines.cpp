@@ -116,6 +116,7 @@ VesselLines clipLines(const CenterlineFile& centerline, const std::string& name,
     centre(line, parent, lumen);
     if (!parent) extend(line, true, kLineEndDepths, lumen);
     extend(line, false, kLineEndDepths, lumen);
+    measureDepths(line, lumen);
     out.lines.push_back(std::move(line));
   }
   if (out.lines.empty())

@@ -59,11 +59,11 @@ Spread chooseSpread(const VesselLine& line, double total) {
 
 /// Bridges the part of a child within its parent's lumen, which was not measured; it is as wide as
 /// at its exit.
-void bridgeWithin(const VesselLine& parent, const LumenGeometry& lumen, std::vector<Station>& out) {
+void bridgeWithin(const VesselLine& parent, std::vector<Station>& out) {
   std::size_t free = 0;
   for (; free < out.size(); ++free) {
     const auto [away, near] = distanceTo(parent.point, out[free].centre);
-    if (away >= lumen.depth(parent.point[near])) break;
+    if (away >= parent.depth[near]) break;
   }
   if (free == out.size()) free = out.size() - 1;  // the tip of a stub stays its own
   for (std::size_t i = 0; i < free; ++i) {
@@ -95,7 +95,7 @@ std::vector<Station> stationsOn(const VesselLine& line, const VesselLine* parent
   // the flat ends of the first and last cylinder are those of the lumen
   if (line.reachesStart) out.front().height = 2 * (out.front().centre - even.front()).norm();
   if (line.reachesEnd) out.back().height = 2 * (out.back().centre - even.back()).norm();
-  if (parent) bridgeWithin(*parent, lumen, out);
+  if (parent) bridgeWithin(*parent, out);
   return out;
 }
 

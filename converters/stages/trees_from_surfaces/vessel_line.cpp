@@ -155,6 +155,12 @@ std::vector<Vector3d> evenly(std::span<const Vector3d> line, const LumenGeometry
   return out;
 }
 
+void measureDepths(VesselLine& line, const LumenGeometry& lumen) {
+  line.depth.resize(line.point.size());
+  tbb::parallel_for(std::size_t{0}, line.point.size(),
+                    [&](std::size_t i) { line.depth[i] = lumen.depth(line.point[i]); });
+}
+
 void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lumen) {
   std::vector<Vector3d>& point = line.point;
   for (int round = 0; round < kRounds; ++round) {
@@ -164,13 +170,13 @@ void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lum
     std::vector<std::uint8_t> isInParent(point.size(), 0);
     const std::size_t last = point.size() - 1;
     tbb::parallel_for(std::size_t{0}, point.size(), [&](std::size_t i) {
-      const double depth = lumen.depth(point[i]);
       if (parent) {
         const auto [away, near] = distanceTo(parent->point, point[i]);
-        isInParent[i] = away < 1.1 * lumen.depth(parent->point[near]) ? 1 : 0;
+        isInParent[i] = away < 1.1 * parent->depth[near] ? 1 : 0;
       }
       const bool isEnd = i == 0 || (i == last && line.meets >= 0);
       if (isInParent[i] || (isEnd && (parent || i == last))) return;
+      const double depth = lumen.depth(point[i]);
       const Vector3d axis = lineDirection(point, i, kChord * depth);
       const Vector3d toMiddle = sectionCentre(lumen, point[i], axis) - point[i];
       const double most = kMostMoveDepths * depth;

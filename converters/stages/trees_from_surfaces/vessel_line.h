@@ -22,6 +22,7 @@ namespace lumen::convert {
 struct VesselLine {
   std::string label;
   std::vector<Eigen::Vector3d> point;  ///< mm, LPS, away from the parent, on whose line it begins
+  std::vector<double> depth;           ///< mm, at each point, of a line that is complete
   int parent = -1;                     ///< a line before this one, or -1
   int meets = -1;                      ///< the line that the last point joins: a loop; or -1
   bool isSac = false;
@@ -83,10 +84,13 @@ constexpr double kLineStep = 0.25;
 std::vector<Eigen::Vector3d> evenly(std::span<const Eigen::Vector3d> line,
                                     const LumenGeometry& lumen);
 
+/// Measures the depths of a line whose points no longer change.
+void measureDepths(VesselLine& line, const LumenGeometry& lumen);
+
 /// Moves the points of a line, but the first and the last, into the middle of the lumen: to the
 /// centroids of the sections across it, as far as 1.6 times the median of each section's rays.
-/// Points that lie within the lumen of `parent` (which may be null), and its wall around them, stay
-/// on a smooth curve.
+/// Points that lie within the lumen of `parent` (which may be null, and is complete), and its wall
+/// around them, stay on a smooth curve.
 void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lumen);
 
 /// Removes the tip of a path through voxels: the points that are nearer to its last point than the

@@ -6,10 +6,11 @@
   circles.py hold LUMEN
 
 Inlets are right if each true root has a root within twice its radius, and no other root lies in a true vessel. Links are right if they join
-the same inlets as often as the true ones do. Volumes and cases stay in FOLDER, and so does circles.md, which is printed too.
+the same inlets as often as the true ones do. Names are those of lumen names --anatomy. Volumes and cases stay in FOLDER, and so does circles.md, which is printed too.
 
 The second form is a test: it draws the circles of HELD, and fails if a network is wrong.
 """
+import re
 import sys
 import tempfile
 from collections import Counter
@@ -53,19 +54,36 @@ def network(lumen, case, truth):
     return sorted(names.values()) == sorted(true_roots.values()) and extra == 0, (wanted & got).total(), (wanted - got).total(), (got - wanted).total()
 
 
+def names(lumen, case, truth):
+    """The number of true arteries that have their name on more than half of their nodes, and of those that have another one there."""
+    named = case.with_suffix(".named.lumen")
+    run(lumen, "names", case, "--anatomy", "--out", named)
+    found, true = tree_of(lumen, named), tree_of(lumen, truth)
+    places, right, wrong = Found(found), 0, 0
+    for branch in true["branches"]:
+        nodes = range(branch["firstNode"], branch["firstNode"] + branch["nodeCount"])
+        at = [places.at(true["centre"][n], true["radius"][n]) for n in nodes]
+        has = Counter(re.sub(r"(-\d+)+$", "", found["branches"][found["branch"][n]]["label"]) for n in at if n is not None)
+        del has["vessel"]
+        right += has[branch["label"]] > len(nodes) / 2
+        wrong += has.total() - has[branch["label"]] > len(nodes) / 2
+    return right, len(true["branches"]), wrong
+
+
 def figures(folder, lumen, without, noise, seed):
     volume, truth, case = (folder / f"circle-{seed}{end}" for end in (".nrrd", ".truth.lumen", ".lumen"))
     run(lumen, "phantom", "willis", volume, "--truth", truth, "--size", 128, "--voxel", 0.4, "--noise", noise, "--seed", seed,
         *(("--without", without) if without else ()))
     run(lumen, "track", volume, case)
-    return network(lumen, case, truth)
+    return *network(lumen, case, truth), *names(lumen, case, truth)
 
 
 def hold(lumen):
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         for circle in HELD:
-            inlets, _, missing, false = figures(Path(folder), lumen, *circle)
+            inlets, _, missing, false, named, arteries, wrong = figures(Path(folder), lumen, *circle)
+            if wrong or named < 0.7 * arteries: faults.append(f"without {circle[0] or 'nothing'}: {named} of {arteries} names, {wrong} wrong")
             if not inlets or missing or false: faults.append(f"without {circle[0] or 'nothing'}: inlets right {inlets}, links missing {missing}, false {false}")
     sys.exit("\n".join(faults) or 0)
 
@@ -74,14 +92,14 @@ def main():
     if sys.argv[1] == "hold": hold(sys.argv[2])
     folder, lumen = Path(sys.argv[1]), sys.argv[2]
     folder.mkdir(parents=True, exist_ok=True)
-    lines = ["| missing | noise | inlets | links right | missing | false |", "|---|--:|---|--:|--:|--:|"]
-    sums = np.zeros(4, int)
+    lines = ["| missing | noise | inlets | links right | missing | false | names | wrong |", "|---|--:|---|--:|--:|--:|--:|--:|"]
+    sums = np.zeros(7, int)
     for without, noise, seed in CIRCLES:
         row = figures(folder, lumen, without, noise, seed)
         sums += np.array(row, int)
-        lines.append(f"| {without.replace(',', ', ') or 'nothing'} | {noise} | {'right' if row[0] else 'wrong'} | {row[1]} | {row[2]} | {row[3]} |")
+        lines.append(f"| {without.replace(',', ', ') or 'nothing'} | {noise} | {'right' if row[0] else 'wrong'} | {row[1]} | {row[2]} | {row[3]} | {row[4]} of {row[5]} | {row[6]} |")
         print(lines[-1], flush=True)
-    lines.append(f"| {len(CIRCLES)} circles | | {sums[0]} right | {sums[1]} | {sums[2]} | {sums[3]} |")
+    lines.append(f"| {len(CIRCLES)} circles | | {sums[0]} right | {sums[1]} | {sums[2]} | {sums[3]} | {sums[4]} of {sums[5]} | {sums[6]} |")
     (folder / "circles.md").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
 

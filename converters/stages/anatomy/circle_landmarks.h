@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the circle of Willis lies in a network: inlets, ends of the carotid arteries, midplane.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "converters/stages/anatomy/vessel_network.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// A range of values that is usual, and how fast plausibility falls beyond it.
+struct Usual {
+  double low, high, soft;
+  /// 1 within the range, falling as a normal distribution beyond it.
+  [[nodiscard]] double operator()(double x) const {
+    const double beyond = std::max({low - x, x - high, 0.0}) / soft;
+    return std::exp(-0.5 * beyond * beyond);
+  }
+};
+
+/// One half of the circle.
+struct HalfCircle {
+  char letter = 'R';
+  double sign = -1;  ///< of x away from the midplane
+  std::uint32_t inlet = VesselNetwork::kNone;
+  std::vector<std::uint32_t> course;              ///< from the inlet to the most lateral tip that it feeds
+  /// Place in the course where the first segment of the anterior cerebral artery leaves.
+  std::size_t terminus = 0;
+  std::vector<std::uint32_t> a1;                  ///< from there, without it, to the midline
+  double plausible = 0;      ///< of the terminus; 0: there is none
+
+  [[nodiscard]] std::string name(const char* vessel) const {
+    return std::string{letter, '-'} + vessel;
+  }
+  [[nodiscard]] std::uint32_t end() const { return course[terminus]; }
+  [[nodiscard]] bool isFound() const { return plausible > 0; }
+};
+
+struct CircleLandmarks {
+  std::array<HalfCircle, 2> half;
+  std::uint32_t basilar = VesselNetwork::kNone;  ///< the inlet of the basilar artery; kNone: none
+  double middle = 0;     ///< x of the midplane, mm
+  double plausible = 0;  ///< of the pair of carotid arteries; 0: there is none
+
+  [[nodiscard]] const HalfCircle& right() const { return half[0]; }
+  [[nodiscard]] const HalfCircle& left() const { return half[1]; }
+  /// Both halves have an end of the carotid artery.
+  [[nodiscard]] bool isPair() const { return right().isFound() && left().isFound(); }
+};
+
+/// The landmarks of a network of these branches.
+CircleLandmarks findCircleLandmarks(const VesselNetwork& network,
+                                    const std::vector<formats::Branch>& branches);
+
+}  // namespace lumen::convert
