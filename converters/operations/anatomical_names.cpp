@@ -59,8 +59,7 @@ std::vector<ArteryStretch> anatomicalNames(const formats::Case& value, const std
   return convert::nameCircleOfWillis(value.tree);
 }
 
-AnatomicallyNamed anatomicallyNamed(formats::Case value,
-                                    std::span<const ArteryStretch> stretches) {
+AnatomicallyNamed anatomicallyNamed(formats::Case value, std::span<const ArteryStretch> stretches) {
   std::vector<ArteryStretch> wanted;
   for (const ArteryStretch& stretch : stretches)
     if (isAutomatic(value.tree.branches[stretch.branch].label)) wanted.push_back(stretch);

@@ -15,7 +15,7 @@ namespace lumen::operations {
 /// The arteries of the circle of Willis in a case, called `name`. Throws Error(InvalidInput) for a
 /// case without a source volume, which alone shows where the left and the front of a patient are.
 std::vector<convert::ArteryStretch> anatomicalNames(const formats::Case& value,
-                                                   const std::string& name);
+                                                    const std::string& name);
 
 struct AnatomicallyNamed {
   formats::Case value;

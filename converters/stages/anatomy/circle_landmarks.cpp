@@ -18,7 +18,7 @@ constexpr std::uint32_t kNone = VesselNetwork::kNone;
 // Wide ranges about those of adults (S. Kamath, "Observations on the length and diameter of vessels
 // forming the circle of Willis", Journal of Anatomy 133, 1981). Lengths and radii in mm.
 constexpr Usual kInletRadius{1.5, 3.2, 0.4}, kInletsApart{18, 75, 6};
-constexpr Usual kInletRatio{1, 1.3, 0.2};                         // of the two radii
+constexpr Usual kInletRatio{1, 1.3, 0.2};                              // of the two radii
 constexpr Usual kInletDepth{0, 0.25, 0.15}, kInletLevel{0, 0.3, 0.2};  // shares of their distance
 constexpr Usual kA1Length{8, 26, 5}, kA1Radius{0.5, 1.6, 0.2};
 constexpr Usual kA1Straight{0.6, 1, 0.15};  // chord over length
@@ -29,9 +29,9 @@ constexpr double kLeastInlet = 1.2, kLeastBasilar = 0.8;  // radii that are look
 constexpr double kInletReach = 5;                         // whose median radius is an inlet's
 // Half the width of the strip about the midplane that an A1 leads to: that of the inlets, of the circle.
 constexpr std::array<double, 2> kStrips{12, 5};
-constexpr double kAboveInlet = 15;   // of what a carotid artery feeds
-constexpr double kSiphon = 12;       // length of a carotid artery before its end
-constexpr double kA1Reach = 40;      // how far that is looked for
+constexpr double kAboveInlet = 15;  // of what a carotid artery feeds
+constexpr double kSiphon = 12;      // length of a carotid artery before its end
+constexpr double kA1Reach = 40;     // how far that is looked for
 
 class LandmarkSearch {
 public:
@@ -113,8 +113,7 @@ private:
       m_found.plausible *= kTerminiApart(way.norm()) * kTerminiUneven(std::abs(way.z())) *
                            kTerminiUneven(std::abs(way.y()));
     } else {
-      m_found.plausible *=
-          m_found.right().isFound() || m_found.left().isFound() ? kOneTerminus : 0;
+      m_found.plausible *= m_found.right().isFound() || m_found.left().isFound() ? kOneTerminus : 0;
     }
   }
 
@@ -131,8 +130,8 @@ private:
       std::uint32_t tip = kNone;
       for (const std::uint32_t n : m_network.ends()) {
         const double own = flow[h].cost[n];
-        const bool isOwn = flow[h].reach(n) && own < flow[1 - h].cost[n] &&
-                           (!hasBasilar || own < flow[2].cost[n]);
+        const bool isOwn =
+            flow[h].reach(n) && own < flow[1 - h].cost[n] && (!hasBasilar || own < flow[2].cost[n]);
         if (!isOwn || z(n) < z(half.inlet) + kAboveInlet) continue;
         if (tip == kNone || aside(n, half) > aside(tip, half)) tip = n;
       }
@@ -155,11 +154,10 @@ private:
         const Nodes way = wayToMidline(fork, first, strip, isCourse);
         if (way.empty()) continue;
         const double length = m_network.length(fork, first) + m_network.lengthOf(way);
-        const double plausible = kA1Length(length) *
-                                 kA1Straight((at(way.back()) - at(fork)).norm() / length) *
-                                 kA1Radius(m_network.medianRadius(way)) *
-                                 kTerminusAside(aside(fork, half)) *
-                                 kTerminusAbove(z(fork) - z(half.inlet));
+        const double plausible =
+            kA1Length(length) * kA1Straight((at(way.back()) - at(fork)).norm() / length) *
+            kA1Radius(m_network.medianRadius(way)) * kTerminusAside(aside(fork, half)) *
+            kTerminusAbove(z(fork) - z(half.inlet));
         if (!(plausible > half.plausible)) continue;
         half.plausible = plausible;
         half.terminus = k;
@@ -174,7 +172,8 @@ private:
     const Ways ways = m_network.waysFrom(first, closed, WayCost::Length, kA1Reach);
     std::uint32_t best = kNone;
     for (const std::uint32_t n : ways.reached()) {
-      if (std::abs(x(n) - m_found.middle) > strip || y(n) > y(fork) + 2 || z(n) < z(fork) - 8) continue;
+      if (std::abs(x(n) - m_found.middle) > strip || y(n) > y(fork) + 2 || z(n) < z(fork) - 8)
+        continue;
       if (best == kNone || ways.cost[n] < ways.cost[best]) best = n;
     }
     return best == kNone ? Nodes{} : ways.to(best);

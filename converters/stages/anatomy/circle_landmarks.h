@@ -29,11 +29,11 @@ struct HalfCircle {
   char letter = 'R';
   double sign = -1;  ///< of x away from the midplane
   std::uint32_t inlet = VesselNetwork::kNone;
-  std::vector<std::uint32_t> course;              ///< from the inlet to the most lateral tip that it feeds
+  std::vector<std::uint32_t> course;  ///< from the inlet to the most lateral tip that it feeds
   /// Place in the course where the first segment of the anterior cerebral artery leaves.
   std::size_t terminus = 0;
-  std::vector<std::uint32_t> a1;                  ///< from there, without it, to the midline
-  double plausible = 0;      ///< of the terminus; 0: there is none
+  std::vector<std::uint32_t> a1;  ///< from there, without it, to the midline
+  double plausible = 0;           ///< of the terminus; 0: there is none
 
   [[nodiscard]] std::string name(const char* vessel) const {
     return std::string{letter, '-'} + vessel;
@@ -45,7 +45,7 @@ struct HalfCircle {
 struct CircleLandmarks {
   std::array<HalfCircle, 2> half;
   std::uint32_t basilar = VesselNetwork::kNone;  ///< the inlet of the basilar artery; kNone: none
-  double middle = 0;     ///< x of the midplane, mm
+  double middle = 0;                             ///< x of the midplane, mm
   double plausible = 0;  ///< of the pair of carotid arteries; 0: there is none
 
   [[nodiscard]] const HalfCircle& right() const { return half[0]; }

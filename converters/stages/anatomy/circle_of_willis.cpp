@@ -24,10 +24,9 @@ constexpr Usual kBasilarAside{0, 7, 3}, kBasilarBehind{6, 32, 4}, kBasilarLength
     kBasilarUneven{0, 20, 5}, kBasilarRadius{0.9, 2.4, 0.3};
 constexpr Usual kPcaAside{8, 40, 4};
 constexpr Usual kPcomLength{5, 28, 4}, kPcomRadius{0.2, 1.4, 0.2};
-constexpr double kTrunk = 10;        // length of an A2, of which it rises or advances kTrunkRise
+constexpr double kTrunk = 10;  // length of an A2, of which it rises or advances kTrunkRise
 constexpr double kTrunkRise = 8, kTrunkApart = 20;
 constexpr double kForkGap = 4;  // around the end of a basilar artery without a fork
-
 
 class CircleNames {
 public:
@@ -73,9 +72,10 @@ private:
     set(Nodes(half.course.begin(), end + 1), half.name("ICA"), plausible);
     if (end + 1 == half.course.end()) return;
     const Ways beyond = m_network.waysFrom(*(end + 1), m_network.setOf(Nodes{*end}));
-    const bool isShared = beyond.reach(half.a1.front()) || beyond.reach(m_marks.half[0].inlet) ||
-                          beyond.reach(m_marks.half[1].inlet) ||
-                          (m_marks.basilar != VesselNetwork::kNone && beyond.reach(m_marks.basilar));
+    const bool isShared =
+        beyond.reach(half.a1.front()) || beyond.reach(m_marks.half[0].inlet) ||
+        beyond.reach(m_marks.half[1].inlet) ||
+        (m_marks.basilar != VesselNetwork::kNone && beyond.reach(m_marks.basilar));
     if (isShared) return;
     setFree(beyond.reached(), half.name("MCA"),
             plausible * kMcaAside(aside(half.course.back(), half) - aside(*end, half)));
@@ -103,7 +103,8 @@ private:
         return aside(n, half) < -4 || n == m_marks.basilar;
       });
       // beyond the midline it may feed both sides
-      set(m_marks.isPair() && !crosses ? all : half.a1, half.name("ACA"), m_marks.plausible * half.plausible);
+      set(m_marks.isPair() && !crosses ? all : half.a1, half.name("ACA"),
+          m_marks.plausible * half.plausible);
     }
   }
 
@@ -128,7 +129,8 @@ private:
           longest = std::max(longest, ways.cost[n]);
           rise = std::max({rise, z(n) - z(way[k]), y(way[k]) - y(n)});
           const std::uint32_t before = ways.before[n];
-          if (before != VesselNetwork::kNone && ways.cost[n] >= kTrunkApart && ways.cost[before] < kTrunkApart)
+          if (before != VesselNetwork::kNone && ways.cost[n] >= kTrunkApart &&
+              ways.cost[before] < kTrunkApart)
             ++abreast;
         }
         trunk.isOne = abreast <= 1;
@@ -187,7 +189,8 @@ private:
     for (const std::uint32_t n : basilar)
       if ((at(n) - at(basilar.back())).norm() >= gap) set({n}, "BA", plausible);
     for (std::size_t h = 0; h < 2; ++h)
-      if (course[h].size() > stem) namePca(m_marks.half[h], course[h], stem, plausible, gap, closed);
+      if (course[h].size() > stem)
+        namePca(m_marks.half[h], course[h], stem, plausible, gap, closed);
   }
 
   static std::size_t commonStart(const Nodes& a, const Nodes& b) {
@@ -197,9 +200,8 @@ private:
   /// Where a course that rises turns aside; counted behind it.
   [[nodiscard]] std::size_t turnOf(const Nodes& course) const {
     const auto rise = [&](std::uint32_t n) { return z(n) - std::abs(x(n) - x(course.front())); };
-    const auto turn = std::max_element(course.begin(), course.end(), [&](auto a, auto b) {
-      return rise(a) < rise(b);
-    });
+    const auto turn = std::max_element(course.begin(), course.end(),
+                                       [&](auto a, auto b) { return rise(a) < rise(b); });
     return static_cast<std::size_t>(turn - course.begin()) + 1;
   }
 
@@ -216,13 +218,14 @@ private:
     const std::uint32_t top = basilar.back();
     return m_marks.plausible * plausible * kBasilarAside(std::abs(x(top) - m_marks.middle)) *
            kBasilarBehind(y(top) - depth / count) *
-           kBasilarUneven(std::abs(z(top) - level / count)) * kBasilarLength(m_network.lengthOf(basilar)) *
+           kBasilarUneven(std::abs(z(top) - level / count)) *
+           kBasilarLength(m_network.lengthOf(basilar)) *
            kBasilarRadius(m_network.medianRadius(basilar));
   }
 
   /// A posterior cerebral artery with its branches, and the communicating artery that leads to it.
-  void namePca(const HalfCircle& half, const Nodes& course, std::size_t stem, double basilar, double gap,
-               NodeSet closed) {
+  void namePca(const HalfCircle& half, const Nodes& course, std::size_t stem, double basilar,
+               double gap, NodeSet closed) {
     double farthest = 0;
     for (const std::uint32_t n : course) farthest = std::max(farthest, aside(n, half));
     const double plausible = basilar * kPcaAside(farthest);
@@ -230,13 +233,14 @@ private:
     if (half.isFound()) {
       const Nodes pcom = communicating(half, course, stem, closed);
       set(pcom, half.name("Pcom"),
-          plausible * kPcomLength(m_network.lengthOf(pcom)) * kPcomRadius(m_network.medianRadius(pcom)));
+          plausible * kPcomLength(m_network.lengthOf(pcom)) *
+              kPcomRadius(m_network.medianRadius(pcom)));
       for (const std::uint32_t n : pcom) closed[n] = true;
     }
     // without an end of its carotid artery, a branch may be the communicating artery
-    const Nodes all = half.isFound() ? m_network.waysFrom(course[stem], closed).reached()
-                                     : Nodes(course.begin() + static_cast<std::ptrdiff_t>(stem),
-                                             course.end());
+    const Nodes all = half.isFound()
+                          ? m_network.waysFrom(course[stem], closed).reached()
+                          : Nodes(course.begin() + static_cast<std::ptrdiff_t>(stem), course.end());
     for (const std::uint32_t n : all)
       if ((m_network.position(n) - m_network.position(course[stem - 1])).norm() >= gap)
         setFree({n}, half.name("PCA"), plausible);

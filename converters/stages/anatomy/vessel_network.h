@@ -51,8 +51,8 @@ public:
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t node) const {  ///< mm, LPS
     return toEigen(m_tree.centre[node]);
   }
-  [[nodiscard]] double length(std::uint32_t a, std::uint32_t b) const;  ///< of an edge, mm
-  [[nodiscard]] double lengthOf(std::span<const std::uint32_t> way) const;         ///< mm
+  [[nodiscard]] double length(std::uint32_t a, std::uint32_t b) const;      ///< of an edge, mm
+  [[nodiscard]] double lengthOf(std::span<const std::uint32_t> way) const;  ///< mm
   [[nodiscard]] double medianRadius(std::span<const std::uint32_t> nodes) const;  ///< mm; 0 of none
   [[nodiscard]] NodeSet setOf(std::span<const std::uint32_t> nodes) const;
 

@@ -52,8 +52,10 @@ TEST(CircleOfWillis, EachArteryOfAWholeCircleHasItsName) {
 
 TEST(CircleOfWillis, AVariantHasNoWrongName) {
   const std::vector<std::set<std::string>> variants = {
-      {"Acom"}, {"L-Pcom"}, {"L-A1"},           {"R-A1"},           {"L-P1"},
-      {"R-P1"}, {"L-A1", "R-P1"}, {"L-P1", "R-P1"}, {"L-Pcom", "R-Pcom"}, {"L-A1", "R-A1"}};
+      {"Acom"},         {"L-Pcom"},       {"L-A1"},
+      {"R-A1"},         {"L-P1"},         {"R-P1"},
+      {"L-A1", "R-P1"}, {"L-P1", "R-P1"}, {"L-Pcom", "R-Pcom"},
+      {"L-A1", "R-A1"}};
   for (const auto& missing : variants) {
     double wrong = 1;
     const auto shares = rightShares(circleWithout(missing), wrong);
@@ -112,7 +114,7 @@ TEST(CircleOfWillis, AHeadThatLeansKeepsItsNames) {
     double wrong = 1;
     const auto shares = rightShares(tree, wrong);
     for (const auto& [name, share] : shares)
-      if (name != "Acom") EXPECT_GT(share, 0.9) << name << " " << lean;
+      EXPECT_GT(share, name == "Acom" ? -1 : 0.9) << name << " " << lean;
     EXPECT_LT(wrong, 0.005);
   }
 }

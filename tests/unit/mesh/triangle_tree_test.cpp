@@ -134,8 +134,9 @@ TEST(TriangleTree, FindsTheSamePointAsALookAtEach) {
         EXPECT_EQ(found.triangle, wanted.triangle);
         EXPECT_EQ(found.position, wanted.position);
         EXPECT_EQ(tree.nearest(from, 1.01 * wanted.distance + 1e-9).triangle, wanted.triangle);
-        if (wanted.distance > 0)
+        if (wanted.distance > 0) {
           EXPECT_TRUE(std::isinf(tree.nearest(from, 0.99 * wanted.distance).distance));
+        }
       }
     }
 }

@@ -58,9 +58,8 @@ TEST(AnatomicalNames, ABranchIsCutWhereItsNameChanges) {
 
 TEST(AnatomicalNames, ANameThatSomebodyGaveStays) {
   for (const char* const label : {"siphon", "vessel-a", "R-ICA"}) {
-    const AnatomicallyNamed named =
-        anatomicallyNamed(straightVessel(label), std::vector<convert::ArteryStretch>{
-                                                     {0, 0, 6, "L-ICA", 0.9}});
+    const AnatomicallyNamed named = anatomicallyNamed(
+        straightVessel(label), std::vector<convert::ArteryStretch>{{0, 0, 6, "L-ICA", 0.9}});
     EXPECT_EQ(named.renamed, 0U);
     EXPECT_EQ(labels(named.value), std::vector<std::string>{label});
   }
