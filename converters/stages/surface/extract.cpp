@@ -92,6 +92,7 @@ private:
       marchTetrahedron(t, m_lattice.split(), inside, found[block]);
     });
     m_triangles = SampledLattice::joined(found);
+    found = {};
     m_crossings.clear();
     m_crossings.reserve(m_triangles.size() * 3);
     for (const CrossingTriangle& t : m_triangles)
