@@ -22,6 +22,7 @@
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"
 #include "viewer/server/server.h"
+#include "viewer/session/free_memory.h"
 #include "viewer/session/source_match.h"
 
 namespace lumen::viewer {
@@ -107,6 +108,7 @@ public:
     if (!m_html.empty()) engine::requireWritable(m_html, convert::ContentKind::Other);
     if (const auto folder = stateFolder()) m_options.unnamed = *folder / "lumen";
     if (!m_at.empty()) m_options.look = engine::placeIn(m_at);
+    returnLargeBlocks();
     Session session(m_options);
     if (!openFolder(session)) openFiles(session, context);
     requireMotion(session, context);

@@ -33,7 +33,7 @@ extern const char* const kNoPage;
 struct HtmlOptions {
   bool volume = false;  ///< the volume too: around the case, with 8 bits a voxel
   bool points = false;  ///< the wall points too, which are most of a case
-  int level = 1;        ///< level of the surface: see Surfaces
+  int level = 0;        ///< level of the surface: see Surfaces
 };
 
 /// "volume", "points" and "level". Throws Error(Usage) for others.

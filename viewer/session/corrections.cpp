@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/options/edit_steps.h"
 #include "converters/stages/editing/edit_request.h"
 #include "formats/case/enum_names.h"
 
@@ -52,6 +53,37 @@ convert::EditRequest editRequest(const std::string& op, const std::vector<std::s
     if (name == "reach") edit.reach = request.number("reach_mm");
   }
   return edit;
+}
+
+/// Deletes the vessels of these labels, each given once, as one change; what hangs on them stays. The case keeps a
+/// sentence and a request for each, as if they had been deleted one after the other. Throws Error(Usage) for a
+/// label that the case does not have, and where nothing would be left.
+convert::Change deleteLabels(formats::Case& target, const std::vector<std::string>& labels) {
+  const auto& branches = target.tree.branches;
+  std::vector<bool> goes(branches.size(), false);
+  std::vector<std::pair<std::string, std::string>> deletions;  // sentences and requests
+  for (const std::string& label : labels) {
+    const auto found = std::find_if(branches.begin(), branches.end(),
+                                    [&label](const auto& each) { return each.label == label; });
+    if (found == branches.end()) refuse("there is no vessel \"" + label + "\"");
+    convert::EditRequest edit;
+    edit.op = "delete";
+    edit.branch = static_cast<std::uint32_t>(found - branches.begin());
+    if (goes[*edit.branch]) refuse("\"labels\" has \"" + label + "\" twice");
+    goes[*edit.branch] = true;
+    deletions.emplace_back("deleted \"" + label + "\"", convert::textOfRequest(edit, target.tree));
+  }
+  if (deletions.empty()) refuse("\"labels\" is empty, but must name a vessel");
+  if (deletions.size() == branches.size())
+    refuse("nothing would be left; expected a case that keeps at least one vessel");
+  convert::Change change = convert::deleteBranches(target, goes, deletions.front().first);
+  for (std::size_t i = 0; i < deletions.size(); ++i) {
+    if (i > 0) recordEdit(target.metadata, deletions[i].first);
+    recordRequest(target.metadata, deletions[i].second);
+  }
+  if (deletions.size() > 1)
+    change.sentence = "deleted " + std::to_string(deletions.size()) + " vessels";
+  return change;
 }
 
 /// A vessel's label before and after; both empty if none is renamed.
@@ -160,10 +192,16 @@ std::optional<Correction> correct(const std::string& op, const Arguments& reques
   if (arguments == nullptr) return std::nullopt;
   if (!document.value) refuse("there is no case to correct");
   const Renaming renaming = op == "rename" ? renamingBy(request, document) : Renaming{};
-  const convert::EditRequest edit = editRequest(op, *arguments, request, document.value->tree);
   Correction correction;
   correction.value = std::make_shared<formats::Case>(*document.value);
-  correction.change = convert::applyEdit(*correction.value, edit);
+  if (op == "delete" && request.has("labels")) {
+    if (request.has("branch") || request.has("hanging"))
+      refuse("\"labels\" stands alone: neither \"branch\" nor \"hanging\" goes with it");
+    correction.change = deleteLabels(*correction.value, request.texts("labels"));
+  } else {
+    correction.change = convert::applyEdit(
+        *correction.value, editRequest(op, *arguments, request, document.value->tree));
+  }
   correction.document = document;
   correction.document.seeds = seedsAfter(document, correction.value, renaming);
   correction.document.value = correction.value;

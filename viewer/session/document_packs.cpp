@@ -100,7 +100,7 @@ Tagged distancePack(const Moment& now, const std::shared_ptr<const ReadySurface>
                     const Json& figures, Progress& progress) {
   if (!now.document.truth || !surface) return {};
   const TubeTreeDistance wall(now.document.truth->tree);
-  const auto& position = surface->mesh->position;
+  const auto& position = surface->position;
   std::vector<float> distance(position.size());
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
     if (v % kAtOnce == 0) progress.check();

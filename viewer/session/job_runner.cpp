@@ -10,6 +10,7 @@
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
 #include "viewer/session/document/arguments.h"
+#include "viewer/session/free_memory.h"
 
 namespace lumen::viewer {
 
@@ -134,6 +135,7 @@ void JobRunner::run(int job, const Work& work, Progress& progress) {
   } catch (const std::exception& error) {
     done["text"] = messageText(std::string("unexpected: ") + error.what());
   }
+  returnFreeMemory();
   end();
   try {
     m_events.send("done", done);

@@ -68,7 +68,7 @@ Tagged Session::surfacePack(int level, bool quick) {
   return {surface->tag, {surface, &surface->pack}};
 }
 
-Tagged Session::finishedSurface(int level, const Progress& progress) {
+Tagged Session::finishedSurface(int level, Progress& progress) {
   surfaces.waitFor(level, progress);
   return surfacePack(level, false);
 }

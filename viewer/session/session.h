@@ -64,7 +64,7 @@ public:
   // Parts of the document for pages. Empty `bytes` if there is no such part.
   Tagged surfacePack(int level, bool quick);
   /// The surface of that level, once it is made. Throws Error(Cancelled).
-  Tagged finishedSurface(int level, const Progress& progress);
+  Tagged finishedSurface(int level, Progress& progress);
   Tagged distancePack(int level, bool quick, Progress& progress);
 
   /// Looks whether files have changed on disk; pages get the state if the answer is another one.

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/surfaces.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "converters/engine/answers/answer_text.h"
 #include "converters/operations/surface_of.h"
 #include "converters/stages/surface/to_surface_mesh.h"
+#include "viewer/session/free_memory.h"
 #include "viewer/session/packs/surface_pack.h"
 
 namespace lumen::viewer {
@@ -35,6 +38,27 @@ bool hasSurface(const std::shared_ptr<const formats::Case>& value) {
 
 }  // namespace
 
+/// Reports the stages of a level to those who wait for it; warnings are not theirs.
+class Surfaces::HeardProgress : public Progress {
+public:
+  HeardProgress(Surfaces& surfaces, int level) : m_surfaces(surfaces), m_level(level) {}
+  void begin(std::string_view stage, std::size_t total) override {
+    tell([&](Progress& waiting) { waiting.begin(stage, total); });
+  }
+  void advance(std::size_t units) override {
+    tell([&](Progress& waiting) { waiting.advance(units); });
+  }
+  void end() override {
+    tell([](Progress& waiting) { waiting.end(); });
+  }
+
+private:
+  void tell(const std::function<void(Progress&)>& call) { m_surfaces.tellWaiting(m_level, call); }
+
+  Surfaces& m_surfaces;
+  const int m_level;
+};
+
 Surfaces::Surfaces(std::function<void()> ready) : m_ready(std::move(ready)) {
   m_thread = std::thread([this] { work(); });
 }
@@ -59,7 +83,7 @@ void Surfaces::show(std::shared_ptr<const formats::Case> value) {
   m_case = std::move(value);
   m_levels = {};
   m_hasFailed = {};
-  m_isAsked = false;
+  m_asked = kLevels;
   ++m_revision;
   if (m_progress) m_progress->cancel();
   m_wake.notify_all();
@@ -80,44 +104,67 @@ std::uint64_t Surfaces::revision() const {
 std::shared_ptr<const ReadySurface> Surfaces::get(int level) {
   {
     const std::lock_guard lock(m_mutex);
+    m_asked = std::min(m_asked, level);
+    m_wake.notify_all();
     for (int l = level; l < kLevels; ++l)
       if (m_levels[place(l)]) return m_levels[place(l)];
   }
   return quick();
 }
 
-void Surfaces::waitFor(int level, const Progress& progress) {
+void Surfaces::prefer(int level) {
+  if (m_progress && m_making != level) m_progress->cancel();
+}
+
+void Surfaces::waitFor(int level, Progress& progress) {
   std::unique_lock lock(m_mutex);
-  m_isAsked = true;
+  const std::pair<int, Progress*> mine{level, &progress};
+  m_waiting.push_back(mine);
+  if (!isTried(level)) prefer(level);
   m_wake.notify_all();
-  while (!m_wake.wait_for(lock, kCancelCheckInterval, [&] {
-    return !hasSurface(m_case) || !m_allowed || m_ended || isTried(level);
-  }))
-    progress.check();
+  const auto isOver = [&] {
+    return !hasSurface(m_case) || !m_allowed || m_ended || isTried(level) || progress.cancelled();
+  };
+  while (!m_wake.wait_for(lock, kCancelCheckInterval, isOver)) continue;
+  m_waiting.erase(std::find(m_waiting.begin(), m_waiting.end(), mine));
+  progress.check();
+}
+
+void Surfaces::tellWaiting(int level, const std::function<void(Progress&)>& tell) {
+  const std::lock_guard lock(m_mutex);
+  for (const auto& [wanted, progress] : m_waiting)
+    if (wanted == level) tell(*progress);
+}
+
+bool Surfaces::isFinerReady(int level) const {
+  return std::any_of(m_levels.begin(), m_levels.begin() + level,
+                     [](const auto& surface) { return surface != nullptr; });
+}
+
+std::shared_ptr<const ReadySurface> Surfaces::coarsest() const {
+  for (int level = kLevels - 1; level >= 0; --level)
+    if (m_levels[place(level)]) return m_levels[place(level)];
+  return nullptr;
 }
 
 std::shared_ptr<const ReadySurface> Surfaces::quick() {
-  {
-    const std::lock_guard lock(m_mutex);
-    m_isAsked = true;
-  }
-  m_wake.notify_all();
-  return readyQuick();
+  Progress silent;
+  return readyQuick(silent);
 }
 
-std::shared_ptr<const ReadySurface> Surfaces::readyQuick() {
+std::shared_ptr<const ReadySurface> Surfaces::readyQuick(Progress& progress) {
   const std::lock_guard one(m_quickMutex);
   std::shared_ptr<const formats::Case> value;
   std::uint64_t number = 0;
   {
     const std::lock_guard lock(m_mutex);
     if (!hasSurface(m_case)) return nullptr;
+    if (auto level = coarsest()) return level;
     if (m_levels[kQuick]) return m_levels[kQuick];
     value = m_case;
     number = ++m_number;
   }
-  Progress silent;
-  auto made = make(*value, kQuick, number, silent);
+  auto made = make(*value, kQuick, number, progress);
   const std::lock_guard lock(m_mutex);
   if (m_case == value) m_levels[kQuick] = made;
   return made;
@@ -142,16 +189,17 @@ std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, i
   result->pack =
       surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels},
                   made.report.value_or(convert::SurfaceReport{}), skin ? &*skin : nullptr);
-  result->mesh = std::make_shared<const convert::SurfaceMesh>(std::move(made.levels.front()));
+  result->position = std::move(made.levels.front().position);
   return result;
 }
 
 int Surfaces::nextLevel() const {
   if (!m_allowed || !hasSurface(m_case)) return -1;
-  if (!isTried(kQuick)) return kQuick;  // a page begins with it
-  int level = m_isAsked ? kLevels - 1 : -1;
-  while (level >= 0 && isTried(level)) --level;
-  return level;
+  for (const auto& [level, progress] : m_waiting)
+    if (!isTried(level)) return level;
+  const bool isAnyReady = coarsest() != nullptr;
+  if (!isTried(kQuick) && !isAnyReady) return kQuick;  // a page begins with it
+  return m_asked < kLevels && !isTried(m_asked) && !isFinerReady(m_asked) ? m_asked : -1;
 }
 
 void Surfaces::work() {
@@ -163,16 +211,18 @@ void Surfaces::work() {
       continue;
     }
     const auto value = m_case;
-    const auto progress = std::make_shared<Progress>();
+    const auto progress = std::make_shared<HeardProgress>(*this, level);
     const std::uint64_t number = level == kQuick ? 0 : ++m_number;
     m_progress = progress;
+    m_making = level;
     lock.unlock();
     std::shared_ptr<const ReadySurface> made;
     try {
-      made = level == kQuick ? readyQuick() : make(*value, level, number, *progress);
+      made = level == kQuick ? readyQuick(*progress) : make(*value, level, number, *progress);
     } catch (const std::exception&) {
       // cancelled, or a case that has no such surface: a request for the quick one gets the error
     }
+    returnFreeMemory();
     lock.lock();
     m_progress.reset();
     if (m_case != value || (!made && progress->cancelled())) continue;
@@ -180,6 +230,7 @@ void Surfaces::work() {
     m_wake.notify_all();
     if (!made || level == kQuick) continue;
     m_levels[place(level)] = std::move(made);
+    m_levels[kQuick].reset();
     ++m_revision;
     m_wake.notify_all();
     lock.unlock();

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/stages/surface/closing/closed_surface.h"
@@ -19,9 +21,9 @@ namespace lumen::viewer {
 
 /// A surface that is ready.
 struct ReadySurface {
-  std::string tag;   ///< names it: another surface has another one
-  std::string pack;  ///< viewer/README.md
-  std::shared_ptr<const convert::SurfaceMesh> mesh;
+  std::string tag;                        ///< names it: another surface has another one
+  std::string pack;                       ///< viewer/README.md
+  std::vector<convert::Float3> position;  ///< of the vertices, mm, LPS
 };
 
 /// All calls are thread-safe.
@@ -44,13 +46,13 @@ public:
   /// Allows the background to work, or stops it while a person waits for other work.
   void allow(bool background);
 
-  /// The finest that is ready and no finer than `level`, 0 for the finest of all, or the quick one.
-  /// Null if the case has no surface.
+  /// The finest that is ready and no finer than `level`, 0 for the finest of all, or what quick()
+  /// gives. The background makes the finest level that was asked for. Null if the case has no surface.
   std::shared_ptr<const ReadySurface> get(int level);
-  /// Waits until that level is ready, or cannot be made, or no work is allowed. Throws
-  /// Error(Cancelled).
-  void waitFor(int level, const Progress& progress);
-  /// The coarse surface, which is made now unless it is there.
+  /// Waits until that level is ready, which is then made before all others, or cannot be made, or no
+  /// work is allowed. `progress` hears of its stages. Throws Error(Cancelled).
+  void waitFor(int level, Progress& progress);
+  /// A surface at once: the coarsest level that is ready, or else a preview, which is made now.
   std::shared_ptr<const ReadySurface> quick();
   /// Counts surfaces that have become ready, and cases.
   [[nodiscard]] std::uint64_t revision() const;
@@ -59,15 +61,24 @@ private:
   static constexpr int kQuick = kLevels;  ///< behind the levels
   static std::size_t place(int level) { return static_cast<std::size_t>(level); }
 
+  class HeardProgress;
+
   void work();
+  /// Calls `tell` with the progress of each who waits for that level.
+  void tellWaiting(int level, const std::function<void(Progress&)>& tell);
   // Call these with the mutex held.
   [[nodiscard]] bool isTried(int level) const {
     return m_levels[place(level)] || m_hasFailed[place(level)];
   }
+  [[nodiscard]] bool isFinerReady(int level) const;
+  /// The coarsest level that is ready, which is no preview; or null.
+  [[nodiscard]] std::shared_ptr<const ReadySurface> coarsest() const;
   /// The level that the background is to make; -1: nothing.
   [[nodiscard]] int nextLevel() const;
+  /// Stops what the background makes, unless it is that level.
+  void prefer(int level);
 
-  std::shared_ptr<const ReadySurface> readyQuick();
+  std::shared_ptr<const ReadySurface> readyQuick(Progress& progress);
   std::shared_ptr<const ReadySurface> make(const formats::Case& value, int level,
                                            std::uint64_t number, Progress& progress);
 
@@ -79,9 +90,12 @@ private:
   std::array<std::shared_ptr<const ReadySurface>, kLevels + 1> m_levels;
   std::array<bool, kLevels + 1> m_hasFailed{};
   std::shared_ptr<Progress> m_progress;  ///< progress of the surface that the background makes
+  int m_making = 0;                      ///< its level
+  /// Those who wait, each with the level that it waits for and what hears of it.
+  std::vector<std::pair<int, Progress*>> m_waiting;
   std::uint64_t m_revision = 1, m_number = 0;
   bool m_allowed = true, m_ended = false;
-  bool m_isAsked = false;  ///< a page has asked for this case; finer surfaces wait for that
+  int m_asked = kLevels;  ///< the finest level that pages have asked for; none is made before
   std::thread m_thread;
 };
 

@@ -92,6 +92,7 @@ private:
       marchTetrahedron(t, m_lattice.split(), inside, found[block]);
     });
     m_triangles = SampledLattice::joined(found);
+    found = {};
     gatherCrossings();
   }
 

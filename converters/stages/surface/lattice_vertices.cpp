@@ -11,12 +11,6 @@ namespace {
 
 using Position = AdaptiveLattice::Position;
 
-std::uint64_t keyOf(const Position& p) {
-  std::uint64_t key = 0;
-  for (const std::int32_t c : p) key = key << 20 | static_cast<std::uint64_t>(c);
-  return key;
-}
-
 Position centreOf(const LatticeCube& cube) {
   const std::int32_t half = cube.size / 2;
   return {cube.corner[0] + half, cube.corner[1] + half, cube.corner[2] + half};
@@ -46,13 +40,23 @@ std::array<unsigned, 4> faceCorners(int side) {
 
 }  // namespace
 
-LatticeVertices::LatticeVertices(const AdaptiveLattice& lattice) : m_lattice(lattice) {
+std::size_t LatticeVertices::Hash::operator()(const Position& p) const {
+  std::uint64_t key = 0;
+  for (const std::int32_t c : p) key = key << 20 | static_cast<std::uint64_t>(c);
+  return LatticeHash()(key);
+}
+
+LatticeVertices::LatticeVertices(const AdaptiveLattice& lattice)
+    : m_lattice(lattice), m_index(0, Hash{&m_position}, Same{&m_position}) {
   findNeighbours();
-  m_own.reserve(lattice.cubes().size());
-  m_index.reserve(lattice.cubes().size() * 5 / 2);
+  const std::size_t cubes = lattice.cubes().size();
+  m_own.reserve(cubes);
+  m_position.reserve(3 * cubes);  // usual, as is the next line
+  m_cube.reserve(3 * cubes);
+  m_index.reserve(2 * cubes);
   for (std::uint32_t i = 0; i < lattice.cubes().size(); ++i) {
     const LatticeCube& cube = lattice.cubes()[i];
-    m_own.push_back({add(centreOf(cube), i), {}});
+    m_own.push_back({append(centreOf(cube), i), {}});
     for (unsigned c = 0; c < 8; ++c) m_own.back().corner[c] = add(cornerOf(cube, c), i);
     for (int side = 0; side < 6; ++side) {
       const AdaptiveLattice::Neighbour next = m_next[i][static_cast<std::size_t>(side)];
@@ -94,19 +98,23 @@ std::vector<std::uint8_t> LatticeVertices::cubesNear(
   return isNear;
 }
 
-std::uint32_t LatticeVertices::add(const Position& position, std::uint32_t cube) {
-  const auto next = static_cast<std::uint32_t>(m_position.size());
-  const auto [at, isNew] = m_index.try_emplace(keyOf(position), next);
-  if (!isNew) return at->second;
+std::uint32_t LatticeVertices::append(const Position& position, std::uint32_t cube) {
   m_position.push_back(position);
   m_cube.push_back(cube);
   m_isOutermost.push_back(false);
+  return static_cast<std::uint32_t>(m_position.size() - 1);
+}
+
+std::uint32_t LatticeVertices::add(const Position& position, std::uint32_t cube) {
+  if (const std::uint32_t known = find(position); known != kNone) return known;
+  const std::uint32_t next = append(position, cube);
+  m_index.insert(next);
   return next;
 }
 
 std::uint32_t LatticeVertices::find(const Position& position) const {
-  const auto at = m_index.find(keyOf(position));
-  return at == m_index.end() ? kNone : at->second;
+  const auto at = m_index.find(position);
+  return at == m_index.end() ? kNone : *at;
 }
 
 std::vector<std::uint32_t> LatticeVertices::verticesOf(std::uint32_t cube) const {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <tsl/robin_map.h>
+#include <tsl/robin_set.h>
 
 #include "converters/stages/surface/adaptive_lattice.h"
 
@@ -56,7 +56,21 @@ private:
     std::uint32_t centre = 0;
     std::array<std::uint32_t, 8> corner{};
   };
+  /// Vertices by their places.
+  struct Hash {
+    const std::vector<Position>* of;
+    std::size_t operator()(const Position& p) const;
+    std::size_t operator()(std::uint32_t vertex) const { return (*this)((*of)[vertex]); }
+  };
+  struct Same {
+    using is_transparent = void;
+    const std::vector<Position>* of;
+    bool operator()(std::uint32_t a, std::uint32_t b) const { return (*of)[a] == (*of)[b]; }
+    bool operator()(const Position& p, std::uint32_t b) const { return p == (*of)[b]; }
+    bool operator()(std::uint32_t a, const Position& p) const { return (*of)[a] == p; }
+  };
   void findNeighbours();
+  std::uint32_t append(const Position& position, std::uint32_t cube);
   std::uint32_t add(const Position& position, std::uint32_t cube);
   [[nodiscard]] std::uint32_t find(const Position& position) const;
   std::size_t collect(std::uint32_t cube, std::array<Tetrahedron, 96>& found) const;
@@ -70,7 +84,9 @@ private:
   std::vector<Position> m_position;
   std::vector<std::uint32_t> m_cube;
   std::vector<bool> m_isOutermost;
-  tsl::robin_map<std::uint64_t, std::uint32_t, LatticeHash> m_index;
+  /// All but the centres of cubes, which no other vertex has the place of. Their places are looked up:
+  /// with a copy of each the set would take three times the memory.
+  tsl::robin_set<std::uint32_t, Hash, Same> m_index;
 };
 
 }  // namespace lumen::convert

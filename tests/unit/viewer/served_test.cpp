@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/run_program.h"
 #include "viewer/session/packs/surface_pack.h"
 
@@ -199,6 +200,7 @@ TEST_F(WorkTest, EveryChangeIsUndoneAndDoneAgainToTheSameCaseUnderNewRevisions) 
   const auto last = two.tree.nodeCount() - 1;
   const std::vector<Json> changes = {
       {{"op", "delete"}, {"branch", 1}},
+      {{"op", "delete"}, {"labels", {two.tree.branches[1].label}}},
       {{"op", "cut"}, {"node", 4}},
       {{"op", "join"}, {"branch", 1}, {"node", 4}},
       {{"op", "reverse"}, {"branch", 0}},
@@ -230,6 +232,35 @@ TEST_F(WorkTest, EveryChangeIsUndoneAndDoneAgainToTheSameCaseUnderNewRevisions) 
     EXPECT_EQ(bytes(), after) << change;
     EXPECT_EQ(revision(), first + 3) << change;
   }
+}
+
+TEST_F(WorkTest, SeveralVesselsAreDeletedAsOneChangeOfWhichTheCaseKeepsEach) {
+  formats::Case three = twoVessels();
+  three.models.reset();
+  addVessel(three, "stays", straightPath({0, 20, 0}, {1, 0, 0}, 6), 0.8, 1.0);
+  writeCase("three.lumen", three);
+  serve({"three.lumen"});
+  const auto status = [this](const Json& labels) {
+    return perform({{"op", "delete"}, {"labels", labels}}).status;
+  };
+  EXPECT_EQ(status(Json::array()), 400);
+  EXPECT_EQ(status({"left", "left"}), 400);
+  EXPECT_EQ(status({"left", "none"}), 400);
+  EXPECT_EQ(status({"left", "right", "stays"}), 400);
+  EXPECT_EQ(perform({{"op", "delete"}, {"labels", {"left"}}, {"branch", 0}}).status, 400);
+  ASSERT_EQ(status({"right", "left"}), 200);
+  EXPECT_EQ(state()["undo"], "deleted 2 vessels");
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);
+  const formats::Case after = *formats::readCaseFile(path("three.lumen"));
+  ASSERT_EQ(after.tree.branches.size(), 1U);
+  EXPECT_EQ(after.tree.branches[0].label, "stays");
+  const auto edits = recordedEdits(after.metadata);
+  ASSERT_EQ(edits.size(), 2U);
+  EXPECT_EQ(edits[0].sentence, "deleted \"right\"");
+  EXPECT_EQ(edits[1].sentence, "deleted \"left\"");
+  for (const auto& edit : edits) EXPECT_NE(edit.request.find("\"delete\""), std::string::npos);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(state()["undo"], nullptr);
 }
 
 TEST_F(WorkTest, ATruthThatIsClosedUndoneAndClosedAgainHasOtherDistances) {

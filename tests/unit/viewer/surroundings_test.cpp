@@ -3,6 +3,9 @@
 #include <atomic>
 #include <cstdlib>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "converters/base/error.h"
 #include "served.h"
@@ -184,6 +187,40 @@ std::vector<std::uint32_t> stored(const ReadPack& pack, const std::string& name)
 }
 
 }  // namespace
+
+namespace {
+
+/// Notes the stages, and that nobody is warned.
+class NotedProgress : public Progress {
+public:
+  void begin(std::string_view stage, std::size_t) override { stages.insert(std::string(stage)); }
+  void warn(std::string_view message) override { ADD_FAILURE() << message; }
+  std::set<std::string> stages;
+};
+
+}  // namespace
+
+TEST(Surfaces, ALevelThatSomebodyWaitsForIsMadeAloneAndItsStagesAreReported) {
+  viewer::Session session({});
+  const fs::path file =
+      fs::temp_directory_path() / ("lumen-waited-" + std::to_string(getpid()) + ".lumen");
+  ASSERT_TRUE(formats::writeCaseFile(twoVessels(), file));
+  NotedProgress noted;
+  session.open({file, "two.lumen"}, noted);
+  fs::remove(file);
+  noted.stages.clear();
+  const auto fine = session.finishedSurface(0, noted);
+  ASSERT_TRUE(fine.bytes);
+  const ReadPack pack(*fine.bytes);
+  EXPECT_EQ(pack.json["kind"], "closed");
+  EXPECT_EQ(pack.json["level"], 0);
+  EXPECT_TRUE(noted.stages.contains("triangles"));
+  // what is ready is better than a preview or a coarser level, for which no time is taken
+  EXPECT_EQ(session.surfacePack(0, true).tag, fine.tag);
+  EXPECT_EQ(session.surfacePack(1, false).tag, fine.tag);
+  noted.cancel();
+  EXPECT_THROW(session.finishedSurface(1, noted), Error);
+}
 
 TEST(CompactPack, HasTheSameTrianglesInTheSamePartsWithinItsSteps) {
   viewer::Session session({});

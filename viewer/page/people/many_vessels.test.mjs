@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { frames, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
-import { type } from "./hand.mjs";
+import { step, type, undo, vessels } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 import { drawn, noteDrawings } from "./turning.mjs";
 
@@ -42,7 +42,7 @@ function keptShare(before, after) {
   return shares.sort((a, b) => a - b)[shares.length >> 1];
 }
 
-/** Sets by Shift and Ctrl, of a tree and of all in the list; hidden, and shown again. */
+/** Sets by Shift and Ctrl, of a tree and of all in the list; hidden, deleted, kept, and brought back by one undo each. */
 async function chooseSets(page, rows) {
   const row = k => rows.nth(k).locator(".name"),
     all = await rows.count(),
@@ -58,12 +58,26 @@ async function chooseSets(page, rows) {
   assert.equal(await page.locator("#tree-list .off").count(), 4);
   await page.keyboard.press("Shift+H");
 
+  const labels = await vessels(page);
+  await row(1).click();
+  await row(4).click({ modifiers: ["Shift"] });
+  await step(page, () => page.keyboard.press("Delete"));
+  assert.deepEqual((await vessels(page)).toSorted(), labels.toSpliced(1, 4).toSorted());
+  assert.match(await page.locator("#undo").getAttribute("title"), /deleted 4 vessels/);
+  await undo(page);
+  assert.deepEqual(await vessels(page), labels);
+
   await row(2).click();
   await page.locator("#set-choose").selectOption("tree");
   await count.filter({ hasText: `${all - 1} of ${all}` }).waitFor(); // all but the thin vessel, a tree of its own
+  await step(page, () => page.locator("#set-keep").click());
+  assert.deepEqual(await vessels(page), labels.slice(0, -1));
+  await undo(page);
+  assert.deepEqual(await vessels(page), labels);
   await page.locator("#tree-list").focus();
   await page.keyboard.press("Control+a");
   await count.filter({ hasText: `${all} of ${all}` }).waitFor();
+  assert.ok(await page.locator("#set-delete").isDisabled(), "a case keeps one vessel");
   await page.locator("#set-none").click();
   await page.locator("#set-choose").selectOption("below");
   await type(page, "40 %");

@@ -8,7 +8,7 @@ import { kLayouts, type App, type Part } from "./model/model";
 import { askPosition } from "./panels/probe_line";
 import { atCursor, followVessel, showAll, stepAlong, toggleHidden, toggleSolo } from "./model/selection";
 import { slabKey } from "./slices/slice_controls";
-import { hideSet } from "./model/vessel_set";
+import { deleteSet, hideSet } from "./model/vessel_set";
 import { resetPlanes } from "./tools/slice_input";
 import { renameBranch } from "./panels/vessel_detail";
 import type { WorkList } from "./panels/work_list";
@@ -167,7 +167,9 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand, work: W
     case "i":
       return source.live && (e.repeat || work.dismiss());
     case "delete":
-      return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected })));
+      return working(
+        () => deleteSet(app) || onVessel(() => void app.perform({ op: "delete", branch: selected })),
+      );
     case "Shift+DELETE":
       return working(() =>
         onVessel(() => void app.perform({ op: "delete", branch: selected, hanging: "go" })),

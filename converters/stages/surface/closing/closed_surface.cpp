@@ -114,9 +114,8 @@ private:
     std::vector<EndPlane> planes = endPlanes(m_source);
     CaseSurface surface = whole;
     EndsReport ends = cut(surface, planes);
-    const CaseSurface rough = surface;
     RefineReport found = giveTriangles(surface);
-    if (found.crossings > 0 && keepCrossingEndsRound(rough, planes)) {
+    if (found.crossings > 0 && keepCrossingEndsRound(whole, planes)) {
       surface = whole;
       ends = cut(surface, planes);
       found = giveTriangles(surface);
@@ -164,13 +163,14 @@ private:
   }
 
   // Marks the ends whose flat faces pass through a wall, as behind a tight bend; true if there are
-  // any.
-  bool keepCrossingEndsRound(const CaseSurface& cut, std::vector<EndPlane>& planes) const {
-    std::vector<bool> crosses(cut.groups.size(), false);
-    for (const auto& pair : selfIntersections(cut.mesh, kMostCrossings, &m_progress).pairs)
-      for (const std::uint32_t t : pair) crosses[cut.group[t]] = true;
+  // any. `surface` is not cut yet: it is cut again here, for a copy would be in memory all the time.
+  bool keepCrossingEndsRound(CaseSurface surface, std::vector<EndPlane>& planes) {
+    cut(surface, planes);
+    std::vector<bool> crosses(surface.groups.size(), false);
+    for (const auto& pair : selfIntersections(surface.mesh, kMostCrossings, &m_progress).pairs)
+      for (const std::uint32_t t : pair) crosses[surface.group[t]] = true;
     bool isAny = false;
-    for (const SurfaceEnd& end : cut.ends)
+    for (const SurfaceEnd& end : surface.ends)
       for (EndPlane& plane : planes) {
         if (!crosses[end.group] || plane.branch != end.branch || plane.node != end.node) continue;
         isAny = isAny || !plane.staysRound;

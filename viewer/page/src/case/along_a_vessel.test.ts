@@ -31,10 +31,19 @@ describe("findPlaces", () => {
 });
 
 describe("straighten", () => {
+  it("beginsWhereTheVesselLeavesItsParentsLumen", () => {
+    const tree = sampleTree(),
+      first = tree.branches[1].first_node;
+    tree.rootDistance.set([5, 5.5, 6.5, 7.5, 8.5], first); // half of the second edge lies in the parent
+    expect(tree.alongOf(tree.branches[1])).toEqual([0, 0.5, 1.5, 2.5, 3.5]);
+    expect(straighten(tree, 1, 8).path.map(p => p[0])).toEqual([1, 2, 2.5, 3, 3.5, 4, 4.5, 5]);
+    tree.rootDistance.set([5.5, 6.5, 7.5, 8.5, 9.5], first); // it begins half a millimetre beyond the parent's wall
+    expect(straighten(tree, 1, 10).path.map(p => p[0])).toEqual([0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5]);
+  });
   it("stepsEvenlyWithASideThatStaysAcross", () => {
     const tree = sampleTree(),
       straight = straighten(tree, 0, 21);
-    expect(straight.at.at(-1)).toBe(10);
+    expect(straight.path.at(-1)![2]).toBe(10);
     expect(straight.path[5][2]).toBeCloseTo(2.5, 9);
     for (const side of straight.side) {
       expect(side[2]).toBeCloseTo(0, 9);

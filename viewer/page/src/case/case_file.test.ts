@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { isCaseFile, packOfCase } from "./case_file";
 import { Pack } from "./pack";
@@ -72,6 +73,13 @@ test("a file's tree has the labels, lengths and numbers of lumen info", () => {
   expect([...tree.rootDistance]).toEqual([0, 1, 1.75, 2.75]);
   expect(tree.hasModels).toBe(false);
   expect(tree.voxelSize).toBe(0.5);
+});
+
+test("a file's lengths are those that lumen info states, to a hundred-thousandth of a millimetre", () => {
+  const file = readFileSync(new URL("../../../../tests/data/cases-0.1.0/fork.lumen", import.meta.url)),
+    tree = new Tree(new Pack(packOfCase(new Uint8Array(file))));
+  expect(tree.branches[0].length_mm).toBeCloseTo(9.408174830349738, 5);
+  expect(tree.branches[1].length_mm).toBeCloseTo(5.37740339837881, 5);
 });
 
 test("a file's branches have the system that most of their nodes have", () => {

@@ -4,6 +4,7 @@
 import { makePack } from "./pack";
 import { kSystems } from "../base/colour";
 import type { BranchRecord } from "../base/types";
+import { edgeLengths, type Nodes } from "./vessel_length";
 
 const kSignature = [0x8c, 0x4c, 0x55, 0x4d, 0x45, 0x4e, 0x0d, 0x0a, 0x1a, 0x0a],
   kHeader = 64, // bytes of the header, and of a chunk's row in the table
@@ -104,31 +105,19 @@ function addSystems(
   }
 }
 
-interface Nodes {
-  centre: Float32Array<ArrayBuffer>;
-  radius: Float32Array<ArrayBuffer>;
-  parent: Int32Array<ArrayBuffer>;
-  branch: Uint32Array<ArrayBuffer>;
-}
-
-/** mm along the tree from each node's root. Adds up the lengths of branches: of the line through the nodes, which noise makes some
- * percent longer than the smoothed axis that the server measures. Throws where a node's parent or branch does not exist. */
-function measure(
-  { centre, radius, parent, branch }: Nodes,
-  branches: BranchRecord[],
-): Float32Array<ArrayBuffer> {
-  const distance = new Float32Array(radius.length);
-  for (let i = 0; i < radius.length; ++i) {
+/** mm along the tree from each node's root. Adds up the lengths of branches. Throws where a node's parent or branch does not exist. */
+function measure(nodes: Nodes, branches: BranchRecord[]): Float32Array<ArrayBuffer> {
+  const { parent, branch } = nodes,
+    distance = new Float64Array(parent.length);
+  for (let i = 0; i < parent.length; ++i)
     if (parent[i] >= i || branch[i] >= branches.length)
       throw new Error(`Node ${i} of the case names a parent or a branch that does not exist.`);
-    if (parent[i] < 0) continue;
-    const apart = Math.hypot(...[0, 1, 2].map(a => centre[3 * i + a] - centre[3 * parent[i] + a])),
-      isFirst = branches[branch[i]].first_node === i, // its edge counts from the parent's ball on
-      edge = isFirst ? Math.max(0, apart - radius[parent[i]]) : apart;
-    distance[i] = distance[parent[i]] + edge;
-    branches[branch[i]].length_mm += edge;
+  const edge = edgeLengths(nodes, branches);
+  for (let i = 0; i < parent.length; ++i) {
+    branches[branch[i]].length_mm += edge[i];
+    if (parent[i] >= 0) distance[i] = distance[parent[i]] + edge[i];
   }
-  return distance;
+  return new Float32Array(distance);
 }
 
 /** The pack "case" (../../README.md) of a file's bytes, without wall points. Throws with a sentence for people. */

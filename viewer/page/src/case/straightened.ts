@@ -9,27 +9,30 @@ import type { Volume } from "./volume";
 export interface Straight {
   path: Vec3[];
   side: Vec3[];
-  at: number[];
-  nodes: number[];
 }
 
-/** Points of a branch at equal steps, each with a vector across it that does not turn about the vessel (double
+/** Points of a branch at equal steps of its length, from where it leaves its parent's lumen, each with a vector across it that does not turn about the vessel (double
  * reflection; W. Wang et al., 2008). */
 export function straighten(tree: Tree, branch: number, count: number): Straight {
-  const nodes = tree.nodesOf(tree.branches[branch]),
+  const record = tree.branches[branch],
+    own = tree.alongOf(record),
+    nodes = own.map((_, i) => record.first_node + i),
     points = nodes.map(n => tree.position(n)),
-    s = [0];
-  for (let i = 1; i < points.length; ++i) s.push(s[i - 1] + distance(points[i - 1], points[i]));
+    s = [...own];
+  if (s[0] > 0) {
+    const parent = tree.position(record.parent_node);
+    points.unshift(mix(points[0], parent, Math.min(1, s[0] / (distance(points[0], parent) || 1)))); // at the parent's wall
+    nodes.unshift(nodes[0]);
+    s.unshift(0);
+  }
   const whole = s.at(-1)!,
     path: Vec3[] = [],
-    at: number[] = [],
     owner: number[] = [];
   for (let k = 0, i = 0; k < count; ++k) {
     const t = (whole * k) / Math.max(count - 1, 1);
-    while (i + 2 < s.length && s[i + 1] < t) ++i;
+    while (i + 2 < s.length && s[i + 1] <= t) ++i;
     const share = points.length < 2 ? 0 : Math.min(1, Math.max(0, (t - s[i]) / (s[i + 1] - s[i] || 1)));
     path.push(points.length < 2 ? points[0] : mix(points[i], points[i + 1], share));
-    at.push(t);
     owner.push(nodes[share < 0.5 ? i : Math.min(i + 1, nodes.length - 1)]);
   }
   const tangent = (k: number): Vec3 => {
@@ -48,7 +51,7 @@ export function straighten(tree: Tree, branch: number, count: number): Straight 
       d = dot(w, w);
     side.push(unit(d > 1e-12 ? along(u, w, (-2 * dot(w, u)) / d) : u));
   }
-  return { path, side, at, nodes: owner };
+  return { path, side };
 }
 
 /** Grey values of the straightened vessel: a column for each point, rows from +half to -half mm across. */

@@ -98,6 +98,12 @@ export class Tree {
     return record.parent_node < 0 ? own : [record.parent_node, ...own];
   }
 
+  /** mm of each node of a branch from where the branch leaves its parent's lumen, along its smoothed axis. */
+  alongOf({ parent_node: parent, first_node: first, node_count: count }: BranchRecord): number[] {
+    const begin = parent < 0 ? 0 : this.rootDistance[parent];
+    return Array.from({ length: count }, (_, i) => this.rootDistance[first + i] - begin);
+  }
+
   /** Number of nodes of a branch whose wall was changed by hand. */
   countEdited({ first_node: firstNode, node_count: nodeCount }: BranchRecord): number {
     return this.edited?.subarray(firstNode, firstNode + nodeCount).reduce((sum, each) => sum + each, 0) ?? 0;

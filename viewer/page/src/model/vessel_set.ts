@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Several vessels that are chosen together, by their labels: the set that a list shows. */
+/** Several vessels that are chosen together, by their labels: the set that a list shows and that is deleted at once. */
 import type { Tree } from "../case/tree";
 import type { Part } from "./model";
 
@@ -36,6 +36,20 @@ export function labelsOfTree(tree: Tree, branch: number): string[] {
 
 export const chooseVessels = (app: Part<"selection">, labels: Iterable<string>): void =>
   app.store.set({ selection: { chosen: new Set(labels) } });
+
+/** Deletes the set, or keeps it and deletes all others; what hangs on them stays. True if there was a set of several. */
+export function deleteSet(app: Part<"document" | "selection", "perform">, others = false): boolean {
+  const {
+    document: { tree },
+    selection: { chosen },
+  } = app.store.get();
+  if (chosen.size < 2 || tree === null) return false;
+  const labels = tree.branches.map(b => b.label).filter(label => chosen.has(label) !== others);
+  void app.perform({ op: "delete", labels }).then(isDone => {
+    if (isDone) chooseVessels(app, []);
+  });
+  return true;
+}
 
 /** Hides the set, which "show all" shows again. True if there was a set of several. */
 export function hideSet(app: Part<"selection">): boolean {

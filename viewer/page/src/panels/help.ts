@@ -94,7 +94,7 @@ const kGroups: Group[] = [
       ["Y", "Do what the list proposes there: track, cut, join or delete; accept a proposed vessel"],
       ["I", "Ignore the place, with a reason; reject a proposed vessel"],
       ["Enter", "Finish a vessel of several clicks; Space clicks until then"],
-      ["Delete", "Delete the selected vessel"],
+      ["Delete", "Delete the selected vessel, or those that are chosen"],
       ["R", "Radius of the vessel at the cursor"],
       ["Shift+X", "Cut it at the cursor"],
       ["Shift+T", "Track it on from the crosshair, or beyond its end"],

@@ -8,7 +8,6 @@ import { findPlaces, reference, type Place } from "../case/narrowing";
 import { followVessel, goToNode, stepAlong } from "../model/selection";
 import { clearedContext, niceLength } from "../overlay/over";
 import { reformat, straighten, type Straight } from "../case/straightened";
-import { distance } from "../base/vec";
 import { brief, button, h, slider } from "../base/ui";
 
 interface Curve {
@@ -163,10 +162,8 @@ export class Strip {
     const tree = view.document.tree!,
       b = tree.branches[view.selection.selected],
       nodes = Array.from({ length: b.node_count }, (_, i) => b.first_node + i),
-      s = [0];
-    for (let i = 1; i < nodes.length; ++i)
-      s.push(s[i - 1] + distance(tree.position(nodes[i - 1]), tree.position(nodes[i])));
-    const r = nodes.map(n => tree.radius[n]),
+      s = tree.alongOf(b),
+      r = nodes.map(n => tree.radius[n]),
       places = b.kind === "vessel" ? findPlaces(s, r, view.document.tree?.voxelSize ?? 0) : [];
     this.curve = { branch: b.index, tree, nodes, s, r, places, reference: reference(s, r) };
     this.name.textContent = b.label;

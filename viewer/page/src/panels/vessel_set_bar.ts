@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Below the list of vessels: choosing several at once, and hiding them. */
+/** Below the list of vessels: choosing several at once, and what becomes of them. */
 import type { Part } from "../model/model";
-import { chooseVessels, hideSet, labelsBelow, labelsOfTree } from "../model/vessel_set";
+import { chooseVessels, deleteSet, hideSet, labelsBelow, labelsOfTree } from "../model/vessel_set";
 import { askText, button, h } from "../base/ui";
 
 const kUsualShare = "40"; // %
 
 /** `listed`: labels of the rows that the list shows. */
 export function vesselSetBar(
-  app: Part<"document" | "selection", "inform">,
+  app: Part<"document" | "selection", "source" | "perform" | "inform">,
   listed: () => string[],
 ): HTMLElement {
   const { store } = app,
@@ -38,15 +38,23 @@ export function vesselSetBar(
   });
   const act = (id: string, text: string, label: string, call: () => void): HTMLButtonElement =>
     button({ id, text, label, class: "button text" }, call);
+  const edits = app.source.live
+    ? [
+        act("set-delete", "Delete", "Delete the chosen vessels", () => deleteSet(app)),
+        act("set-keep", "Keep", "Keep the chosen vessels, and delete all others", () => deleteSet(app, true)),
+      ]
+    : [];
   const buttons = [
+    ...edits,
     act("set-hide", "Hide", "Hide the chosen vessels", () => hideSet(app)),
     button({ icon: "close", label: "Choose none", id: "set-none" }, () => chooseVessels(app, [])),
   ];
-  store.watch(["selection.chosen", "document.tree"], ({ document, selection }) => {
+  store.watch(["selection.chosen", "document.state", "document.tree"], ({ document, selection }) => {
     const { size } = selection.chosen,
       all = document.tree?.branches.length ?? 0;
     count.textContent = size < 2 ? "" : `${size} of ${all}`;
     for (const each of buttons) each.hidden = size < 2;
+    for (const each of edits) each.disabled = document.state.job !== null || size === all;
   });
   return h("div", { class: "row setbar" }, choose, count, ...buttons);
 }

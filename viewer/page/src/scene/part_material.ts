@@ -25,10 +25,6 @@ in float value;
 void main() {
   vec4 p = vec4(position, 1.0);
   vec3 n = normal.xyz;
-  #ifdef USE_INSTANCING
-  p = instanceMatrix * p;
-  n = mat3(instanceMatrix) * n;
-  #endif
   here = p.xyz;
   #ifdef HAS_VALUE
   shown = value;

@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Parts of the 3D view besides the surface: centerlines, nodes as cylinders, wall points, balls. */
+/** Parts of the 3D view besides the surface: centerlines, wall points, balls. */
 import {
   BufferAttribute,
   BufferGeometry,
   Color,
-  CylinderGeometry,
   GLSL3,
-  InstancedMesh,
   LineSegments,
-  Matrix4,
   Mesh,
   Points,
-  Quaternion,
   ShaderMaterial,
   SphereGeometry,
-  Vector3,
 } from "three";
 import { colourOf, isShown, shownTree, type View } from "../model/model";
 import { kNoClip, PartMaterial } from "./part_material";
-import type { Tree } from "../case/tree";
 import type { Vec3 } from "../base/types";
-import { distance } from "../base/vec";
 
 /** The centerlines of branches that are shown, each in its colour. */
 export function centerlines(view: Pick<View, "document" | "selection" | "motion" | "scene">): LineSegments {
@@ -53,48 +46,6 @@ export function centerlines(view: Pick<View, "document" | "selection" | "motion"
   lines.frustumCulled = false;
   return lines;
 }
-
-/** One cylinder for each node of one branch, as long as the node is high. */
-function cylindersOf(tree: Tree, branch: number, sides: number): InstancedMesh {
-  const mesh = new InstancedMesh(
-    new CylinderGeometry(1, 1, 1, sides, 1, true),
-    new PartMaterial(false),
-    tree.branches[branch].node_count,
-  );
-  placeCylinders(mesh, tree, branch);
-  mesh.frustumCulled = false;
-  return mesh;
-}
-
-/** Puts the cylinders of a branch where its nodes are. */
-export function placeCylinders(mesh: InstancedMesh, tree: Tree, branch: number): void {
-  const record = tree.branches[branch];
-  const up = new Vector3(0, 1, 0),
-    matrix = new Matrix4(),
-    turn = new Quaternion();
-  for (let i = 0; i < record.node_count; ++i) {
-    const node = record.first_node + i,
-      r = tree.radius[node];
-    // without a length of its own a node reaches half-way to its neighbours
-    const length = Math.max(tree.height[node], 0.2 * r, spacing(tree, node));
-    matrix.compose(
-      new Vector3(...tree.position(node)),
-      turn.setFromUnitVectors(up, new Vector3(...tree.axis(node)).normalize()),
-      new Vector3(r, length, r),
-    );
-    mesh.setMatrixAt(i, matrix);
-  }
-  mesh.instanceMatrix.needsUpdate = true;
-}
-
-function spacing(tree: Tree, node: number): number {
-  const p = tree.parent[node];
-  if (p < 0 || tree.branch[p] !== tree.branch[node]) return 0;
-  return distance(tree.position(node), tree.position(p));
-}
-
-export const cylinders = (tree: Tree, sides: number): InstancedMesh[] =>
-  tree.branches.map(b => cylindersOf(tree, b.index, sides));
 
 /** Wall points, drawn as squares of a few pixels. */
 export function wallPoints(view: Pick<View, "document" | "selection" | "motion">): Points | null {

@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
 import { clearedContext } from "../overlay/over";
-import {
-  DoubleSide,
-  FrontSide,
-  Group,
-  InstancedMesh,
-  Mesh,
-  Scene,
-  Vector4,
-  type Object3D,
-  type WebGLRenderer,
-} from "three";
+import { DoubleSide, FrontSide, Group, Mesh, Scene, Vector4, type Object3D, type WebGLRenderer } from "three";
 import { OrbitCamera } from "../drawing/camera";
 import { Caster } from "./cast";
 import { Choice, voxelOf } from "./choice";
@@ -19,7 +9,8 @@ import { colouring } from "../model/colouring";
 import { colourOf, isShown, opacityOf, shownTree, type Part, type View } from "../model/model";
 import { kFade, PartMaterial } from "./part_material";
 import { drawSceneOverlay } from "./scene_overlay";
-import { ball, centerlines, cylinders, placeCylinders, wallPoints } from "./scene_parts";
+import { cylinders, placeCylinders, type Cylinders } from "./node_cylinders";
+import { ball, centerlines, wallPoints } from "./scene_parts";
 import { SlicePlanes } from "./slice_planes";
 import { ScenePicture, type Drawn } from "../drawing/scene_picture";
 import type { StageView } from "../drawing/stage";
@@ -51,7 +42,7 @@ export class SceneView implements StageView {
   private readonly picture = new ScenePicture();
   private readonly planes = new SlicePlanes();
   private walls: Mesh<Surface["parts"][number]["geometry"], PartMaterial>[] = [];
-  private tubes: InstancedMesh[] = [];
+  private tubes: Cylinders[] = [];
   private tubesOf: Tree | null = null; // the tree whose nodes they lie at
   private readonly lines = new Group();
   private readonly points = new Group();
@@ -157,13 +148,12 @@ export class SceneView implements StageView {
   private setTubes(view: Pick<View, "document">): void {
     for (const tube of this.tubes) {
       this.scene.remove(tube);
-      tube.dispose();
       tube.geometry.dispose();
+      tube.material.dispose();
     }
     this.tubesOf = view.document.tree;
     this.tubes =
       view.document.tree === null ? [] : cylinders(view.document.tree, this.app.stage.software ? 6 : 20);
-    this.tubes.forEach((tube, branch) => (tube.userData.branch = branch));
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }
@@ -208,7 +198,7 @@ export class SceneView implements StageView {
       asTubes = view.document.surface === null || view.scene.layers.nodes;
     const shown = shownTree(view);
     if (asTubes && shown !== this.tubesOf && shown?.branches.length === this.tubes.length) {
-      this.tubes.forEach((tube, branch) => placeCylinders(tube, shown, branch));
+      placeCylinders(this.tubes, shown);
       this.tubesOf = shown;
     }
     if (view.document.tree !== null && this.tubes.length === view.document.tree.branches.length)
@@ -219,7 +209,7 @@ export class SceneView implements StageView {
           isShown(view, branch) &&
           alpha > 0 &&
           (view.scene.layers.nodes || view.scene.layers.surface);
-        (tube.material as PartMaterial).look({
+        tube.material.look({
           own: colourOf(view, branch),
           alpha,
           clip,
