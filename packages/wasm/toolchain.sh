@@ -54,7 +54,7 @@ make_tools() {
     cat >"$out/bin/$name" <<SCRIPT
 #!/bin/sh
 exec "$out/zig/ziglang/zig" clang $mode --target=wasm32-wasip1 -msimd128 -mbulk-memory -msign-ext -mnontrapping-fptoint \\
-  -fwasm-exceptions -D_WASI_EMULATED_SIGNAL -D_WASI_EMULATED_PROCESS_CLOCKS -nostdinc $headers -isystem $lib/include \\
+  -fwasm-exceptions -fno-math-errno -D_WASI_EMULATED_SIGNAL -D_WASI_EMULATED_PROCESS_CLOCKS -nostdinc $headers -isystem $lib/include \\
   -isystem $lib/libc/include/wasm-wasi-musl -isystem $lib/libc/include/generic-musl -isystem $out/include \\
   "\$@"
 SCRIPT
@@ -76,7 +76,7 @@ make_libc() {
   done
 }
 
-# compile NAME FLAGS... -- SOURCES...: lib/libNAME.a
+# compile NAME FLAGS... -- SOURCES...: lib/libNAME.a; large libraries whose speed matters little for size.
 compile() {
   local name=$1 flags=() source
   [ ! -f "$out/lib/lib$name.a" ] || return 0
@@ -97,10 +97,10 @@ compile() {
 make_runtime() {
   local lib=$out/zig/ziglang/lib
   # shellcheck disable=SC2046
-  compile c++ -D_LIBCPP_BUILDING_LIBRARY -DLIBCXX_BUILDING_LIBCXXABI -include "$here/missing_calls.h" -I"$lib/libcxx/src" -I"$lib/libcxx/libc" -- \
+  compile c++ -Os -D_LIBCPP_BUILDING_LIBRARY -DLIBCXX_BUILDING_LIBCXXABI -include "$here/missing_calls.h" -I"$lib/libcxx/src" -I"$lib/libcxx/libc" -- \
     $(ls "$lib"/libcxx/src/*.cpp "$lib"/libcxx/src/{filesystem,ryu}/*.cpp | grep -vE '/(strstream|print)\.cpp$')
   # shellcheck disable=SC2046
-  compile c++abi -D_LIBCXXABI_BUILDING_LIBRARY -D_LIBCPP_BUILDING_LIBRARY \
+  compile c++abi -Os -D_LIBCXXABI_BUILDING_LIBRARY -D_LIBCPP_BUILDING_LIBRARY \
     -D_LIBCPP_ENABLE_CXX17_REMOVED_UNEXPECTED_FUNCTIONS -I"$lib/libunwind/include" -DLIBCXXABI_SILENT_TERMINATE -I"$lib/libcxx/src" -- \
     $(ls "$lib"/libcxxabi/src/*.cpp | grep -vE 'noexception|thread_atexit')
   compile unwind -D_LIBUNWIND_HIDE_SYMBOLS -I"$lib/libunwind/include" -- "$lib/libunwind/src/Unwind-wasm.c"
@@ -133,27 +133,27 @@ make_libraries() {
   cp "$from"/{zlib,zconf}.h "$out/include/"
   from=$(echo "$out"/source/expat-*/expat/lib)
   : >"$out/include/expat_config.h"
-  compile expat -DXML_STATIC -DXML_NS=1 -DXML_DTD=1 -DXML_CONTEXT_BYTES=1024 -DBYTEORDER=1234 -DHAVE_ARC4RANDOM_BUF -- \
+  compile expat -Os -DXML_STATIC -DXML_NS=1 -DXML_DTD=1 -DXML_CONTEXT_BYTES=1024 -DBYTEORDER=1234 -DHAVE_ARC4RANDOM_BUF -- \
     "$from"/{xmlparse,xmlrole,xmltok}.c
   cp "$from"/{expat,expat_external}.h "$out/include/"
   from=$(echo "$out"/source/libzstd-*/lib)
-  compile zstd -DZSTD_DISABLE_ASM -- "$from"/{common,compress,decompress}/*.c
+  compile zstd -Os -DZSTD_DISABLE_ASM -- "$from"/{common,compress,decompress}/*.c
   cp "$from"/{zstd,zstd_errors}.h "$out/include/"
   from=$(echo "$out"/source/libpng1.6-*)
   cp "$from/scripts/pnglibconf.h.prebuilt" "$out/include/pnglibconf.h"
-  compile png -- "$from"/png{,error,get,mem,pread,read,rio,rtran,rutil,set,trans,wio,write,wtran,wutil}.c
+  compile png -Os -- "$from"/png{,error,get,mem,pread,read,rio,rtran,rutil,set,trans,wio,write,wtran,wutil}.c
   cp "$from"/{png,pngconf}.h "$out/include/"
   from=$(echo "$out"/source/meshoptimizer-*/src)
   compile meshoptimizer -- "$from"/*.cpp
   cp "$from"/meshoptimizer.h "$out/include/"
   from=$(echo "$out"/source/openmesh-*/src)
   # shellcheck disable=SC2046
-  compile OpenMeshCore -D_USE_MATH_DEFINES -I"$from" -- $(find "$from/OpenMesh/Core" -name '*.cc')
+  compile OpenMeshCore -Os -D_USE_MATH_DEFINES -I"$from" -- $(find "$from/OpenMesh/Core" -name '*.cc')
   from=$(echo "$out"/source/draco-*/src)
   mkdir -p "$out/include/draco"
   cp /usr/include/draco/draco_features.h "$out/include/draco/"
   # shellcheck disable=SC2046
-  compile draco -I"$from" -- $(find "$from"/draco/{attributes,compression,core,mesh,metadata,point_cloud} -name '*.cc' |
+  compile draco -Os -I"$from" -- $(find "$from"/draco/{attributes,compression,core,mesh,metadata,point_cloud} -name '*.cc' |
     grep -vE '_test|test_|mesh_utils|mesh_splitter')
 }
 

@@ -3,10 +3,11 @@
 // the environment.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants } from "node:zlib";
 
 const lumen = process.env.LUMEN,
@@ -68,6 +69,24 @@ test("cases of phantoms have the tree of the program, to the last digit", async 
     assert.ok(off <= kNear, `${name}: ${off} mm`);
   }
   console.log(`${equal} of ${kPhantoms.length} cases have equal bytes`);
+});
+
+test("files of the conformance set are opened or refused, and none stops the module", async () => {
+  const engine = await loadEngine(),
+    set = join(process.env.LUMEN_BUILD, "spec/conformance");
+  for (const kind of ["valid", "hostile"]) {
+    const files = readdirSync(join(set, kind)).filter(name => /[.]lumen([.]json)?$/.test(name));
+    assert.ok(files.length > 20, `${files.length} files in ${kind}`);
+    for (const name of files) {
+      try {
+        const made = await engine.openCase(readFileSync(join(set, kind, name)), name);
+        const again = await engine.openCase(made.encode("lumen"));
+        assert.deepEqual(again.branches, made.branches, name);
+      } catch (error) {
+        assert.ok(kind === "hostile" && error instanceof LumenError && error.kind === "input", `${name}: ${error}`);
+      }
+    }
+  }
 });
 
 test("the command writes what the program writes", () => {
@@ -146,4 +165,18 @@ test("voxels in memory give the case of their file", async () => {
   const made = await caseOf({ data, size: [n, n, n], affine });
   assert.equal(made.branches.length, 1);
   await assert.rejects(caseOf({ data, size: [n, n, 3], affine }), { kind: "usage" });
+});
+
+const tsc = fileURLToPath(new URL("../../../viewer/page/node_modules/.bin/tsc", import.meta.url));
+test("TypeScript knows the types, and refuses a wrong one", { skip: existsSync(tsc) ? false : "npm ci in viewer/page is missing" }, () => {
+  const check = text => {
+    writeFileSync(at("use.ts"), `import { caseOf, loadEngine } from "lumen-vascular";\n${text}`);
+    const compilerOptions = { noEmit: true, strict: true, target: "es2022", module: "nodenext", lib: ["es2022", "dom"], types: [] };
+    writeFileSync(at("tsconfig.json"), JSON.stringify({ compilerOptions, files: ["use.ts"] }));
+    return () => execFileSync(tsc, ["-p", "."], { cwd: folder, encoding: "utf8", stdio: "pipe" });
+  };
+  const right = 'const c = await caseOf(new Uint8Array(), { name: "a.nrrd", options: { accuracy: 0.2 } });\nexport const n: number = c.surface().radii.length;';
+  assert.doesNotThrow(check(right));
+  assert.throws(check("export const n: number = (await loadEngine()).version();"));
+  assert.throws(check('await caseOf("head.nii.gz");'));
 });
