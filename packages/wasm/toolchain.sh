@@ -8,7 +8,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
-made=$(cat "$here"/zig.txt "$here"/config_site.h "$0" | sha256sum)
+made=$(cat "$here"/{zig.txt,config_site.h,missing_calls.h} "$0" | sha256sum)
 if [ "$(cat "$out/made-of.txt" 2>/dev/null)" != "$made" ]; then
   rm -rf "${out:?}"/{apt,bin,cache,include,lib,objects,source,zig,complete}
   echo "$made" >"$out/made-of.txt"
@@ -56,6 +56,7 @@ make_tools() {
 exec "$out/zig/ziglang/zig" clang $mode --target=wasm32-wasip1 -msimd128 -mbulk-memory -msign-ext -mnontrapping-fptoint \\
   -fwasm-exceptions -fno-math-errno -D_WASI_EMULATED_SIGNAL -D_WASI_EMULATED_PROCESS_CLOCKS -nostdinc $headers -isystem $lib/include \\
   -isystem $lib/libc/include/wasm-wasi-musl -isystem $lib/libc/include/generic-musl -isystem $out/include \\
+  -Wno-unused-command-line-argument \\
   "\$@"
 SCRIPT
   done
