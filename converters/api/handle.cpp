@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -30,12 +31,14 @@ public:
   explicit HeardProgress(const lumen_engine_listener& listener) : m_listener(listener) {}
 
   void begin(std::string_view stage, std::size_t total) override {
+    if (m_asksItself) ask();
     const std::lock_guard lock(m_mutex);
     m_total = total;
     m_done = 0;
     if (m_listener.stage) m_listener.stage(m_listener.user, std::string(stage).c_str());
   }
   void advance(std::size_t units) override {
+    if (m_asksItself) ask();
     if (!m_listener.progress) return;
     const std::lock_guard lock(m_mutex);
     m_done += units;
@@ -47,16 +50,19 @@ public:
     const std::lock_guard lock(m_mutex);
     if (m_listener.warning) m_listener.warning(m_listener.user, inWordsOfC(message).c_str());
   }
-  /// True if the listener asks for the end.
-  bool isAskedToEnd() {
+  /// Cancels the work if the listener asks for the end.
+  void ask() {
     const std::lock_guard lock(m_mutex);
-    return m_listener.is_cancelled && m_listener.is_cancelled(m_listener.user) != 0;
+    if (m_listener.is_cancelled && m_listener.is_cancelled(m_listener.user) != 0) cancel();
   }
+  /// Lets the work ask as it advances, because no thread does.
+  void askWhileWorking() { m_asksItself = true; }
 
 private:
   const lumen_engine_listener& m_listener;
   std::mutex m_mutex;  ///< guards the calls of the listener and the next two
   std::size_t m_total = 0, m_done = 0;
+  bool m_asksItself = false;
 };
 
 /// Asks the listener again and again, until this object goes.
@@ -79,7 +85,7 @@ private:
     constexpr auto kBetween = std::chrono::milliseconds(50);
     std::unique_lock lock(m_mutex);
     do {
-      if (m_progress.isAskedToEnd()) m_progress.cancel();
+      m_progress.ask();
     } while (!m_end.wait_for(lock, kBetween, [this] { return m_isOver; }));
   }
 
@@ -141,7 +147,11 @@ void listenTo(const lumen_engine_listener* listener, const std::function<void(Pr
   const lumen_engine_listener heard = listener ? *listener : lumen_engine_listener{};
   HeardProgress progress(heard);
   std::optional<Watcher> watcher;
-  if (heard.is_cancelled) watcher.emplace(progress);
+  try {
+    if (heard.is_cancelled) watcher.emplace(progress);
+  } catch (const std::system_error&) {  // the host has no threads
+    progress.askWhileWorking();
+  }
   const int most = heard.threads > 0 ? heard.threads : tbb::this_task_arena::max_concurrency();
   tbb::task_arena(most).execute([&] { work(progress); });
 }

@@ -36,7 +36,17 @@ Two twoSum(double a, double b) {
 
 Two twoProduct(double a, double b) {
   const double product = a * b;
+#if defined(__wasm__)
+  // WebAssembly has no such instruction: T. Dekker, "A floating-point technique", 1971
+  const auto high = [](double x) {
+    constexpr double kSplit = 0x1p27 + 1;
+    return kSplit * x - (kSplit * x - x);
+  };
+  const double aHigh = high(a), aLow = a - aHigh, bHigh = high(b), bLow = b - bHigh;
+  return {product, aLow * bLow - (product - aHigh * bHigh - aLow * bHigh - aHigh * bLow)};
+#else
   return {product, std::fma(a, b, -product)};
+#endif
 }
 
 // Adds one double; the parts stay sorted and without zeros.

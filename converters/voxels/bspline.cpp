@@ -145,8 +145,13 @@ void locate(const LineSetup& line, int first, Block& block) {
   }
 }
 
-// Eight samples side by side. The width is the same in every clone, and so is the order of the sums.
+// Samples side by side, whose sums do not depend on how many these are: WebAssembly has four lanes, and half of eight would
+// most often be beyond a run.
+#if defined(__wasm__)
+constexpr std::size_t kLanes = 4;
+#else
 constexpr std::size_t kLanes = 8;
+#endif
 typedef float Lanes __attribute__((vector_size(4 * kLanes)));
 typedef float LooseLanes __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
 static_assert(kBeyond >= kLanes);

@@ -52,7 +52,7 @@ std::string jsonPointerToken(std::string_view key) {
   return token;
 }
 
-#if defined(__wasm__)
+#if defined(LUMEN_ROUNDS_NUMBERS)
 
 namespace {
 

@@ -32,7 +32,7 @@ inline std::string at(const std::string& array, std::size_t index) {
   return array + "/" + std::to_string(index);
 }
 
-#if defined(__wasm__)
+#if defined(LUMEN_ROUNDS_NUMBERS)
 /// Appends `value` with at most nine digits; "nan" and "inf" included. The tables of the shortest
 /// text would be a third of the download of a page, which shows such numbers in messages alone.
 void appendRounded(std::string& text, double value);
@@ -41,7 +41,7 @@ void appendRounded(std::string& text, double value);
 /// Appends the shortest text that reads back as `value`; "nan" and "inf" included.
 template <class Number>
 void appendNumber(std::string& text, Number value) {
-#if defined(__wasm__)
+#if defined(LUMEN_ROUNDS_NUMBERS)
   if constexpr (std::is_floating_point_v<Number>) return appendRounded(text, double{value});
 #endif
   char buffer[32];

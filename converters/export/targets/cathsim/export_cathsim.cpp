@@ -42,7 +42,7 @@ ExportedSurface surfaceInTwo(const ExportInput& input, const SurfaceError& maxEr
                              std::uint64_t most) {
   CommonOptions options = input.options;
   options.surface.maxError = maxError;
-  options.surface.maxTriangles = static_cast<long>(most);
+  options.surface.maxTriangles = static_cast<std::int64_t>(most);
   options.surface.withWhole = !input.options.surface.maxError;
   if (!options.surface.withWhole) {
     ExportedSurface fine = lumenSurface(input);

@@ -274,8 +274,8 @@ private:
       whole = levels[0].surface;
       levels[0].error = simplify(levels[0].surface, {allowed().at(leastRadius()), 0}, m_progress);
     }
-    const auto triangles =
-        static_cast<std::size_t>(m_options.maxTriangles.value_or(std::numeric_limits<long>::max()));
+    const auto triangles = static_cast<std::size_t>(
+        m_options.maxTriangles.value_or(std::numeric_limits<std::ptrdiff_t>::max()));
     if (levels[0].surface.mesh.triangle.size() > triangles) {
       if (!whole) whole = levels[0].surface;
       simplify(levels[0].surface, {0, triangles}, m_progress);

@@ -36,7 +36,7 @@ struct ClosedSurfaceOptions {
   std::optional<SurfaceError> maxError;
   /// Greatest number of triangles: as many are dropped as it takes, wherever the surface may then
   /// lie, unless its topology and its rims need more.
-  std::optional<long> maxTriangles;
+  std::optional<std::int64_t> maxTriangles;
   /// Where neither of these is stated, and no thickness: as few triangles as kUsualSurfaceError
   /// allows.
   bool fewTriangles = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of TBB that the project uses, on std::thread: for ThreadSanitizer, which cannot see how TBB's library, built
-// without it, hands work from thread to thread, and reports each as a race.
+// Functions of TBB that the project uses, on std::thread: for WebAssembly, where TBB's library is not, and for ThreadSanitizer,
+// which cannot see how that library, built without it, hands work from thread to thread, and reports each as a race.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,11 @@ namespace tbb {
 /// Throws what a body threw first, after all threads have ended.
 template <class Index, class Body>
 void parallel_for(Index first, Index last, const Body& body) {
+  const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
+  if (threads <= 1) {
+    for (Index i = first; i < last; ++i) body(i);
+    return;
+  }
   std::atomic<Index> next{first};
   std::atomic<bool> stop{false};
   std::exception_ptr thrown;
@@ -31,7 +36,6 @@ void parallel_for(Index first, Index last, const Body& body) {
       if (!stop.exchange(true)) thrown = std::current_exception();
     }
   };
-  const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
   std::vector<std::thread> others;
   for (std::size_t t = 1; t < std::min<std::size_t>(threads, 4); ++t) others.emplace_back(work);
   work();

@@ -4,6 +4,10 @@
 
 #include <cstddef>
 
+#ifndef LUMEN_TBB_THREADS
+#define LUMEN_TBB_THREADS 4
+#endif
+
 namespace tbb {
 
 class global_control {
@@ -18,7 +22,7 @@ public:
   static std::size_t active_value(parameter) { return s_threads; }
 
 private:
-  static inline std::size_t s_threads = 4;
+  static inline std::size_t s_threads = LUMEN_TBB_THREADS;
   std::size_t m_before;
 };
 
