@@ -82,7 +82,7 @@ FAULTS = [
     Fault("collapses that make triangles cross stay", "converters/stages/surface/simplify/collapsing_mesh.cpp",
           "undo(m_collapses[by[f]]);", "m_collapses[by[f]].isUndone = true;", "surface_test"),
     Fault("sheets of unlike reach are close for one of them", "converters/stages/surface/simplify/close_sheets.cpp",
-          "mark(other.vertex);", "", "surface_test"),
+          "note(other.vertex, distance / one.reach);", "", "surface_test"),
     Fault("vertices stay on the wall, so that vessels are thin", "converters/stages/surface/simplify/split_edges.cpp",
           "m_place[v] = roundedToFloats(m_place[v] + outward * along);", "", "surface_test"),
     Fault("a label with an equals sign is cut at the first", "converters/stages/surface/closing/length.cpp",
