@@ -74,7 +74,7 @@ LUMEN_SIMD_CLONES void nearestFour(const double* __restrict corner, const double
     const bool isC = atC & !isFirst, isB = atB & !atA, isEdgeBC = onBC & !(onAC | atC | isFirst);
     const bool fromB = isB | isEdgeBC, isCorner = isC | atB | atA;
     u = isCorner ? 0 : u;
-    v = isCorner | onAB ? 0 : v;
+    v = (isCorner | onAB) ? 0 : v;
     fromX = fromB ? bx : fromX;
     fromY = fromB ? by : fromY;
     fromZ = fromB ? bz : fromZ;
