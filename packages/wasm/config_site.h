@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What libc++ is built for, in the place of the header that its own build would write: WASI with files, exceptions and
+// The platform of libc++, in the place of the header that its own build would write: WASI with files, exceptions and
 // mutexes. No thread starts: std::thread throws std::system_error.
 #ifndef LUMEN_WASM_CONFIG_SITE
 #define LUMEN_WASM_CONFIG_SITE

@@ -21,7 +21,7 @@ class VesselNetwork {
 public:
   explicit VesselNetwork(const formats::CenterlineTree& tree);
 
-  /// What a way is measured by.
+  /// The measure of a way.
   enum class WayCost : std::uint8_t {
     Length,     ///< mm
     Resistance  ///< length over the fourth power of the radius, mm^-3, as of a steady flow
