@@ -8,7 +8,7 @@
 
 namespace tbb {
 
-/// Work on at most so many threads, or on fewer, where there are fewer.
+/// Work on a given number of threads at most; on fewer where the machine has fewer.
 class task_arena {
 public:
   explicit task_arena(int threads)
