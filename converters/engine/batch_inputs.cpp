@@ -184,7 +184,7 @@ FoundInputs volumesBelow(const fs::path& folder, const fs::path& out, Progress& 
   return found;
 }
 
-FoundInputs inputsOfList(const std::string& list) {
+FoundInputs inputsOfList(const std::string& list, const std::set<std::size_t>& lines) {
   convert::BuildList rows = loadBuildList(list);
   const fs::path folder = fs::path(list).parent_path();
   FoundInputs found;
@@ -201,8 +201,17 @@ FoundInputs inputsOfList(const std::string& list) {
     BatchInput& input = found.inputs.emplace_back();
     input.name = "line " + std::to_string(fault.line);
     input.row.id = fault.id.empty() ? uniqueId(input.name, taken) : fault.id;
+    input.row.line = fault.line;
     input.fault = fault.why;
   }
+  for (const std::size_t line : lines)
+    if (std::none_of(found.inputs.begin(), found.inputs.end(),
+                     [line](const BatchInput& input) { return input.row.line == line; }))
+      throw invalidInput(formats::printable(list) + ": no row begins on line " +
+                         std::to_string(line));
+  if (!lines.empty())
+    std::erase_if(found.inputs,
+                  [&](const BatchInput& input) { return !lines.contains(input.row.line); });
   return found;
 }
 

@@ -2,7 +2,9 @@
 // The inputs of `lumen batch`: the volumes below a folder, or the rows of a list.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,9 +30,10 @@ struct FoundInputs {
 FoundInputs volumesBelow(const std::filesystem::path& folder, const std::filesystem::path& out,
                          Progress& progress);
 
-/// The rows of a list (library/rows/build_list.h), whose faults are those of inputs. Throws
-/// Error(InvalidInput) for a file that is no list.
-FoundInputs inputsOfList(const std::string& list);
+/// The rows of a list (library/rows/build_list.h), whose faults are those of inputs; only those that
+/// begin on `lines`, if there are any. A row has the same id in every choice. Throws
+/// Error(InvalidInput) for a file that is no list, and for a line on which no row begins.
+FoundInputs inputsOfList(const std::string& list, const std::set<std::size_t>& lines);
 
 /// States the defaults where a row has no value of its own, the number of its voxels where its header
 /// can be read, and a fault where lumen convert has no such option or refuses its value. Throws

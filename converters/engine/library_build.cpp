@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -204,6 +205,29 @@ void judgeRows(convert::BuildList& rows, const std::string& list, const std::str
 }
 
 }  // namespace
+
+std::set<std::size_t> linesIn(const std::string& text) {
+  std::set<std::size_t> lines;
+  const char* const last = text.data() + text.size();
+  for (const char* at = text.data();; ++at) {
+    std::size_t line = 0;
+    const auto [end, error] = std::from_chars(at, last, line);
+    if (error != std::errc{} || line == 0) return {};
+    lines.insert(line);
+    if (end == last) return lines;
+    if (*end != ',') return {};
+    at = end;
+  }
+}
+
+OptionRow& addLinesRow(OptionTable& table, std::string& lines, const std::string& list) {
+  return table
+      .add("rows", &lines, "LINES",
+           "Only the rows that begin on these lines of " + list + ", with commas between them")
+      .checkedBy([](const std::string& text) {
+        return linesIn(text).empty() ? foundText(text, "numbers of lines such as 2,5,9") : "";
+      });
+}
 
 void addBuildRows(OptionTable& table, BuildArguments& arguments) {
   table.add("jobs", &arguments.jobs, "N", "Rows at once; --threads are shared between them")

@@ -25,6 +25,12 @@ struct BuildArguments {
 
 void addBuildRows(OptionTable& table, BuildArguments& arguments);
 
+/// "rows": numbers of lines, as linesIn() reads them.
+OptionRow& addLinesRow(OptionTable& table, std::string& lines, const std::string& list);
+
+/// "2,5,9" as numbers; none for another text.
+std::set<std::size_t> linesIn(const std::string& text);
+
 /// Throws Error(InvalidInput) as convert::readBuildList(), and for a file that cannot be read.
 convert::BuildList loadBuildList(const std::string& file, const std::set<std::size_t>& lines = {});
 

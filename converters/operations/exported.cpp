@@ -19,7 +19,7 @@ convert::ExportResult exported(const formats::Case& value, const std::string& na
   });
   const std::string folder = formats::printable(plan.folder);
   if (result.surface)
-    for (const Warning& warning : surfaceWarnings(*result.surface, context))
+    for (const Warning& warning : surfaceWarnings(*result.surface, value, context))
       warn(context.progress, about(folder, warning));
   for (const std::string& loss : result.losses)
     warn(context.progress, about(folder, {WarningCode::ExportLoss, loss}));

@@ -53,7 +53,7 @@ std::vector<std::string> surfaceRemarks(const formats::Case& value, const Contex
   try {
     std::vector<std::string> lines;
     for (const Warning& warning : surfaceWarnings(
-             convert::closedSurface(value, SurfaceOptions().closed, context.progress).report,
+             convert::closedSurface(value, SurfaceOptions().closed, context.progress).report, value,
              context))
       lines.push_back(warningText(warning));
     return lines;

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/options/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/base/warning.h"
@@ -18,6 +20,13 @@ namespace {
 
 using convert::BranchLosses;
 using convert::Patches;
+
+/// The step by which a case records warnings that a person accepted: reasons, by the codes.
+constexpr const char* kAcceptStep = "accept";
+
+std::string contactCode() {
+  return std::string(warningName(WarningCode::LumenContact));
+}
 
 /// "branch "a" has", "branches "a", "b" and 7 more have".
 std::string subject(const std::vector<std::string>& labels) {
@@ -99,7 +108,23 @@ Surface patchesOf(const formats::Case& value, const SurfaceOptions& options,
 
 }  // namespace
 
-std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report, const Context& context) {
+std::optional<std::string> acceptedContacts(const formats::Metadata& metadata) {
+  const auto& steps = metadata.steps;
+  if (steps.empty() || steps.back().name != kAcceptStep) return {};
+  const auto found = steps.back().parameters.find(contactCode());
+  if (found == steps.back().parameters.end()) return {};
+  return parameterText(found->second);
+}
+
+void acceptContacts(formats::Metadata& metadata, const std::string& reason) {
+  if (reason.find_first_not_of(' ') == std::string::npos)
+    throw Error(ErrorKind::Usage, "places are accepted for a reason: state one");
+  if (acceptedContacts(metadata)) metadata.steps.pop_back();
+  addStep(metadata, {kAcceptStep, "lumen " LUMEN_VERSION, {{contactCode(), reason}}});
+}
+
+std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report,
+                                     const formats::Case& value, const Context& context) {
   std::vector<Warning> out;
   for (const std::string& message : report.messages)
     out.push_back({WarningCode::SurfaceEnd, message});
@@ -115,7 +140,7 @@ std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report, const
              " through each other",
          "a greater " + context.field("gap") + " or a smaller " + context.field("edge") +
              " may help"});
-  if (!report.cuts.empty())
+  if (!report.cuts.empty() && !acceptedContacts(value.metadata))
     out.push_back(
         {WarningCode::LumenContact,
          "the lumen runs into itself" +
@@ -123,7 +148,8 @@ std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report, const
                                       : " at " + std::to_string(report.cuts.size()) + " places") +
              " without a link, and is cut there",
          "if two tracks are in one vessel there, delete one in lumen view; if two vessels "
-         "touch, the cut keeps them apart, as they are",
+         "touch, the cut keeps them apart, as they are, and lumen info --accept keeps that in the "
+         "case",
          report.cuts});
   return out;
 }
@@ -140,7 +166,7 @@ Surface surfaceOf(const formats::Case& value, const SurfaceOptions& options,
                   const std::string& name, const Context& context) {
   if (options.isInPatches) return patchesOf(value, options, name, context);
   convert::ClosedSurface made = convert::closedSurface(value, options.closed, context.progress);
-  for (const Warning& warning : surfaceWarnings(made.report, context))
+  for (const Warning& warning : surfaceWarnings(made.report, value, context))
     warn(context.progress, about(formats::printable(name), warning));
   return {std::move(made.levels), std::move(made.report)};
 }

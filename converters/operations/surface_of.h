@@ -36,8 +36,17 @@ Surface surfaceOf(const formats::Case& value, const SurfaceOptions& options,
                   const std::string& name, const Context& context);
 
 /// Parts that a user should look at: ends that are not flat, stretches of branches without a surface,
-/// vessels that had to be opened or cut, triangles that pass through each other.
-std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report, const Context& context);
+/// vessels that had to be opened or cut, triangles that pass through each other. Places where the
+/// lumen of `value` runs into itself are left out once they are accepted.
+std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report,
+                                     const formats::Case& value, const Context& context);
+
+/// The reason why places where the lumen of a case runs into itself may stay cut, if a person gave
+/// one and nothing was done with the case since.
+std::optional<std::string> acceptedContacts(const formats::Metadata& metadata);
+
+/// Records that reason. Throws Error(Usage) for one without a letter, and as addStep().
+void acceptContacts(formats::Metadata& metadata, const std::string& reason);
 
 /// Warns of branches that have no surface in the patches called `name`, and of those with holes:
 /// where cells of `cell` mm were too coarse for them, with cells that would do.

@@ -176,4 +176,27 @@ TEST_F(BatchTest, AnInterruptedRunKeepsWhatWasMade) {
   EXPECT_EQ(made.answer["passed"], 2);
 }
 
+TEST_F(BatchTest, RowsOfAListAreMadeByTasksAndCollectedByARunOfAll) {
+  write("list.csv", "input,id\nscans/Tube A.nrrd,a\nscans/deep/b.nrrd,b\n");
+  for (const char* const line : {"2", "3"}) {
+    const Batch task = batch({"list.csv", "out", "--rows", line});
+    EXPECT_EQ(task.code, 0);
+    EXPECT_EQ(task.rows.size(), 1U);
+    EXPECT_EQ(task.rows.count(line == std::string("2") ? "a" : "b"), 1U);
+    EXPECT_FALSE(exists("out/index.html")) << "of line " << line;
+  }
+  const Batch all = batch({"list.csv", "out"});
+  EXPECT_EQ(all.answer["kept"], 2);
+  EXPECT_EQ(read("out/passed.csv"), "input,id\na.lumen,a\nb.lumen,b\n");
+}
+
+TEST_F(BatchTest, LinesWithoutARowAndLinesOfAFolderAreRefused) {
+  write("list.csv", "input,id\nscans/Tube A.nrrd,a\n");
+  const Outcome missing = lumen({"batch", "list.csv", "out", "--rows", "2,7"});
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_TRUE(contains(missing.err, "no row begins on line 7")) << missing.err;
+  EXPECT_EQ(lumen({"batch", "scans", "out", "--rows", "2"}).code, 2);
+  EXPECT_FALSE(exists("out"));
+}
+
 }  // namespace lumen::test

@@ -274,6 +274,7 @@ def make_cases(lumen, folder):
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")
     round_end = str(CONFORMANCE / "valid/bend-tighter-than-wide.lumen.json")  # a warning of its surface
     for case in ("fitted.lumen", "two.lumen", round_end): go("info-case.schema.json", "info", case, "--surface")
+    go("info-case.schema.json", "info", "two.lumen", "--accept", "two vessels touch", "--out", "accepted.lumen")
     secret = json.loads((folder / "made.lumen.json").read_text())
     secret["tree"]["branches"][0]["label"] = "Doe^Jane 1999-12-31"
     (folder / "secret.lumen.json").write_text(json.dumps(secret))

@@ -166,6 +166,10 @@ trim ends.lumen out/t.lumen.json --min-radius 0.1
   --stub 3
 trim ends.lumen out/t.data --min-radius 0.1
   --to lumen
+info case.lumen --accept seen --out out/i.lumen.json
+  --accept looked --out out/j.lumen.json
+info case.lumen --accept seen --out out/i.data
+  --to lumen
 ends case.lumen --root 2 --out out/e.lumen.json
   --root 1 --out out/f.lumen.json
 ends case.lumen --root 2 --out out/e.data
@@ -227,7 +231,7 @@ const std::map<std::string, std::set<std::string>> kElsewhere = {
     {"needs another volume, or bounds work that ends before",
      {"seeds max-trials", "seeds aneurysm-gradient", "seeds even-blur"}},
     {"batch_test and names_test",
-     {"batch jobs", "batch profile", "batch accept", "batch option", "names names",
+     {"batch jobs", "batch profile", "batch accept", "batch option", "batch rows", "names names",
       "names anatomy"}},
     {"tests/library and tests/pipelines",
      {"motion out",

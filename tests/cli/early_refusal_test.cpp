@@ -34,6 +34,7 @@ check tube.nrrd case.lumen --overlay out/o.png --mask out/m.nrrd --profile flow
 compare case.lumen tree.lumen
 info halves.nii --voxels true --label-table table.csv
 info plain.stl
+info case.lumen --accept seen --out out/i.lumen
 picture case.lumen out/p.png --size 80x60 --volume tube.nrrd
 xray case.lumen out/x.png --size 40x30 --volume cta.nrrd --isocentre 0,0,0 --photons 100
 report tracked.lumen out/r.html --volume tube.nrrd

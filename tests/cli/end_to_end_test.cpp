@@ -68,6 +68,7 @@ TEST_F(FittedTubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
                                "surface",
                                "surface_warnings",
                                "surface_findings",
+                               "contacts_accepted",
                                "next"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);

@@ -49,7 +49,8 @@ SurfaceFindings examineSurface(const formats::Case& value, Progress& progress) {
   try {
     convert::SurfaceReport report =
         convert::closedSurface(value, operations::SurfaceOptions().closed, progress).report;
-    std::vector<Warning> warnings = operations::surfaceWarnings(report, operationContext(progress));
+    std::vector<Warning> warnings =
+        operations::surfaceWarnings(report, value, operationContext(progress));
     return {std::move(report), std::move(warnings)};
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Cancelled) throw;

@@ -138,7 +138,8 @@ public:
   [[nodiscard]] std::string example() const override {
     return "  lumen batch scans cases\n"
            "  lumen batch scans cases --profile flow --option dark=true\n"
-           "  lumen batch scans.csv cases --accept patient-07";
+           "  lumen batch scans.csv cases --accept patient-07\n"
+           "  lumen batch scans.csv cases --rows 2,5   # one task of many, on any machine";
   }
 
   void addRows(OptionTable& table) override {
@@ -167,6 +168,8 @@ public:
              "Option of lumen convert for every input whose row does not state it; may be repeated")
         .many()
         .checkedBy(pairText("NAME=VALUE, such as dark=true"));
+    addLinesRow(table, m_lines, "a list").help +=
+        ". The tables and the page are left to a run without this option";
   }
 
   Answer run(const RunContext& context) override {
@@ -178,9 +181,14 @@ public:
     if (fs::exists(m_out, ignored) && !fs::is_directory(m_out, ignored))
       throw Error(ErrorKind::Usage,
                   formats::printable(m_out) + ": found a file, expected a folder for the cases");
+    if (isFolder && !m_lines.empty())
+      refuseUnused(*context.table->find("rows"),
+                   "is for lists, and " + formats::printable(m_inputs) + " is a folder",
+                   context.progress);
+    if (!m_lines.empty()) m_arguments.phase = convert::BuildPhase::Make;
     if (m_arguments.profile == "none") m_arguments.profile.clear();
-    FoundInputs found =
-        isFolder ? volumesBelow(m_inputs, m_out, context.progress) : inputsOfList(m_inputs);
+    FoundInputs found = isFolder ? volumesBelow(m_inputs, m_out, context.progress)
+                                 : inputsOfList(m_inputs, linesIn(m_lines));
     chooseJobs(found.inputs.size(), context.threads);
     const convert::BuildOptions options = buildOptions(m_out, m_arguments, context);
     completeInputs(settings(), context.engine, found.inputs, context.progress);
@@ -213,7 +221,7 @@ private:
     return defaults;
   }
 
-  std::string m_inputs, m_out;
+  std::string m_inputs, m_out, m_lines;
   std::vector<std::string> m_settings;
   BuildArguments m_arguments = batchArguments();
 

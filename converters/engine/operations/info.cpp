@@ -29,6 +29,7 @@
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/content/file_content.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/operations/surface_of.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
 
@@ -43,7 +44,8 @@ public:
     return "Print the content of a case, a volume, a mesh or a centerline";
   }
   [[nodiscard]] std::string example() const override {
-    return "  lumen info head.lumen --json | jq .radius_mm";
+    return "  lumen info head.lumen --json | jq .radius_mm\n"
+           "  lumen info head.lumen --accept 'looked at: a vein beside it' --out head.lumen";
   }
 
   void addRows(OptionTable& table) override {
@@ -60,6 +62,19 @@ public:
             "Also make the closed surface that lumen convert makes of a case: its triangles, ends "
             "and overlaps, and its warnings. It takes as long as the mesh: seconds for most cases")
         .forInputs(kFittedCase);
+    table
+        .add("accept", &m_accept, "REASON",
+             "Record in the case why places where its lumen runs into itself may stay cut. No "
+             "answer warns of them again until the case changes")
+        .forInputs(kFittedCase)
+        .onlyWith("out");
+    table
+        .file("out", m_output,
+              "Case to write with that reason, " + formatEndings(canWriteCase) + "; may be FILE")
+        .forInputs(kFittedCase)
+        .onlyWith("accept");
+    addFormatRow(table, "to", m_to, "--out");
+    table.find("to")->forInputs(kFittedCase).onlyWith("out");
     addVolumeRows(table, m_volume);
     addFrameRow(table, m_frame);
     table.group("Labels");
@@ -104,7 +119,8 @@ public:
       return withNext({centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true},
                       nextOf(loaded, *context.table), kNarrowColumn);
     }
-    return describeWithSurface(from.readCase(m_input), context);
+    return describeWithSurface(m_output.empty() ? from.readCase(m_input) : accepting(context),
+                               context);
   }
 
 private:
@@ -221,6 +237,17 @@ private:
     return describeLabels(maps.front());
   }
 
+  /// The case with the accepted places, which is written.
+  [[nodiscard]] formats::Case accepting(const RunContext& context) const {
+    requireOrder(m_input, m_output);
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "the case with accepted places");
+    requireWritable(m_output, convert::ContentKind::Case);
+    formats::Case value = readParentCase(m_input);
+    operations::acceptContacts(value.metadata, m_accept);
+    to.writeCase(value, m_output, {}, context.progress);
+    return value;
+  }
+
   [[nodiscard]] Answer describeWithSurface(const formats::Case& value,
                                            const RunContext& context) const {
     if (m_surface && !value.models)
@@ -237,15 +264,20 @@ private:
     json["surface"] = surfaceJson(found.report, value);
     json["surface_warnings"] = Json::array();
     json["surface_findings"] = warningsJson(found.warnings);
+    const std::optional<std::string> accepted = operations::acceptedContacts(value.metadata);
+    json["contacts_accepted"] = accepted ? Json(*accepted) : Json(nullptr);
     std::string text =
         caseInfoText(info, inletsText(ends, value.tree)) + surfaceLines(found.report, value);
     for (const Warning& warning : found.warnings) {
       json["surface_warnings"].push_back(warningText(warning));
       text += "warning      " + warningText(warning) + "\n";
     }
+    if (accepted)
+      text +=
+          "accepted     that its lumen runs into itself: " + formats::printable(*accepted) + "\n";
     const std::string name = convert::shellWord(m_input.name());
     return withNext(
-        {std::move(json), std::move(text), 0, true},
+        {std::move(json), std::move(text), 0, m_output.empty()},
         value.models
             ? NextStep{recordedAssumptions(value.metadata),
                        "the closed surface of its vessels, as a mesh",
@@ -263,6 +295,8 @@ private:
   VolumeArguments m_volume;
   std::string m_frame;
   MaskArguments m_labels;
+  std::string m_accept, m_to;
+  OutputFile m_output;
 };
 
 }  // namespace

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
-#include <set>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "converters/base/options/option_name.h"
@@ -21,25 +18,6 @@
 namespace lumen::engine {
 
 namespace {
-
-/// "2,5,9" as numbers; nothing for another text.
-std::optional<std::set<std::size_t>> linesIn(const std::string& text) {
-  std::set<std::size_t> lines;
-  const char* const last = text.data() + text.size();
-  for (const char* at = text.data();; ++at) {
-    std::size_t line = 0;
-    const auto [end, error] = std::from_chars(at, last, line);
-    if (error != std::errc{} || line == 0) return std::nullopt;
-    lines.insert(line);
-    if (end == last) return lines;
-    if (*end != ',') return std::nullopt;
-    at = end;
-  }
-}
-
-std::string lineListFault(const std::string& text) {
-  return linesIn(text) ? "" : foundText(text, "numbers of lines such as 2,5,9");
-}
 
 using convert::RowState, convert::RowStatus;
 
@@ -156,10 +134,7 @@ public:
         "missing input; otherwise nothing is made then");
     table.flag(kOption.resume.name, m_options.isResumed,
                "Keep each case that the library has by its id, without reading its inputs again");
-    table
-        .add("rows", &m_lines, "LINES",
-             "Only the rows that begin on these lines of LIST, with commas between them")
-        .checkedBy(&lineListFault);
+    addLinesRow(table, m_lines, "LIST");
     table.flag("make-only", m_makesOnly, "Leave the cases in the folder of the work, for --collect")
         .without("collect");
     table.flag("collect", m_collects,
@@ -174,8 +149,7 @@ public:
 
   Answer run(const RunContext& context) override {
     requireInScope(*context.table, {}, context.progress);
-    convert::BuildList rows =
-        loadBuildList(m_list, linesIn(m_lines).value_or(std::set<std::size_t>{}));
+    convert::BuildList rows = loadBuildList(m_list, linesIn(m_lines));
     if (m_reports) return buildStatus(rows, m_library, m_options, context);
     if (m_makesOnly) m_options.phase = convert::BuildPhase::Make;
     if (m_collects) m_options.phase = convert::BuildPhase::Collect;

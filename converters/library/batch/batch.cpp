@@ -55,10 +55,10 @@ public:
     try {
       makeAll();
     } catch (const Error&) {
-      writeBatchTables(finished(), m_folder);
+      writeTables();
       throw;
     }
-    writeBatchTables(finished(), m_folder);
+    writeTables();
     m_progress.check();
     if (m_fault) std::rethrow_exception(m_fault);
     m_progress.end();
@@ -66,6 +66,10 @@ public:
   }
 
 private:
+  void writeTables() const {
+    if (m_options.phase != BuildPhase::Make) writeBatchTables(finished(), m_folder);
+  }
+
   void makeAll() {
     std::vector<std::jthread> workers;  // joined here, however this ends
     const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(m_options.jobs),

@@ -69,7 +69,8 @@ std::uint64_t batchMemory(std::uint64_t voxels);
 /// has changed since is judged again and not made again. Where the volume or an option is another
 /// one, corrections by hand are made again in the new case, and the one that a person changed is kept
 /// in replaced/. `options.work` is not used. Writes
-/// cases.csv, passed.csv and index.html, also where it is cancelled. Results are in the order of the
+/// cases.csv, passed.csv and index.html, also where it is cancelled, unless the phase is to make
+/// alone: several processes may make the inputs of one batch at once, and each input is made once. Results are in the order of the
 /// inputs. Throws Error(Failed) where the folder cannot be written, Error(Cancelled).
 std::vector<BatchResult> makeBatch(const std::vector<BatchInput>& inputs,
                                    const std::filesystem::path& folder, const BuildOptions& options,

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/base/error.h"
+#include "converters/base/options/edit_steps.h"
+
 namespace lumen::operations {
 namespace {
 
@@ -38,6 +41,36 @@ TEST(LossReport, AsksForFinerCellsOnlyWhereTheseWereTooCoarse) {
       EXPECT_EQ(fine.find("are too coarse"), std::string::npos) << fine;
     }
   }
+}
+
+convert::SurfaceReport reportOfContact() {
+  convert::SurfaceReport report;
+  report.cuts = {{1, 2, 3}};
+  return report;
+}
+
+std::size_t warningsOf(const formats::Case& value) {
+  Progress silent;
+  return surfaceWarnings(reportOfContact(), value, Context{silent}).size();
+}
+
+TEST(AcceptedContacts, AreNoWarningUntilTheCaseChanges) {
+  formats::Case value;
+  EXPECT_EQ(warningsOf(value), 1U);
+  acceptContacts(value.metadata, "looked at");
+  EXPECT_EQ(warningsOf(value), 0U);
+  recordEdit(value.metadata, "deleted \"b\"");
+  EXPECT_EQ(warningsOf(value), 1U);
+  EXPECT_FALSE(acceptedContacts(value.metadata));
+}
+
+TEST(AcceptedContacts, HaveTheReasonThatWasGivenLast) {
+  formats::Case value;
+  acceptContacts(value.metadata, "looked at");
+  acceptContacts(value.metadata, "a vein");
+  EXPECT_EQ(acceptedContacts(value.metadata), "a vein");
+  EXPECT_EQ(value.metadata.steps.size(), 1U);
+  EXPECT_THROW(acceptContacts(value.metadata, "  "), Error);
 }
 
 }  // namespace
