@@ -148,8 +148,7 @@ std::vector<Warning> surfaceWarnings(const convert::SurfaceReport& report,
                                       : " at " + std::to_string(report.cuts.size()) + " places") +
              " without a link, and is cut there",
          "if two tracks are in one vessel there, delete one in lumen view; if two vessels "
-         "touch, the cut keeps them apart, as they are, and lumen info --accept keeps that in the "
-         "case",
+         "touch, the cut keeps them apart, as they are, which lumen info records as accepted",
          report.cuts});
   return out;
 }
