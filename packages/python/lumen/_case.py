@@ -2,6 +2,7 @@
 """The case: metadata, a tree of centerlines, wall points and models."""
 from __future__ import annotations
 
+import difflib
 import json
 import numbers
 import os
@@ -158,7 +159,9 @@ class Case:
         names = [one.label for one in self.branches]
         if isinstance(label, str):
             if label not in names:
-                raise KeyError(f"{label}: found no such branch, expected one of {', '.join(names)}")
+                near = difflib.get_close_matches(label, names, 5, 0) if len(names) > 9 else names
+                more = f", or another of {len(names)}: case.branches lists all" if len(near) < len(names) else ""
+                raise KeyError(f"{label}: found no such branch, expected one of {', '.join(near)}{more}")
             return names.index(label)
         index = range(len(names))[label]
         return index

@@ -40,6 +40,7 @@ class Volume:
     """
 
     _is_placed = _has_unit = True
+    _is_bare = False  # an array whose voxel size nobody stated
     _file = ""  # of the image, for messages
 
     def __init__(self, array, spacing=1.0, origin=(0.0, 0.0, 0.0), direction=None):
@@ -158,7 +159,12 @@ class Volume:
         words = []
         if not self._is_placed:
             words += [(f'{name}: its space is "scanner-xyz", which does not', f"{name}: its header does not")]
-        if not self._has_unit:
+        if self._is_bare:
+            words += [(f'{name}: its space units are "?" "?" "?", which are not all known as lengths, so they are taken '
+                       "to be mm; state the unit with --unit",
+                       f"{name}: an array states no voxel size, so voxels are taken to be 1 mm wide; pass spacing=1 to "
+                       "state it")]
+        elif not self._has_unit:
             words += [(f'{name}: its space units are "?" "?" "?", which are not all known as lengths, so they are taken '
                        "to be mm; state the unit with --unit",
                        f'{name}: its header states no unit of length, so lengths are taken as mm; pass unit="mm" to '
@@ -175,7 +181,7 @@ class Volume:
         kind = self.array.dtype.str[1:]
         kind = types.get(kind, kind)
         return (np.ascontiguousarray(self.array, "<" + kind), _TYPES[kind], self.spacing, self.origin,
-                self.direction.ravel().tolist(), self._is_placed, self._has_unit)
+                self.direction.ravel().tolist(), self._is_placed, self._has_unit and not self._is_bare)
 
     def __repr__(self):
         return f"<lumen.Volume {self.array.shape} {self.array.dtype}, {self.spacing} mm>"

@@ -145,6 +145,7 @@ def _beside(source, options, axes=None):
     given = source
     if is_array(source) or package_of(source):
         source = Volume.of(source)
+        source._is_bare = is_array(given) and not {"spacing", "unit"} & options.keys()
     if labels is None or isinstance(labels, (str, Mapping)):
         return source, options
     if is_array(labels):

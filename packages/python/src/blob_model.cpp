@@ -254,14 +254,35 @@ void addQueries(py::class_<ModelObject, SharedModel>& model) {
   const auto flags = py::arg("flags") = 0u;
   const auto tolerance = py::arg("tolerance") = 0.0;
   const auto steps = py::arg("max_steps") = 0u;
-  model.def("query", &query, py::arg("points"), cursor, flags, py::arg("out") = py::none());
-  model.def("hessian", &hessian, py::arg("points"), cursor, flags);
-  model.def("nearest", &nearest, py::arg("points"), cursor, flags, tolerance, steps);
+  model.def("query", &query, py::arg("points"), cursor, flags, py::arg("out") = py::none(),
+            "The field at points (n, 3), mm, LPS: value, gradient, distance (mm, below 0 in the "
+            "lumen), normal "
+            "(outward) and node, as columns of an Answer of n rows.\n\nA cursor of n places moves "
+            "along the tree "
+            "with its points, and makes the query faster; without one each point is located. "
+            "flags: BLENDED, LOCAL, "
+            "DISTANCE_EXACT and HOLD of this module, as in blob.h. out: an Answer of n rows to "
+            "write over. Releases "
+            "the GIL.");
+  model.def("hessian", &hessian, py::arg("points"), cursor, flags,
+            "Second derivatives (n, 3, 3), 1/mm2, and the mean and Gaussian curvatures, 1/mm and "
+            "1/mm2, of the level "
+            "through points (n, 3), mm, LPS.");
+  model.def("nearest", &nearest, py::arg("points"), cursor, flags, tolerance, steps,
+            "The nearest points of the wall to points (n, 3), mm, LPS: point, normal, distance "
+            "(mm, below 0 in the "
+            "lumen) and converged. tolerance, mm, and max_steps: 0 takes those of blob.h.");
   model.def("segment_hits", &segmentHits, py::arg("starts"), py::arg("ends"), cursor, flags,
-            tolerance, steps);
+            tolerance, steps,
+            "The first wall on each way from starts (n, 3) to ends (n, 3), mm, LPS: hit, t in [0, "
+            "1], point, normal.");
   model.def("capsules", &capsules, py::arg("starts"), py::arg("ends"), py::arg("radius"), cursor,
-            flags);
-  model.def("cursor", &locate, py::arg("points"));
+            flags,
+            "The place of each capsule, starts (n, 3) to ends (n, 3) of a radius, mm, LPS, that is "
+            "nearest to the "
+            "wall or deepest behind it: t in [0, 1], distance and depth, mm.");
+  model.def("cursor", &locate, py::arg("points"),
+            "A Cursor at the nodes in whose cells the points (n, 3), mm, LPS, lie.");
 }
 
 void addFacts(py::class_<ModelObject, SharedModel>& model) {

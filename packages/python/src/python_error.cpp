@@ -34,7 +34,9 @@ void raise(const formats::Issue& issue, const std::string& file) {
   for (const formats::Argument& argument : issue.arguments)
     if (argument.name == "found" || argument.name == "expected")
       facts[argument.name.c_str()] = argument.value;
-  const std::string text = issue.text();
+  const bool isOfSystem = issue.code == formats::ErrorCode::IoMissing ||
+                          issue.code == formats::ErrorCode::IoRead;  // no rule of the format
+  const std::string text = isOfSystem ? issue.message : issue.text();
   const bool isNamed = file.empty() || text.starts_with(file);
   raiseWith(isNamed ? text : file + ": " + text, ErrorKind::InvalidInput, facts);
 }

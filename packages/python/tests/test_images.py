@@ -275,6 +275,17 @@ class CaseOfTest(unittest.TestCase):
         case = lumen.case_of(self.phantom.volume.array.T, affine=self.affine, **options)
         np.testing.assert_allclose(case.tree.centre, sample().case.tree.centre, atol=1e-3)
 
+    def test_an_array_whose_voxel_size_nobody_states_is_warned_of(self):
+        tube = np.zeros((32, 32, 32), np.uint8)
+        tube[14:18, 14:18, :] = 1
+        with self.assertWarnsRegex(lumen.Warning, "volume: an array states no voxel size") as warned:
+            lumen.case_of(tube)
+        self.assertEqual(warned.warning.code, "file-assumption")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            lumen.case_of(tube, spacing=0.5)
+            lumen.case_of(lumen.Volume(tube, spacing=1))
+
     def test_labels_beside_an_array_name_its_branches(self):
         volume = self.phantom.volume
         with tempfile.TemporaryDirectory() as folder:
