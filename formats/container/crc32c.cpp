@@ -37,8 +37,8 @@ constexpr Tables makeTables() {
 constexpr Tables kTables = makeTables();
 
 #if LUMEN_CRC32C_INSTRUCTION
-__attribute__((target("sse4.2"))) std::uint32_t byInstruction(std::span<const std::byte> bytes,
-                                                              std::uint32_t previous) {
+__attribute__((target("sse4.2,crc32"))) std::uint32_t byInstruction(
+    std::span<const std::byte> bytes, std::uint32_t previous) {
   std::uint64_t crc = ~previous;
   const std::byte* at = bytes.data();
   std::size_t left = bytes.size();

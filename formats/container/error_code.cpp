@@ -5,7 +5,7 @@
 #include <array>
 
 namespace lumen::formats {
-namespace {
+namespace rules {  // in which the names of codes stand alone
 
 using enum ErrorCode;
 
@@ -177,14 +177,14 @@ constexpr bool ascending() {
 }
 static_assert(ascending());
 
-}  // namespace
+}  // namespace rules
 
 std::span<const ErrorRule> errorRules() {
-  return kRules;
+  return rules::kRules;
 }
 
 const ErrorRule& errorRule(ErrorCode code) {
-  return *std::lower_bound(kRules.begin(), kRules.end(), code,
+  return *std::lower_bound(rules::kRules.begin(), rules::kRules.end(), code,
                            [](const ErrorRule& rule, ErrorCode c) { return rule.code < c; });
 }
 

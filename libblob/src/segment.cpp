@@ -17,7 +17,7 @@ using field::Vec;
 Vec vec(const double* p) {
   return {p[0], p[1], p[2]};
 }
-void put(const Vec& v, double* p) {
+void store(const Vec& v, double* p) {
   p[0] = v.x;
   p[1] = v.y;
   p[2] = v.z;
@@ -81,7 +81,7 @@ public:
     }
     hit.complete = t >= range.last ? 1 : 0;
     hit.t = hit.complete != 0 ? 1.0 : t;
-    put(m_from + hit.t * m_way, hit.point);
+    store(m_from + hit.t * m_way, hit.point);
     for (int i = 0; i < 3; ++i) hit.normal[i] = here.normal[i];
     hit.node = m_node;
     hit.steps = m_steps;
@@ -97,7 +97,7 @@ private:
   blob_sample sample(double t) {
     ++m_steps;
     double p[3];
-    put(m_from + t * m_way, p);
+    store(m_from + t * m_way, p);
     blob_sample here;
     m_model.backend->queryOne(m_model, m_flags, p, m_node, here);
     return here;
@@ -107,7 +107,7 @@ private:
   // tolerance.
   double safeStep(double t, const blob_sample& here, bool inside) {
     double p[3];
-    put(m_from + t * m_way, p);
+    store(m_from + t * m_way, p);
     const double radius = m_model.nodes[m_node].radius();
     double step = std::min(kDistanceShare * std::abs(here.distance), kLongestStep * radius);
     for (; step > m_tolerance && m_steps < m_maxSteps; step *= 0.5) {
@@ -140,7 +140,7 @@ private:
     hit.hit = 1;
     hit.complete = 1;
     hit.t = t;
-    put(m_from + t * m_way, hit.point);
+    store(m_from + t * m_way, hit.point);
     for (int i = 0; i < 3; ++i) hit.normal[i] = at.normal[i];
     hit.node = m_node;
     hit.steps = m_steps;
@@ -194,13 +194,13 @@ public:
 private:
   double visit(double t) {
     double p[3];
-    put(m_from + t * m_way, p);
+    store(m_from + t * m_way, p);
     blob_sample at;
     sampleAt(m_model, m_flags, p, m_node, at);
     if (at.distance > m_best.distance || m_bestAt < 0) {
       m_bestAt = t;
       m_best.t = t;
-      put(m_from + t * m_way, m_best.point);
+      store(m_from + t * m_way, m_best.point);
       m_best.distance = at.distance;
       for (int i = 0; i < 3; ++i) m_best.normal[i] = at.normal[i];
       m_best.node = at.node;
@@ -254,7 +254,7 @@ void findHit(const blob_model& model, std::uint32_t flags, const double* from, c
   hit.complete = 1;
   hit.t = 1;
   hit.node = node;
-  put(vec(to), hit.point);
+  store(vec(to), hit.point);
 }
 
 void findDeepest(const blob_model& model, std::uint32_t flags, const double* from, const double* to,
