@@ -70,10 +70,7 @@ export class Actions {
       );
       return;
     }
-    const link = h("a", { href: this.app.source.download(format), download: "" });
-    document.body.append(link);
-    link.click();
-    link.remove();
+    this.app.source.download(format).catch((error: unknown) => this.app.inform(errorText(error), "error"));
   }
 
   open(as: OpenAs = "auto"): void {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session whose owner has one thread, as WebAssembly has it: jobs and surfaces are made when the owner calls Session::work(),
+// and whoever wants them to end is asked as they advance.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "converters/base/progress.h"
+
+namespace lumen::viewer {
+
+struct OneThread {
+  std::function<bool()> isJobStopped;      ///< true: the running job ends, and changes nothing
+  std::function<bool()> isSurfaceStopped;  ///< true: the surface is made later, a request waits
+};
+
+/// Asks at most five times a second, from the thread that works.
+class StopQuestion {
+public:
+  /// Null: nobody is asked.
+  explicit StopQuestion(std::function<bool()> isStopped) : m_isStopped(std::move(isStopped)) {}
+
+  /// Cancels `progress` if the answer is true.
+  void ask(Progress& progress) {
+    if (!m_isStopped) return;
+    const auto now = Clock::now();
+    if (now < m_next) return;
+    if (m_isStopped()) progress.cancel();
+    m_next = Clock::now() + std::chrono::milliseconds(200);
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  const std::function<bool()> m_isStopped;
+  Clock::time_point m_next = Clock::now();
+};
+
+}  // namespace lumen::viewer
