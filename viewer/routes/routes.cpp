@@ -252,7 +252,8 @@ PageAnswer Routes::takeFile(const PageRequest& request) const {
   if (request.bodySize > m_mostFile) refuseSize(m_mostFile);
   const OpenAs role = openingAs(as);
   std::string bytes = request.readBody(m_mostFile);
-  return jsonAnswer(m_session.openDropped(name, std::move(bytes), role, request.query.contains("first")));
+  return jsonAnswer(
+      m_session.openDropped(name, std::move(bytes), role, request.query.contains("first")));
 }
 
 }  // namespace lumen::viewer

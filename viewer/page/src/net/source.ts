@@ -27,6 +27,8 @@ export interface Source {
   readonly live: boolean;
   /** A sentence on where the data is, for the last line; empty where it goes without saying. */
   readonly where: string;
+  /** Memory for a volume and all work on it; null: as the machine has it. */
+  readonly mostBytes: number | null;
   state(): Promise<State>;
   /** The bytes of a pack or file; null if there is none. */
   bytes(

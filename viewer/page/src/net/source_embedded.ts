@@ -34,6 +34,7 @@ export interface Embedded {
 export class EmbeddedSource implements Source {
   readonly live = false;
   readonly where = "One file, without a server";
+  readonly mostBytes = null;
   private readonly state0: Partial<State>;
   private readonly parts: Map<string, Part>;
 

@@ -45,6 +45,7 @@ async function receive(response: Response, received?: Received): Promise<Uint8Ar
 export class ServerSource implements Source {
   readonly live = true;
   readonly where = "Engine: lumen view";
+  readonly mostBytes = null;
 
   async state(): Promise<State> {
     const response = await fetch("state", { cache: "no-store" });

@@ -6,6 +6,7 @@ import { saveBlob } from "../base/ui";
 import { inOrder, nameOf } from "./named_files";
 import type { Begin, Question, Told } from "./worker_talk";
 
+const kMostMemory = 2 ** 32; // bytes that WebAssembly can address
 const kMostName = 100; // letters of the name of a file of DICOM
 
 interface Told200 {
@@ -20,6 +21,7 @@ const newFlag = (): string => URL.createObjectURL(new globalThis.Blob([]));
 export class WorkerSource implements Source {
   readonly live = true;
   readonly where = "Engine: this tab, no upload";
+  readonly mostBytes: number;
   private readonly waiting = new Map<number, (told: Told200) => void>();
   private readonly stops = { job: newFlag(), surface: newFlag() };
   private listener: (event: Event) => void = () => undefined;
@@ -29,20 +31,21 @@ export class WorkerSource implements Source {
 
   /** Null where the document names no engine: there is a server. */
   static find(): WorkerSource | null {
-    const address = document.querySelector<HTMLLinkElement>("link[rel=lumen-engine]")?.href;
-    if (address === undefined) return null;
+    const link = document.querySelector<HTMLLinkElement>("link[rel=lumen-engine]");
+    if (link === null) return null;
     // without one, as on a site without https, the page needs the network each time it is loaded
     void navigator.serviceWorker?.register("offline.js").catch(() => undefined);
-    return new WorkerSource(new Worker("worker.js"), address);
+    return new WorkerSource(new Worker("worker.js"), link);
   }
 
   private constructor(
     private readonly worker: Worker,
-    engine: string,
+    link: HTMLLinkElement,
   ) {
+    this.mostBytes = Number(link.dataset.mostBytes ?? kMostMemory);
     worker.addEventListener("message", ({ data }: MessageEvent<Told>) => this.hear(data));
     worker.addEventListener("error", e => this.stop(e.message));
-    this.begin(engine).catch((error: unknown) => this.stop(String(error)));
+    this.begin(link.href).catch((error: unknown) => this.stop(String(error)));
     this.opened = this.openNamed(new URLSearchParams(location.search).getAll("open"));
   }
 

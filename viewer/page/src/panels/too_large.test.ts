@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { neededBytes, slicesIn } from "./too_large";
+
+describe("neededBytes", () => {
+  it("countsTheFileItsVoxelsAndTheWorkOnThem", () => {
+    expect(neededBytes([100, 10, 10], 2, 500)).toBe(500 + 16 * 10_000);
+  });
+});
+
+describe("slicesIn", () => {
+  it("readsTwoNumbersThatPeopleCountFromOne", () => {
+    expect(slicesIn("1-40", 80)).toEqual({ first: 0, last: 39 });
+    expect(slicesIn(" 3 – 80 ", 80)).toEqual({ first: 2, last: 79 });
+    for (const words of ["", "5", "0-4", "9-2", "1-81", "a-b"]) expect(slicesIn(words, 80)).toBeNull();
+  });
+});
