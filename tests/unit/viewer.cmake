@@ -9,6 +9,7 @@ lumen_test(viewer_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/labels_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/mesh_deviation_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/moving_case_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/one_thread_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/proposals_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/safety_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/second_volume_test.cpp

@@ -41,10 +41,9 @@ bool hasSurface(const std::shared_ptr<const formats::Case>& value) {
 /// Reports the stages of a level to those who wait for it; warnings are not theirs.
 class Surfaces::HeardProgress : public Progress {
 public:
-  HeardProgress(Surfaces& surfaces, int level)
-      : m_surfaces(surfaces),
-        m_level(level),
-        m_stop(surfaces.m_oneThread ? surfaces.m_oneThread->isSurfaceStopped : nullptr) {}
+  /// With one thread `isStopped` is asked, but nobody for a surface that somebody waits for.
+  HeardProgress(Surfaces& surfaces, int level, std::function<bool()> isStopped)
+      : m_surfaces(surfaces), m_level(level), m_stop(std::move(isStopped)) {}
   void begin(std::string_view stage, std::size_t total) override {
     m_stop.ask(*this);
     tell([&](Progress& waiting) { waiting.begin(stage, total); });
@@ -132,9 +131,10 @@ void Surfaces::waitFor(int level, Progress& progress) {
   const auto isOver = [&] {
     return !hasSurface(m_case) || !m_allowed || m_ended || isTried(level) || progress.cancelled();
   };
-  while (!m_wake.wait_for(lock, m_oneThread ? std::chrono::milliseconds(0) : kCancelCheckInterval,
-                          isOver))
-    if (m_oneThread) makeLevel(level, lock);
+  if (m_oneThread)
+    while (!isOver()) makeLevel(level, lock);
+  else
+    while (!m_wake.wait_for(lock, kCancelCheckInterval, isOver)) continue;
   m_waiting.erase(std::find(m_waiting.begin(), m_waiting.end(), mine));
   progress.check();
 }
@@ -231,7 +231,9 @@ bool Surfaces::makeNext() {
 
 void Surfaces::makeLevel(int level, std::unique_lock<std::mutex>& lock) {
   const auto value = m_case;
-  const auto progress = std::make_shared<HeardProgress>(*this, level);
+  const bool asks = m_oneThread && m_waiting.empty();
+  const auto progress =
+      std::make_shared<HeardProgress>(*this, level, asks ? m_oneThread->isSurfaceStopped : nullptr);
   const std::uint64_t number = level == kQuick ? 0 : ++m_number;
   m_progress = progress;
   m_making = level;

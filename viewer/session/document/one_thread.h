@@ -6,7 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <optional>
+#include <utility>
 
 #include "converters/base/progress.h"
 
@@ -17,7 +17,7 @@ struct OneThread {
   std::function<bool()> isSurfaceStopped;  ///< true: the surface is made later, a request waits
 };
 
-/// Asks at most five times a second, from the thread that works.
+/// Asks at most five times a second. All calls are thread-safe.
 class StopQuestion {
 public:
   /// Null: nobody is asked.
@@ -26,17 +26,18 @@ public:
   /// Cancels `progress` if the answer is true.
   void ask(Progress& progress) {
     if (!m_isStopped) return;
-    const auto now = Clock::now();
-    if (now < m_next) return;
-    if (m_isStopped()) progress.cancel();
-    m_next = Clock::now() + std::chrono::milliseconds(200);
+    auto next = m_next.load();
+    if (Clock::now().time_since_epoch().count() < next) return;
+    const auto then = Clock::now() + std::chrono::milliseconds(200);
+    if (m_next.compare_exchange_strong(next, then.time_since_epoch().count()) && m_isStopped())
+      progress.cancel();
   }
 
 private:
   using Clock = std::chrono::steady_clock;
 
   const std::function<bool()> m_isStopped;
-  Clock::time_point m_next = Clock::now();
+  std::atomic<Clock::rep> m_next{0};
 };
 
 }  // namespace lumen::viewer

@@ -12,6 +12,17 @@ export function neededBytes(size: readonly number[], bytesPerVoxel: number, file
   return fileSize + size.reduce((product, n) => product * n, 1) * (bytesPerVoxel + kWorking);
 }
 
+/** Whether the file can hold the voxels that its header states; if not, the engine has the sentence on it. */
+export function holdsVoxels(
+  header: Pick<VolumeHeader, "size" | "type" | "begin" | "packing">,
+  fileSize: number,
+): boolean {
+  const kMostPacking = 1032, // bytes that deflate makes of one, at most
+    stated =
+      header.begin + header.size.reduce((product, n) => product * n, arrayOf(header.type).BYTES_PER_ELEMENT);
+  return stated <= fileSize * (header.packing === "none" ? 1 : kMostPacking);
+}
+
 const gigabytes = (bytes: number): string => `${(bytes / 2 ** 30).toPrecision(2)} GiB`;
 
 /** The slices from the words of a person, from 1 as people count; null for other words. */
@@ -41,7 +52,7 @@ export async function fitting(
 ): Promise<globalThis.Blob | null> {
   const { mostBytes } = app.source,
     header = mostBytes === null ? null : await readVolumeHeader(file.name, file);
-  if (mostBytes === null || header === null) return file;
+  if (mostBytes === null || header === null || !holdsVoxels(header, file.size)) return file;
   const needed = neededBytes(header.size, arrayOf(header.type).BYTES_PER_ELEMENT, file.size);
   if (needed <= mostBytes) return file;
   const choice = await choose(
