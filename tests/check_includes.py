@@ -75,7 +75,8 @@ MAY_INCLUDE["converters/api"] = FORMATS + ["libblob/include", "converters/api/in
 MAY_INCLUDE["viewer/session/packs"] = FORMATS + ["libblob/include"] + CONVERTERS
 MAY_INCLUDE["viewer/session/document"] = MAY_INCLUDE["viewer/session/packs"]
 MAY_INCLUDE["viewer/session"] = MAY_INCLUDE["viewer/session/packs"] + ["viewer/session/packs", "viewer/session/document"]
-MAY_INCLUDE["viewer/server"] = MAY_INCLUDE["viewer/session"] + ["viewer/session"]
+MAY_INCLUDE["viewer/routes"] = MAY_INCLUDE["viewer/session"] + ["viewer/session"]
+MAY_INCLUDE["viewer/server"] = MAY_INCLUDE["viewer/routes"] + ["viewer/routes"]
 MAY_INCLUDE["converters/cli"] = MAY_INCLUDE["viewer/server"] + ["viewer/server"]
 # The Python module stands beside them.
 MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session/packs"]
@@ -93,7 +94,7 @@ MAY_INCLUDE[PAGE] = below
 
 def sources():
     """Every C, C++ or TypeScript file of the product, and those of the Python package, relative to the root."""
-    for top in ("formats", "libblob/include", "libblob/src", "libblob/cuda", "converters", "viewer/session", "viewer/server", "packages/python/src", PAGE):
+    for top in ("formats", "libblob/include", "libblob/src", "libblob/cuda", "converters", "viewer/session", "viewer/routes", "viewer/server", "packages/python/src", PAGE):
         yield from (p.relative_to(ROOT) for p in sorted((ROOT / top).rglob("*")) if p.suffix in (".h", ".cpp", ".c", ".ts"))
     yield from (p.relative_to(ROOT) for p in sorted((ROOT / "packages/python/lumen").glob("*.py")))
 
@@ -121,7 +122,7 @@ def resolve(file, name, files):
 
 
 # Folders that know the command line. A message below them names a field of its options by their word (base/field_word.h).
-KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
+KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/routes", "viewer/server")
 # Folders that work on values: they know no file, no text of an option and no JSON.
 ON_VALUES = "converters/operations/"
 FILES_AND_TEXTS = re.compile(r'#\s*include\s+[<"](filesystem|fstream|nlohmann/.*|converters/base/(?:files|options/option_name|options/option_table)\.h)[>"]')

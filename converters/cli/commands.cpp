@@ -3,8 +3,8 @@
 
 #include "converters/base/options/option_name.h"
 #ifdef LUMEN_WITH_VIEWER
+#include "viewer/routes/html_page.h"
 #include "viewer/server/command_view.h"
-#include "viewer/server/html_page.h"
 #endif
 
 namespace lumen::cli {

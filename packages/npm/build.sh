@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# build.sh OUT: makes the npm packages @lumen/blob and @lumen/viewer as OUT/NAME.tgz. Needs `npm ci` in viewer/page, and blob.wasm
+# build.sh OUT: makes the npm packages @lumen/blob and @lumen/viewer as OUT/NAME.tgz, and @lumen/page, the page without a server, where
+# packages/wasm/build.sh has built its engine. Needs `npm ci` in viewer/page, and blob.wasm
 # and query.wgsl (targets blob_wasm and blob_shader) in $LUMEN_BUILD (default: build/release). Equal sources give equal bytes.
 set -euo pipefail
-[ $# -eq 1 ] || { sed -n '3,4p' "$0" >&2; exit 2; }
+[ $# -eq 1 ] || { sed -n '3,5p' "$0" >&2; exit 2; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
@@ -42,7 +43,19 @@ rm "$work/viewer/index.ts"
 "$page/node_modules/.bin/esbuild" "$root/packages/npm/viewer/index.ts" --bundle --format=esm --target=es2022 --minify \
   --charset=utf8 --log-level=warning --outfile="$work/viewer/index.js"
 
-for package in blob viewer; do
+packages=(blob viewer)
+if [ -f "$page/dist/lumen-view.wasm" ]; then
+  packages+=(page)
+  cp -r "$root/packages/npm/page" "$work/files"
+  mkdir "$work/files/site"
+  for name in page.js page.css worker.js offline.js; do cp "$work/page/$name" "$work/files/site/"; done
+  cp "$work/page/serverless.html" "$work/files/site/index.html"
+  install -m 644 "$wasm" "$page/dist/lumen-view.wasm" "$work/files/site/"
+  cp "$root/LICENSE" "$root/THIRD_PARTY.md" "$work/files/"
+  rm -r "$work/page"
+  mv "$work/files" "$work/page"
+fi
+for package in "${packages[@]}"; do
   (cd "$work/$package" && npm pack --silent --pack-destination "$out" >/dev/null)
 done
 ls -l "$out"/lumen-*.tgz

@@ -95,6 +95,12 @@ view tree.lumen --html out/v.html --html-points true
   --html-points is for cases with wall points, and tree.lumen has none
 view case.lumen --html out/v.html --port 1234
   exclude one another
+view case.lumen --serverless out/site
+  --serverless writes the page alone, into which people drop their files
+view --serverless out/site --html out/v.html
+  --html does nothing with --serverless
+view --serverless out/site --crop 1,9,1,9,1,9
+  --crop does nothing with --serverless
 )";
 
 }  // namespace

@@ -9,6 +9,7 @@ lumen_test(viewer_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/labels_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/mesh_deviation_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/moving_case_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/one_thread_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/proposals_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/safety_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/second_volume_test.cpp
@@ -36,7 +37,7 @@ if(NODE)
   add_executable(ask_blob ${PROJECT_SOURCE_DIR}/viewer/page/people/ask_blob.c)
   target_link_libraries(ask_blob PRIVATE blob)
   set(LUMEN_STORIES checked found_and_corrected from_disk keys_and_axe labels many_vessels mistakes slices)
-  set(LUMEN_NIGHT_STORIES corrections dicom firefox gallery)
+  set(LUMEN_NIGHT_STORIES corrections dicom firefox firefox_serverless gallery serverless)
   foreach(story ${LUMEN_STORIES} ${LUMEN_NIGHT_STORIES})
     add_test(NAME ViewerPage.People.${story} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/viewer/page/people/run.mjs ${story})
     set_tests_properties(ViewerPage.People.${story} PROPERTIES

@@ -2,18 +2,12 @@
 #include "viewer/server/answers.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
-#include "converters/base/shown_text.h"
+#include "converters/base/error.h"
 
 namespace lumen::viewer {
-
-namespace {
-
-// A click and its options are a few hundred bytes, a list of all labels of a large tree some 100
-// kB.
-constexpr std::size_t kMostRequest = 1 << 20;
-
-}  // namespace
 
 httplib::Headers safeHeaders() {
   return {{"Content-Security-Policy",
@@ -28,45 +22,19 @@ httplib::Headers safeHeaders() {
           {"Cache-Control", "no-store"}};
 }
 
-void answerBytes(httplib::Response& response, std::shared_ptr<const std::string> bytes,
-                 const char* type) {
-  const std::size_t size = bytes->size();
+void handOver(PageAnswer answer, httplib::Response& response) {
+  response.status = answer.status;
+  if (!answer.tag.empty()) response.set_header("ETag", '"' + answer.tag + '"');
+  if (!answer.fileName.empty())
+    response.set_header("Content-Disposition", "attachment; filename=\"" + answer.fileName + "\"");
+  if (!answer.piece) return;
   response.set_content_provider(
-      size, type,
-      [bytes = std::move(bytes)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(bytes->data() + offset, length);
+      answer.size, answer.type,
+      [piece = std::move(answer.piece)](std::size_t offset, std::size_t length,
+                                        httplib::DataSink& sink) {
+        const std::string_view bytes = piece(offset, length);
+        return sink.write(bytes.data(), bytes.size());
       });
-}
-
-void answerText(httplib::Response& response, std::string text, const char* type) {
-  answerBytes(response, std::make_shared<const std::string>(std::move(text)), type);
-}
-
-void answerError(httplib::Response& response, int status, const std::string& sentence) {
-  response.status = status;
-  answerText(response, jsonText({{"error", messageText(sentence)}}));
-}
-
-void answerPart(const httplib::Request& request, httplib::Response& response, const Tagged& part) {
-  if (!part.bytes) {
-    response.status = 404;
-    return;
-  }
-  const std::string tag = '"' + part.tag + '"';
-  response.set_header("ETag", tag);
-  if (request.get_header_value("If-None-Match") == tag) {
-    response.status = 304;
-    return;
-  }
-  answerBytes(response, part.bytes, kBytes);
-}
-
-int statusOf(ErrorKind kind) {
-  return kind == ErrorKind::Failed ? 500 : 400;
-}
-
-void refuseSize(std::uint64_t most) {
-  throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
 }
 
 std::string bodyOf(const httplib::Request& request, const httplib::ContentReader& reader,
@@ -85,11 +53,6 @@ std::string bodyOf(const httplib::Request& request, const httplib::ContentReader
   if (tooMuch) refuseSize(most);
   if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
   return body;
-}
-
-formats::JsonDocument readJson(const httplib::Request& request,
-                               const httplib::ContentReader& reader) {
-  return parseRequest(bodyOf(request, reader, kMostRequest), kMostRequest);
 }
 
 }  // namespace lumen::viewer

@@ -19,9 +19,10 @@
 #include "converters/engine/stage_options.h"
 #include "converters/library/index/change.h"
 #include "formats/container/printable.h"
+#include "viewer/routes/html_page.h"
 #include "viewer/server/browser.h"
-#include "viewer/server/html_page.h"
 #include "viewer/server/server.h"
+#include "viewer/server/serverless.h"
 #include "viewer/session/free_memory.h"
 #include "viewer/session/source_match.h"
 
@@ -51,6 +52,7 @@ public:
            "  lumen view heart.lumen --time 0.3\n"
            "  lumen view siphons --case siphon-01\n"
            "  lumen view head.lumen --html head.html\n"
+           "  lumen view --serverless site\n"
            "It ends with Ctrl-C, or when the last page has been gone for a minute; both are a "
            "normal "
            "end, with exit code 0.";
@@ -96,12 +98,19 @@ public:
         .flag("html-points", m_htmlPoints,
               "With --html: the wall points too, which are most of a case")
         .onlyWith("html");
+    table.file("serverless", m_serverless,
+               "Write the page with the engine as a folder of static files, which any web server "
+               "can hold, and serve nothing: a visitor's files stay in the browser. It may not "
+               "exist, or must be empty");
     engine::addVolumeRows(table, m_options.volume);
     engine::addLabelMapRows(table, m_options.labels);
     table.find("label-map")->without("html");
+    for (OptionRow& row : table.rows())
+      if (!row.isArgument && row.name != "serverless") row.notBeside("serverless");
   }
 
   engine::Answer run(const engine::RunContext& context) override {
+    if (!m_serverless.empty()) return writeSite(context);
     findCaseOfLibrary();
     engine::requireInScope(*context.table, {contentOfFiles(), kAnyContent, filesText(), {}},
                            context.progress);
@@ -275,6 +284,18 @@ private:
     return output;
   }
 
+  engine::Answer writeSite(const engine::RunContext& context) const {
+    if (!m_files.empty())
+      throw Error(ErrorKind::Usage,
+                  m_files.front() +
+                      ": --serverless writes the page alone, into which people drop "
+                      "their files");
+    engine::requireInScope(*context.table, {}, context.progress);
+    const std::uint64_t bytes = writeServerless(m_serverless);
+    return {{{"serverless", m_serverless}, {"bytes", bytes}},
+            m_serverless + ": " + std::to_string(bytes) + " bytes; a web server makes it a page\n"};
+  }
+
   engine::Answer writeHtml(Session& session, const engine::RunContext& context) {
     const Document document = session.now().document;
     const auto refuse = [&](const char* option, const std::string& needed) {
@@ -351,7 +372,7 @@ private:
   }
 
   std::vector<std::string> m_files;
-  std::string m_html, m_case, m_at;
+  std::string m_html, m_serverless, m_case, m_at;
   bool m_noBrowser = false, m_keep = false, m_htmlVolume = false, m_htmlPoints = false;
   int m_port = 0;
   SessionOptions m_options;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "viewer/server/html_page.h"
+#include "viewer/routes/html_page.h"
 #include "viewer/session/session.h"
 
 namespace lumen::viewer {

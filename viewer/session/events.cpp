@@ -58,6 +58,7 @@ std::size_t EventHub::count() {
 
 void EventHub::send(const std::string& name, const Json& data) {
   const Event event{name, jsonText(data)};
+  if (m_hear) m_hear(event);
   const std::lock_guard lock(m_mutex);
   for (const auto& weak : m_listeners)
     if (const auto listener = weak.lock()) listener->put(event);

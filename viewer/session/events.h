@@ -6,10 +6,12 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "converters/engine/answers/answer_text.h"
@@ -52,9 +54,13 @@ public:
   /// The number of listeners: each counts while somebody holds it.
   [[nodiscard]] std::size_t count();
   void send(const std::string& name, const Json& data);
+  /// Each event is handed to `hear` as it is sent, for a page in the same process. Once, before any
+  /// other call.
+  void forward(std::function<void(const Event&)> hear) { m_hear = std::move(hear); }
   void close();
 
 private:
+  std::function<void(const Event&)> m_hear;
   std::mutex m_mutex;
   std::vector<std::weak_ptr<Listener>> m_listeners;
   bool m_closed = false;

@@ -133,7 +133,7 @@ void Session::open(const Opening& opening, Progress& progress) {
     else if (opened.seeds != before.document.seeds)
       saving.holdSeeds(opened.seeds);
   };
-  if (opening.file.isInMemory()) {
+  if (opening.file.isInMemory() && !opening.isFirst) {
     commit("open " + opening.label, before, std::move(document), hold);
     return;
   }
@@ -154,14 +154,14 @@ bool Session::offerSeries(const fs::path& folder, Progress& progress) {
   return true;
 }
 
-Json Session::openDropped(const std::string& name, std::string bytes, OpenAs as) {
+Json Session::openDropped(const std::string& name, std::string bytes, OpenAs as, bool isFirst) {
   auto file = std::make_shared<DroppedFiles>();
   file->add(name, std::move(bytes));
   const std::lock_guard gate(m_gate);
   return startJob("opening " + formats::printable(name), true,
-                  [this, file = std::move(file), name, as](Progress& progress) mutable {
+                  [this, file = std::move(file), name, as, isFirst](Progress& progress) mutable {
                     const auto read = std::exchange(file, nullptr);  // goes before the job ends
-                    open({read->first(), name, as, {}, read}, progress);
+                    open({read->first(), name, as, {}, read, isFirst}, progress);
                     return formats::printable(name) + " is open";
                   });
 }

@@ -23,7 +23,8 @@ constexpr std::chrono::milliseconds kInterval{100};  // as often as a page redra
 /// Reports to the pages how far a job is.
 class JobProgress : public Progress {
 public:
-  JobProgress(EventHub& events, int job) : m_events(events), m_job(job) {}
+  JobProgress(EventHub& events, int job, std::function<bool()> isStopped)
+      : m_events(events), m_job(job), m_stop(std::move(isStopped)) {}
 
   void begin(std::string_view stage, std::size_t total) override {
     {
@@ -32,11 +33,13 @@ public:
     }
     m_total = total;
     m_done = 0;
+    m_stop.ask(*this);
     report();
   }
 
   void advance(std::size_t units) override {
     m_done += units;
+    m_stop.ask(*this);
     const auto now = Clock::now().time_since_epoch().count();
     auto next = m_next.load();
     if (now < next) return;
@@ -62,6 +65,7 @@ private:
 
   EventHub& m_events;
   const int m_job;
+  StopQuestion m_stop;
   std::mutex m_mutex;  ///< guards the next
   std::string m_stage;
   std::atomic<std::size_t> m_total{0}, m_done{0};
@@ -74,8 +78,9 @@ Conflict busyWith(const RunningJob& running) {
 
 }  // namespace
 
-JobRunner::JobRunner(EventHub& events, std::function<void()> changed)
-    : m_events(events), m_changed(std::move(changed)) {}
+JobRunner::JobRunner(EventHub& events, std::function<void()> changed,
+                     const std::optional<OneThread>& oneThread)
+    : m_events(events), m_changed(std::move(changed)), m_oneThread(oneThread) {}
 
 JobRunner::~JobRunner() {
   cancelAll();
@@ -89,7 +94,8 @@ int JobRunner::start(const std::string& name, bool changes, Work work) {
     const std::lock_guard lock(m_mutex);
     if (m_running) throw busyWith(*m_running);
     job = ++m_last;
-    m_progress = std::make_unique<JobProgress>(m_events, job);
+    m_progress = std::make_unique<JobProgress>(m_events, job,
+                                               m_oneThread ? m_oneThread->isJobStopped : nullptr);
     m_running = RunningJob{job, name, changes};
     ended = std::move(m_thread);
   }
@@ -98,8 +104,13 @@ int JobRunner::start(const std::string& name, bool changes, Work work) {
   try {
     m_changed();
     const std::lock_guard lock(m_mutex);
-    m_thread = std::thread(
-        [this, job, work = std::move(work), &progress = *m_progress] { run(job, work, progress); });
+    auto all = [this, job, work = std::move(work), &progress = *m_progress] {
+      run(job, work, progress);
+    };
+    if (m_oneThread)
+      m_waiting = std::move(all);
+    else
+      m_thread = std::thread(std::move(all));
   } catch (...) {
     end();
     throw;
@@ -162,7 +173,18 @@ std::optional<RunningJob> JobRunner::running() const {
   return m_running;
 }
 
+bool JobRunner::runWaiting() {
+  std::function<void()> work;
+  {
+    const std::lock_guard lock(m_mutex);
+    work = std::exchange(m_waiting, nullptr);
+  }
+  if (work) work();
+  return work != nullptr;
+}
+
 void JobRunner::wait() {
+  runWaiting();
   std::unique_lock lock(m_mutex);
   m_ended.wait(lock, [this] { return !m_running; });
 }

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "converters/base/progress.h"
+#include "viewer/session/document/one_thread.h"
 #include "viewer/session/events.h"
 
 namespace lumen::viewer {
@@ -27,8 +28,10 @@ public:
   /// Throws as a stage; returns the sentence that reports the outcome.
   using Work = std::function<std::string(Progress&)>;
 
-  /// `changed` is called, without any lock, when a job has begun or ended.
-  JobRunner(EventHub& events, std::function<void()> changed);
+  /// `changed` is called, without any lock, when a job has begun or ended. With `oneThread` a job
+  /// waits for runWaiting().
+  JobRunner(EventHub& events, std::function<void()> changed,
+            const std::optional<OneThread>& oneThread = {});
   /// Cancels the running job and waits for its end.
   ~JobRunner();
   JobRunner(const JobRunner&) = delete;
@@ -45,6 +48,8 @@ public:
   [[nodiscard]] std::optional<RunningJob> running() const;
   /// Returns when nothing runs.
   void wait();
+  /// Runs the job that waits for it, to its end. False if there is none.
+  bool runWaiting();
 
 private:
   void run(int job, const Work& work, Progress& progress);
@@ -52,10 +57,12 @@ private:
 
   EventHub& m_events;
   const std::function<void()> m_changed;
+  const std::optional<OneThread> m_oneThread;
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::condition_variable m_ended;
   std::optional<RunningJob> m_running;
   std::unique_ptr<Progress> m_progress;  ///< progress of the job that runs, or of the last
+  std::function<void()> m_waiting;       ///< with one thread: the job that has not begun
   std::thread m_thread;
   int m_last = 0;
 };

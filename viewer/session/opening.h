@@ -27,6 +27,8 @@ struct Opening {
   OpenAs as = OpenAs::Auto;
   std::string series{};                         ///< instance UID, of a folder of DICOM
   std::shared_ptr<const DroppedFiles> bytes{};  ///< of a file in memory
+  /// The user begins with it, so that opening it cannot be undone.
+  bool isFirst = false;
 };
 
 /// The role of the file, by its content and the ending of its name. Throws Error(Unsupported) for a

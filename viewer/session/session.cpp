@@ -26,8 +26,9 @@ Conflict hasChanged() {
 
 Session::Session(SessionOptions settings)
     : options(std::move(settings)),
-      surfaces([this] { announceState(); }),
-      jobs(events, [this] { announce(); }) {}
+      surfaces([this] { announceState(); }, options.oneThread),
+      jobs(
+          events, [this] { announce(); }, options.oneThread) {}
 
 Session::~Session() {
   events.close();

@@ -52,11 +52,14 @@ public:
   /// requests one at a time: no other comes between the look at the document and the change of it,
   /// or the start of the job that will change it.
   Json run(formats::JsonValue request);
-  /// Opens a dropped file as a job: {"job"}. `name` is a label.
-  Json openDropped(const std::string& name, std::string bytes, OpenAs as);
+  /// Opens a dropped file as a job: {"job"}. `name` is a label; `isFirst` as in Opening.
+  Json openDropped(const std::string& name, std::string bytes, OpenAs as, bool isFirst);
   /// The vessel near a click.
   Json vesselAtClick(formats::JsonValue request);
   void cancelAll();
+  /// With one thread (SessionOptions): runs the job that waits, or else makes a surface that is
+  /// wanted. False if there is neither.
+  bool work() { return jobs.runWaiting() || surfaces.makeNext(); }
 
   [[nodiscard]] Moment now() const { return history.now(); }
   /// The state as pages get it (viewer/README.md).

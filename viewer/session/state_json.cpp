@@ -63,6 +63,8 @@ Json formatsJson(const Document& document) {
       if (engine::canWrite(format) && (!engine::needsModels(format) || document.hasModels() ||
                                        document.value->points.has_value()))
         list.push_back(format.name);
+  if (document.value && (document.hasModels() || document.value->points))
+    list.push_back("sofa.zip");
   if (!document.seeds->empty()) list.push_back("seeds");
   if (document.value || document.volume) list.push_back("html");
   return list;

@@ -41,11 +41,15 @@ bool hasSurface(const std::shared_ptr<const formats::Case>& value) {
 /// Reports the stages of a level to those who wait for it; warnings are not theirs.
 class Surfaces::HeardProgress : public Progress {
 public:
-  HeardProgress(Surfaces& surfaces, int level) : m_surfaces(surfaces), m_level(level) {}
+  /// With one thread `isStopped` is asked, but nobody for a surface that somebody waits for.
+  HeardProgress(Surfaces& surfaces, int level, std::function<bool()> isStopped)
+      : m_surfaces(surfaces), m_level(level), m_stop(std::move(isStopped)) {}
   void begin(std::string_view stage, std::size_t total) override {
+    m_stop.ask(*this);
     tell([&](Progress& waiting) { waiting.begin(stage, total); });
   }
   void advance(std::size_t units) override {
+    m_stop.ask(*this);
     tell([&](Progress& waiting) { waiting.advance(units); });
   }
   void end() override {
@@ -57,10 +61,12 @@ private:
 
   Surfaces& m_surfaces;
   const int m_level;
+  StopQuestion m_stop;
 };
 
-Surfaces::Surfaces(std::function<void()> ready) : m_ready(std::move(ready)) {
-  m_thread = std::thread([this] { work(); });
+Surfaces::Surfaces(std::function<void()> ready, const std::optional<OneThread>& oneThread)
+    : m_ready(std::move(ready)), m_oneThread(oneThread) {
+  if (!m_oneThread) m_thread = std::thread([this] { work(); });
 }
 
 Surfaces::~Surfaces() {
@@ -125,7 +131,10 @@ void Surfaces::waitFor(int level, Progress& progress) {
   const auto isOver = [&] {
     return !hasSurface(m_case) || !m_allowed || m_ended || isTried(level) || progress.cancelled();
   };
-  while (!m_wake.wait_for(lock, kCancelCheckInterval, isOver)) continue;
+  if (m_oneThread)
+    while (!isOver()) makeLevel(level, lock);
+  else
+    while (!m_wake.wait_for(lock, kCancelCheckInterval, isOver)) continue;
   m_waiting.erase(std::find(m_waiting.begin(), m_waiting.end(), mine));
   progress.check();
 }
@@ -206,37 +215,49 @@ void Surfaces::work() {
   std::unique_lock lock(m_mutex);
   while (!m_ended) {
     const int level = nextLevel();
-    if (level < 0) {
+    if (level < 0)
       m_wake.wait(lock);
-      continue;
-    }
-    const auto value = m_case;
-    const auto progress = std::make_shared<HeardProgress>(*this, level);
-    const std::uint64_t number = level == kQuick ? 0 : ++m_number;
-    m_progress = progress;
-    m_making = level;
-    lock.unlock();
-    std::shared_ptr<const ReadySurface> made;
-    try {
-      made = level == kQuick ? readyQuick(*progress) : make(*value, level, number, *progress);
-    } catch (const std::exception&) {
-      // cancelled, or a case that has no such surface: a request for the quick one gets the error
-    }
-    returnFreeMemory();
-    lock.lock();
-    m_progress.reset();
-    if (m_case != value || (!made && progress->cancelled())) continue;
-    m_hasFailed[place(level)] = !made;
-    m_wake.notify_all();
-    if (!made || level == kQuick) continue;
-    m_levels[place(level)] = std::move(made);
-    m_levels[kQuick].reset();
-    ++m_revision;
-    m_wake.notify_all();
-    lock.unlock();
-    m_ready();
-    lock.lock();
+    else
+      makeLevel(level, lock);
   }
+}
+
+bool Surfaces::makeNext() {
+  std::unique_lock lock(m_mutex);
+  const int level = nextLevel();
+  if (level >= 0) makeLevel(level, lock);
+  return level >= 0;
+}
+
+void Surfaces::makeLevel(int level, std::unique_lock<std::mutex>& lock) {
+  const auto value = m_case;
+  const bool asks = m_oneThread && m_waiting.empty();
+  const auto progress =
+      std::make_shared<HeardProgress>(*this, level, asks ? m_oneThread->isSurfaceStopped : nullptr);
+  const std::uint64_t number = level == kQuick ? 0 : ++m_number;
+  m_progress = progress;
+  m_making = level;
+  lock.unlock();
+  std::shared_ptr<const ReadySurface> made;
+  try {
+    made = level == kQuick ? readyQuick(*progress) : make(*value, level, number, *progress);
+  } catch (const std::exception&) {
+    // cancelled, or a case that has no such surface: a request for the quick one gets the error
+  }
+  returnFreeMemory();
+  lock.lock();
+  m_progress.reset();
+  if (m_case != value || (!made && progress->cancelled())) return;
+  m_hasFailed[place(level)] = !made;
+  m_wake.notify_all();
+  if (!made || level == kQuick) return;
+  m_levels[place(level)] = std::move(made);
+  m_levels[kQuick].reset();
+  ++m_revision;
+  m_wake.notify_all();
+  lock.unlock();
+  m_ready();
+  lock.lock();
 }
 
 }  // namespace lumen::viewer

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "converters/base/progress.h"
 #include "converters/stages/surface/closing/closed_surface.h"
 #include "formats/case/case.h"
+#include "viewer/session/document/one_thread.h"
 
 namespace lumen::viewer {
 
@@ -33,7 +35,8 @@ public:
   static constexpr int kLevels = 2;
 
   /// `ready` is called, without any lock, when another surface can be had.
-  explicit Surfaces(std::function<void()> ready);
+  /// With `oneThread` the background works in makeNext().
+  explicit Surfaces(std::function<void()> ready, const std::optional<OneThread>& oneThread = {});
   ~Surfaces();
   Surfaces(const Surfaces&) = delete;
   Surfaces& operator=(const Surfaces&) = delete;
@@ -54,6 +57,8 @@ public:
   void waitFor(int level, Progress& progress);
   /// A surface at once: the coarsest level that is ready, or else a preview, which is made now.
   std::shared_ptr<const ReadySurface> quick();
+  /// With one thread: makes a surface that is wanted. False if none is.
+  bool makeNext();
   /// Counts surfaces that have become ready, and cases.
   [[nodiscard]] std::uint64_t revision() const;
 
@@ -64,6 +69,8 @@ private:
   class HeardProgress;
 
   void work();
+  /// Makes that level, without the lock, and takes it.
+  void makeLevel(int level, std::unique_lock<std::mutex>& lock);
   /// Calls `tell` with the progress of each who waits for that level.
   void tellWaiting(int level, const std::function<void(Progress&)>& tell);
   // Call these with the mutex held.
@@ -83,6 +90,7 @@ private:
                                            std::uint64_t number, Progress& progress);
 
   const std::function<void()> m_ready;
+  const std::optional<OneThread> m_oneThread;
   std::mutex m_quickMutex;     ///< held while the quick surface is made; taken before the other
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::condition_variable m_wake;

@@ -63,8 +63,9 @@ function wasiOf(module, view) {
  * that takes no more calls. */
 export class Instance {
   /** @param {WebAssembly.Module} module
-   * @param {import("./index.js").Listener} listener */
-  static async create(module, listener) {
+   * @param {import("./index.js").Listener} listener
+   * @param {Record<string, (...values: any[]) => number | void>} more functions that another module imports from "lumen" */
+  static async create(module, listener, more = {}) {
     const made = new Instance();
     made.#listener = listener;
     const imports = {
@@ -74,6 +75,7 @@ export class Instance {
         progress: (/** @type {number} */ done) => made.#hear(() => made.#listener.onProgress?.(done)),
         warning: (/** @type {number} */ text) => made.#hear(() => made.#listener.onWarning?.(made.text(text))),
         is_cancelled: () => Number(made.#thrown !== undefined || made.#listener.signal?.aborted === true),
+        ...more,
       },
     };
     const { exports } = await WebAssembly.instantiate(module, imports);
@@ -135,8 +137,13 @@ export class Instance {
   put(bytes) {
     const at = this.call("malloc", Math.max(1, bytes.length));
     if (at === 0) throw new LumenError("memory", `the module has no room for ${bytes.length} bytes more`);
-    new Uint8Array(this.#memory.buffer).set(bytes, at);
+    this.write(at, bytes);
     return at;
+  }
+  /** Copies bytes to an address. @param {number} at
+   * @param {Uint8Array} bytes */
+  write(at, bytes) {
+    new Uint8Array(this.#memory.buffer).set(bytes, at);
   }
   /** Address of a copy of this text. @param {string} text */
   putText(text) {

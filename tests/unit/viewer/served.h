@@ -20,7 +20,7 @@
 #include "converters/io/volume/write_volume.h"
 #include "formats/case/case_encoding.h"
 #include "formats/case/case_file.h"
-#include "viewer/server/html_page.h"
+#include "viewer/routes/html_page.h"
 #include "viewer/server/server.h"
 
 // behind Eigen: <resolv.h>, which it includes, has a macro that is a name there

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program as a person starts it, and a folder for what it reads and writes.
 import { spawn, spawnSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 
 export const kLumen = process.env.LUMEN ?? "lumen";
 
@@ -31,8 +31,19 @@ export function lumen(...words) {
   return stdout.trim() === "" ? null : JSON.parse(stdout);
 }
 
+/** The page without a server, in the folder LUMEN_SERVERLESS that `lumen view --serverless` has written, with the files beside it. */
+async function viewServerless(test, places) {
+  const { serve } = await import("./static_server.mjs"),
+    files = places.filter(place => existsSync(place)), // a case that is not there yet has no place to be saved to
+    named = Object.fromEntries(files.map(file => [basename(file), file])),
+    query = files.map(file => `open=files/${encodeURIComponent(basename(file))}`).join("&"),
+    { address } = await serve(test, process.env.LUMEN_SERVERLESS, named);
+  return { address: query === "" ? address : `${address}?${query}`, stop: () => Promise.resolve("") };
+}
+
 /** `lumen view` until the test is over or `stop` is called. */
 export async function view(test, ...files) {
+  if (process.env.LUMEN_SERVERLESS !== undefined) return viewServerless(test, files);
   const child = spawn(kLumen, ["view", "--no-browser", "--json", ...files], {
     stdio: ["ignore", "pipe", "pipe"],
     env: { ...process.env, XDG_STATE_HOME: makeFolder()(".") }, // of a document without a file, unsaved work

@@ -20,6 +20,8 @@ if (process.argv.some(name => name.startsWith("firefox")))
     ["/usr/bin/Xvfb", "apt install xvfb"],
     [join(page, "node_modules/puppeteer-core"), "npm ci in viewer/page"],
   );
+if (process.argv.some(name => name.endsWith("serverless")))
+  needed.push([join(page, "dist/lumen-view.wasm"), "packages/wasm/build.sh FOLDER"]);
 for (const [path, remedy] of needed)
   if (!existsSync(path)) {
     console.log(`skipped: ${path} is missing (${remedy})`);

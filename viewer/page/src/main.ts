@@ -36,6 +36,7 @@ import { SliceView } from "./slices/slice_view";
 import { Refused, type Source } from "./net/source";
 import { EmbeddedSource } from "./net/source_embedded";
 import { ServerSource } from "./net/source_server";
+import { WorkerSource } from "./net/source_worker";
 import { Stage } from "./drawing/stage";
 import { Strip } from "./panels/strip";
 import { Tools } from "./tools/tools";
@@ -72,7 +73,7 @@ function makeApp(source: Source, shell: Shell): App {
 
 async function start(root: HTMLElement): Promise<void> {
   const frame = Frame.find(),
-    source = (await frame?.source()) ?? EmbeddedSource.find() ?? new ServerSource();
+    source = (await frame?.source()) ?? EmbeddedSource.find() ?? WorkerSource.find() ?? new ServerSource();
   const state = source.state(); // the request is on its way while the graphics start
   const shell = makeShell(root);
   const app = makeApp(source, shell);

@@ -2,15 +2,19 @@
 #include "viewer/session/document/encoded_document.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <string_view>
+#include <utility>
 
 #include "converters/base/error.h"
+#include "converters/engine/export_options.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/mesh_options.h"
 #include "converters/engine/scope.h"
+#include "converters/export/shared/zip_archive.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/operations/case_of.h"
+#include "converters/operations/exported.h"
 #include "viewer/session/document/arguments.h"
 #include "viewer/session/document/document_seeds.h"
 
@@ -18,7 +22,7 @@ namespace lumen::viewer {
 
 namespace {
 
-namespace fs = std::filesystem;
+constexpr std::string_view kZipEnding = ".zip";
 
 /// The options of `lumen convert` that concern a mesh or an encoding, in the scope of `writer`.
 engine::OutputOptions outputOptions(const SavingOptions& options, const engine::FileFormat& writer,
@@ -52,12 +56,38 @@ std::string encodedSeeds(Seeds seeds) {
   return convert::encodeSeeds(seeds, "seeds.json");
 }
 
+/// The case with models.
+formats::Case fittedCase(const formats::Case& value, const SessionOptions& settings,
+                         Progress& progress) {
+  if (value.models) return value;
+  return operations::fitted(value, {settings.fit}, engine::operationContext(progress));
+}
+
+std::string zippedFolder(const Document& document, const std::string& name,
+                         const SessionOptions& settings, Progress& progress) {
+  if (!document.value) refuse("there is no case to export");
+  OptionTable table;
+  operations::ExportPlan plan{engine::exportTarget(name)};
+  engine::addExportRows(table, plan.options);
+  plan.texts = engine::exportOptionTexts(table, plan.target);
+  const formats::Case fitted = fittedCase(*caseWithSeeds(document), settings, progress);
+  convert::ZipArchive zip;
+  for (const convert::ExportFile& file : operations::exported(fitted, "case.lumen", std::move(plan),
+                                                              engine::operationContext(progress))
+                                             .files)
+    zip.add(name + "/" + file.name, file.bytes, file.isProgram);
+  return zip.bytes();
+}
+
 }  // namespace
 
 std::string encoded(const Document& document, const std::string& format,
                     const SavingOptions& options, const SessionOptions& settings,
                     Progress& progress) {
   if (format == "seeds") return encodedSeeds(*document.seeds);
+  if (format.ends_with(kZipEnding))
+    return zippedFolder(document, format.substr(0, format.size() - kZipEnding.size()), settings,
+                        progress);
   const engine::FileFormat& writer = writableFormat(format);
   if (!document.value) refuse("there is no case to save");
   const engine::OutputOptions output = outputOptions(options, writer, progress);
@@ -65,9 +95,7 @@ std::string encoded(const Document& document, const std::string& format,
   const auto value = caseWithSeeds(document);
   if (!engine::needsModels(writer) || value->models)
     return writer.encodeCase(*value, name, output, progress).bytes;
-  const formats::Case fitted =
-      operations::fitted(*value, {settings.fit}, engine::operationContext(progress));
-  return writer.encodeCase(fitted, name, output, progress).bytes;
+  return writer.encodeCase(fittedCase(*value, settings, progress), name, output, progress).bytes;
 }
 
 }  // namespace lumen::viewer

@@ -14,6 +14,7 @@
 #include "converters/engine/mask_input.h"
 #include "converters/engine/stage_options.h"
 #include "viewer/session/document/document.h"
+#include "viewer/session/document/one_thread.h"
 
 namespace lumen::viewer {
 
@@ -33,6 +34,8 @@ struct SessionOptions {
   std::optional<Eigen::Vector3d> look;
   /// Time of the case's motion that a page shows first, s; none: the case at rest.
   std::optional<double> time;
+  /// Given: the session starts no thread.
+  std::optional<OneThread> oneThread;
 };
 
 /// Pairs of an option's name without hyphens, and its value.
@@ -40,6 +43,7 @@ using SavingOptions = std::vector<std::pair<std::string, std::string>>;
 
 /// The case, its mesh, its centerline or the seeds in that format, as `lumen convert` with these
 /// options writes it; a case without models is fitted for a mesh.
+/// "TARGET.zip" is the folder of `lumen export TARGET` with its defaults.
 /// Throws Error(Usage) for an unknown format or option, and as the encoders.
 std::string encoded(const Document& document, const std::string& format,
                     const SavingOptions& options, const SessionOptions& settings,

@@ -293,8 +293,8 @@ void addFours(PackWriter& pack, const std::string& name, const std::vector<std::
   std::vector<std::uint16_t> rows;
   rows.reserve(4 * old.size());
   for (const std::uint32_t vertex : old)
-    rows.insert(rows.end(), values.begin() + 4 * std::ptrdiff_t{vertex},
-                values.begin() + 4 * (std::ptrdiff_t{vertex} + 1));
+    rows.insert(rows.end(), values.begin() + 4 * static_cast<std::ptrdiff_t>(vertex),
+                values.begin() + 4 * (static_cast<std::ptrdiff_t>(vertex) + 1));
   pack.add(name, std::span(std::as_const(rows)), {old.size(), 4});
 }
 

@@ -25,6 +25,10 @@ export type OpenAs = "auto" | "truth" | "second" | "labels";
 export interface Source {
   /** False: what is embedded is all there is, and nothing can be edited. */
   readonly live: boolean;
+  /** A sentence on where the data is, for the last line; empty where it goes without saying. */
+  readonly where: string;
+  /** Memory for a volume and all work on it; null: as the machine has it. */
+  readonly mostBytes: number | null;
   state(): Promise<State>;
   /** The bytes of a pack or file; null if there is none. */
   bytes(
@@ -40,6 +44,6 @@ export interface Source {
   /** Sends one file of a batch of DICOM. */
   sendSeriesFile(batch: number, file: File): Promise<void>;
   cancel(job: number): Promise<void>;
-  /** Address of a download. */
-  download(format: string, options?: Record<string, string>): string;
+  /** Gives the user the document in that format as a file. */
+  download(format: string, options?: Record<string, string>): Promise<void>;
 }

@@ -33,6 +33,8 @@ export interface Embedded {
 
 export class EmbeddedSource implements Source {
   readonly live = false;
+  readonly where = "One file, without a server";
+  readonly mostBytes = null;
   private readonly state0: Partial<State>;
   private readonly parts: Map<string, Part>;
 
@@ -65,12 +67,6 @@ export class EmbeddedSource implements Source {
   listen(listener: (event: Event) => void): void {
     void listener;
   }
-  private refuse(): never {
-    throw new Refused(
-      404,
-      "This page is one file without a server: it shows and measures, and edits nothing.",
-    );
-  }
   perform(): Promise<Answer> {
     return Promise.reject(new Refused(404, "This page is one file: nothing in it can be edited."));
   }
@@ -86,7 +82,7 @@ export class EmbeddedSource implements Source {
   cancel(): Promise<void> {
     return Promise.resolve();
   }
-  download(): string {
-    return this.refuse();
+  download(): Promise<void> {
+    return this.open();
   }
 }

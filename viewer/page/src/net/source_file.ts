@@ -4,6 +4,7 @@ import { load } from "../../../../libblob/wasm/blob.mjs";
 import { isCaseFile, packOfCase } from "../case/case_file";
 import { surfacePack } from "../case/field_surface";
 import { Pack } from "../case/pack";
+import { nameOf } from "./named_files";
 import type { Source } from "./source";
 import { embeddedToday } from "./old_page";
 import { EmbeddedSource, type Embedded } from "./source_embedded";
@@ -14,16 +15,6 @@ async function fetched(address: string): Promise<Uint8Array> {
   if (!answer.ok)
     throw new Error(`${nameOf(address)} cannot be fetched: the server answers ${answer.status}.`);
   return new Uint8Array(await answer.arrayBuffer());
-}
-
-/** The last part of an address, as people read it. */
-function nameOf(address: string): string {
-  const last = new URL(address).pathname.split("/").pop() ?? "";
-  try {
-    return decodeURIComponent(last);
-  } catch {
-    return last;
-  }
 }
 
 /** The parts of a case's bytes that the page asks for. */

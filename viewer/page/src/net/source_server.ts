@@ -2,6 +2,7 @@
 /** The server that this page came from; all addresses are relative to the page's own, which holds the token. */
 import { Refused, type Answer, type OpenAs, type Received, type Source } from "./source";
 import type { Event, Operation, VesselAtClick, State } from "../base/types";
+import { h } from "../base/ui";
 
 const kMostName = 100; // letters of the name of a file of DICOM
 const kSilence = 2000; // ms without an answer after which the server counts as gone and is asked again
@@ -43,6 +44,8 @@ async function receive(response: Response, received?: Received): Promise<Uint8Ar
 
 export class ServerSource implements Source {
   readonly live = true;
+  readonly where = "Engine: lumen view";
+  readonly mostBytes = null;
 
   async state(): Promise<State> {
     const response = await fetch("state", { cache: "no-store" });
@@ -107,7 +110,11 @@ export class ServerSource implements Source {
   async cancel(job: number): Promise<void> {
     await this.post("cancel", JSON.stringify({ job }));
   }
-  download(format: string, options: Record<string, string> = {}): string {
-    return withQuery("save", { format, ...options });
+  download(format: string, options: Record<string, string> = {}): Promise<void> {
+    const link = h("a", { href: withQuery("save", { format, ...options }), download: "" });
+    document.body.append(link);
+    link.click();
+    link.remove();
+    return Promise.resolve();
   }
 }

@@ -8,6 +8,7 @@ import type { SliceView } from "../slices/slice_view";
 import { openHelp } from "./help";
 import { applyView, kViewEnding, kViewFormat, readView, takeView } from "../model/kept_view";
 import { askPart } from "./series_dialog";
+import { fitting } from "./too_large";
 import { Refused, type OpenAs } from "../net/source";
 import { askYes, errorText, h, saveBlob, saveText } from "../base/ui";
 
@@ -70,10 +71,7 @@ export class Actions {
       );
       return;
     }
-    const link = h("a", { href: this.app.source.download(format), download: "" });
-    document.body.append(link);
-    link.click();
-    link.remove();
+    this.app.source.download(format).catch((error: unknown) => this.app.inform(errorText(error), "error"));
   }
 
   open(as: OpenAs = "auto"): void {
@@ -131,8 +129,11 @@ export class Actions {
       const part = as === "auto" && isVolume(file.name) ? await askPart(this.app, file.name, true) : as;
       if (part === null) continue;
       try {
+        const bytes = await fitting(this.app, file);
+        if (bytes === null) continue;
         this.app.inform(`Opening ${file.name}…`);
-        await this.app.source.open(file.name, part, file);
+        // a smaller copy is not compressed
+        await this.app.source.open(bytes === file ? file.name : file.name.replace(/\.gz$/i, ""), part, bytes);
       } catch (error) {
         this.app.inform(errorText(error), "error");
       }

@@ -26,6 +26,12 @@ const kLayoutTitles: Record<Layout, string> = {
   sagittal: "Sagittal only",
 };
 
+/** Formats whose ending says too little. */
+const kFormatTitles: Record<string, string | undefined> = {
+  html: "page (html)",
+  "sofa.zip": "scene of SOFA (zip)",
+};
+
 export function makeBar(
   element: HTMLElement,
   app: Part<"document" | "tools" | "page", "source" | "perform">,
@@ -143,7 +149,7 @@ export function makeBar(
         : `Save to ${state.save_as}  (Control+S)`;
     formats.replaceChildren(
       h("option", { value: "" }, "Export…"),
-      ...state.formats.map(name => h("option", { value: name }, name === "html" ? "page (html)" : name)),
+      ...state.formats.map(name => h("option", { value: name }, kFormatTitles[name] ?? name)),
       h("option", { value: kViewFormat }, "view (colours, window, measurements)"),
     );
     formats.disabled = !state.has_case && !state.has_volume;

@@ -45,7 +45,7 @@ export class Watcher {
     this.take(await state);
     await this.taking;
     app.source.listen(event => this.hear(event));
-    shell.status.textContent = app.source.live ? "" : "One file, without a server";
+    shell.status.textContent = app.source.where;
     document.body.dataset.ready = "1";
   }
 
@@ -88,12 +88,14 @@ export class Watcher {
         break;
       case "lost":
         this.isLost = true;
+        this.shell.status.classList.add("lost");
         this.shell.status.textContent =
-          "The server does not answer: what you see can be looked at, not changed.";
+          "The engine does not answer: what you see can be looked at, not changed.";
         break;
       case "back":
         if (this.isLost) {
-          this.shell.status.textContent = "";
+          this.shell.status.classList.remove("lost");
+          this.shell.status.textContent = this.app.source.where;
           this.isLost = false;
           void this.app.source.state().then(state => this.take(state));
         }

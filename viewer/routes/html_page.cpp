@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/server/html_page.h"
+#include "viewer/routes/html_page.h"
 
 #include <algorithm>
 #include <array>
@@ -34,17 +34,6 @@ constexpr std::array<Known, 4> kKnown = {{
     {"blob.wasm", "blob.wasm", "application/wasm"},
 }};
 
-PageFiles readFrom(const fs::path& folder) {
-  PageFiles files;
-  for (const Known& known : kKnown) {
-    const auto bytes = formats::readFileBytes(folder / known.file);
-    if (!bytes) continue;
-    files[known.name] = {known.type, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}};
-  }
-  // one without the others is a build that was interrupted
-  return files.contains("") && files.contains("page.js") ? files : PageFiles();
-}
-
 }  // namespace
 
 const char* const kNoPage =
@@ -53,14 +42,27 @@ const char* const kNoPage =
     "<p>Building it needs npm: <code>apt install npm</code>, then <code>./bootstrap.sh demo</code> "
     "in lumen's folder.</p>\n</html>\n";
 
-PageFiles findPageFiles() {
+fs::path findPageFolder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return {};
-  const fs::path folder = program.parent_path();
   for (const char* const place : {"../share/lumen/viewer", "../../viewer/page"})
-    if (PageFiles files = readFrom(folder / place); !files.empty()) return files;
+    // one without the other is a build that was interrupted
+    if (const fs::path folder = program.parent_path() / place;
+        fs::exists(folder / "index.html", error) && fs::exists(folder / "page.js", error))
+      return folder;
   return {};
+}
+
+PageFiles findPageFiles() {
+  PageFiles files;
+  const fs::path folder = findPageFolder();
+  if (folder.empty()) return files;
+  for (const Known& known : kKnown)
+    if (const auto bytes = formats::readFileBytes(folder / known.file))
+      files[known.name] = {known.type,
+                           {reinterpret_cast<const char*>(bytes->data()), bytes->size()}};
+  return files;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // The page and its data as one file, which opens from disk and uses no network.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,8 +24,11 @@ struct PageFile {
 /// Files by the name that the page asks for; "" is the page itself.
 using PageFiles = std::map<std::string, PageFile>;
 
-/// Reads them from share/lumen/viewer of the installation that the running program is in, or from
-/// its build folder. Empty if they are in neither.
+/// share/lumen/viewer of the installation that the running program is in, or that of its build
+/// folder. Empty if the page is in neither.
+std::filesystem::path findPageFolder();
+
+/// Reads the files in findPageFolder(). Empty if there is none.
 PageFiles findPageFiles();
 
 /// A page with instructions, for a build without the page.
