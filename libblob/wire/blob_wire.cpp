@@ -23,7 +23,7 @@ constexpr std::uint32_t kCookie = 0x77697265;
 constexpr double kLongestPush = 0.5;                   // elements
 constexpr double kWidestTurn = 3.14159265358979 / 12;  // radians
 constexpr double kStretch = 100.0;                     // in stiffnesses of an element's bending
-constexpr double kContact = 10.0;
+constexpr double kContact = 2.0;
 constexpr double kDrag = 1e-5;
 
 bool isIn(double value, double least, double most) {

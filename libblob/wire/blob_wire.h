@@ -14,9 +14,9 @@
  * is not modelled. There is no mass: steps are quasi-static, with a small drag that bounds motions
  * without resistance.
  *
- * Nodes stay half the wire's radius inside of the lumen, and quarters of elements a quarter of it, by
- * the cursors of their nodes: what a step would take out is moved back to the wall, or else stays
- * where it was.
+ * Nodes and quarters of elements stay half the wire's radius inside of the lumen, by the cursors of
+ * their nodes: what a step would take out is moved back to the wall, or else stays where it was. A
+ * quarter of an element whose ends are deeper than three quarters of its length is taken to be inside.
  *
  * Wires are independent, and none of their bits depends on the number of threads. A step does not
  * allocate. Lengths are mm in the frame of the case, forces N. */

@@ -61,7 +61,7 @@ void ask(const WireSetup& setup, StepMemory& memory, std::size_t first) {
 }
 
 bool isTooNear(const WireSetup& setup, const Place& place) {
-  return !(place.distance <= (place.quarter == 0 ? -0.5 : -0.25) * setup.def.radius);
+  return !(place.distance <= -0.5 * setup.def.radius);
 }
 
 }  // namespace

@@ -85,8 +85,8 @@ void placeOnGuide(const WireSetup& setup, const WireRows& rows, std::size_t firs
 /// with an end near the wall, the last one towards the entry. Cursors of nodes follow.
 void askWall(const WireSetup& setup, const WireRows& rows, StepMemory& memory);
 
-/// Asks for the wall. Whether nodes are half the wire's radius inside of the lumen, and
-/// quarters of elements a quarter of it.
+/// Asks for the wall. Whether all places are half the wire's radius inside of the
+/// lumen.
 bool isInside(const WireSetup& setup, const WireRows& rows, StepMemory& memory);
 
 /// Moves nodes back that isInside() has found not to be: to the wall, or else to where they were
