@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "libblob/include": [],
     "libblob/src": ["libblob/include", "libblob/src/simd", "formats/container", "formats/field", "formats/view"],
     "libblob/cuda": ["libblob/include"],
+    "libblob/wire": ["libblob/include"],
     "libblob/src/simd": ["libblob/include", "libblob/src", "formats/field"],
 }
 FORMATS = ["formats/container", "formats/field", "formats/view", "formats/json", "formats/case"]
@@ -79,7 +80,7 @@ MAY_INCLUDE["viewer/routes"] = MAY_INCLUDE["viewer/session"] + ["viewer/session"
 MAY_INCLUDE["viewer/server"] = MAY_INCLUDE["viewer/routes"] + ["viewer/routes"]
 MAY_INCLUDE["converters/cli"] = MAY_INCLUDE["viewer/server"] + ["viewer/server"]
 # The Python module stands beside them.
-MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session/packs"]
+MAY_INCLUDE["packages/python/src"] = MAY_INCLUDE["viewer/session/packs"] + ["libblob/wire"]
 MAY_INCLUDE["packages/python/lumen"] = []
 
 # The rooms of the page from the bottom up. A room may import all before its own; those of one list do not know each other.
@@ -94,7 +95,8 @@ MAY_INCLUDE[PAGE] = below
 
 def sources():
     """Every C, C++ or TypeScript file of the product, and those of the Python package, relative to the root."""
-    for top in ("formats", "libblob/include", "libblob/src", "libblob/cuda", "converters", "viewer/session", "viewer/routes", "viewer/server", "packages/python/src", PAGE):
+    for top in ("formats", "libblob/include", "libblob/src", "libblob/cuda", "libblob/wire", "converters", "viewer/session", "viewer/routes", "viewer/server",
+                "packages/python/src", PAGE):
         yield from (p.relative_to(ROOT) for p in sorted((ROOT / top).rglob("*")) if p.suffix in (".h", ".cpp", ".c", ".ts"))
     yield from (p.relative_to(ROOT) for p in sorted((ROOT / "packages/python/lumen").glob("*.py")))
 

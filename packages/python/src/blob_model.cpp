@@ -15,6 +15,7 @@
 #include "formats/container/printable.h"
 #include "packages/python/src/blob_records.h"
 #include "packages/python/src/case_object.h"
+#include "packages/python/src/model_object.h"
 #include "packages/python/src/python_error.h"
 
 namespace py = pybind11;
@@ -28,17 +29,6 @@ using Hessians = Records<blob_hessian>;
 using NearestPoints = Records<blob_nearest_point>;
 using Hits = Records<blob_hit>;
 using Approaches = Records<blob_approach>;
-
-struct CloseModel {
-  void operator()(blob_model* model) const { blob_model_close(model); }
-};
-
-/// A model of libblob, which any number of threads may query.
-struct ModelObject : MadeByInit {
-  std::unique_ptr<blob_model, CloseModel> model;
-  blob_model_info info{};
-};
-using SharedModel = std::shared_ptr<ModelObject>;
 
 /// The model that `open` makes. Raises lumen.Error, which names `subject`.
 template <class Open>

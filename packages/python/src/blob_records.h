@@ -136,5 +136,7 @@ pybind11::object truthOf(const Records<Record>& records, Field Record::*field, u
 
 /// Adds the module's classes Model, Cursor, Answer, Nearest, Hits and Approaches.
 void addBlob(pybind11::module_& module);
+/// Adds guidewires: the class Wires.
+void addWires(pybind11::module_& module);
 
 }  // namespace lumen::python

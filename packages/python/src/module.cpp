@@ -15,4 +15,5 @@ PYBIND11_MODULE(_lumen, module) {
   lumen::python::addSurfaces(module);
   lumen::python::addVolumes(module);
   lumen::python::addBlob(module);
+  lumen::python::addWires(module);
 }

@@ -14,7 +14,7 @@ except ImportError:
 
 # Modules that are not for users or need packages that are not here, aliases of types, classes that users do not make, pybind11's metaclass.
 EXPECTED = re.compile(r"lumen\._|lumen\.(blob\.)?(Floats|PathLike|Report|Seeds|\w+Like|Doubles|Nodes|Truth) is not present"
-                      r"|lumen\.torch failed to import|.*metaclass differs|lumen\.(blob\.)?(Case|Mesh|Models|Motion|Points|Tree|Answer|Approaches|Hessian|Hits|Nearest)"
+                      r"|lumen\.(torch|gym) failed to import|.*metaclass differs|lumen\.(blob\.)?(Case|Mesh|Models|Motion|Points|Tree|Answer|Approaches|Hessian|Hits|Nearest)"
                       r"\.__init__ is inconsistent")
 PROGRAM = """
 import lumen
