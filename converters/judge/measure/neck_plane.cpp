@@ -133,7 +133,7 @@ PlaneCutter::PlaneCutter(const LocalSurface& surface, const NeckPlace& place)
     : m_surface(surface),
       m_place(place),
       m_height(surface.mesh.position.size()),
-      m_seen(surface.mesh.position.size(), 0) {
+      m_side(surface.mesh.position.size(), Side::Below) {
   const TriangleMesh& mesh = surface.mesh;
   // the wall that a ray from the vessel through the sac's point meets last, about
   const Vector3d along = (place.sac - place.vessel).normalized();
@@ -148,35 +148,46 @@ PlaneCutter::PlaneCutter(const LocalSurface& surface, const NeckPlace& place)
     }
   }
   for (const Vector3d& node : place.axes) m_axisVertex.push_back(nearestVertex(mesh, node));
-  m_offset.assign(mesh.position.size() + 1, 0);
+  listNeighbours();
+}
+
+void PlaneCutter::listNeighbours() {
+  const TriangleMesh& mesh = m_surface.mesh;
+  const std::size_t count = mesh.position.size();
+  // two triangles at each edge, but at the borders of the box, name each neighbour twice
+  std::vector<std::uint32_t> offset(count + 1, 0);
   for (const Triangle& t : mesh.triangle)
-    for (const std::uint32_t v : t) m_offset[v + 1] += 2;
-  for (std::size_t v = 0; v < mesh.position.size(); ++v) m_offset[v + 1] += m_offset[v];
-  m_neighbour.resize(m_offset.back());
-  std::vector<std::uint32_t> next(m_offset.begin(), m_offset.end() - 1);
+    for (const std::uint32_t v : t) offset[v + 1] += 2;
+  for (std::size_t v = 0; v < count; ++v) offset[v + 1] += offset[v];
+  std::vector<std::uint32_t> named(offset.back()), next(offset.begin(), offset.end() - 1);
   for (const Triangle& t : mesh.triangle)
     for (std::size_t i = 0; i < 3; ++i) {
-      m_neighbour[next[t[i]]++] = t[(i + 1) % 3];
-      m_neighbour[next[t[i]]++] = t[(i + 2) % 3];
+      named[next[t[i]]++] = t[(i + 1) % 3];
+      named[next[t[i]]++] = t[(i + 2) % 3];
     }
+  m_offset.push_back(0);
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto first = named.begin() + offset[v], last = named.begin() + offset[v + 1];
+    std::sort(first, last);
+    m_neighbour.insert(m_neighbour.end(), first, std::unique(first, last));
+    m_offset.push_back(static_cast<std::uint32_t>(m_neighbour.size()));
+  }
 }
 
 // Marks the vertices beyond the plane that are connected with the seed.
 bool PlaneCutter::grow() {
-  ++m_pass;
-  if (m_height.empty() || m_height[m_seed] <= 0) return false;
+  if (m_side.empty() || m_side[m_seed] == Side::Below) return false;
   m_open.assign(1, m_seed);
-  m_seen[m_seed] = m_pass;
+  m_side[m_seed] = Side::Beyond;
   while (!m_open.empty()) {
     const std::uint32_t v = m_open.back();
     m_open.pop_back();
     if (m_surface.isOpen[v] != 0) return false;
     for (std::uint32_t e = m_offset[v]; e < m_offset[v + 1]; ++e) {
       const std::uint32_t other = m_neighbour[e];
-      if (m_height[other] > 0 && m_seen[other] != m_pass) {
-        m_seen[other] = m_pass;
-        m_open.push_back(other);
-      }
+      if (m_side[other] != Side::Above) continue;
+      m_side[other] = Side::Beyond;
+      m_open.push_back(other);
     }
   }
   return true;
@@ -184,8 +195,10 @@ bool PlaneCutter::grow() {
 
 std::optional<PlaneCutter::Cut> PlaneCutter::cut(const NeckPlane& plane) {
   const std::vector<Vector3d>& position = m_surface.mesh.position;
-  for (std::size_t v = 0; v < position.size(); ++v)
+  for (std::size_t v = 0; v < position.size(); ++v) {
     m_height[v] = plane.normal.dot(position[v]) - plane.offset;
+    m_side[v] = m_height[v] > 0 ? Side::Above : Side::Below;
+  }
   if (plane.normal.dot(m_place.vessel) > plane.offset || !grow()) return std::nullopt;
   for (std::size_t i = 0; i < m_axisVertex.size(); ++i)
     if (plane.normal.dot(m_place.axes[i]) > plane.offset && isBeyond(m_axisVertex[i]))

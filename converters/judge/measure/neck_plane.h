@@ -43,20 +43,24 @@ public:
   /// The place of the wall behind the sac's point, seen from its vessel, mm.
   [[nodiscard]] const Eigen::Vector3d& farSide() const { return m_surface.mesh.position[m_seed]; }
   /// The vertices of the part that the last cut() found.
-  [[nodiscard]] bool isBeyond(std::uint32_t vertex) const { return m_seen[vertex] == m_pass; }
+  [[nodiscard]] bool isBeyond(std::uint32_t vertex) const { return m_side[vertex] == Side::Beyond; }
 
 private:
+  /// Of a vertex: below the plane, above it, or above it and joined to the sac.
+  enum class Side : std::uint8_t { Below, Above, Beyond };
+
+  void listNeighbours();
   bool grow();
   [[nodiscard]] Cut measure(const NeckPlane& plane) const;
 
   const LocalSurface& m_surface;
   NeckPlace m_place;
-  std::uint32_t m_seed;                     // the vertex at the far side
-  std::vector<std::uint32_t> m_axisVertex;  // nearest vertex to each node of a vessel
-  std::vector<std::uint32_t> m_offset, m_neighbour;
+  std::uint32_t m_seed;                              // the vertex at the far side
+  std::vector<std::uint32_t> m_axisVertex;           // nearest vertex to each node of a vessel
+  std::vector<std::uint32_t> m_offset, m_neighbour;  // of each vertex, each once
   std::vector<double> m_height;
-  std::vector<std::uint32_t> m_seen, m_open;
-  std::uint32_t m_pass = 0;
+  std::vector<Side> m_side;
+  std::vector<std::uint32_t> m_open;
 };
 
 /// The neck: of all planes that separate the sac from its vessels, below its widest section, that
