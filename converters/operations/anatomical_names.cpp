@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/editing/edit_request.h"
 #include "formats/container/printable.h"
 
@@ -16,13 +18,6 @@ namespace {
 
 using convert::ArteryStretch;
 
-/// Whether a label is that of a search: vessel-, numbers and hyphens.
-bool isAutomatic(const std::string& label) {
-  const std::string prefix = "vessel-";
-  return label.starts_with(prefix) &&
-         label.find_first_not_of("0123456789-", prefix.size()) == std::string::npos;
-}
-
 void cutBeforeNode(formats::Case& value, std::uint32_t node) {
   convert::EditRequest request;
   request.op = "cut";
@@ -31,22 +26,22 @@ void cutBeforeNode(formats::Case& value, std::uint32_t node) {
   (void)convert::applyEdit(value, request);
 }
 
-double lengthOfStretch(const formats::CenterlineTree& tree, const ArteryStretch& stretch) {
+/// Length from where its tree begins to a node, mm.
+double lengthToNode(const formats::CenterlineTree& tree, std::uint32_t node) {
   double sum = 0;
-  for (std::uint32_t n = stretch.first + 1; n < stretch.end; ++n)
-    sum += (toEigen(tree.centre[n]) - toEigen(tree.centre[n - 1])).norm();
+  for (std::int32_t above = tree.parent[node]; above != formats::kNoParent;
+       above = tree.parent[node]) {
+    const auto next = static_cast<std::uint32_t>(above);
+    sum += (toEigen(tree.centre[node]) - toEigen(tree.centre[next])).norm();
+    node = next;
+  }
   return sum;
 }
 
-/// The name, or the name and the first free number from 2 on.
-std::string freeName(const formats::CenterlineTree& tree, const std::string& name) {
-  const auto isTaken = [&](const std::string& label) {
-    return std::any_of(tree.branches.begin(), tree.branches.end(),
-                       [&](const formats::Branch& branch) { return branch.label == label; });
-  };
-  std::string label = name;
-  for (int number = 2; isTaken(label); ++number) label = name + "-" + std::to_string(number);
-  return label;
+std::string freeNameIn(const formats::CenterlineTree& tree, const std::string& name) {
+  std::set<std::string> taken;
+  for (const formats::Branch& branch : tree.branches) taken.insert(branch.label);
+  return convert::freeName(name, taken);
 }
 
 }  // namespace
@@ -62,7 +57,8 @@ std::vector<ArteryStretch> anatomicalNames(const formats::Case& value, const std
 AnatomicallyNamed anatomicallyNamed(formats::Case value, std::span<const ArteryStretch> stretches) {
   std::vector<ArteryStretch> wanted;
   for (const ArteryStretch& stretch : stretches)
-    if (isAutomatic(value.tree.branches[stretch.branch].label)) wanted.push_back(stretch);
+    if (convert::isAutomaticName(value.tree.branches[stretch.branch].label))
+      wanted.push_back(stretch);
   // a cut leaves the nodes in their order
   for (const ArteryStretch& stretch : wanted)
     for (const std::uint32_t node : {stretch.first, stretch.end}) {
@@ -71,13 +67,13 @@ AnatomicallyNamed anatomicallyNamed(formats::Case value, std::span<const ArteryS
         cutBeforeNode(value, node);
     }
   std::stable_sort(wanted.begin(), wanted.end(), [&](const auto& a, const auto& b) {
-    return lengthOfStretch(value.tree, a) > lengthOfStretch(value.tree, b);
+    return lengthToNode(value.tree, a.first) < lengthToNode(value.tree, b.first);
   });
   for (const ArteryStretch& stretch : wanted) {
     convert::EditRequest request;
     request.op = "rename";
     request.branch = value.tree.branch[stretch.first];
-    request.word = freeName(value.tree, stretch.name);
+    request.word = freeNameIn(value.tree, stretch.name);
     (void)convert::applyEdit(value, request);
   }
   return {std::move(value), wanted.size()};

@@ -22,10 +22,10 @@ struct AnatomicallyNamed {
   std::size_t renamed = 0;  ///< number of branches that have another name
 };
 
-/// The case with its branches cut where these stretches begin and end, and named after them: the longest
-/// stretch of a name is called so, the others with a number, such as L-MCA-2. A cut gives a part another
-/// name and leaves the lumen whole. Branches that do not have the name of a search, vessel- and numbers,
-/// were named by somebody, and stay. Each change is kept as a correction (stages/editing/edit_request.h).
+/// The case with its branches cut where these stretches begin and end, and named after them: the stretches
+/// of one name are numbered along the flow, by their way from where their tree begins: L-MCA, L-MCA-2. A
+/// cut gives a part another name and leaves the lumen whole. Branches without an automatic name
+/// (geometry/automatic_names.h) were named by somebody, and stay. Each change is kept as a correction (stages/editing/edit_request.h).
 AnatomicallyNamed anatomicallyNamed(formats::Case value,
                                     std::span<const convert::ArteryStretch> stretches);
 

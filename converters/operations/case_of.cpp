@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "converters/base/number_text.h"
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/warning.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/geometry/far_origin.h"
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/io/seeds/case_seeds.h"
@@ -133,11 +136,19 @@ MadeCase caseOfGrey(const Source& source, const CaseOptions& options, const Cont
   return made;
 }
 
+/// The names that a label map or its table gives.
+std::set<std::string> namesStated(const LabelPart& labels) {
+  std::set<std::string> names;
+  for (const auto& [value, name] : convert::namesOf(labels.meanings)) names.insert(name);
+  return names;
+}
+
 MadeCase caseOfLabels(const Source& source, const CaseOptions& options, const Context& context) {
   const convert::VolumeGeometry& geometry = source.labels->voxels.geometry;
   const std::vector<NamingMap> naming = namingMaps(source.maps, geometry, source.name);
   MadeCase made;
   made.value = labelledVessels(*source.labels, options.chosenLabels, context);
+  convert::nameAutomatically(made.value.tree, 0, namesStated(*source.labels));
   applyMaps(source, naming, options, made, context);
   applyRoots(made.value, source.name, options.vessels, context);
   made.labels = inventoryOf(source.maps, naming, made.value, geometry, nullptr, context);
@@ -148,6 +159,7 @@ MadeCase caseOfMesh(const Source& source, const CaseOptions& options, const Cont
   MadeCase made;
   made.meshFrame.emplace();
   made.value = meshVessels(source, options.meshUnit, *made.meshFrame, context);
+  convert::nameAutomatically(made.value.tree);
   applyRoots(made.value, source.name, options.vessels, context);
   return made;
 }

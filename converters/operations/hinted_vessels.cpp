@@ -14,6 +14,7 @@
 #include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"
 #include "converters/base/warning.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/geometry/far_origin.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/operations/dark_seeds.h"
@@ -150,6 +151,7 @@ convert::TrackResult findAndApplyHints(const convert::Volume& volume, const std:
   }
   requireInVessels(result.result, name, options, context);
   convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, options.roots);
+  convert::nameAutomatically(result.result.tree, 0, labelsOf(placed.seeds));
   append(std::move(hints.missedPoints), result.missedPoints);
   append(std::move(hints.unjoined), result.unjoined);
   addUnusedHints(volume, std::move(hints.rest), options, result, context);

@@ -15,6 +15,7 @@
 #include "converters/base/error.h"
 #include "converters/base/relayed_progress.h"
 #include "converters/base/statistics.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/operations/labelled_vessels.h"
 #include "converters/stages/tracking/branch_lumen.h"
 #include "converters/stages/tracking/cylinders/tracked_tree.h"
@@ -180,7 +181,9 @@ private:
 
   void append(TrackedBranch branch) {
     convert::SeedBranch seed;
-    seed.label = convert::freeName("stated", m_names);
+    std::size_t number = m_tree.seeds.size();
+    do seed.label = convert::provisionalName(++number);
+    while (!m_names.insert(seed.label).second);
     seed.points.push_back({branch.nodes.front().centre, std::nullopt});
     m_tree.seeds.push_back(std::move(seed));
     m_tree.branches.push_back(std::move(branch));

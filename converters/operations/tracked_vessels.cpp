@@ -10,6 +10,7 @@
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/io/seeds/case_seeds.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/operations/dark_seeds.h"
@@ -138,6 +139,7 @@ convert::TrackResult findAndTrackIfAny(const convert::Volume& volume, const Vess
   // names of the maps' labels state the systems of the case
   formats::setNodeSystems(result.result, {});
   convert::reportInlets(convert::beginAtFurtherInlets(result.result, lumen.isInside), progress);
+  convert::nameAutomatically(result.result.tree);
   return result;
 }
 
@@ -151,6 +153,7 @@ convert::AddedTracks findAndAdd(const convert::TrackingVolume& tracking,
       convert::addTracksAlongCourses(tracking, known, found.courses, placesOfBone(found), progress);
   reportRefused(added, progress);
   addStatedVessels(options.stated, found, added.result);
+  convert::nameAutomatically(added.result.tree, added.firstNewBranch);
   return added;
 }
 

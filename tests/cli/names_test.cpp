@@ -99,8 +99,8 @@ TEST_F(NamesTest, TheCircleOfWillisGetsItsNames) {
   }
   EXPECT_EQ(found["renamed"], 0);
   EXPECT_TRUE(contains(lumen({"names", "true.lumen", "--anatomy"}).out, "L-Pcom"));
-  // branches with the names of a search get theirs
-  make({"names", "true.lumen", "--rename", "BA=vessel-1", "--rename", "L-MCA=vessel-2", "--out",
+  // branches with automatic names, of today and of older cases, get theirs
+  make({"names", "true.lumen", "--rename", "BA=A.1", "--rename", "L-MCA=vessel-2", "--out",
         "blank.lumen", "--quiet"});
   const Json named = names({"blank.lumen", "--anatomy", "--out", "named.lumen"});
   EXPECT_EQ(named["renamed"], 2);

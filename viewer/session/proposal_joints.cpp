@@ -6,6 +6,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/tracking/cylinders/tracked_tree.h"
 #include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
@@ -65,11 +66,6 @@ Case readyToGrow(const Case& known, std::vector<std::string>& dropped) {
 }
 
 }  // namespace
-
-std::string freeLabel(const std::string& label, const std::set<std::string>& taken) {
-  return taken.contains(label) ? numberedLabel(label.substr(0, label.find_last_of('-')), taken)
-                               : label;
-}
 
 Joints::Joints(const Case& proposals) : m_at(proposals.tree.nodeCount()) {
   const auto& arrays = proposals.nodeArrays;
@@ -139,7 +135,7 @@ Case withBranches(const Case& known, const Case& found, const std::vector<bool>&
     for (std::uint32_t i = 0; i < record.nodeCount; ++i) nodeIn[record.firstNode + i] = next++;
     placeOf[b] = static_cast<int>(tree.seeds.size());
     convert::SeedBranch seed = std::move(more.seeds[b]);
-    seed.label = freeLabel(seed.label, taken);
+    seed.label = convert::freeName(seed.label, taken);
     taken.insert(seed.label);
     tree.seeds.push_back(std::move(seed));
     tree.branches.push_back(std::move(branch));

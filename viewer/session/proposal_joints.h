@@ -14,9 +14,6 @@
 
 namespace lumen::viewer {
 
-/// A name that is not `taken`: the label, or its stem with the first number that is free.
-std::string freeLabel(const std::string& label, const std::set<std::string>& taken);
-
 /// The node array kJoinedArray (proposals.h), one place for each node. A place outlives edits of the
 /// case that renumber its nodes.
 class Joints {

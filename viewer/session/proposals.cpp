@@ -9,6 +9,7 @@
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/radius_range.h"
 #include "converters/base/text.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/geometry/tube_tree_distance.h"
 #include "converters/judge/measure/vessel_length.h"
 #include "converters/stages/editing/selection.h"
@@ -55,7 +56,7 @@ void rename(const Document& document, CenterlineTree& tree) {
   for (const formats::Branch& branch : tree.branches) taken.insert(branch.label);
   for (formats::Branch& branch : tree.branches)
     if (others.contains(branch.label)) {
-      branch.label = freeLabel(branch.label, taken);
+      branch.label = convert::freeName(branch.label, taken);
       taken.insert(branch.label);
     }
 }

@@ -37,7 +37,7 @@ struct Acceptance {
   std::shared_ptr<formats::Case> value;    ///< the document's case
   std::uint32_t firstNewNode = 0;          ///< nodes before it are those of the case before
   std::size_t count = 0;                   ///< accepted vessels
-  std::string title;                       ///< for undo, such as "accept vessel-3"
+  std::string title;                       ///< for undo, such as "accept A.1.3"
   std::vector<std::string> droppedArrays;  ///< node arrays without values for new nodes
 };
 
@@ -50,7 +50,7 @@ Acceptance accepted(const Document& document, std::vector<bool> chosen);
 /// of their own.
 Document rejected(const Document& document, const std::vector<bool>& chosen);
 
-/// "accept vessel-3" or "accept 12 vessels" of the marked proposals; `verb` begins the title.
+/// "accept A.1.3" or "accept 12 vessels" of the marked proposals; `verb` begins the title.
 std::string makeTitle(const char* verb, const formats::Case& proposals,
                       const std::vector<bool>& chosen);
 

@@ -151,7 +151,7 @@ public:
   [[nodiscard]] std::string example() const override {
     return "  lumen names head.lumen --table names.csv            # fill in its column new_name\n"
            "  lumen names head.lumen --names names.csv --out named.lumen\n"
-           "  lumen names head.lumen --rename vessel-4=ICA_L --out head.lumen\n"
+           "  lumen names head.lumen --rename A.1=ICA_L --out head.lumen\n"
            "  lumen names head.lumen --anatomy --out named.lumen   # the circle of Willis";
   }
 
@@ -164,7 +164,7 @@ public:
     table
         .add("rename", &m_renames, "NAME=NEW", "Name of a vessel, and its new one; may be repeated")
         .many()
-        .checkedBy(pairText("NAME=NEW, such as vessel-4=ICA_L"));
+        .checkedBy(pairText("NAME=NEW, such as A.1=ICA_L"));
     table
         .flag(
             "anatomy", m_isAnatomy,

@@ -63,7 +63,7 @@ Change cutBefore(Case& target, std::uint32_t node, Rest rest, const std::string&
   front.record.stopReason = StopReason::Unknown;
   front.isOther = back.isOther = true;
   back.parent = rest == Rest::Child ? node - 1 : kNoNode;
-  back.record.label = label.empty() ? edited.freeLabel(front.record.label) : label;
+  back.record.label = label.empty() ? edited.labelOfRest(front.record.label) : label;
   const std::string sentence = "cut " + quoted(target, branch) + " before its node " +
                                std::to_string(at + 1) + "; the rest is " +
                                quoted(back.record.label);

@@ -11,6 +11,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/editing/editable_case.h"
 #include "converters/stages/editing/node_graph.h"
 
@@ -252,7 +253,7 @@ private:
     for (Chain& chain : m_graph.chains()) {
       EditableBranch branch;
       branch.record.kind = BranchKind::Vessel;
-      branch.record.label = "vessel-" + std::to_string(branches.size() + 1);
+      branch.record.label = provisionalName(branches.size() + 1);
       branch.record.stopReason = reasons[chain.nodes.back()];
       if (!m_case.tree.inlierRate.empty()) branch.record.meanInlierRate = 0.0F;  // until finish()
       branch.parent = chain.parent;

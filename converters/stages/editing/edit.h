@@ -32,7 +32,8 @@ enum class Rest : std::uint8_t {
   Child     ///< it is joined where it was cut off: two names, one lumen, and no wall changes
 };
 /// Ends a branch before `node`, which is not its first. The nodes from there on become a branch of
-/// the same kind, directly behind; `label` empty: the label and the first free number from 2 on.
+/// the same kind, directly behind; `label` empty: the label and the first free number from 2 on, or of an
+/// automatic name the next piece (geometry/automatic_names.h), behind which the others are renumbered.
 Change cutBefore(formats::Case& target, std::uint32_t node, Rest rest = Rest::OwnTree,
                  const std::string& label = {});
 

@@ -2,11 +2,13 @@
 #include "converters/stages/editing/editable_case.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/options/edit_steps.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/fitting/fit.h"
 #include "formats/case/motion.h"
 #include "formats/case/node_origin.h"
@@ -76,16 +78,22 @@ double EditableCase::measureLength(const std::vector<std::uint32_t>& chain) cons
 }
 
 std::string EditableCase::freeLabel(const std::string& base) const {
-  for (std::size_t number = 2;; ++number) {
-    std::string ending(1, '-');
-    ending += std::to_string(number);
-    std::string label = base.substr(0, formats::kMaxNameBytes - ending.size());
-    while (!formats::isUtf8(label)) label.pop_back();
-    label += ending;
-    if (std::none_of(branches.begin(), branches.end(),
-                     [&](const EditableBranch& b) { return b.record.label == label; }))
-      return label;
+  std::set<std::string> taken{base};
+  for (const EditableBranch& branch : branches) taken.insert(branch.record.label);
+  return freeName(base, taken);
+}
+
+std::string EditableCase::labelOfRest(const std::string& front) {
+  if (!isAutomaticName(front)) return freeLabel(front);
+  const PieceName first = pieceNameOf(front);
+  for (EditableBranch& branch : branches) {
+    if (!isAutomaticName(branch.record.label)) continue;
+    PieceName piece = pieceNameOf(branch.record.label);
+    if (piece.vessel != first.vessel || piece.piece <= first.piece) continue;
+    ++piece.piece;
+    branch.record.label = piece.text();
   }
+  return PieceName{first.vessel, first.piece + 1}.text();
 }
 
 EditableCase::Layout EditableCase::layOut() const {

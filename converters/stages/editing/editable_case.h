@@ -62,6 +62,9 @@ public:
   [[nodiscard]] double measureLength(const std::vector<std::uint32_t>& chain) const;
   /// A label that no branch has: `base` followed by the first free number from 2 on.
   [[nodiscard]] std::string freeLabel(const std::string& base) const;
+  /// The label of what lies behind a branch called `front` that is cut. With an automatic name it is the
+  /// next piece, and the pieces behind it get the numbers after that.
+  [[nodiscard]] std::string labelOfRest(const std::string& front);
 
   /// Replaces `target`, the case that this one was made of, by the edited one, and records
   /// `sentence`. Parents come before their children; the order of branches stays otherwise. Throws

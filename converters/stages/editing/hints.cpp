@@ -16,6 +16,7 @@
 #include "converters/base/statistics.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/editing/checks.h"
 #include "converters/stages/editing/edit.h"
 #include "converters/stages/editing/hint_parents.h"
@@ -144,7 +145,7 @@ private:
     std::size_t number = 0;
     for (formats::Branch& branch : m_case.tree.branches) {
       if (!m_labels.contains(branch.label)) continue;
-      do branch.label = "vessel-" + std::to_string(++number);
+      do branch.label = provisionalName(++number);
       while (!used.insert(branch.label).second);
     }
   }

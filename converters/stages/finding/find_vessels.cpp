@@ -17,6 +17,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/number_text.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/finding/bone.h"
 #include "converters/stages/finding/bright_voxels.h"
 #include "converters/stages/finding/ends_at_faces.h"
@@ -121,7 +122,7 @@ private:
 
   [[nodiscard]] SeedBranch makeCourse(const VesselPath& path, std::size_t first) const {
     SeedBranch course;
-    course.label = "vessel-" + std::to_string(m_named + m_out.size() + 1);
+    course.label = provisionalName(m_named + m_out.size() + 1);
     if (path.parent != VesselPath::kNone) course.parent = m_out[first + path.parent].label;
     for (const std::uint32_t i : voxelsOf(path))
       course.points.push_back({m_set.position(i), static_cast<double>(m_depths[i])});

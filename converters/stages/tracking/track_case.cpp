@@ -14,6 +14,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/tracking/corrections.h"
 #include "converters/stages/tracking/follow_courses.h"
@@ -313,7 +314,7 @@ void giveNewLabels(const formats::Case& known, std::vector<SeedBranch>& seeds) {
   std::size_t number = 0;
   for (SeedBranch& seed : seeds) {
     std::string name;
-    do name = "vessel-" + std::to_string(++number);
+    do name = provisionalName(++number);
     while (!used.insert(name).second);
     names[seed.label] = name;
     seed.label = name;

@@ -13,6 +13,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/vessel_system.h"
 
@@ -103,7 +104,7 @@ void appendTrees(const formats::Case& from, formats::Case& target) {
   for (const std::uint32_t branch : from.tree.branch) tree.branch.push_back(branches + branch);
   for (const auto& [a, b] : from.tree.links) tree.links.push_back({nodes + a, nodes + b});
   for (formats::Branch branch : from.tree.branches) {
-    branch.label = freeName(branch.label, taken);
+    taken.insert(branch.label = freeName(branch.label, taken));
     branch.firstNode += nodes;
     branch.parentNode = moved(branch.parentNode);
     tree.branches.push_back(std::move(branch));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/number_text.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
 #include "converters/stages/trees_from_surfaces/vessel_line.h"
 #include "converters/voxels/depth.h"
@@ -167,7 +168,7 @@ private:
                       bool isStub) const {
     const VesselPath& path = paths[w];
     VesselLine line;
-    line.label = "vessel-" + std::to_string(first + w + 1);
+    line.label = provisionalName(first + w + 1);
     line.isSac = path.isSac;
     for (const std::uint32_t i : path.voxels) line.point.push_back(m_set.position(i));
     const VesselLine* parent = nullptr;

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/trees_from_surfaces/vessel_line.h"
 
 namespace lumen::convert {
@@ -112,7 +113,7 @@ VesselLines clipLines(const CenterlineFile& centerline, const std::string& name,
       continue;
     }
     lineOfChain.push_back(static_cast<int>(out.lines.size()));
-    line.label = "vessel-" + std::to_string(out.lines.size() + 1);
+    line.label = provisionalName(out.lines.size() + 1);
     centre(line, parent, lumen);
     if (!parent) extend(line, true, kLineEndDepths, lumen);
     extend(line, false, kLineEndDepths, lumen);

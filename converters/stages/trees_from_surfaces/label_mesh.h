@@ -82,9 +82,6 @@ std::vector<NamedStretch> labelsAlong(const LabelMask& mask, const formats::Cent
 /// The label of the voxel around a position, mm, LPS, counted from 1; 0 outside.
 std::uint8_t labelAt(const LabelMask& mask, const Eigen::Vector3d& position);
 
-/// "NAME", or "NAME-2" and so on, whichever is free, which is taken then.
-std::string freeName(const std::string& name, std::set<std::string>& taken);
-
 /// The number of labelled voxels whose centres lie in a volume of this geometry.
 std::size_t labelledWithin(const LabelMask& mask, const VolumeGeometry& geometry);
 

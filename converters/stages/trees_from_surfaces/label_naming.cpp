@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "converters/base/vectors.h"
+#include "converters/geometry/automatic_names.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 
 namespace lumen::convert {
@@ -190,12 +191,6 @@ std::uint8_t labelAt(const LabelMask& mask, const Vector3d& place) {
   return mask.label[mask.geometry.index(at.cast<int>())];
 }
 
-std::string freeName(const std::string& name, std::set<std::string>& taken) {
-  std::string free = name;
-  for (int i = 2; !taken.insert(free).second; ++i) free = name + "-" + std::to_string(i);
-  return free;
-}
-
 Naming nameBranches(const LabelMask& mask, formats::Case& value) {
   formats::CenterlineTree& tree = value.tree;
   const Branches labelled(mask, tree);
@@ -227,10 +222,10 @@ Naming nameBranches(const LabelMask& mask, formats::Case& value) {
     formats::Branch& branch = tree.branches[b];
     for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n)
       tree.branch[n] = static_cast<std::uint32_t>(b);
-    if (wanted[b].empty()) branch.label = freeName(branch.label, taken);
+    if (wanted[b].empty()) taken.insert(branch.label = freeName(branch.label, taken));
   }
   for (std::size_t b = 0; b < wanted.size(); ++b) {
-    if (!wanted[b].empty()) tree.branches[b].label = freeName(wanted[b], taken);
+    if (!wanted[b].empty()) taken.insert(tree.branches[b].label = freeName(wanted[b], taken));
     ++(wanted[b].empty() ? done.bare : done.named);
   }
   return done;

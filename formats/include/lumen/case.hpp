@@ -6,7 +6,7 @@
 //
 //     lumen::VesselCase head = lumen::VesselCase::open("head.lumen");   // throws lumen::CaseError
 //     for (float radius : head.radii()) widest = std::max(widest, radius);
-//     head.setLabel(head.findBranch("vessel-2"), "basilar");
+//     head.setLabel(head.findBranch("A.1"), "basilar");
 //     head.save("named.lumen");
 #pragma once
 

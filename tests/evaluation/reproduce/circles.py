@@ -64,7 +64,7 @@ def names(lumen, case, truth):
         nodes = range(branch["firstNode"], branch["firstNode"] + branch["nodeCount"])
         at = [places.at(true["centre"][n], true["radius"][n]) for n in nodes]
         has = Counter(re.sub(r"(-\d+)+$", "", found["branches"][found["branch"][n]]["label"]) for n in at if n is not None)
-        del has["vessel"]
+        for label in [n for n in has if n == "vessel" or re.match(r"[A-Z]+\.\d", n)]: del has[label]
         right += has[branch["label"]] > len(nodes) / 2
         wrong += has.total() - has[branch["label"]] > len(nodes) / 2
     return right, len(true["branches"]), wrong

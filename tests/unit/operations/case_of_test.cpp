@@ -112,7 +112,7 @@ TEST_F(CaseOfTest, ARootThatLiesInNoVesselIsReportedByItsFieldWithTheDistanceToT
   const std::string text = fault(grey(phantom("tube")), options, m_context);
   EXPECT_TRUE(
       text.starts_with("tube: root[0] lies in no vessel that is found: the wall of the "
-                       "nearest vessel, \"vessel-1\", is 10"))
+                       "nearest vessel, \"A.0\", is 10"))
       << text;
   EXPECT_TRUE(text.ends_with(" mm away; nothing is written")) << text;
   Context other = m_context.within(m_progress);

@@ -208,9 +208,9 @@ TEST_F(ProposalsTest, NamesOfSeedsThatWaitAreNotTakenTwice) {
   const auto seed = [](const char* label) -> Json {
     return {{"op", "seed_add"}, {"label", label}, {"points", {{{"position", {1, 1, 1}}}}}};
   };
-  ASSERT_EQ(perform(seed("vessel-1")).status, 200);
+  ASSERT_EQ(perform(seed("A.0")).status, 200);
   find();
-  EXPECT_FALSE(labelsIn(proposals()).contains("vessel-1"));
+  EXPECT_FALSE(labelsIn(proposals()).contains("A.0"));
   const std::string first = proposals()[0]["label"];
   EXPECT_EQ(perform(seed(first.c_str())).status, 400);
 }
