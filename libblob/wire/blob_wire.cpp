@@ -7,6 +7,7 @@
 #include <new>
 #include <vector>
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -73,9 +74,14 @@ struct blob_wires {
         node(wires * nodes),
         free(wires),
         held(wires) {
-    // one after another: copies would not have the room that is reserved
-    memory.reserve(static_cast<std::size_t>(arena.max_concurrency()));
-    for (int k = 0; k < arena.max_concurrency(); ++k) memory.emplace_back(nodes);
+    ownMemory();
+  }
+
+  /// The memory of the calling thread, which is made when that first steps a wire.
+  StepMemory& ownMemory() {
+    StepMemory& own = memory.local();
+    own.fit(nodes);
+    return own;
   }
 
   [[nodiscard]] WireRows rows(std::size_t wire) {
@@ -93,7 +99,7 @@ struct blob_wires {
   std::vector<Vec3> position, load;
   std::vector<double> inserted, rotation, force, share, pressing, bending, curve;
   std::vector<std::uint32_t> node, free, held;
-  std::vector<StepMemory> memory;
+  tbb::enumerable_thread_specific<StepMemory> memory;
 };
 
 namespace {
@@ -135,8 +141,9 @@ blob_status blob_wires_create(size_t count, size_t nodes, size_t threads,
   if (count < 1 || count > 1000000 || nodes < 8 || nodes > 1000 || threads > 4096)
     return BLOB_ERROR_RANGE;
   try {
-    *wires = new blob_wires(count, nodes,
-                            threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+    *wires = new blob_wires(
+        count, nodes,
+        threads == 0 ? tbb::this_task_arena::max_concurrency() : static_cast<int>(threads));
   } catch (...) {
     return BLOB_ERROR_MEMORY;
   }
@@ -184,17 +191,16 @@ blob_status blob_wires_set(blob_wires* wires, size_t wire, const blob_model* mod
   lumen::wire::placeOnGuide(setup, rows, 0);
   // a wire that does not get there ends where it is
   for (double pushed = 0.0; pushed < place->inserted; pushed += h)
-    step(*wires, wire, wires->memory[0], std::min(h, place->inserted - pushed), 0.0);
+    step(*wires, wire, wires->ownMemory(), std::min(h, place->inserted - pushed), 0.0);
   *rows.held = 0;
   return BLOB_OK;
 }
 
 void blob_wires_step(blob_wires* wires, const double* push, const double* turn) noexcept {
-  if (wires->count == 1) return step(*wires, 0, wires->memory[0], push[0], turn[0]);
+  if (wires->count == 1) return step(*wires, 0, wires->ownMemory(), push[0], turn[0]);
   wires->arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, wires->count, [&](std::size_t w) {
-      const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-      step(*wires, w, wires->memory[thread], push[w], turn[w]);
+      step(*wires, w, wires->ownMemory(), push[w], turn[w]);
     });
   });
 }

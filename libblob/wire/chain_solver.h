@@ -29,8 +29,12 @@ using Block = std::array<double, 9>;
 /// neighbours, and multiples of the identity between a node and the one after the next.
 class ChainSolver {
 public:
-  explicit ChainSolver(std::size_t nodes)
-      : diagonal(nodes), next(nodes), second(nodes), m_part(nodes) {}
+  void resize(std::size_t nodes) {
+    diagonal.resize(nodes);
+    next.resize(nodes);
+    second.resize(nodes);
+    m_part.resize(nodes);
+  }
 
   std::vector<Symmetric> diagonal;
   std::vector<Block> next;     ///< entry i: rows of node i + 1, columns of node i

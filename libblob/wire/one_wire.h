@@ -53,17 +53,16 @@ constexpr std::uint32_t kQuarters = 4;  ///< of an element, at whose ends the wa
 
 /// Memory of one thread's step.
 struct StepMemory {
-  explicit StepMemory(std::size_t nodes)
-      : solver(nodes),
-        before(nodes),
-        move(nodes),
-        tangent(nodes),
-        rest(nodes),
-        bend(nodes),
-        length(nodes),
-        stiffness(nodes),
-        cursorBefore(nodes),
-        isBack(nodes) {
+  /// Room for wires of so many nodes; nothing is allocated where it is there.
+  void fit(std::size_t nodes) {
+    if (before.size() == nodes) return;
+    solver.resize(nodes);
+    for (std::vector<Vec3>* const column : {&before, &move, &tangent, &rest, &bend})
+      column->resize(nodes);
+    length.resize(nodes);
+    stiffness.resize(nodes);
+    cursorBefore.resize(nodes);
+    isBack.resize(nodes);
     places.reserve(kQuarters * nodes);
   }
   ChainSolver solver;

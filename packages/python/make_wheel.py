@@ -19,7 +19,7 @@ Classifier: Operating System :: POSIX :: Linux
 Classifier: Programming Language :: Python :: 3.{minor}
 Classifier: Topic :: Scientific/Engineering :: Medical Science Apps.
 Requires-Python: >=3.{minor},<3.{next}
-Requires-Dist: numpy>=1.20
+Requires-Dist: numpy>=1.20,<2
 Description-Content-Type: text/markdown
 
 {description}"""

@@ -37,6 +37,7 @@ Modules:
     blob                  signed distance, gradient and normal at many points
     options               groups of keywords: Tracking, Fitting...
     torch                 the distance as an operation of PyTorch (import lumen.torch)
+    gym                   guidewires as environments of Gymnasium (import lumen.gym)
 
 Lengths are in mm, coordinates LPS (+x left, +y back, +z head). Not a medical device: not for
 clinical use.

@@ -145,6 +145,6 @@ class Vessels:
         ways = [self.way_to(place) for place in places]
         start = int(self.model.cursor(self.entry[None]).node[0])
         if not ways or not all(way.is_reached[start] for way in ways):
-            raise Error(f"{self.name}: found a target without a way from the entry, or none, expected vessels that are "
-                        f"{WIDER} times as wide as the wire all along", 3)
+            raise Error(f"{self.name}: found a target without a way from the entry, or no end within {0.9 * self._room:g} mm of "
+                        f"wire, expected vessels that are {WIDER} times as wide as the wire all along", 3)
         return ways
