@@ -75,7 +75,7 @@ story(
     );
     lumen("info", (await saved(page, "glb", file("saved.glb")), file("saved.glb")));
     assert.ok((await saved(page, "html", file("saved.html"))).includes('id="lumen-embedded"'));
-  const zip = await saved(page, "sofa.zip", file("scene.zip"));
+    const zip = await saved(page, "sofa.zip", file("scene.zip"));
     for (const name of ["sofa/README.md", "sofa/lumen-export.json", "sofa/scene.py"])
       assert.ok(zip.includes(name), `${name} is in the zip`);
     assert.deepEqual(beyond, []);
