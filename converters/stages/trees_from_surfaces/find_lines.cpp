@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "converters/base/number_text.h"
 #include "converters/geometry/automatic_names.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
@@ -135,10 +137,27 @@ private:
     const std::size_t found = paths.size();
     if (m_allOpenings) reachOpenings(paths, atEnd, part);
     const std::size_t first = m_out.lines.size();
+    m_out.lines.resize(first + paths.size());
+    for (const std::vector<std::size_t>& generation : generations(paths))
+      tbb::parallel_for(std::size_t{0}, generation.size(), [&](std::size_t i) {
+        m_progress.check();
+        const std::size_t w = generation[i];
+        m_out.lines[first + w] = makeLine(paths, w, first, w >= found);
+      });
+  }
+
+  /// The paths by generations: lines of one generation rest on those of earlier ones alone.
+  static std::vector<std::vector<std::size_t>> generations(const std::vector<VesselPath>& paths) {
+    std::vector<std::size_t> age(paths.size(), 0);
+    std::vector<std::vector<std::size_t>> out;
     for (std::size_t w = 0; w < paths.size(); ++w) {
-      m_progress.check();
-      m_out.lines.push_back(makeLine(paths, w, first, w >= found));
+      // a path comes after its parent and after the path that it meets
+      for (const std::uint32_t other : {paths[w].parent, paths[w].meets})
+        if (other != kNowhere) age[w] = std::max(age[w], age[other] + 1);
+      out.resize(std::max(out.size(), age[w] + 1));
+      out[age[w]].push_back(w);
     }
+    return out;
   }
 
   /// Whether another path comes to the tip of this one round a loop.

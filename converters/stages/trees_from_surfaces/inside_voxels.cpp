@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <Eigen/Geometry>
+#include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
 #include "converters/geometry/mesh_measures.h"
@@ -181,8 +182,9 @@ VolumeGeometry insideGrid(const ClosedMesh& surface, double width) {
 std::vector<std::size_t> insideVoxels(const TriangleMesh& mesh, const VolumeGeometry& grid,
                                       const Progress& progress) {
   std::array<std::vector<std::size_t>, 3> of;
-  for (int axis = 0; axis < 3; ++axis)
+  tbb::parallel_for(0, 3, [&](int axis) {
     of[static_cast<std::size_t>(axis)] = LineScan(mesh, grid, axis).voxels(progress);
+  });
   std::vector<std::size_t> two, out;
   std::set_intersection(of[0].begin(), of[0].end(), of[1].begin(), of[1].end(),
                         std::back_inserter(two));

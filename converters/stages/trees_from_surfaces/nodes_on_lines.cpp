@@ -249,12 +249,14 @@ formats::Case nodesOnLines(const std::vector<VesselLine>& lines, const LumenGeom
                            double least, Progress& progress) {
   formats::Case out;
   std::vector<NodeOrigin> origins;
-  for (const VesselLine& line : lines) {
+  std::vector<std::vector<Station>> stations(lines.size());
+  tbb::parallel_for(std::size_t{0}, lines.size(), [&](std::size_t i) {
     progress.check();
-    const VesselLine* parent =
-        line.parent >= 0 ? &lines[static_cast<std::size_t>(line.parent)] : nullptr;
-    append(line, stationsOn(line, parent, lumen), out, origins);
-  }
+    const int parent = lines[i].parent;
+    stations[i] = stationsOn(
+        lines[i], parent >= 0 ? &lines[static_cast<std::size_t>(parent)] : nullptr, lumen);
+  });
+  for (std::size_t i = 0; i < lines.size(); ++i) append(lines[i], stations[i], out, origins);
   addLinks(lines, out.tree, out);
   for (float& radius : out.tree.radius) radius = std::max(radius, static_cast<float>(least));
   addPoints(out, origins, lumen, least, progress);

@@ -99,13 +99,18 @@ Vector3d lineDirection(std::span<const Vector3d> line, std::size_t i, double rea
 
 std::pair<double, std::size_t> distanceTo(std::span<const Vector3d> line, const Vector3d& point) {
   std::pair<double, std::size_t> best(std::numeric_limits<double>::infinity(), 0);
+  double least = best.first;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vector3d side = line[i + 1] - line[i];
     const double squared = side.squaredNorm();
     const double t =
         squared > 0 ? std::clamp((point - line[i]).dot(side) / squared, 0.0, 1.0) : 0.0;
-    const double distance = (point - line[i] - t * side).norm();
-    if (distance < best.first) best = {distance, t < 0.5 ? i : i + 1};
+    const double away = (point - line[i] - t * side).squaredNorm();
+    if (!(away < least)) continue;
+    const double distance = std::sqrt(away);
+    if (!(distance < best.first)) continue;
+    least = away;
+    best = {distance, t < 0.5 ? i : i + 1};
   }
   return best;
 }
