@@ -193,12 +193,13 @@ std::string PieceName::text() const {
 }
 
 PieceName pieceNameOf(const std::string& label) {
-  const std::size_t number = label.starts_with(kProvisional) ? kProvisional.size() : 0;
-  const std::size_t hyphen = label.find('-', number);
-  if (!isAutomaticName(label) || hyphen == std::string::npos) return {label};
-  std::size_t piece = 1;
-  std::from_chars(label.data() + label.find_last_of('-') + 1, label.data() + label.size(), piece);
-  return {label.substr(0, hyphen), std::max<std::size_t>(piece, 1)};
+  const std::size_t least = label.starts_with(kProvisional) ? kProvisional.size() : 0;
+  const std::size_t hyphen = label.find_last_of('-');
+  if (!isAutomaticName(label) || hyphen == std::string::npos || hyphen < least) return {label};
+  PieceName name{label.substr(0, hyphen)};
+  std::from_chars(label.data() + hyphen + 1, label.data() + label.size(), name.piece);
+  // one label, one piece: -1 and -02 are none
+  return name.piece > 1 && name.text() == label ? name : PieceName{label};
 }
 
 std::string freeName(const std::string& name, const std::set<std::string>& taken) {

@@ -130,6 +130,8 @@ FAULTS = [
     Fault("systems of vessels spread by number, not by depth", "converters/stages/finding/find_vessels.cpp",
           "std::pair(depth, other.voxel) < std::pair(other.depth, voxel)", "other.voxel < voxel", "finding_test",
           "FindVessels.NoCourse*"),
+    Fault("Pcom of fetal type ends at its most lateral place", "converters/stages/anatomy/circle_of_willis.cpp",
+          "return aside(a, half) < aside(b, half);", "return aside(a, half) > aside(b, half);", "anatomy_test"),
     Fault("bone of the first map hides the vessel of the second", "converters/operations/label_prior.cpp",
           " || said[i] == Prior::kNoVessel)", ")", "operations_test", "LabelPrior*"),
     Fault("a loop is closed through a wall", "converters/voxels/vessel_paths.cpp",

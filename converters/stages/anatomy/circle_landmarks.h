@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "converters/stages/anatomy/vessel_network.h"
 #include "formats/case/case.h"
@@ -32,7 +35,7 @@ struct HalfCircle {
   std::vector<std::uint32_t> course;  ///< from the inlet to the most lateral tip that it feeds
   /// Place in the course where the first segment of the anterior cerebral artery leaves.
   std::size_t terminus = 0;
-  std::vector<std::uint32_t> a1;  ///< from there, without it, to the midline
+  std::vector<std::uint32_t> a1;  ///< from there, without it, to the midline; empty: it is missing
   double plausible = 0;           ///< of the terminus; 0: there is none
 
   [[nodiscard]] std::string name(const char* vessel) const {
@@ -40,6 +43,7 @@ struct HalfCircle {
   }
   [[nodiscard]] std::uint32_t end() const { return course[terminus]; }
   [[nodiscard]] bool isFound() const { return plausible > 0; }
+  [[nodiscard]] bool hasA1() const { return !a1.empty(); }
 };
 
 struct CircleLandmarks {
@@ -50,8 +54,28 @@ struct CircleLandmarks {
 
   [[nodiscard]] const HalfCircle& right() const { return half[0]; }
   [[nodiscard]] const HalfCircle& left() const { return half[1]; }
-  /// Both halves have an end of the carotid artery.
-  [[nodiscard]] bool isPair() const { return right().isFound() && left().isFound(); }
+  /// Both halves have the first segment of an anterior cerebral artery.
+  [[nodiscard]] bool isPair() const { return right().hasA1() && left().hasA1(); }
+};
+
+/// Places in a network of which some landmarks are known.
+class CirclePlaces {
+public:
+  explicit CirclePlaces(const VesselNetwork& network, CircleLandmarks marks = {})
+      : m_network(network), m_marks(std::move(marks)) {}
+
+protected:
+  [[nodiscard]] Eigen::Vector3d at(std::uint32_t n) const { return m_network.position(n); }
+  [[nodiscard]] double x(std::uint32_t n) const { return at(n).x(); }
+  [[nodiscard]] double y(std::uint32_t n) const { return at(n).y(); }
+  [[nodiscard]] double z(std::uint32_t n) const { return at(n).z(); }
+  /// mm from the midplane, positive on the side of a half.
+  [[nodiscard]] double aside(std::uint32_t n, const HalfCircle& half) const {
+    return half.sign * (x(n) - m_marks.middle);
+  }
+
+  const VesselNetwork& m_network;
+  CircleLandmarks m_marks;
 };
 
 /// The landmarks of a network of these branches.

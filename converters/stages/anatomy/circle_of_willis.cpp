@@ -6,8 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Core>
-
+#include "converters/stages/anatomy/artery_stretches.h"
 #include "converters/stages/anatomy/circle_landmarks.h"
 #include "converters/stages/anatomy/vessel_network.h"
 
@@ -24,16 +23,21 @@ constexpr Usual kBasilarAside{0, 7, 3}, kBasilarBehind{6, 32, 4}, kBasilarLength
     kBasilarUneven{0, 20, 5}, kBasilarRadius{0.9, 2.4, 0.3};
 constexpr Usual kPcaAside{8, 40, 4};
 constexpr Usual kPcomLength{5, 28, 4}, kPcomRadius{0.2, 1.4, 0.2};
-constexpr double kTrunk = 10;  // length of an A2, of which it rises or advances kTrunkRise
+constexpr Usual kTrunksApart{1.5, 15, 0.7};
+constexpr double kForkBehindA1 = 12;  // of the A2 that one A1 feeds
+constexpr double kLeastAcross = 1;    // of an anterior communicating artery
+constexpr double kTrunk = 10;         // length of an A2, of which it rises or advances kTrunkRise
 constexpr double kTrunkRise = 8, kTrunkApart = 20;
-constexpr double kForkGap = 4;  // around the end of a basilar artery without a fork
+constexpr double kFetalAside = 8,
+                 kFetalBehind = 12;  // of the end of a PCA, from the carotid artery
+constexpr double kTouchGap = 2;      // around the place where two ACA touch
+constexpr double kForkGap = 4;       // around the end of a basilar artery without a fork
 
-class CircleNames {
+class CircleNames : CirclePlaces {
 public:
-  explicit CircleNames(const formats::CenterlineTree& tree)
-      : m_tree(tree),
-        m_network(tree),
-        m_marks(findCircleLandmarks(m_network, tree.branches)),
+  CircleNames(const formats::CenterlineTree& tree, const VesselNetwork& network)
+      : CirclePlaces(network, findCircleLandmarks(network, tree.branches)),
+        m_tree(tree),
         m_name(tree.nodeCount()),
         m_plausible(tree.nodeCount(), 0) {}
 
@@ -43,17 +47,10 @@ public:
       if (half.isFound()) nameCarotid(half);
     nameAnterior();
     namePosterior();
-    return stretches();
+    return stretchesOf(m_tree, m_name, m_plausible);
   }
 
 private:
-  [[nodiscard]] Vector3d at(std::uint32_t n) const { return m_network.position(n); }
-  [[nodiscard]] double x(std::uint32_t n) const { return at(n).x(); }
-  [[nodiscard]] double y(std::uint32_t n) const { return at(n).y(); }
-  [[nodiscard]] double z(std::uint32_t n) const { return at(n).z(); }
-  [[nodiscard]] double aside(std::uint32_t n, const HalfCircle& half) const {
-    return half.sign * (x(n) - m_marks.middle);
-  }
   void set(const Nodes& nodes, const std::string& name, double plausible) {
     for (const std::uint32_t n : nodes) {
       m_name[n] = name;
@@ -73,7 +70,7 @@ private:
     if (end + 1 == half.course.end()) return;
     const Ways beyond = m_network.waysFrom(*(end + 1), m_network.setOf(Nodes{*end}));
     const bool isShared =
-        beyond.reach(half.a1.front()) || beyond.reach(m_marks.half[0].inlet) ||
+        (half.hasA1() && beyond.reach(half.a1.front())) || beyond.reach(m_marks.half[0].inlet) ||
         beyond.reach(m_marks.half[1].inlet) ||
         (m_marks.basilar != VesselNetwork::kNone && beyond.reach(m_marks.basilar));
     if (isShared) return;
@@ -97,7 +94,7 @@ private:
       if (ways.reach(left.a1.front())) return nameJoined(ways.to(left.a1.front()), closed);
     }
     for (const HalfCircle& half : m_marks.half) {
-      if (!half.isFound()) continue;
+      if (!half.hasA1()) continue;
       const Nodes all = m_network.waysFrom(half.a1.front(), closed).reached();
       const bool crosses = std::any_of(all.begin(), all.end(), [&](std::uint32_t n) {
         return aside(n, half) < -4 || n == m_marks.basilar;
@@ -105,6 +102,7 @@ private:
       // beyond the midline it may feed both sides
       set(m_marks.isPair() && !crosses ? all : half.a1, half.name("ACA"),
           m_marks.plausible * half.plausible);
+      if (!m_marks.isPair()) nameFedAcross(half, closed);
     }
   }
 
@@ -113,6 +111,7 @@ private:
     std::size_t place = 0;  ///< on the way
     Nodes nodes;
     bool isOne = false;  ///< and not two side by side
+    std::uint32_t first = VesselNetwork::kNone;
   };
 
   [[nodiscard]] std::vector<Trunk> trunksOn(const Nodes& way, NodeSet closed) const {
@@ -122,7 +121,7 @@ private:
       for (const std::uint32_t first : m_network.neighbours(way[k])) {
         if (closed[first]) continue;
         const Ways ways = m_network.waysFrom(first, closed);
-        Trunk trunk{k, ways.reached(), true};
+        Trunk trunk{k, ways.reached(), true, first};
         double longest = 0, rise = 0;
         int abreast = 0;
         for (const std::uint32_t n : trunk.nodes) {
@@ -151,8 +150,15 @@ private:
       return Nodes(way.begin() + static_cast<std::ptrdiff_t>(from),
                    way.begin() + static_cast<std::ptrdiff_t>(to));
     };
-    set(part(0, low + 1), right.name("ACA"), plausible);
-    set(part(high, way.size()), left.name("ACA"), plausible);
+    // where both touch, the communicating artery is not to be seen
+    const auto apart = [&](Nodes nodes) {
+      std::erase_if(nodes, [&](std::uint32_t n) {
+        return high == low && (at(n) - at(way[low])).norm() < kTouchGap;
+      });
+      return nodes;
+    };
+    set(apart(part(0, low + 1)), right.name("ACA"), plausible);
+    set(apart(part(high, way.size())), left.name("ACA"), plausible);
     if (high == low || trunks.size() != 2 || !trunks.front().isOne || !trunks.back().isOne) return;
     if (high > low + 1)
       set(part(low + 1, high), "Acom",
@@ -161,6 +167,69 @@ private:
               kAcomAside(std::abs(x(way[high]) - m_marks.middle)));
     set(trunks.front().nodes, right.name("ACA"), plausible);
     set(trunks.back().nodes, left.name("ACA"), plausible);
+  }
+
+  /// Both anterior cerebral arteries behind the one A1 that there is. The one that goes to the other
+  /// side begins with the anterior communicating artery, up to where it turns forwards or up.
+  void nameFedAcross(const HalfCircle& half, NodeSet closed) {
+    const Ways ways = m_network.waysFrom(half.a1.front(), closed);
+    if (m_marks.basilar != VesselNetwork::kNone && ways.reach(m_marks.basilar)) return;
+    std::uint32_t tip = half.a1.back();
+    for (const std::uint32_t n : m_network.ends())
+      if (ways.reach(n) && ways.cost[n] > ways.cost[tip]) tip = n;
+    const Nodes way = ways.to(tip);
+    std::vector<Trunk> trunks = trunksOn(way, closed);
+    std::erase_if(trunks, [&](const Trunk& trunk) {
+      return ways.cost[way[trunk.place]] > ways.cost[half.a1.back()] + kForkBehindA1;
+    });
+    if (trunks.size() != 1 || !trunks[0].isOne) return;
+    const auto fork = way.begin() + static_cast<std::ptrdiff_t>(trunks[0].place);
+    for (auto n = way.begin(); n <= fork; ++n) closed[*n] = true;
+    Ways own = m_network.waysFrom(*(fork + 1), closed),
+         other = m_network.waysFrom(trunks[0].first, closed);
+    if (half.sign * (meanX(own) - meanX(other)) < 0) std::swap(own, other);
+    const Nodes across = acrossTo(*fork, other, -half.sign);
+    if (across.empty()) return;
+    const double plausible =
+        m_marks.plausible * half.plausible * kTrunksApart(half.sign * (meanX(own) - meanX(other)));
+    set(Nodes(way.begin(), fork + 1), half.name("ACA"), plausible);
+    set(own.reached(), half.name("ACA"), plausible);
+    set(other.reached(), otherThan(half).name("ACA"), plausible);
+    set(across, "Acom",
+        plausible *
+            kAcomLength(m_network.length(*fork, across.front()) + m_network.lengthOf(across)));
+  }
+
+  [[nodiscard]] const HalfCircle& otherThan(const HalfCircle& half) const {
+    return m_marks.half[half.letter == 'R' ? 1 : 0];
+  }
+
+  /// The mean of x at the beginning of an A2, mm.
+  [[nodiscard]] double meanX(const Ways& trunk) const {
+    double sum = 0;
+    int count = 0;
+    for (const std::uint32_t n : trunk.reached())
+      if (trunk.cost[n] < kTrunkApart) {
+        sum += x(n);
+        ++count;
+      }
+    return sum / std::max(count, 1);
+  }
+
+  /// The beginning of an A2 up to where it goes no more to a side than it rises or advances, behind a
+  /// fork; empty if it does not go to that side.
+  [[nodiscard]] Nodes acrossTo(std::uint32_t fork, const Ways& trunk, double sign) const {
+    std::uint32_t tip = VesselNetwork::kNone;
+    for (const std::uint32_t n : trunk.reached())
+      if (tip == VesselNetwork::kNone || trunk.cost[n] > trunk.cost[tip]) tip = n;
+    const auto gain = [&](std::uint32_t n) {
+      return sign * (x(n) - x(fork)) - std::max({z(n) - z(fork), y(fork) - y(n), 0.0});
+    };
+    const Nodes way = trunk.to(tip);
+    const auto turn =
+        std::max_element(way.begin(), way.end(), [&](auto a, auto b) { return gain(a) < gain(b); });
+    if (gain(*turn) < kLeastAcross) return {};
+    return Nodes(way.begin(), turn + 1);
   }
 
   void namePosterior() {
@@ -178,8 +247,10 @@ private:
           if (tip == VesselNetwork::kNone || ways.cost[n] > ways.cost[tip]) tip = n;
       if (tip != VesselNetwork::kNone) course[h] = ways.to(tip);
     }
+    for (std::size_t h = 0; h < 2; ++h)
+      if (course[h].empty() && m_marks.half[h].isFound()) nameFetal(m_marks.half[h], closed);
     const bool isFork = !course[0].empty() && !course[1].empty();
-    if (course[0].empty() && course[1].empty()) return;
+    if (course[0].empty() && course[1].empty()) return nameBasilarAlone(ways);
     const Nodes& one = course[0].empty() ? course[1] : course[0];
     std::size_t stem = isFork ? commonStart(course[0], course[1]) : turnOf(one);
     const Nodes basilar(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(stem));
@@ -191,6 +262,45 @@ private:
     for (std::size_t h = 0; h < 2; ++h)
       if (course[h].size() > stem)
         namePca(m_marks.half[h], course[h], stem, plausible, gap, closed);
+  }
+
+  /// A basilar artery without posterior cerebral arteries, up to its farthest end.
+  void nameBasilarAlone(const Ways& ways) {
+    std::uint32_t tip = m_marks.basilar;
+    for (const std::uint32_t n : m_network.ends())
+      if (ways.reach(n) && ways.cost[n] > ways.cost[tip]) tip = n;
+    if (tip != m_marks.basilar) set(ways.to(tip), "BA", basilarPlausible(ways.to(tip)));
+  }
+
+  /// A posterior cerebral artery that the carotid artery feeds, as the basilar artery does not: the
+  /// communicating artery goes backwards and towards the midline, up to where it turns aside.
+  void nameFetal(const HalfCircle& half, const NodeSet& closed) {
+    const NodeSet isCourse = m_network.setOf(half.course);
+    Nodes best;  // from the carotid artery to the farthest end behind
+    double longest = 0;
+    for (std::size_t k = 1; k <= half.terminus; ++k)
+      for (const std::uint32_t first : m_network.neighbours(half.course[k])) {
+        if (isCourse[first] || closed[first]) continue;
+        const Ways ways = m_network.waysFrom(first, closed);
+        for (const std::uint32_t n : m_network.ends())
+          if (ways.reach(n) && ways.cost[n] > longest && aside(n, half) > kFetalAside &&
+              y(n) > y(half.course[k]) + kFetalBehind) {
+            longest = ways.cost[n];
+            best = ways.to(n);
+          }
+      }
+    if (best.empty()) return;
+    const auto turn = std::min_element(
+        best.begin(), best.end(), [&](auto a, auto b) { return aside(a, half) < aside(b, half); });
+    const Nodes pcom(best.begin(), turn), pca(turn, best.end());
+    if (pcom.size() < 2) return;
+    const double plausible =
+        m_marks.plausible * half.plausible * kPcomLength(m_network.lengthOf(pcom)) *
+        kPcomRadius(m_network.medianRadius(pcom)) * kPcaAside(aside(best.back(), half));
+    set(pcom, half.name("Pcom"), plausible);
+    NodeSet before = closed;
+    for (const std::uint32_t n : pcom) before[n] = true;
+    setFree(m_network.waysFrom(pca.front(), before).reached(), half.name("PCA"), plausible);
   }
 
   static std::size_t commonStart(const Nodes& a, const Nodes& b) {
@@ -264,58 +374,7 @@ private:
     return between;
   }
 
-  /// The name of a node, where it is plausible enough.
-  [[nodiscard]] std::string plausibleName(std::uint32_t n) const {
-    return m_plausible[n] < kLeastPlausibility ? std::string{} : m_name[n];
-  }
-
-  /// Neighbours of one name in a branch are a stretch; a single node, as where vessels meet, belongs to
-  /// the longer of those beside it.
-  [[nodiscard]] std::vector<ArteryStretch> stretches() const {
-    std::vector<ArteryStretch> out;
-    for (std::uint32_t b = 0; b < m_tree.branches.size(); ++b) {
-      const formats::Branch& branch = m_tree.branches[b];
-      std::vector<ArteryStretch> runs;
-      for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n)
-        if (runs.empty() || runs.back().name != plausibleName(n))
-          runs.push_back({b, n, n + 1, plausibleName(n), m_plausible[n]});
-        else
-          extend(runs.back(), n + 1, m_plausible[n]);
-      absorbSingle(runs);
-      for (ArteryStretch& run : runs)
-        if (!run.name.empty()) out.push_back(std::move(run));
-    }
-    return out;
-  }
-
-  static void extend(ArteryStretch& run, std::uint32_t end, double plausible) {
-    run.end = end;
-    run.plausibility = std::min(run.plausibility, plausible);
-  }
-  static void absorbSingle(std::vector<ArteryStretch>& runs) {
-    const auto isNode = [](const ArteryStretch& run) { return run.end - run.first == 1; };
-    const auto count = [&](std::size_t i) { return runs[i].end - runs[i].first; };
-    for (auto run = std::find_if(runs.begin(), runs.end(), isNode);
-         run != runs.end() && runs.size() > 1;
-         run = std::find_if(runs.begin(), runs.end(), isNode)) {
-      const auto k = static_cast<std::size_t>(run - runs.begin());
-      const bool isBefore = k + 1 == runs.size() || (k > 0 && count(k - 1) > count(k + 1));
-      ArteryStretch& other = runs[isBefore ? k - 1 : k + 1];
-      other.first = std::min(other.first, run->first);
-      other.end = std::max(other.end, run->end);
-      runs.erase(run);
-      // those beside it may have one name now
-      for (std::size_t i = 1; i < runs.size(); ++i)
-        if (runs[i].name == runs[i - 1].name) {
-          extend(runs[i - 1], runs[i].end, runs[i].plausibility);
-          runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(i--));
-        }
-    }
-  }
-
   const formats::CenterlineTree& m_tree;
-  VesselNetwork m_network;
-  CircleLandmarks m_marks;
   std::vector<std::string> m_name;  // of each node
   std::vector<double> m_plausible;
 };
@@ -323,7 +382,8 @@ private:
 }  // namespace
 
 std::vector<ArteryStretch> nameCircleOfWillis(const formats::CenterlineTree& tree) {
-  return CircleNames(tree).find();
+  const VesselNetwork network(tree);
+  return CircleNames(tree, network).find();
 }
 
 }  // namespace lumen::convert

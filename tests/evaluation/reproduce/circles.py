@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Circles of Willis of lumen phantom with missing parts and noise, and the networks that lumen makes of them without a click.
 
-  circles.py FOLDER LUMEN
+  circles.py FOLDER LUMEN [further]
   circles.py hold LUMEN
 
 Inlets are right if each true root has a root within twice its radius, and no other root lies in a true vessel. Links are right if they join
 the same inlets as often as the true ones do. Names are those of lumen names --anatomy. Volumes and cases stay in FOLDER, and so does circles.md, which is printed too.
+`further` are circles that no rule was made on: other variants, noises, seeds and sizes.
 
 The second form is a test: it draws the circles of HELD, and fails if a network is wrong.
 """
@@ -26,6 +27,9 @@ VARIANTS = ("", "Acom", "L-Pcom", "R-Pcom", "L-A1", "R-A1", "L-P1", "R-P1", "L-P
             "R-A1,R-Pcom", "L-P1,R-P1", "L-P1,R-Pcom", "Acom,L-Pcom,R-Pcom")
 NOISES = (0.05, 0.1, 0.15)
 CIRCLES = [(v, NOISES[k % 3], k + 1) for k, v in enumerate(VARIANTS)] + [("", 0.15, 21), ("", 0.1, 22), ("L-Pcom", 0.15, 23), ("Acom", 0.15, 24)]
+# and the voxel's edge, mm
+FURTHER = [("L-A1", 0.1, 201, 0.41), ("R-P1", 0.1, 202, 0.39), ("", 0.1, 203, 0.42), ("R-A1,L-Pcom", 0.08, 204, 0.4), ("L-P1,Acom", 0.1, 205, 0.41),
+           ("L-Pcom", 0.12, 206, 0.4), ("R-A1,R-P1", 0.1, 207, 0.41), ("L-P1,R-P1,L-Pcom", 0.1, 208, 0.4), ("Acom", 0.07, 209, 0.42)]
 HELD = [("", 0.05, 1), ("R-A1,R-Pcom", 0.05, 13)]
 
 
@@ -70,9 +74,9 @@ def names(lumen, case, truth):
     return right, len(true["branches"]), wrong
 
 
-def figures(folder, lumen, without, noise, seed):
+def figures(folder, lumen, without, noise, seed, voxel=0.4):
     volume, truth, case = (folder / f"circle-{seed}{end}" for end in (".nrrd", ".truth.lumen", ".lumen"))
-    run(lumen, "phantom", "willis", volume, "--truth", truth, "--size", 128, "--voxel", 0.4, "--noise", noise, "--seed", seed,
+    run(lumen, "phantom", "willis", volume, "--truth", truth, "--size", 128, "--voxel", voxel, "--noise", noise, "--seed", seed,
         *(("--without", without) if without else ()))
     run(lumen, "track", volume, case)
     return *network(lumen, case, truth), *names(lumen, case, truth)
@@ -94,12 +98,13 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     lines = ["| missing | noise | inlets | links right | missing | false | names | wrong |", "|---|--:|---|--:|--:|--:|--:|--:|"]
     sums = np.zeros(7, int)
-    for without, noise, seed in CIRCLES:
-        row = figures(folder, lumen, without, noise, seed)
+    circles = FURTHER if "further" in sys.argv[3:] else CIRCLES
+    for without, noise, *more in circles:
+        row = figures(folder, lumen, without, noise, *more)
         sums += np.array(row, int)
         lines.append(f"| {without.replace(',', ', ') or 'nothing'} | {noise} | {'right' if row[0] else 'wrong'} | {row[1]} | {row[2]} | {row[3]} | {row[4]} of {row[5]} | {row[6]} |")
         print(lines[-1], flush=True)
-    lines.append(f"| {len(CIRCLES)} circles | | {sums[0]} right | {sums[1]} | {sums[2]} | {sums[3]} | {sums[4]} of {sums[5]} | {sums[6]} |")
+    lines.append(f"| {len(circles)} circles | | {sums[0]} right | {sums[1]} | {sums[2]} | {sums[3]} | {sums[4]} of {sums[5]} | {sums[6]} |")
     (folder / "circles.md").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/anatomy/circle_of_willis.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -50,30 +51,63 @@ TEST(CircleOfWillis, EachArteryOfAWholeCircleHasItsName) {
   EXPECT_LT(wrong, 0.001);
 }
 
-TEST(CircleOfWillis, AVariantHasNoWrongName) {
+TEST(CircleOfWillis, EachArteryOfAVariantHasItsName) {
   const std::vector<std::set<std::string>> variants = {
-      {"Acom"},         {"L-Pcom"},       {"L-A1"},
-      {"R-A1"},         {"L-P1"},         {"R-P1"},
-      {"L-A1", "R-P1"}, {"L-P1", "R-P1"}, {"L-Pcom", "R-Pcom"},
-      {"L-A1", "R-A1"}};
+      {"Acom"},         {"L-Pcom"},        {"L-A1"},
+      {"R-A1"},         {"L-P1"},          {"R-P1"},
+      {"L-A1", "R-P1"}, {"L-P1", "R-P1"},  {"L-Pcom", "R-Pcom"},
+      {"L-A1", "L-P1"}, {"R-A1", "R-Pcom"}};
   for (const auto& missing : variants) {
     double wrong = 1;
     const auto shares = rightShares(circleWithout(missing), wrong);
-    EXPECT_LT(wrong, 0.001) << *missing.begin();
-    if (missing.contains("L-A1") && missing.contains("R-A1")) continue;
-    // the side with an A1 has its carotid artery
-    const std::string side = missing.contains("L-A1") ? "R-" : "L-";
-    EXPECT_GT(shares.at(side + "ICA"), 0.99) << *missing.begin();
-    EXPECT_GT(shares.at(side + "MCA"), 0.99) << *missing.begin();
+    // where one PCA leaves the basilar artery, 4 mm have no name
+    for (const auto& [name, share] : shares)
+      EXPECT_GT(share, 0.8) << name << " " << *missing.begin();
+    EXPECT_LT(wrong, 0.003) << *missing.begin();
   }
 }
 
-TEST(CircleOfWillis, WhatOneA1AloneFeedsBeyondTheMidlineHasNoName) {
+TEST(CircleOfWillis, WithoutBothA1ThereIsNoName) {
+  EXPECT_TRUE(nameCircleOfWillis(circleWithout({"L-A1", "R-A1"})).empty());
+}
+
+TEST(CircleOfWillis, TwoAcaThatDoNotCrossFromOneA1HaveNoSides) {
+  CenterlineTree tree = circleWithout({"L-A1"});
+  for (std::size_t n = 0; n < tree.nodeCount(); ++n)
+    if (tree.branches[tree.branch[n]].label == "L-ACA")
+      tree.centre[n].x -= 5;
+    else if (tree.branches[tree.branch[n]].label == "Acom")
+      tree.centre[n].x = 24;
   double wrong = 1;
-  const auto shares = rightShares(circleWithout({"L-A1"}), wrong);
-  EXPECT_LT(shares.at("R-ACA"), 0.5);
-  EXPECT_GT(shares.at("R-ACA"), 0.1);
+  const auto shares = rightShares(tree, wrong);
   EXPECT_EQ(shares.at("L-ACA"), 0);
+  EXPECT_LT(shares.at("R-ACA"), 0.5);
+}
+
+TEST(CircleOfWillis, ACarotidArteryThatASearchCameToFromAboveHasItsName) {
+  CenterlineTree tree = circleWithout({});
+  const auto is = [&](std::size_t n, const char* name) {
+    return tree.branches[tree.branch[n]].label == name;
+  };
+  // its root is the end of the carotid artery, and its inlet a leaf
+  std::uint32_t first = 0, last = 0;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
+    if (!is(n, "R-ICA")) continue;
+    if (last == 0 && tree.parent[n] == formats::kNoParent) first = n;
+    last = n;
+  }
+  formats::Branch& branch = tree.branches[tree.branch[first]];
+  std::reverse(tree.centre.begin() + first, tree.centre.begin() + last + 1);
+  std::reverse(tree.radius.begin() + first, tree.radius.begin() + last + 1);
+  for (std::size_t n = 0; n < tree.nodeCount(); ++n)
+    if (!is(n, "R-ICA") && tree.parent[n] >= std::int32_t(first) &&
+        tree.parent[n] <= std::int32_t(last))
+      tree.parent[n] = std::int32_t(first + last) - tree.parent[n];
+  ASSERT_EQ(branch.parentNode, formats::kNoParent);
+  double wrong = 1;
+  const auto shares = rightShares(tree, wrong);
+  for (const auto& [name, share] : shares) EXPECT_GT(share, 0.9) << name;
+  EXPECT_LT(wrong, 0.001);
 }
 
 TEST(CircleOfWillis, AMirroredCircleHasItsSidesExchanged) {

@@ -121,6 +121,18 @@ TEST(AutomaticNames, PiecesAreNumberedAlongTheFlow) {
   EXPECT_EQ(labelsIn(value), (Labels{"A.0", "A.0-2", "A.0-3", "A.0-4", "A.0-b"}));
 }
 
+TEST(AutomaticNames, NamesOfOlderCasesMayHaveSeveralNumbers) {
+  Case value;
+  addBeads(value, "vessel-1", alongX(0, 1, 20), 1);
+  addBeads(value, "vessel-1-2", alongX(0, 1, 20, 9), 1);
+  addBeads(value, "vessel-1-2-2", alongX(0, 1, 5, 18), 1);
+  addBeads(value, "vessel-1-1", alongX(0, 1, 5, 27), 1);
+  cutBefore(value, 30, Rest::Child, "");
+  cutBefore(value, 10, Rest::Child, "");
+  EXPECT_EQ(labelsIn(value), (Labels{"vessel-1", "vessel-1-2", "vessel-1-3", "vessel-1-4",
+                                     "vessel-1-2-2", "vessel-1-1"}));
+}
+
 TEST(AutomaticNames, AFreeNameIsTheFirstPieceThatIsNot) {
   EXPECT_EQ(freeName("ICA", {"MCA"}), "ICA");
   EXPECT_EQ(freeName("ICA", {"ICA", "ICA-2"}), "ICA-3");
