@@ -4,19 +4,24 @@
 
   marching_cubes.py LUMEN FOLDER CASE [CASE ...]
 
-Needs Debian's python3-vtk9 and python3-numpy (run it with /usr/bin/python3). For each case:
+Runs in an environment with the packages of marching_cubes.txt: python3 -m venv ENV && ENV/bin/pip install --require-hashes -r
+marching_cubes.txt && ENV/bin/python marching_cubes.py ... For each case:
 
   lumen          `lumen convert CASE OUT.stl`
   models         the greatest of the nodes' own models, f - T, at every point of a lattice: the case's walls without its
                  tree; then vtkFlyingEdges3D
+  nets           the same samples, inside or outside; then vtkSurfaceNets3D, with its own smoothing
   polyballs      the spheres of the centerline, min |p - c(t)|^2 - r(t)^2 over its segments, as VMTK's vtkvmtkPolyBallLine
                  has it (L. Antiga, vtkVmtk/ComputationalGeometry/vtkvmtkPolyBallLine.cxx: the place t on a segment is that
                  of the least power, with radii linear in t); then vtkMarchingCubes, as vmtkcenterlinemodeller has it
 
+Each of them is given as it is, and once more by `+ quadrics` with as few triangles as vtkQuadricDecimation leaves while no vertex of every sixteenth is farther
+from them than a tenth of a voxel, which is the least error that lumen allows by default; the time is that of one decimation.
+
 Lattices have an edge of a quarter of the least radius, as nothing else keeps the thinnest vessel whole, and of half a voxel.
 Samples are taken only near a node or segment (within 1.6 radii); a program that asks everywhere, as VMTK's does, takes longer.
 Each runs in a process of its own. Seconds are of wall and of processor, memory is the peak of the process; parts and handles
-are those of the surface, beside those of the case's graph. Prints Markdown.
+are those of the surface, beside those of the case's graph; crossings are pairs of triangles that pass through each other. Prints Markdown.
 """
 import json
 import os
@@ -28,6 +33,8 @@ import time
 from pathlib import Path
 
 MOST = 400_000_000  # samples: 1.6 GB
+STEPS = 6  # of the bisection: reductions to within a sixtieth
+SAMPLED = 16
 
 
 def read(lumen, case):
@@ -105,22 +112,62 @@ def extract(lattice, name):
     image.SetSpacing(lattice.edge, lattice.edge, lattice.edge)
     image.SetOrigin(*lattice.origin)
     image.GetPointData().SetScalars(numpy_to_vtk(lattice.value.ravel(), deep=False))
+    if name == "nets":
+        image.GetPointData().SetScalars(numpy_to_vtk((lattice.value.ravel() > 0).astype("uint8"), deep=True))
+        nets = vtk.vtkSurfaceNets3D()
+        nets.SetInputData(image)
+        nets.SetValue(0, 1)
+        nets.SetOutputMeshTypeToTriangles()
+        nets.Update()
+        return nets.GetOutput()
     cubes = vtk.vtkFlyingEdges3D() if name == "models" else vtk.vtkMarchingCubes()
     cubes.SetInputData(image)
     cubes.SetValue(0, 0.0)
     cubes.ComputeNormalsOff()
-    cubes.ComputeGradientsOff()
+    if name == "models":
+        cubes.ComputeGradientsOff()
     cubes.Update()
     return cubes.GetOutput()
+
+
+def greatest_distance(surface, few):
+    """From every SAMPLED-th vertex of one surface to another one, mm."""
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+    to, distance = vtk.vtkImplicitPolyDataDistance(), vtk.vtkDoubleArray()
+    to.SetInput(few)
+    to.FunctionValue(numpy_to_vtk(vtk_to_numpy(surface.GetPoints().GetData())[::SAMPLED], deep=True), distance)
+    return abs(vtk_to_numpy(distance)).max()
+
+
+def simplified(surface, error):
+    """The fewest triangles within `error`, mm, by bisection, and the seconds of the last decimation."""
+    import vtk
+    low, high, best, seconds = 0.0, 1.0, surface, [0.0, 0.0]
+    for _ in range(STEPS):
+        begin, processor = time.monotonic(), time.process_time()
+        decimation = vtk.vtkQuadricDecimation()
+        decimation.SetInputData(surface)
+        decimation.SetTargetReduction((low + high) / 2)
+        decimation.Update()
+        now = [time.monotonic() - begin, time.process_time() - processor]
+        if greatest_distance(surface, decimation.GetOutput()) > error:
+            high = (low + high) / 2
+            continue
+        low, best, seconds = (low + high) / 2, decimation.GetOutput(), now
+    return best, seconds
 
 
 def one(name, lumen, case, edge, out):
     import vtk
     value = read(lumen, case)
     begin, processor = time.monotonic(), time.process_time()
-    lattice = (sample_models if name == "models" else sample_polyballs)(value, edge)
-    surface = extract(lattice, name)
+    way, _, ending = name.partition(" + ")
+    surface = extract((sample_polyballs if way == "polyballs" else sample_models)(value, edge), way)
     seconds = [time.monotonic() - begin, time.process_time() - processor]
+    if ending:
+        surface, more = simplified(surface, 0.1 * (value["metadata"].get("voxelSize") or edge))
+        seconds = [a + b for a, b in zip(seconds, more)]
     writer = vtk.vtkSTLWriter()
     writer.SetFileName(out)
     writer.SetFileTypeToBinary()
@@ -144,7 +191,7 @@ def row(lumen, case, name, edge, out, result):
     known = [part for part in info["components"] if part["genus"] is not None]
     handles = str(sum(part["genus"] for part in known)) + ("" if len(known) == len(info["components"]) else " and more")
     return (f"| {Path(case).stem} | {name} | {edge} | {result['seconds'][0]:.1f} | {result['seconds'][1]:.1f} | {result['memory']:.0f} | "
-            f"{info['triangles']:,} | {'yes' if info['closed'] and info['manifold'] else 'no'} | {len(info['components'])} | {handles} | "
+            f"{info['triangles']:,} | {'yes' if info['closed'] and info['manifold'] else 'no'} | {len(info['components'])} | {handles} | {info['self_intersections']} | "
             f"{info['volume_mm3']:.1f} |")
 
 
@@ -155,19 +202,19 @@ def main():
         sys.exit(__doc__)
     lumen, folder = sys.argv[1], Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
-    print("| case | way | lattice, mm | s | processor s | MB | triangles | closed manifold | parts | handles | volume, mm³ |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| case | way | lattice, mm | s | processor s | MB | triangles | closed manifold | parts | handles | crossings | volume, mm³ |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for case in sys.argv[3:]:
         out = folder / f"{Path(case).stem}.stl"
         print(row(lumen, case, "lumen", "-", out, timed(lumen, "convert", case, out)), flush=True)
         value = read(lumen, case)
         least, voxel = min(value["tree"]["radius"]) / 4, value["metadata"].get("voxelSize")
         for edge in [least] + ([voxel / 2] if voxel else []):
-            for name in ("models", "polyballs"):
+            for name in (way + ending for way in ("models", "nets", "polyballs") for ending in ("", " + quadrics")):
                 done = subprocess.run([sys.executable, __file__, "--one", name, lumen, case, str(edge), out], capture_output=True,
                                       text=True, check=False)
                 if done.returncode != 0:
-                    print(f"| {Path(case).stem} | {name} | {edge:.3f} | | | not run: {done.stderr.strip().splitlines()[-1]} | | | | | |")
+                    print(f"| {Path(case).stem} | {name} | {edge:.3f} | | | not run: {done.stderr.strip().splitlines()[-1]} | | | | | | |")
                     continue
                 print(row(lumen, case, name, f"{edge:.3f}", out, json.loads(done.stdout)), flush=True)
     return None
