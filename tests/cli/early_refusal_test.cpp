@@ -50,6 +50,7 @@ validate tree.lumen case.lumen
 export svzerod apart.lumen out/folder
 batch list.csv out/batch --jobs 1 --profile none
 view tube.nrrd case.lumen --html out/v.html
+view case.lumen --serverless out/site
 view tube.nrrd --no-browser true --label-map halves.nii --label-table table.csv
 completion bash
 library init out/new --title A --licence MIT
