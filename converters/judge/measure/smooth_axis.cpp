@@ -20,6 +20,7 @@ constexpr std::size_t kFewestNodes = 15;  // nodes of a window: 2.5 for each unk
 constexpr double kGridRadii = 0.3;        // step of the table of arc lengths, in local radii
 constexpr int kMostPieces = 16;           // of that table between two nodes
 constexpr double kWholeShare = 0.5;       // of a half-width that an end may cut off
+constexpr double kWindowRim = 1e-6;       // share of a window by which it passes a node at its rim
 constexpr double kSignificant = 1.96;     // standard deviations: 95 %
 // A helix that turns by w = sqrt(curvature^2 + torsion^2) per mm loses by the fit this share of
 // (half-width x w)^4 of its curvature: the next term of its series, projected on the fit's
@@ -102,7 +103,13 @@ double SmoothAxis::halfAt(double chord, double& cut) const {
   const double half = (1 - u) * m_half[i - 1] + u * m_half[i];
   const double missing = std::max({0.0, half - chord, half - (m_chord.back() - chord)});
   cut = std::min(1.0, missing / half);
-  return half + std::min(missing, half);
+  // sparse nodes: a line needs two of them, so the window reaches the second nearest
+  const double left = chord - m_chord[i - 1], right = m_chord[i] - chord;
+  double second = std::max(left, right);
+  if (i > 1) second = std::min(second, std::max(left, chord - m_chord[i - 2]));
+  if (i + 1 < m_chord.size()) second = std::min(second, std::max(right, m_chord[i + 1] - chord));
+  const double whole = half + std::min(missing, half);
+  return whole < second ? second * (1 + kWindowRim) : whole;
 }
 
 SmoothAxis::Fit SmoothAxis::fitAt(double chord) const {

@@ -304,5 +304,17 @@ TEST(SampledField, SkipsOnlySamplesAwayFromTheWall) {
   EXPECT_EQ(a.mesh.position, b.mesh.position);
 }
 
+TEST(SmoothAxis, IsALineBetweenNodesThatLieFartherApartThanItsWindowReaches) {
+  AxisNodes nodes;
+  for (const double x : {0.0, 7.0, 20.0, 27.5, 60.0}) {
+    nodes.position.push_back({x, 0, 0});
+    nodes.radius.push_back(1);
+  }
+  const SmoothAxis axis(nodes);
+  EXPECT_NEAR(axis.length(), 60, 1e-6);
+  for (double along = 0; along <= 60; along += 0.25)
+    EXPECT_NEAR((axis.at(along).position - Eigen::Vector3d(along, 0, 0)).norm(), 0, 1e-5) << along;
+}
+
 }  // namespace
 }  // namespace lumen::convert
