@@ -17,7 +17,7 @@ using formats::test::addBeads;
 using formats::test::alongX;
 using Labels = std::vector<std::string>;
 
-Labels labelsIn(const Case& value) {
+Labels namesIn(const Case& value) {
   Labels out;
   for (const formats::Branch& branch : value.tree.branches) out.push_back(branch.label);
   return out;
@@ -39,9 +39,9 @@ Case twoTrees() {
 TEST(AutomaticNames, AreOfTreesLimbsAndNumbersTheLargestFirst) {
   Case value = twoTrees();
   nameAutomatically(value.tree);
-  EXPECT_EQ(labelsIn(value), (Labels{"B.0", "A.0", "A.2", "A.1", "A.1.1", "A.1.2"}));
+  EXPECT_EQ(namesIn(value), (Labels{"B.0", "A.0", "A.2", "A.1", "A.1.1", "A.1.2"}));
   nameAutomatically(value.tree);  // they are no names of a tree that is being made
-  EXPECT_EQ(labelsIn(value)[0], "B.0");
+  EXPECT_EQ(namesIn(value)[0], "B.0");
 }
 
 TEST(AutomaticNames, ASmallVesselMoreRenamesNone) {
@@ -49,7 +49,7 @@ TEST(AutomaticNames, ASmallVesselMoreRenamesNone) {
   addBeads(value, "vessel-7", alongX(0, 1, 4, -9), 0.5F, 12);
   addBeads(value, "vessel-8", alongX(0, 1, 4, -12), 0.5F, 50);
   nameAutomatically(value.tree);
-  EXPECT_EQ(labelsIn(value),
+  EXPECT_EQ(namesIn(value),
             (Labels{"B.0", "A.0", "A.2", "A.1", "A.1.1", "A.1.2", "A.3", "A.1.3"}));
 }
 
@@ -59,7 +59,7 @@ TEST(AutomaticNames, WidthCountsAsItsSquare) {
   addBeads(value, "vessel-2", alongX(0, 1, 11, 9), 1.5F);
   addBeads(value, "vessel-3", alongX(0, 1, 8, 20), 1.5F);
   nameAutomatically(value.tree);
-  EXPECT_EQ(labelsIn(value), (Labels{"B.0", "A.0", "C.0"}));
+  EXPECT_EQ(namesIn(value), (Labels{"B.0", "A.0", "C.0"}));
 }
 
 TEST(AutomaticNames, NamesOfPeopleStayAndHoldTheirPlace) {
@@ -67,7 +67,7 @@ TEST(AutomaticNames, NamesOfPeopleStayAndHoldTheirPlace) {
   value.tree.branches[3].label = "L-MCA";
   value.tree.branches[4].label = "A1";
   nameAutomatically(value.tree, 0, {"vessel-1"});
-  EXPECT_EQ(labelsIn(value), (Labels{"vessel-1", "A.0", "A.2", "L-MCA", "A1", "A.1.2"}));
+  EXPECT_EQ(namesIn(value), (Labels{"vessel-1", "A.0", "A.2", "L-MCA", "A1", "A.1.2"}));
 }
 
 TEST(AutomaticNames, FurtherVesselsGetNamesBesideThoseThatAre) {
@@ -78,7 +78,7 @@ TEST(AutomaticNames, FurtherVesselsGetNamesBesideThoseThatAre) {
   addBeads(value, "vessel-2", alongX(0, 1, 40, -12), 3, 55);
   addBeads(value, "vessel-3", alongX(0, 1, 40, 90), 9);
   nameAutomatically(value.tree, 6);
-  EXPECT_EQ(labelsIn(value),
+  EXPECT_EQ(namesIn(value),
             (Labels{"B.0", "trunk", "A.2", "A.1", "A.1.1", "A.1.2", "A.3", "A.1.3", "C.0"}));
 }
 
@@ -118,7 +118,7 @@ TEST(AutomaticNames, PiecesAreNumberedAlongTheFlow) {
   cutBefore(value, 10, Rest::Child, "");
   cutBefore(value, 15, Rest::Child, "");
   cutBefore(value, 5, Rest::Child, "");
-  EXPECT_EQ(labelsIn(value), (Labels{"A.0", "A.0-2", "A.0-3", "A.0-4", "A.0-b"}));
+  EXPECT_EQ(namesIn(value), (Labels{"A.0", "A.0-2", "A.0-3", "A.0-4", "A.0-b"}));
 }
 
 TEST(AutomaticNames, NamesOfOlderCasesMayHaveSeveralNumbers) {
@@ -129,7 +129,7 @@ TEST(AutomaticNames, NamesOfOlderCasesMayHaveSeveralNumbers) {
   addBeads(value, "vessel-1-1", alongX(0, 1, 5, 27), 1);
   cutBefore(value, 30, Rest::Child, "");
   cutBefore(value, 10, Rest::Child, "");
-  EXPECT_EQ(labelsIn(value), (Labels{"vessel-1", "vessel-1-2", "vessel-1-3", "vessel-1-4",
+  EXPECT_EQ(namesIn(value), (Labels{"vessel-1", "vessel-1-2", "vessel-1-3", "vessel-1-4",
                                      "vessel-1-2-2", "vessel-1-1"}));
 }
 
