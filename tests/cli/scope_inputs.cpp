@@ -156,6 +156,7 @@ constexpr const char* kSamples = R"(convert
   --lod 2 --mesh-per branch --colour radius --meshopt true --draco true
   --draco-position-bits 12 --draco-normal-bits 8 --stl-solids true --compress true
   --point-bits 12 --time 0.5 --skin false --layers 2 --growth 1.6 --layer-height 0.02r
+  --accept seen --out out/accepted.lumen
 )";
 
 }  // namespace

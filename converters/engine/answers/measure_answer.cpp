@@ -61,14 +61,19 @@ std::string countText(const std::vector<convert::MeasureTable>& tables) {
 }  // namespace
 
 Json measureJson(const std::vector<convert::MeasuredCase>& cases, const std::string& against) {
-  Json json;
+  constexpr std::size_t kMembers = 4;  // an object that grows copies all that its members hold
+  Json json = Json::object();
+  json.get_ref<Json::object_t&>().reserve(kMembers);
   json["cases"] = Json::array();
   json["against"] = against.empty() ? Json(nullptr) : Json(against);
   json["changes"] = nullptr;
   for (const convert::MeasuredCase& one : cases) {
     const std::span<const convert::MeasureTable> tables(one.tables);
-    Json entry{{"case", one.name}};
-    entry.update(convert::measuresJson(tables.first(convert::kMeasureKinds)));
+    Json entry = Json::object(),
+         kinds = convert::measuresJson(tables.first(convert::kMeasureKinds));
+    entry.get_ref<Json::object_t&>().reserve(1 + kinds.size());
+    entry["case"] = one.name;
+    for (auto& [kind, rows] : kinds.get_ref<Json::object_t&>()) entry[kind] = std::move(rows);
     json["cases"].push_back(std::move(entry));
     if (!against.empty())
       json["changes"] = convert::measuresJson(tables.subspan(convert::kMeasureKinds));

@@ -214,14 +214,21 @@ void addRow(const std::string& name, const MeasureTable& table, const MeasureRow
   text += ',' + csvCell(absent) + '\n';
 }
 
+/// An object with room for its members: one that grows copies them with all that they hold.
+Json objectOf(std::size_t members) {
+  Json object = Json::object();
+  object.get_ref<Json::object_t&>().reserve(members);
+  return object;
+}
+
 }  // namespace
 
 Json measuresJson(std::span<const MeasureTable> tables) {
-  Json json = Json::object();
+  Json json = objectOf(tables.size());
   for (const MeasureTable& table : tables) {
     Json rows = Json::array();
     for (const MeasureRow& row : table.rows) {
-      Json object = Json::object();
+      Json object = objectOf(row.labels.size() + 1 + row.places.size() + row.values.size());
       for (std::size_t i = 0; i < row.labels.size(); ++i)
         object[std::string(table.labels[i])] = row.labels[i];
       if (!row.system.empty()) object["system"] = row.system;

@@ -305,8 +305,8 @@ class NamesTest(unittest.TestCase):
                 names.update(re.findall(r"(?<![\w./-])lumen((?:\.[A-Za-z]\w*)+)", file.read()))
         self.assertGreater(len(names), 20)
         for name in names - {".libs", ".json"}:
-            if name.startswith(".torch"):
-                continue  # needs PyTorch
+            if name.startswith((".torch", ".gym")):
+                continue  # need PyTorch and Gymnasium
             value = lumen
             for part in name.split(".")[1:]:
                 self.assertTrue(hasattr(value, part), f"lumen{name}")
