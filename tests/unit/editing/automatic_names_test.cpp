@@ -49,8 +49,7 @@ TEST(AutomaticNames, ASmallVesselMoreRenamesNone) {
   addBeads(value, "vessel-7", alongX(0, 1, 4, -9), 0.5F, 12);
   addBeads(value, "vessel-8", alongX(0, 1, 4, -12), 0.5F, 50);
   nameAutomatically(value.tree);
-  EXPECT_EQ(namesIn(value),
-            (Labels{"B.0", "A.0", "A.2", "A.1", "A.1.1", "A.1.2", "A.3", "A.1.3"}));
+  EXPECT_EQ(namesIn(value), (Labels{"B.0", "A.0", "A.2", "A.1", "A.1.1", "A.1.2", "A.3", "A.1.3"}));
 }
 
 TEST(AutomaticNames, WidthCountsAsItsSquare) {
@@ -130,7 +129,7 @@ TEST(AutomaticNames, NamesOfOlderCasesMayHaveSeveralNumbers) {
   cutBefore(value, 30, Rest::Child, "");
   cutBefore(value, 10, Rest::Child, "");
   EXPECT_EQ(namesIn(value), (Labels{"vessel-1", "vessel-1-2", "vessel-1-3", "vessel-1-4",
-                                     "vessel-1-2-2", "vessel-1-1"}));
+                                    "vessel-1-2-2", "vessel-1-1"}));
 }
 
 TEST(AutomaticNames, AFreeNameIsTheFirstPieceThatIsNot) {
