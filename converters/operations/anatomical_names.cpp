@@ -9,6 +9,8 @@
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/automatic_names.h"
+#include "converters/stages/anatomy/aortic_arch.h"
+#include "converters/stages/anatomy/circle_of_willis.h"
 #include "converters/stages/editing/edit_request.h"
 #include "formats/container/printable.h"
 
@@ -51,7 +53,12 @@ std::vector<ArteryStretch> anatomicalNames(const formats::Case& value, const std
     throw invalidInput(formats::printable(name) +
                        ": has no source volume; anatomical names need one, which shows where left "
                        "and front are");
-  return convert::nameCircleOfWillis(value.tree);
+  std::vector<ArteryStretch> stretches = convert::nameCircleOfWillis(value.tree);
+  for (ArteryStretch& stretch : convert::nameAorticArch(value.tree))
+    stretches.push_back(std::move(stretch));
+  std::stable_sort(stretches.begin(), stretches.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  return stretches;
 }
 
 AnatomicallyNamed anatomicallyNamed(formats::Case value, std::span<const ArteryStretch> stretches) {

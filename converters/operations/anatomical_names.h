@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "converters/stages/anatomy/circle_of_willis.h"
+#include "converters/stages/anatomy/artery_stretches.h"
 #include "formats/case/case.h"
 
 namespace lumen::operations {
 
-/// The arteries of the circle of Willis in a case, called `name`. Throws Error(InvalidInput) for a
+/// The arteries of the circle of Willis and of the aortic arch in a case, called `name`. Throws Error(InvalidInput) for a
 /// case without a source volume, which alone shows where the left and the front of a patient are.
 std::vector<convert::ArteryStretch> anatomicalNames(const formats::Case& value,
                                                     const std::string& name);

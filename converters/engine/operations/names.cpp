@@ -91,9 +91,12 @@ std::string nameText(const std::vector<NameRow>& rows, std::optional<double> lea
 std::string anatomyText(const std::vector<convert::ArteryStretch>& stretches,
                         const CenterlineTree& tree) {
   if (stretches.empty())
-    return "No artery of the circle of Willis is recognised: two carotid arteries side by side as "
-           "inlets, "
-           "and the first segment of an anterior cerebral artery, come first.\n";
+    return "No artery of the circle of Willis and none of the aortic arch is recognised: the first "
+           "needs "
+           "two carotid arteries side by side as inlets and the first segment of an anterior "
+           "cerebral "
+           "artery, the second a wide vessel that rises, turns over backwards and to the left, and "
+           "descends, with two or more vessels that rise from it.\n";
   std::vector<std::vector<std::string>> table{
       {"name", "probability", "branch", "nodes", "x", "y", "z", "to x", "y", "z"}};
   for (const convert::ArteryStretch& stretch : stretches) {
@@ -152,7 +155,8 @@ public:
     return "  lumen names head.lumen --table names.csv            # fill in its column new_name\n"
            "  lumen names head.lumen --names names.csv --out named.lumen\n"
            "  lumen names head.lumen --rename A.1=ICA_L --out head.lumen\n"
-           "  lumen names head.lumen --anatomy --out named.lumen   # the circle of Willis";
+           "  lumen names head.lumen --anatomy --out named.lumen   # the circle of Willis, the "
+           "aortic arch";
   }
 
   void addRows(OptionTable& table) override {
@@ -166,10 +170,10 @@ public:
         .many()
         .checkedBy(pairText("NAME=NEW, such as A.1=ICA_L"));
     table
-        .flag(
-            "anatomy", m_isAnatomy,
-            "List the arteries of the circle of Willis that geometry shows, with a probability of "
-            "0.7 or more; with --out, cut branches where they begin and end, and name them so")
+        .flag("anatomy", m_isAnatomy,
+              "List the arteries of the circle of Willis and of the aortic arch that geometry "
+              "shows, with a probability of "
+              "0.7 or more; with --out, cut branches where they begin and end, and name them so")
         .without("names")
         .without("rename");
     table.file(

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/stages/anatomy/circle_landmarks.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 namespace lumen::convert {
 namespace {
 

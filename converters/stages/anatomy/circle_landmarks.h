@@ -2,9 +2,7 @@
 // Where the circle of Willis lies in a network: inlets, ends of the carotid arteries, midplane.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -12,20 +10,11 @@
 
 #include <Eigen/Core>
 
+#include "converters/stages/anatomy/usual.h"
 #include "converters/stages/anatomy/vessel_network.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
-
-/// A range of values that is usual, and how fast plausibility falls beyond it.
-struct Usual {
-  double low, high, soft;
-  /// 1 within the range, falling as a normal distribution beyond it.
-  [[nodiscard]] double operator()(double x) const {
-    const double beyond = std::max({low - x, x - high, 0.0}) / soft;
-    return std::exp(-0.5 * beyond * beyond);
-  }
-};
 
 /// One half of the circle.
 struct HalfCircle {

@@ -51,6 +51,9 @@ public:
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t node) const {  ///< mm, LPS
     return toEigen(m_tree.centre[node]);
   }
+  [[nodiscard]] double radius(std::uint32_t node) const {
+    return double{m_tree.radius[node]};
+  }                                                                         ///< mm
   [[nodiscard]] double length(std::uint32_t a, std::uint32_t b) const;      ///< of an edge, mm
   [[nodiscard]] double lengthOf(std::span<const std::uint32_t> way) const;  ///< mm
   [[nodiscard]] double medianRadius(std::span<const std::uint32_t> nodes) const;  ///< mm; 0 of none
