@@ -63,7 +63,7 @@ public:
             "and overlaps, and its warnings. It takes as long as the mesh: seconds for most cases")
         .forInputs(kFittedCase);
     table
-        .add("accept", &m_accept, "TEXT",
+        .add("accept", &m_accept, "REASON",
              "Record in the case why places where its lumen runs into itself may stay cut. No "
              "answer warns of them again until the case changes")
         .forInputs(kFittedCase)
