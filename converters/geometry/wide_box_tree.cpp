@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "converters/base/simd.h"
@@ -14,13 +15,15 @@ constexpr float kEmpty = std::numeric_limits<float>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();  // empty boxes are farther
 constexpr double kSteep = 1e30;  // reciprocal of a component that is almost 0
 
-using KeyLanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+using KeyLanes [[gnu::vector_size(32)]] = double;
 using KeyBits [[gnu::vector_size(32)]] = std::int64_t;
 
-/// Bits of the lanes in which `one` is at most `other`.
+/// Bits of the lanes in which `one` is at most `other`. Keys lie at any multiple of 8 bytes: gcc 12
+/// compares through pointers to lanes as if these were aligned, whatever their type states.
 inline std::uint32_t bitsOf(const double* one, const double* other) {
-  const auto* a = reinterpret_cast<const KeyLanes*>(one);
-  const auto* b = reinterpret_cast<const KeyLanes*>(other);
+  KeyLanes a[2], b[2];
+  std::memcpy(a, one, sizeof a);
+  std::memcpy(b, other, sizeof b);
   const KeyBits bits = (KeyBits(a[0] <= b[0]) & KeyBits{1, 2, 4, 8}) |
                        (KeyBits(a[1] <= b[1]) & KeyBits{16, 32, 64, 128});
   return static_cast<std::uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));

@@ -3,7 +3,9 @@
 // triangle does, to the last bit.
 #include "converters/geometry/triangle_tree.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/random.h"
+#include "converters/geometry/wide_box_tree.h"
 
 namespace lumen::convert {
 namespace {
@@ -151,6 +154,22 @@ TEST(TriangleTree, SeesAsFarAsTheFirstHit) {
     if (!hit || !(hit->distance > 1e-6)) continue;
     EXPECT_TRUE(tree.isFree(from, from + 0.999 * hit->distance * along));
     EXPECT_FALSE(tree.isFree(from, from + 1.001 * hit->distance * along));
+  }
+}
+
+TEST(WideBoxTree, WritesDistancesAtAnyMultipleOfEightBytes) {
+  WideNode node;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t k = 0; k < WideNode::kWidth; ++k) {
+      node.plane[2 * axis][k] = static_cast<float>(k);
+      node.plane[2 * axis + 1][k] = static_cast<float>(k + 1);
+    }
+  for (std::size_t shift = 0; shift < 4; ++shift) {
+    alignas(32) std::array<double, WideNode::kWidth + 4> room{};
+    auto& keys = *reinterpret_cast<WideNode::Keys*>(room.data() + shift);
+    EXPECT_EQ(boxesNear(node, {0, 0, 0}, 12.5, keys), 0b111U);
+    for (std::size_t k = 0; k < WideNode::kWidth; ++k)
+      EXPECT_EQ(keys[k], 3.0 * static_cast<double>(k * k));
   }
 }
 
