@@ -140,8 +140,8 @@ std::vector<Argument> everyArgument() {
 
 bool isNumber(const Argument& argument) {
   static const std::set<std::string> kWords = {
-      "FILE", "F",   "ID",   "NAME", "UNIT", "FRAME", "PATH",   "LIST", "LABEL", "REASON", "TEXT",
-      "SPDX", "DAY", "UUID", "CODE", "DOI",  "WORD",  "LENGTH", "WxH",  "[LABEL=]LENGTH"};
+      "FILE", "F",    "ID",  "NAME", "UNIT", "FRAME", "PATH", "LIST",   "LABEL", "REASON",
+      "TEXT", "SPDX", "DAY", "UUID", "CODE", "DOI",   "WORD", "LENGTH", "WxH",   "[LABEL=]LENGTH"};
   return !argument.positional && !kWords.contains(argument.type);
 }
 
