@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a step would take out of the lumen goes back.
+// Places that a step would take out of the lumen go back.
 #include <algorithm>
 
 #include "libblob/wire/one_wire.h"

@@ -11,7 +11,7 @@
 
 namespace lumen::wire {
 
-/// What does not change between steps.
+/// Values that do not change between steps.
 struct WireSetup {
   const blob_model* model = nullptr;
   blob_wire_def def{};
@@ -53,7 +53,7 @@ constexpr std::uint32_t kQuarters = 4;  ///< of an element, at whose ends the wa
 
 /// Memory of one thread's step.
 struct StepMemory {
-  /// Room for wires of so many nodes; nothing is allocated where it is there.
+  /// Makes room for wires of so many nodes; allocates nothing where there is room.
   void fit(std::size_t nodes) {
     if (before.size() == nodes) return;
     solver.resize(nodes);

@@ -18,7 +18,7 @@ namespace {
 // A click and its options are a few hundred bytes, a list of all labels of a large tree some 100
 // kB.
 constexpr std::size_t kMostRequest = 1 << 20;
-// Of a volume at a time, so that no copy of it is in memory.
+// A volume goes out in parts of this size, bytes, so that no copy of it is in memory.
 constexpr std::uint64_t kPiece = std::uint64_t{2} << 20;
 
 int levelOf(const PageRequest& request) {

@@ -46,7 +46,7 @@ public:
   [[nodiscard]] bool isBeyond(std::uint32_t vertex) const { return m_side[vertex] == Side::Beyond; }
 
 private:
-  /// Of a vertex: below the plane, above it, or above it and joined to the sac.
+  /// Side of a vertex: below the plane, above it, or above it and joined to the sac.
   enum class Side : std::uint8_t { Below, Above, Beyond };
 
   void listNeighbours();

@@ -173,7 +173,7 @@ function nrrdHeader(head: Uint8Array): VolumeHeader | null {
 
 const kHead = 1 << 16; // bytes of a file that hold its header
 
-/** What a stream has first; it is not read on. */
+/** The first bytes of a stream, which is not read on. */
 async function firstBytes(stream: ReadableStream<Uint8Array>): Promise<Uint8Array> {
   const reader = stream.getReader(),
     out = new Uint8Array(kHead);
